@@ -7,14 +7,14 @@ import warnings
 from collections.abc import Sequence
 from importlib.metadata import version
 
-from nonsmooth.cli import check, export, figures, list, new, orbit, resume, run, save, show, view
+from nonsmooth.cli import check, export, figures, list, new, orbit, resume, run, save, show, study, sweep, view
 from nonsmooth.cli.messages import complain, warn_plainly
 from nonsmooth.errors import InvalidInput, MissingPackagesError, NonsmoothError, NonsmoothWarning
 
 DONE, FAILED, WRONG_REQUEST = 0, 1, 2
 """Exit statuses."""
 
-_COMMANDS = (list, show, check, run, view, export, resume, save, figures, orbit, new)
+_COMMANDS = (list, show, check, run, view, export, resume, save, figures, sweep, study, orbit, new)
 
 
 def parser() -> argparse.ArgumentParser:

@@ -27,12 +27,14 @@ class Scenario(Component, ABC):
     3. ``summarise``, ``coordinates``, ``figures`` and ``acceptance`` only read the solution.
     4. A full run of the default parameters has at least one criterion, and fulfils all.
     5. ``units`` are those of the numbers of ``summarise``, by name; the others have none.  ``coordinate_units`` are
-       those of all ``coordinates``, by name; of z_1, z_2 and so on that of z.
+       those of all ``coordinates``, by name; of z_1, z_2 and so on that of z.  ``words`` are all words that a word
+       of ``summarise`` can be, by name.
     """
 
     title: ClassVar[str]
     units: ClassVar[Mapping[str, str]] = {}
     coordinate_units: ClassVar[Mapping[str, str]] = {}
+    words: ClassVar[Mapping[str, tuple[str, ...]]] = {}
 
     @property
     @abstractmethod

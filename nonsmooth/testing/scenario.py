@@ -166,6 +166,9 @@ class _Look:
         unknown = sorted(set(self._scenario.units) - set(found))
         if unknown:
             raise Broken("it must name numbers of `summarise`", "units", unknown)
+        for name, words in self._scenario.words.items():
+            if found.get(name) not in words:
+                raise Broken("it must list all words of `summarise`", f"words of {name}", found.get(name))
         return json.dumps(dict(found), default=lambda value: np.asarray(value).tolist(), sort_keys=True)
 
     def coordinates(self) -> None:

@@ -14,6 +14,8 @@ from nonsmooth.solution.events import Events
 
 Floats = NDArray[np.float64]
 
+NAMES = ("drift", "jump", "flutter", "rest", "other")
+"""All attractors that are told apart."""
 LONGEST_TAIL = 40
 """The settled part is the last half of the run, but not more than so many plate periods."""
 SHORTEST_TAIL = 4

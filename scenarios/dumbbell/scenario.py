@@ -52,6 +52,7 @@ class DumbbellScenario(Scenario):
         "max_gap": "m",
         "beta_range": "rad",
     }
+    words: ClassVar[Mapping[str, tuple[str, ...]]] = {"attractor": attractor.NAMES}
 
     mode: str = parameter(
         "drift", doc="the start, by the motion it leads to", unit="", choices=("drift", "jump", "flutter", "free")

@@ -1,0 +1,67 @@
+"""A budget in steps: the end of runs that would take too long, the same on every machine."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, final
+
+from nonsmooth.engine.memory.modes import PAUSED, REASONS, STOPPED
+from nonsmooth.interfaces import Engine
+from nonsmooth.solution.solution import Solution
+
+if TYPE_CHECKING:
+    from nonsmooth.engine.memory.arrays.arrays import Arrays
+    from nonsmooth.engine.memory.memory import Memory
+    from nonsmooth.system.system import System
+
+
+@final
+@dataclass(frozen=True)
+class Budgeted(Engine):
+    """Another engine, which stops where its steps of the flow are used up; until then all bits are those of the other.
+
+    Attributes
+    ----------
+    engine : Engine
+        What integrates.
+    steps : int
+        Steps of the flow at most.
+    """
+
+    engine: Engine
+    steps: int
+
+    @property
+    def layers(self) -> tuple[str, ...]:
+        """Those of the engine."""
+        return self.engine.layers
+
+    @property
+    def own(self) -> Arrays | None:
+        """Those of the engine."""
+        return self.engine.own
+
+    def check(self, system: System) -> None:
+        """Ask the engine."""
+        self.engine.check(system)
+
+    def counts(self, n_slots: int) -> Mapping[str, int]:
+        """Return those of the engine."""
+        return self.engine.counts(n_slots)
+
+    def settings(self, time_scale: float) -> Mapping[str, float]:
+        """Return those of the engine."""
+        return self.engine.settings(time_scale)
+
+    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
+        """Go on as far as the budget reaches."""
+        left = self.steps - int(memory.record["steps"])
+        status = self.engine.advance(call, memory, min(most_steps, left), wary) if left > 0 else PAUSED
+        spent = status == PAUSED and int(memory.record["steps"]) >= self.steps
+        return STOPPED if spent else status
+
+    def spent(self, solution: Solution) -> bool:
+        """Tell whether a run ended because of it."""
+        stopped = solution.message == REASONS[STOPPED]
+        return stopped and solution.counters.steps >= self.steps

@@ -1,0 +1,145 @@
+"""Workers of dask: processes of this machine, or those of a scheduler somewhere."""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, final
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.results.output import versions
+from nonsmooth.studies.executors.executor import Executor, check_workers
+from nonsmooth.studies.extras import require
+from nonsmooth.studies.work import Block, Chunk, Work
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+_WINDOW = 2
+"""Chunks per thread of a worker that are handed out at once."""
+_PATIENCE = 5.0
+"""So long a scheduler may take to answer [s]."""
+_DEATHS = 3
+"""A chunk that so many workers did not survive is cut in halves."""
+
+
+@final
+@dataclass(frozen=True)
+class Dask(Executor):
+    """Does chunks by workers of dask.
+
+    Parameters
+    ----------
+    scheduler : str, optional
+        Address of a scheduler, as "tcp://10.0.0.1:8786"; processes of this machine by default.
+    n : int, optional
+        Number of those; as many as there are processors by default.
+    """
+
+    scheduler: str | None = None
+    n: int | None = None
+
+    def __post_init__(self) -> None:
+        check_workers("Dask: n", self.n)
+
+    def blocks(self, work: Work, chunks: Sequence[Chunk]) -> Iterator[Block]:
+        """Yield as workers return them.
+
+        A chunk whose workers died may have been next to the one that killed them: such ones are done last, each alone,
+        and in halves where they kill again, until the run is found that does.
+        """
+        require("the executor dask", "dask", "distributed")
+        with contextlib.ExitStack() as stack:
+            client = self._client(stack)
+            _check_alike(client)
+            suspects: list[Chunk] = []
+            window = _WINDOW * max(1, sum(client.nthreads().values()))
+            yield from _in_turn(client, work, chunks, window, suspects)
+            for chunk in suspects:
+                yield _in_halves(client, work, chunk)
+
+    def _client(self, stack: contextlib.ExitStack) -> Client:
+        import dask
+        from distributed import Client, LocalCluster
+
+        settings = {"distributed.scheduler.allowed-failures": _DEATHS - 1}
+        stack.enter_context(dask.config.set(settings))
+        address: Any = self.scheduler
+        if address is None:
+            n, quiet = check_workers("Dask: n", self.n), logging.CRITICAL
+            address = stack.enter_context(
+                LocalCluster(n_workers=n, threads_per_worker=1, dashboard_address=None, silence_logs=quiet)
+            )
+            # what restarts a worker is gone itself where one dies at once
+            address.adapt(minimum=n, maximum=n)
+        try:
+            return stack.enter_context(Client(address, timeout=_PATIENCE))
+        except (OSError, ValueError) as error:
+            remedy = "Start one by `dask scheduler`, with workers by `dask worker ADDRESS`, or leave the address out."
+            raise InvalidInput("scheduler", f"must answer within {_PATIENCE:g} s", self.scheduler, remedy) from error
+
+
+def _check_alike(client: Client) -> None:
+    """Refuse workers that would give other bits than this process."""
+    client.wait_for_workers(1, timeout=_PATIENCE * 12)
+    here = dict(versions())
+    for address, there in client.run(versions).items():
+        if dict(there) != here:
+            differ = {name: there.get(name) for name in here if there.get(name) != here[name]}
+            remedy = "Install the same ones; of unlike processors set NUMBA_CPU_NAME=generic everywhere."
+            raise InvalidInput(f"worker {address}", f"must have the versions of this process, {here}", differ, remedy)
+
+
+def _block(work: Work, chunk: Chunk) -> Block:
+    return work.block(chunk)
+
+
+def _in_turn(
+    client: Client, work: Work, chunks: Sequence[Chunk], window: int, suspects: list[Chunk]
+) -> Iterator[Block]:
+    """Yield the blocks of all chunks but of those whose workers died too often, which become suspects."""
+    from distributed import KilledWorker, as_completed
+
+    left, running = iter(chunks), {}
+    done = as_completed()
+
+    def hand_out() -> None:
+        for chunk in left:
+            future = client.submit(_block, work, chunk, pure=False, retries=2)
+            running[future.key] = chunk
+            done.add(future)
+            return
+
+    for _ in range(window):
+        hand_out()
+    for future in done:
+        chunk = running.pop(future.key)
+        hand_out()
+        try:
+            block = future.result()
+        except KilledWorker:
+            suspects.append(chunk)
+        else:
+            yield block
+
+
+def _alone(client: Client, work: Work, chunk: Chunk) -> Block:
+    """Return the block of a chunk next to which nothing else runs, so that who dies died of it."""
+    from distributed import KilledWorker
+
+    try:
+        return client.submit(_block, work, chunk, pure=False).result()  # type: ignore[no-any-return]
+    except KilledWorker:
+        if len(chunk.parameters) == 1:
+            return work.crashed(chunk, "The process that ran it died, in each of the tries that the scheduler allows.")
+    return _in_halves(client, work, chunk)
+
+
+def _in_halves(client: Client, work: Work, chunk: Chunk) -> Block:
+    """Return the block of a chunk that is suspected, whose halves run alone."""
+    if len(chunk.parameters) == 1:
+        return _alone(client, work, chunk)
+    one, other = chunk.halves()
+    return _alone(client, work, one).joined(_alone(client, work, other))

@@ -1,0 +1,5 @@
+"""What a study keeps of each run."""
+
+from nonsmooth.studies.records.trajectory import Trajectory
+
+__all__ = ["Trajectory"]

@@ -1,0 +1,50 @@
+"""The states of every run at some times: many numbers, kept where they are asked for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, final
+
+from nonsmooth.checks import is_finite
+from nonsmooth.datasets import described
+from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.studies.records.record import Outcome, Record, Recorder
+
+_AXES = {"q": "coordinate", "u": "velocity"}
+
+
+@final
+@dataclass(frozen=True)
+class Trajectory(Recorder):
+    """Coordinates or velocities at times within the run.
+
+    Parameters
+    ----------
+    name : str
+        "q" for coordinates, "u" for velocities; the name of the record.
+    times : tuple of float
+        Times [s], shape [n].
+    """
+
+    name: str
+    times: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        if self.name not in _AXES:
+            raise UnknownName("Trajectory", self.name, _AXES)
+        object.__setattr__(self, "times", tuple(self.times))
+        if not self.times or not all(map(is_finite, self.times)):
+            raise InvalidInput(
+                "Trajectory: times", "must be finite numbers", self.times, "For example (0.0, 0.5, 1.0)."
+            )
+
+    def record(self, look: Outcome) -> Record:
+        """Return it for a system."""
+        axis = _AXES[self.name]
+        told = described(f"{axis} over time")
+        return Record(self.name, self, told, {"time": list(map(float, self.times)), axis: look.along(axis)})
+
+    def __call__(self, outcome: Outcome) -> Any:
+        """Return the states of a run, shape [n, n_q] or [n, n_u]."""
+        states = outcome.solution.at(list(self.times))
+        return {"q": states.q, "u": states.u}[self.name]

@@ -1,0 +1,180 @@
+"""What a study runs: a scenario, or a function that returns a system."""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, final
+
+from nonsmooth.checks import is_finite
+from nonsmooth.datasets import described
+from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.interfaces import Scenario
+from nonsmooth.parameters import check_number, rules
+from nonsmooth.studies.sampling.points import Points, Value
+from nonsmooth.system.system import System
+
+
+@dataclass(frozen=True)
+class Case:
+    """One run: what is simulated, and for how long.
+
+    Attributes
+    ----------
+    scenario : Scenario or None
+        The scenario with the parameters of the run; None where a function built the system.
+    system : System
+        The system at its start.
+    t_end : float
+        End time [s].
+    sample_interval : float or None
+        Time between samples [s]; a 2000th of the run where it is None.
+    """
+
+    scenario: Scenario | None
+    system: System
+    t_end: float
+    sample_interval: float | None
+
+
+class Target(ABC):
+    """What a study runs.
+
+    The contract:
+
+    1. ``check`` refuses names and values that can be none of its parameters, before anything runs.
+    2. ``case`` returns one run; it may be called in any thread and, unpickled, in another process.
+    """
+
+    @property
+    @abstractmethod
+    def name(self) -> str:
+        """What it is called in messages."""
+
+    @abstractmethod
+    def check(self, points: Points) -> None:
+        """Look at names and values of the varied parameters.
+
+        Raises
+        ------
+        InvalidInput
+            If a name is unknown or a value breaks its rule.
+        """
+
+    @abstractmethod
+    def case(self, parameters: Mapping[str, Value]) -> Case:
+        """Return the run of these parameters."""
+
+    @abstractmethod
+    def told(self, name: str) -> dict[str, str]:
+        """Return unit and description of a parameter, as attributes."""
+
+    @abstractmethod
+    def described(self) -> Mapping[str, Any]:
+        """Return what it is, for the record."""
+
+
+@final
+@dataclass(frozen=True)
+class OfScenario(Target):
+    """A scenario, of which the study varies parameters by name."""
+
+    scenario: Scenario
+
+    @property
+    def name(self) -> str:
+        """Name of the class."""
+        return type(self.scenario).__name__
+
+    def check(self, points: Points) -> None:
+        """Look at the least and the greatest value of each; rules between parameters are looked at by each run."""
+        owner = type(self.scenario)
+        known = rules(owner)
+        for name, values in points.columns.items():
+            if name not in known:
+                raise UnknownName(f"parameter of {owner.__name__}", name, known)
+            rule, thing = known[name][1], f"{owner.__name__}.{name}"
+            if (rule.unit == "") != (values.dtype.kind == "U"):
+                kind = "words" if rule.unit == "" else "numbers"
+                raise InvalidInput(thing, f"must be varied over {kind}", values[0].item(), f"It is the {rule.doc}.")
+            if rule.unit == "":
+                for word in sorted(set(values.tolist())) if rule.choices else ():
+                    if word not in rule.choices:
+                        raise UnknownName(thing, word, rule.choices)
+            else:
+                check_number(thing, values.min().item(), rule)
+                check_number(thing, values.max().item(), rule)
+
+    def case(self, parameters: Mapping[str, Value]) -> Case:
+        """Build the scenario with these parameters."""
+        one = dataclasses.replace(self.scenario, **parameters)  # type: ignore[type-var]
+        return Case(one, one.build(), one.t_end, one.sample_interval)
+
+    def told(self, name: str) -> dict[str, str]:
+        """Return what the scenario declares."""
+        rule = rules(type(self.scenario))[name][1]
+        return described(rule.doc, rule.unit)
+
+    def described(self) -> Mapping[str, Any]:
+        """Return class and parameters."""
+        owner = type(self.scenario)
+        values = {field.name: getattr(self.scenario, field.name) for field in dataclasses.fields(self.scenario)}  # type: ignore[arg-type]
+        return {"scenario": f"{owner.__module__}:{owner.__qualname__}", "parameters": values}
+
+
+@final
+@dataclass(frozen=True)
+class OfFunction(Target):
+    """A function ``f(**parameters) -> System``, which other processes find by its name.
+
+    Attributes
+    ----------
+    function : callable
+        A function of a module.
+    t_end : float
+        End time of every run [s].
+    """
+
+    function: Callable[..., System]
+    t_end: float
+
+    def __post_init__(self) -> None:
+        if not inspect.isfunction(self.function) or "<" in self.function.__qualname__:
+            remedy = "Give a Scenario, or a function that is defined in a module and returns a System."
+            raise InvalidInput("Study: what it runs", "must be a scenario or a function", self.function, remedy)
+        if not is_finite(self.t_end) or self.t_end <= 0.0:
+            remedy = "Give Study(..., t_end=1.0) in [s]."
+            raise InvalidInput("Study: t_end", "must be positive and finite for a function", self.t_end, remedy)
+
+    @property
+    def name(self) -> str:
+        """Name of the function."""
+        return self.function.__name__
+
+    def check(self, points: Points) -> None:
+        """Look whether the function takes these names, and needs no others."""
+        takes = inspect.signature(self.function).parameters
+        free = any(one.kind is one.VAR_KEYWORD for one in takes.values())
+        named = {name: one for name, one in takes.items() if one.kind in (one.POSITIONAL_OR_KEYWORD, one.KEYWORD_ONLY)}
+        for name in points.columns:
+            if name not in named and not free:
+                raise UnknownName(f"parameter of {self.function.__name__}", name, named)
+        for name, one in named.items():
+            if one.default is one.empty and name not in points.columns:
+                thing = f"parameter {name} of {self.function.__name__}"
+                raise InvalidInput(thing, "must be varied, as it has no default", None, "Add it to the sampling.")
+
+    def case(self, parameters: Mapping[str, Value]) -> Case:
+        """Call the function."""
+        return Case(None, self.function(**parameters), self.t_end, None)
+
+    def told(self, name: str) -> dict[str, str]:
+        """Return the name: of a function nothing else is known."""
+        return described(name)
+
+    def described(self) -> Mapping[str, Any]:
+        """Return its name and the end time."""
+        return {"function": f"{self.function.__module__}:{self.function.__qualname__}", "t_end": self.t_end}

@@ -1,0 +1,73 @@
+"""``nonsmooth sweep`` and ``nonsmooth study``."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from nonsmooth import studies
+from nonsmooth.cli.main import main
+
+pytest.importorskip("zarr", "3.1.3")
+
+SET = ("--set", "t_end=0.1", "--executor", "serial")
+
+
+def test_a_sweep_its_status_and_its_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "s.zarr"
+    over = "--over", "restitution=0.5:0.9:3", "--over", "gamma=0.3,0.6"
+    assert main(["sweep", "bouncing_ball", *over, *SET, "--record", "impacts", "--out", str(path)]) == 0
+    assert re.match(r"6 runs: 6 done\n  impacts: \d+ to \d+\n", capsys.readouterr().out)
+    found = studies.open_study(path)
+    assert found.restitution.values.tolist() == [0.5, 0.7, 0.9]
+    for number in "2", "5":
+        (path / "status" / "c" / number).unlink()
+    assert main(["study", "status", str(path)]) == 0
+    assert "6 runs: 2 not run, 4 done" in (told := capsys.readouterr().out)
+    assert "4 of 6 chunks are stored" in told
+    assert main(["study", "resume", str(path), "--executor", "serial"]) == 0
+    assert studies.open_study(path).identical(found)
+    assert main(["study", "draw", str(path)]) == 0
+    assert path.with_suffix(".png").stat().st_size > 1000
+    assert main(["study", "draw", str(path)]) == 2
+
+
+def test_draws(tmp_path: Path) -> None:
+    draw = "--over", "gamma=0.3:0.9", "--over", "restitution=0.5:0.9", "--sample", "sobol:4", "--seed", "1"
+    assert main(["sweep", "bouncing_ball", *draw, *SET, "--out", str(tmp_path / "s.zarr")]) == 0
+    found = studies.open_study(tmp_path / "s.zarr")
+    assert dict(found.sizes) == {"run": 4}
+    assert main(["study", "draw", str(tmp_path / "s.zarr"), "--out", str(tmp_path / "p.png")]) == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--over", "gama=1:2:3"], "Did you mean 'gamma'"),
+        (["--over", "gamma"], "NAME=VALUES"),
+        (["--over", "gamma=2:1:3"], "lower end first"),
+        (["--over", "gamma=1:2:x"], "whole number"),
+        (["--over", "gamma=1:b:3"], "LOW:HIGH:N"),
+        (["--over", "gamma=1:2"], "LOW:HIGH:N"),
+        (["--over", "gamma=-1:2:3"], "must be >= 0"),
+        (["--over", "gamma=nan:2:3"], "lower end first"),
+        (["--over", "gamma=1:2:3", "--over", "gamma=1,2"], "come once"),
+        ([], "at least"),
+        (["--over", "gamma=1:2", "--sample", "sobol:5"], "power of two"),
+        (["--over", "gamma=1:2", "--sample", "sobl:4"], "Did you mean 'sobol'"),
+        (["--over", "gamma=1:2:3", "--record", "impact"], "Did you mean 'impacts'"),
+        (["--over", "gamma=1:2:3", "--executor", "thread"], "Did you mean 'threads'"),
+    ],
+)
+def test_wrong_requests(words: list[str], told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["sweep", "bouncing_ball", *words, "--out", str(tmp_path / "s.zarr")]) == 2
+    assert told in capsys.readouterr().err
+    assert not (tmp_path / "s.zarr").exists()
+
+
+def test_what_is_no_study(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for what in "status", "resume", "verify", "draw":
+        assert main(["study", what, str(tmp_path / "none.zarr")]) == 2
+        assert "must hold a study" in capsys.readouterr().err

@@ -1,0 +1,103 @@
+"""The same bits wherever runs are done, and however often their processes die."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import nonsmooth as ns
+from nonsmooth import studies
+from nonsmooth.studies import status
+from nonsmooth.studies.store import Store
+from tests.studies import ball
+
+pytest.importorskip("zarr", "3.1.3")
+
+
+@pytest.fixture(scope="module")
+def serial(tmp_path_factory: pytest.TempPathFactory) -> str:
+    """Return the digest of the study, done one run after another."""
+    return ball.digest(ball.study().run(tmp_path_factory.mktemp("serial") / "s.zarr", executor="serial"))
+
+
+@pytest.fixture(scope="module")
+def cluster() -> Iterator[Any]:
+    """Return a cluster of two processes."""
+    dask, distributed = pytest.importorskip("dask"), pytest.importorskip("distributed")
+    with (
+        dask.config.set({"distributed.scheduler.allowed-failures": 2}),
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50) as made,
+    ):
+        yield made
+
+
+@pytest.mark.parametrize("chunk", [1, 10, 100])
+def test_two_threads_give_the_same_bits(serial: str, tmp_path: Path, chunk: int) -> None:
+    assert ball.digest(ball.study().run(tmp_path / "s.zarr", executor=studies.Threads(2), chunk=chunk)) == serial
+
+
+@pytest.mark.parametrize("chunk", [1, 10, 100])
+def test_two_processes_give_the_same_bits(serial: str, tmp_path: Path, chunk: int, cluster: Any) -> None:
+    executor = studies.Dask(cluster.scheduler_address)
+    assert ball.digest(ball.study().run(tmp_path / "s.zarr", executor=executor, chunk=chunk)) == serial
+
+
+def test_a_worker_that_is_killed_costs_nothing(tmp_path: Path, cluster: Any) -> None:
+    executor = studies.Dask(cluster.scheduler_address)
+    path = tmp_path / "s.zarr"
+
+    def kill() -> None:
+        while len(list(path.glob("status/c/*"))) < 2:
+            time.sleep(0.02)
+        os.kill(next(iter(cluster.workers.values())).pid, signal.SIGKILL)
+
+    killer = threading.Thread(target=kill)
+    killer.start()
+    found = ball.slow_study().run(path, executor=executor, chunk=5)
+    killer.join()
+    whole = ball.slow_study().run(tmp_path / "whole.zarr", executor="serial")
+    assert ball.digest(found) == ball.digest(whole)
+
+
+def test_the_run_that_kills_its_worker_is_found(tmp_path: Path, cluster: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cluster.scheduler, "allowed_failures", 0)  # each one more costs seconds
+    heights = [0.01, 0.02, 0.03, 0.05, 0.06]
+    study = studies.Study(ball.deadly, studies.grid(height=heights), ball.RECORD, t_end=ball.T_END)
+    found = study.run(tmp_path / "s.zarr", executor=studies.Dask(cluster.scheduler_address), chunk=4)
+    ends = [status.CRASHED if height == 0.05 else status.DONE for height in heights]
+    assert found.status.values.tolist() == ends
+    assert found.reason.values[3] == status.WORKER_DIED
+    assert "died" in Store(tmp_path / "s.zarr").texts()[3]
+    assert found.impacts.notnull().sum() == 4
+
+
+def test_no_scheduler_is_told_within_seconds(tmp_path: Path) -> None:
+    pytest.importorskip("distributed")
+    began = time.monotonic()
+    with pytest.raises(ns.InvalidInput, match=r"must answer within 5 s.*127.0.0.1:9.*dask scheduler"):
+        ball.study().run(tmp_path / "s.zarr", executor=studies.Dask("tcp://127.0.0.1:9"))
+    assert time.monotonic() - began < 20.0
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda path: ball.study().run(path, executor="thread"), ("executor", "Did you mean 'threads'")),
+        (lambda path: ball.study().run(path, chunk=0), ("chunk", "positive", "0")),
+        (lambda path: studies.Threads(0), ("Threads: n", "positive", "0")),
+        (lambda path: studies.Dask(n=0), ("Dask: n", "positive", "0")),
+    ],
+)
+def test_bad_requests_are_refused(tmp_path: Path, make: Callable[[Path], Any], words: tuple[str, ...]) -> None:
+    with pytest.raises(ns.InvalidInput) as error:
+        make(tmp_path / "s.zarr")
+    for word in words:
+        assert word in str(error.value)
+    assert not (tmp_path / "s.zarr").exists()

@@ -1,0 +1,108 @@
+"""A store is whole, or goes on: killed clients, torn chunks, damage, other studies, a full disk."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+import nonsmooth as ns
+from nonsmooth import studies
+from nonsmooth.cli.main import main
+from nonsmooth.studies.store import Store
+from tests.studies import ball
+
+pytest.importorskip("zarr", "3.1.3")
+
+
+@pytest.fixture(scope="module")
+def whole() -> str:
+    """Return the digest of the slow study, done at once."""
+    import tempfile
+
+    with tempfile.TemporaryDirectory() as folder:
+        return ball.digest(ball.slow_study().run(Path(folder) / "s.zarr", executor="serial", chunk=5))
+
+
+def _client(path: Path, executor: str = "threads") -> subprocess.Popen[str]:
+    """Start another process that runs the slow study, and wait until a part of it is stored."""
+    code = f"from tests.studies import ball; ball.slow_study().run({str(path)!r}, executor={executor!r}, chunk=5)"
+    client = subprocess.Popen([sys.executable, "-c", code], text=True)
+    for _ in range(1200):
+        if len(list(path.glob("status/c/*"))) >= 2:
+            return client
+        time.sleep(0.05)
+    client.kill()
+    raise AssertionError("nothing was stored within a minute")
+
+
+def test_a_client_that_is_killed_goes_on_to_the_same_bits(tmp_path: Path, whole: str) -> None:
+    path = tmp_path / "s.zarr"
+    client = _client(path)
+    with pytest.raises(ns.InvalidInput, match="one run at a time that writes"):
+        ball.slow_study().run(path)
+    os.kill(client.pid, signal.SIGKILL)
+    client.wait()
+    assert 2 <= len(Store(path).committed()) < 12
+    assert not studies.open_study(path).status.values.all()
+    torn = path / "impacts" / "c" / "11.0123.partial"  # what a chunk is called before it is whole
+    torn.write_bytes(b"half")
+    (path / "impacts" / "c" / "11").write_bytes(b"torn")  # of a chunk that was not committed
+    assert ball.digest(ball.slow_study().run(path, executor="serial")) == whole
+    assert not torn.exists()
+    assert main(["study", "verify", str(path)]) == 0
+
+
+def test_a_study_goes_on_where_it_began_only(tmp_path: Path) -> None:
+    path = tmp_path / "s.zarr"
+    ball.study(6).run(path, executor="serial", chunk=2)
+    before = (path / "status" / "c" / "0").stat().st_mtime_ns
+    ball.study(6).run(path, executor="serial")
+    assert (path / "status" / "c" / "0").stat().st_mtime_ns == before
+    with pytest.raises(ns.InvalidInput, match=r"must hold the study that goes on there.*sampling"):
+        ball.study(8).run(path)
+    with pytest.raises(ns.InvalidInput, match="must be that of the beginning, 2"):
+        ball.study(6).run(path, chunk=3)
+    other = tmp_path / "other"
+    other.mkdir()
+    (other / "thesis.tex").write_text("words")
+    with pytest.raises(ns.InvalidInput, match="new or empty folder"):
+        ball.study(6).run(other)
+    assert (other / "thesis.tex").read_text() == "words"
+
+
+def test_a_study_that_was_cut_off_as_it_was_made_begins_anew(tmp_path: Path) -> None:
+    path = tmp_path / "s.zarr"
+    whole = ball.digest(ball.study(3).run(path, executor="serial"))
+    (path / "zarr.json").write_text('{"zarr_format": 3, "node_type": "group", "attributes": {}}')
+    assert ball.digest(ball.study(3).run(path, executor="serial")) == whole
+
+
+def test_damage_is_found(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "s.zarr"
+    ball.study(6).run(path, executor="serial", chunk=2)
+    part = path / "steps" / "c" / "1"
+    content = bytearray(part.read_bytes())
+    content[len(content) // 2] ^= 1
+    part.write_bytes(bytes(content))
+    (path / "impacts" / "c" / "2").unlink()
+    assert main(["study", "verify", str(path)]) == 1
+    told = capsys.readouterr()
+    assert "3 of 3 chunks are stored, 2 files of them damaged" in told.out
+    assert str(part) in told.err
+
+
+def test_a_file_that_cannot_be_written_whole_commits_nothing(tmp_path: Path) -> None:
+    limit = "import resource, runpy; resource.setrlimit(resource.RLIMIT_FSIZE, (9000, 9000));"
+    code = (
+        f"{limit} from tests.studies import ball; ball.study(3000).run({str(tmp_path / 's.zarr')!r}, executor='serial')"
+    )
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert ran.returncode == 1
+    assert "could not be written" in ran.stderr
+    assert not list(tmp_path.glob("s.zarr/status/c/*"))

@@ -1,0 +1,134 @@
+"""What a study computes, keeps and refuses."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import nonsmooth as ns
+from nonsmooth import studies
+from nonsmooth.engine.memory.modes import DONE
+from nonsmooth.studies import status
+from nonsmooth.studies.records.asked import Asked
+from nonsmooth.studies.store import Store
+from scenarios.bouncing_ball.scenario import BouncingBall
+from scenarios.dumbbell.scenario import DumbbellScenario
+from tests.studies.ball import RECORD, T_END, draws, drop
+
+pytest.importorskip("zarr", "3.1.3")
+
+
+def _double(scenario: BouncingBall, solution: ns.Solution) -> float:
+    """Twice the end."""
+    return 2.0 * solution.t_end
+
+
+def _raises(scenario: BouncingBall, solution: ns.Solution) -> float:
+    raise OverflowError("too much")
+
+
+def test_a_study_of_a_scenario_has_what_single_runs_have(tmp_path: Path) -> None:
+    scenario = BouncingBall(t_end=0.2)
+    record: list[Asked] = ["impacts", "last_flight", "q_end", _double, studies.Trajectory("q", (0.0, 0.1)), "reason"]
+    axes = {"restitution": [0.5, 0.8], "gamma": [0.3, 0.6, 0.9]}
+    found = studies.Study(scenario, studies.grid(**axes), record).run(tmp_path / "s.zarr", executor="serial")
+    assert dict(found.sizes) == {"restitution": 2, "gamma": 3, "coordinate": 7, "time": 2}
+    assert found.restitution.attrs["long_name"] == "energetic coefficient of restitution e"
+    for e in axes["restitution"]:
+        for gamma in axes["gamma"]:
+            one = dataclasses.replace(scenario, restitution=e, gamma=gamma)
+            run = ns.simulate(one.build(), one.t_end, sample_interval=one.sample_interval)
+            row = found.sel(restitution=e, gamma=gamma)
+            assert row.q_end.values.tobytes() == run.q_end.tobytes()
+            assert row.q.values.tobytes() == run.at([0.0, 0.1]).q.tobytes()
+            assert (row.impacts, row._double, row.reason) == (run.counters.impacts, 0.4, DONE)
+            assert row.last_flight == one.summarise(run)["last_flight"]
+
+
+def test_words_are_coordinates_and_classes(tmp_path: Path) -> None:
+    scenario = DumbbellScenario(t_end=1.0)
+    study = studies.Study(scenario, studies.grid(mode=["jump", "drift"]), ["attractor", "period"])
+    found = study.run(tmp_path / "s.zarr", executor="serial")
+    assert found.mode.values.tolist() == ["jump", "drift"]
+    names = found.attractor.attrs["flag_meanings"].split()
+    assert [names[i] for i in found.attractor.values] == ["jump", "drift"]
+    assert studies.basin_stability(found.attractor)["drift"] == (0.5, np.sqrt(0.125))
+    assert studies.draw_study(found).axes[0].get_ylabel() == "attractor"
+
+
+def test_a_run_that_fails_is_a_row(tmp_path: Path) -> None:
+    study = studies.Study(drop, studies.grid(height=[0.01, -1.0, 0.05]), [*RECORD, _raises], t_end=T_END)
+    found = study.run(tmp_path / "s.zarr", executor="serial", chunk=2)
+    assert found.status.values.tolist() == [status.FAILED] * 3
+    assert found.reason.values.tolist() == [status.RAISED] * 3
+    texts = Store(tmp_path / "s.zarr").texts()
+    assert texts[1] == "ArithmeticError: no ball at -1.0"
+    assert "record _raises: OverflowError: too much" in texts[0]
+
+
+def test_a_budget_ends_a_run_by_its_steps(tmp_path: Path) -> None:
+    study = studies.Study(drop, studies.grid(restitution=[0.2, 0.9], height=[0.05]), RECORD, t_end=2.0, budget=60)
+    found = study.run(tmp_path / "s.zarr", executor="serial")
+    free = studies.Study(drop, studies.grid(restitution=[0.2, 0.9], height=[0.05]), RECORD, t_end=2.0)
+    whole = free.run(tmp_path / "free.zarr", executor="serial")
+    assert (whole.steps.values.ravel() <= 60).tolist() == [True, False]
+    assert found.status.values.ravel().tolist() == [status.DONE, status.BUDGET]
+    assert found.q_end.values[0].tobytes() == whole.q_end.values[0].tobytes()
+    assert "its 60 steps were used up" in Store(tmp_path / "s.zarr").texts()[1]
+
+
+def test_what_runs_are_made_of_is_written_beside_them(tmp_path: Path) -> None:
+    study = studies.Study(BouncingBall(t_end=0.1), studies.sobol(4, 7, gamma=(0.3, 0.9)), ["impacts"])
+    found = study.run(tmp_path / "s.zarr", executor="serial")
+    spec = json.loads(found.attrs["spec"])
+    assert spec["runs"]["parameters"]["t_end"] == 0.1
+    assert spec["sampling"] == {"kind": "sobol", "n": 4, "seed": 7, "ranges": {"gamma": [0.3, 0.9]}}
+    assert {"numpy", "engine", "processor"} <= json.loads(found.attrs["provenance"])[0].keys()
+    assert found.gamma.dims == ("run",)
+
+
+def test_others_open_it_without_a_warning(tmp_path: Path) -> None:
+    import xarray
+
+    studies.Study(drop, draws(3), RECORD, t_end=T_END).run(tmp_path / "s.zarr", executor="serial")
+    with xarray.open_zarr(str(tmp_path / "s.zarr")) as opened:
+        assert opened.sizes["run"] == 3
+
+
+_BALL, _GRID = BouncingBall(t_end=0.1), studies.grid(gamma=[0.5])
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: studies.Study(_BALL, studies.grid(gama=[0.5]), ["impacts"]), ("gama", "Did you mean 'gamma'")),
+        (lambda: studies.Study(_BALL, studies.grid(gamma=[-0.5]), ["impacts"]), ("gamma", ">= 0", "-0.5")),
+        (lambda: studies.Study(_BALL, studies.grid(gamma=["much"]), ["impacts"]), ("gamma", "numbers", "much")),
+        (lambda: studies.Study(_BALL, _GRID, ["impact"]), ("impact", "Did you mean 'impacts'")),
+        (lambda: studies.Study(_BALL, _GRID, ["impacts", "impacts"]), ("impacts", "once")),
+        (lambda: studies.Study(_BALL, _GRID, ["impacts"], t_end=1.0), ("t_end", "left out", "1.0")),
+        (lambda: studies.Study(_BALL, _GRID, ["impacts"], budget=0), ("budget", "positive", "0")),
+        (lambda: studies.Study(_BALL, _GRID, [3]), ("record", "function", "3")),  # type: ignore[list-item]
+        (lambda: studies.Study(_BALL, {"gamma": [1]}, ["impacts"]), ("sampling", "Sampling")),  # type: ignore[arg-type]
+        (lambda: studies.Study(drop, _GRID, RECORD, t_end=1.0), ("gamma", "height, restitution")),
+        (lambda: studies.Study(drop, studies.grid(restitution=[0.5]), RECORD, t_end=1.0), ("height", "no default")),
+        (lambda: studies.Study(drop, studies.grid(height=[0.1]), RECORD), ("t_end", "positive", "nan")),
+        (lambda: studies.Study(lambda gamma: drop(gamma), _GRID, RECORD, t_end=1.0), ("lambda", "module")),
+        (
+            lambda: studies.Study(DumbbellScenario(), studies.grid(mode=["jum"]), RECORD),
+            ("mode", "Did you mean 'jump'"),
+        ),
+        (lambda: studies.Study(DumbbellScenario(), _GRID, ["max_gap"]), ("max_gap", "one number")),
+    ],
+)
+def test_what_cannot_be_run_is_refused_before_it_is(make: Callable[[], Any], words: tuple[str, ...]) -> None:
+    with pytest.raises(ns.InvalidInput) as error:
+        make()
+    for word in words:
+        assert word in str(error.value)
