@@ -45,7 +45,7 @@ def draw_study(study: xarray.Dataset) -> Figure:
     if not names:
         remedy = 'For example record=["impacts"].'
         raise InvalidInput("draw", "needs a record that is one number or one word", list(study.data_vars), remedy)
-    is_map = len(runs) == 2 and not any(study[name].dtype.kind == "U" for name in runs)
+    is_map = len(runs) == 2 and all(study[name].dtype.kind != "U" and study.sizes[name] > 1 for name in runs)
     panels = [(name, "") for name in names] if is_map else [(name, over) for name in names for over in parameters]
     panels = panels[:_MOST]
     columns = 1 if is_map else min(len(parameters), 3)
@@ -82,6 +82,7 @@ def _points(axes: Axes, study: xarray.Dataset, name: str, over: str) -> None:
 
 def _map(figure: Figure, axes: Axes, study: xarray.Dataset, name: str) -> None:
     from matplotlib import colormaps
+    from matplotlib.colors import ListedColormap
 
     record = study[name]
     first, second = (study[dim] for dim in record.dims)
@@ -96,6 +97,9 @@ def _map(figure: Figure, axes: Axes, study: xarray.Dataset, name: str) -> None:
     if words:
         bar.set_ticks(record.attrs["flag_values"], labels=words)
     failed = np.ma.masked_where(valued, np.ones(valued.shape))
-    axes.pcolor(second.values, first.values, failed, shading="nearest", hatch="xxx", alpha=0.0)
+    white = ListedColormap(["white"])
+    axes.pcolor(
+        second.values, first.values, failed, shading="nearest", cmap=white, hatch="xxx", edgecolor="0.6", linewidth=0.0
+    )
     axes.set_xlabel(_label(second))
     axes.set_ylabel(_label(first))

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, final
 
 from nonsmooth.checks import check_kind, path_of
 from nonsmooth.engines.event_driven import EventDriven
-from nonsmooth.errors import InvalidInput, NonsmoothError, NonsmoothWarning, UnknownName
+from nonsmooth.errors import InvalidInput, NonsmoothWarning, UnknownName
 from nonsmooth.interfaces import Engine, Scenario
 from nonsmooth.studies.budget import Budgeted
 from nonsmooth.studies.executors import Dask, Executor, Serial, Threads
@@ -109,7 +109,7 @@ class Study:
             try:
                 case = self._target.case(self._points.at(run))
                 return Outcome(case.scenario, self._work.solution(case, _end_of_look(case)))
-            except NonsmoothError as error:
+            except Exception as error:  # of the user, too
                 last = error
         raise last
 
