@@ -7,14 +7,29 @@ import warnings
 from collections.abc import Sequence
 from importlib.metadata import version
 
-from nonsmooth.cli import check, export, figures, list, new, orbit, resume, run, save, show, study, sweep, view
+from nonsmooth.cli import (
+    bifurcation,
+    check,
+    export,
+    figures,
+    list,
+    new,
+    orbit,
+    resume,
+    run,
+    save,
+    show,
+    study,
+    sweep,
+    view,
+)
 from nonsmooth.cli.messages import complain, warn_plainly
 from nonsmooth.errors import InvalidInput, MissingPackagesError, NonsmoothError, NonsmoothWarning
 
 DONE, FAILED, WRONG_REQUEST = 0, 1, 2
 """Exit statuses."""
 
-_COMMANDS = (list, show, check, run, view, export, resume, save, figures, sweep, study, orbit, new)
+_COMMANDS = (list, show, check, run, view, export, resume, save, figures, sweep, study, orbit, bifurcation, new)
 
 
 def parser() -> argparse.ArgumentParser:

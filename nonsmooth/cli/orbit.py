@@ -49,16 +49,17 @@ def _execute_orbit(arguments: argparse.Namespace) -> bool:
         return True
     from nonsmooth.studies.orbits.pictures import multipliers
 
-    return _saved(arguments.out, "multipliers", multipliers(found), "\n".join(map(str, found.multipliers)))
+    return save(arguments.out, "multipliers", multipliers(found), "\n".join(map(str, found.multipliers)))
 
 
 def _execute_continue(arguments: argparse.Namespace) -> bool:
     name, low, high = _over(arguments.over)
     found = _found(arguments)
+    from nonsmooth.studies.derivatives.chart import coordinate_number
     from nonsmooth.studies.orbits import continuation
 
     shown = arguments.show or found.map.chart.names[0]
-    number = _number(found, shown)
+    number = coordinate_number(found.family.model().system, shown)
 
     def progress(orbit: Orbit, count: int) -> None:
         if count % 10 == 0:
@@ -74,14 +75,19 @@ def _execute_continue(arguments: argparse.Namespace) -> bool:
     from nonsmooth.studies.orbits.pictures import branch as drawn
 
     axes = drawn(branch, lambda orbit: float(np.concatenate([orbit.state.q, orbit.state.u])[number]), shown)
-    return _saved(arguments.out, "branch", axes, _table(branch))
+    return save(arguments.out, "branch", axes, _table(branch))
 
 
-def _found(arguments: argparse.Namespace) -> Orbit:
+def prepare(arguments: argparse.Namespace) -> None:
+    """Look at where pictures go, if any are asked for."""
     if arguments.out is not None:
         extras.require(extras.PICTURES)
         outputs.prepare_folder(arguments.out, arguments.overwrite)
         results.without_display()
+
+
+def _found(arguments: argparse.Namespace) -> Orbit:
+    prepare(arguments)
     job = request.job(arguments.scenario, arguments.set)
     # imported when asked for: the other commands start faster without it
     from nonsmooth.studies.orbits import orbit
@@ -101,14 +107,6 @@ def _over(word: str) -> tuple[str, float, float]:
     raise InvalidInput("--over", "must have the form NAME=FROM:TO", word, "For example --over gamma=0.3:1.2.")
 
 
-def _number(orbit: Orbit, name: str) -> int:
-    """Return where a coordinate stands behind one another with all coordinates and velocities."""
-    from nonsmooth.studies.derivatives.chart import Chart
-
-    column = Chart.at(orbit.family.model().system, orbit.state, (name,)).basis
-    return int(np.argmax(np.abs(column[:, 0])))
-
-
 def _table(branch: Branch) -> str:
     """Return the values, the largest multipliers, and whether orbits are stable, as CSV."""
     rows = [f"{branch.name},largest_multiplier,stable"]
@@ -117,7 +115,8 @@ def _table(branch: Branch) -> str:
     return "\n".join(rows)
 
 
-def _saved(folder: Path, name: str, axes: Any, text: str) -> bool:
+def save(folder: Path, name: str, axes: Any, text: str) -> bool:
+    """Save a picture and its numbers under a name; tell whether both could be written."""
     troubles: list[str] = []
     paths = results.save_figures({name: axes.figure}, folder, troubles)
     results.save_text(text, folder / f"{name}.csv", troubles)

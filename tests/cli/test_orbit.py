@@ -1,4 +1,4 @@
-"""``nonsmooth orbit`` and ``continue``: what they print and save, and what they refuse."""
+"""``nonsmooth orbit``, ``continue`` and ``bifurcation``: what they print and save, and what they refuse."""
 
 from __future__ import annotations
 
@@ -34,12 +34,21 @@ def test_along_a_parameter(call: Call, tmp_path: Path) -> None:
     assert all(line.split(",")[1].startswith(("0.8", "0.79999")) for line in lines[1:])
 
 
+def test_a_bifurcation_diagram(call: Call, tmp_path: Path) -> None:
+    words = ("--over", "gamma=0.7:0.8:3", "--period", "0.04", "--show", "vz", "--settle", "300", "--keep", "8")
+    status, output, _ = call("bifurcation", *BALL, *words, "--out", str(tmp_path / "out"))
+    assert status == 0
+    assert "3 repeat after 1 periods" in output
+    assert len((tmp_path / "out" / "bifurcation.csv").read_text(encoding="utf-8").splitlines()) == 4
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
         (("orbit", *BALL, "--period", "-1"), "period must be positive and finite, but it is -1.0"),
         (("orbit", *BALL, "--period", "0.04", "--within", "z,vx2"), "'vx2'"),
         (("continue", *ASKED, "--over", "gamma=0.7"), "--over must have the form NAME=FROM:TO"),
+        (("bifurcation", *BALL, "--over", "gamma=0.7:0.8", "--period", "0.04", "--show", "vz"), "NAME=FROM:TO:COUNT"),
         (("continue", *ASKED, "--over", "gama=0.7:0.9"), "Did you mean 'gamma'"),
         (("continue", *ASKED, "--over", "gamma=0.9:1.0"), "around the value of the orbit"),
     ],

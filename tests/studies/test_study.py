@@ -87,7 +87,9 @@ def test_a_map_hatches_what_has_no_record(tmp_path: Path) -> None:
     axes = studies.grid(height=[-1.0, 0.01, 0.05], restitution=[0.5, 0.7])
     found = studies.Study(drop, axes, ["impacts"], t_end=T_END).run(tmp_path / "s.zarr", executor="serial")
     mesh, hatched = studies.draw_study(found).axes[0].collections
-    assert np.ma.getmaskarray(mesh.get_array()).tolist() == [[True, True], [False, False], [False, False]]
+    drawn = mesh.get_array()
+    assert drawn is not None
+    assert np.ma.getmaskarray(drawn).tolist() == [[True, True], [False, False], [False, False]]
     assert len(hatched.get_paths()) == 2
     assert hatched.get_hatch() == "xxx"
 

@@ -126,3 +126,18 @@ def _chosen(system: System, within: Collection[str] | None) -> dict[str, set[str
         body: {label for label in labels if label in within or f"{body}.{label}" in within}
         for body, labels in known.items()
     }
+
+
+def coordinate_number(system: System, name: str) -> int:
+    """Return where a coordinate or velocity stands behind one another with all coordinates and velocities.
+
+    Raises
+    ------
+    UnknownName
+        If there is none of that name.
+    """
+    labels = list(_labels(system))
+    for i, (body, label) in enumerate(labels):
+        if name in (label, f"{body}.{label}"):
+            return i
+    raise UnknownName("coordinate", name, {f"{body}.{label}" for body, label in labels})

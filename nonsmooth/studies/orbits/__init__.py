@@ -1,7 +1,19 @@
 """Periodic orbits: found, followed along a parameter, and what happens to them there; Lyapunov exponents."""
 
+from nonsmooth.studies.orbits.diagram import Diagram, bifurcation
 from nonsmooth.studies.orbits.exponents import Lyapunov, lyapunov
 from nonsmooth.studies.orbits.following import Branch, Special, continuation
 from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit, orbit
 
-__all__ = ["Branch", "Lyapunov", "NoOrbit", "Orbit", "Special", "continuation", "lyapunov", "orbit"]
+__all__ = [
+    "Branch",
+    "Diagram",
+    "Lyapunov",
+    "NoOrbit",
+    "Orbit",
+    "Special",
+    "bifurcation",
+    "continuation",
+    "lyapunov",
+    "orbit",
+]

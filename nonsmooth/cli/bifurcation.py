@@ -1,0 +1,82 @@
+"""``nonsmooth bifurcation``: where a scenario is once a period, over a parameter."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from nonsmooth.cli import outputs, request
+from nonsmooth.cli.messages import say, tell
+from nonsmooth.cli.orbit import prepare, save
+from nonsmooth.errors import InvalidInput
+
+
+def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
+    command = commands.add_parser(
+        "bifurcation", help="look once a period where a scenario is, over a parameter", allow_abbrev=False
+    )
+    command.add_argument("scenario", metavar="SCENARIO", help="as for `run`")
+    command.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="as for `run`")
+    command.add_argument("--over", required=True, metavar="NAME=FROM:TO:COUNT", help="the parameter and its values")
+    command.add_argument("--period", type=float, required=True, metavar="SECONDS", help="after which it is looked at")
+    command.add_argument("--show", required=True, metavar="NAME", help="which coordinate or velocity, as vz")
+    command.add_argument("--at", type=float, default=0.0, metavar="SECONDS", help="when in each period; 0 by default")
+    command.add_argument("--settle", type=int, default=200, metavar="N", help="periods left out; 200 by default")
+    command.add_argument("--keep", type=int, default=64, metavar="N", help="periods kept; 64 by default")
+    command.add_argument("--out", type=Path, metavar="DIR", help="save a picture and numbers there")
+    outputs.add_to(command)
+    command.set_defaults(execute=execute)
+
+
+def execute(arguments: argparse.Namespace) -> bool:
+    """Run all, print how many repeat after how many periods, save; tell whether all went well."""
+    name, values = _over(arguments.over)
+    prepare(arguments)
+    job = request.job(arguments.scenario, arguments.set)
+    # imported when asked for: the other commands start faster without it
+    from nonsmooth.studies.orbits import bifurcation
+
+    def progress(done: int, of: int) -> None:
+        if done % 25 == 0 or sys.stderr.isatty():
+            tell(f"{done} of {of} runs")
+
+    found = bifurcation(
+        job.scenario,
+        name,
+        values,
+        arguments.period,
+        arguments.show,
+        at=arguments.at,
+        settle=arguments.settle,
+        keep=arguments.keep,
+        progress=progress,
+    )
+    for period, count in sorted(Counter(found.periods.tolist()).items()):
+        say(f"{count} repeat after {period} periods" if period else f"{count} do not repeat")
+    failed = [text for text in found.failures if text]
+    for text in failed[:3]:
+        tell(f"failed: {text}")
+    if arguments.out is None:
+        return not failed
+    rows = [
+        name,
+        *(f"{value!r},{','.join(map(repr, row))}" for value, row in zip(values, found.points.tolist(), strict=True)),
+    ]
+    return save(arguments.out, "bifurcation", found.draw(), "\n".join(rows)) and not failed
+
+
+def _over(word: str) -> tuple[str, list[float]]:
+    name, equals, span = word.partition("=")
+    try:
+        low, high, count = span.split(":")
+        if name and equals and int(count) > 0:
+            return name.strip(), np.linspace(float(low), float(high), int(count)).tolist()
+    except ValueError:
+        pass
+    raise InvalidInput("--over", "must have the form NAME=FROM:TO:COUNT", word, "For example --over gamma=0.4:2:200.")

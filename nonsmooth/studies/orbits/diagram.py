@@ -1,0 +1,144 @@
+"""Bifurcation diagrams: where a motion is once a period, over a parameter, after it has settled."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from nonsmooth.checks import floats, is_finite
+from nonsmooth.engines.event_driven import EventDriven
+from nonsmooth.errors import InvalidInput, RunFailed
+from nonsmooth.interfaces import Scenario
+from nonsmooth.plot.asked import axes_of
+from nonsmooth.studies.derivatives.chart import coordinate_number
+from nonsmooth.studies.derivatives.family import Family
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Floats = NDArray[np.float64]
+_ALIKE = 1e-5
+"""Part of the range of all points within which two count as one."""
+
+
+@final
+@dataclass(frozen=True)
+class Diagram:
+    """A bifurcation diagram.
+
+    Attributes
+    ----------
+    name : str
+        The parameter.
+    values : array
+        Its values, shape [n].
+    coordinate : str
+        What is looked at once a period.
+    points : array
+        What it was, the last ``keep`` times; nan where a run failed; shape [n, keep].
+    failures : tuple of str
+        Why runs failed, "" for those that did not.
+    """
+
+    name: str
+    values: Floats
+    coordinate: str
+    points: Floats
+    failures: tuple[str, ...]
+
+    @property
+    def periods(self) -> NDArray[np.int64]:
+        """After how many periods the motion repeats; 0 where it does not within those that were kept; shape [n]."""
+        near = _ALIKE * max(float(np.nanmax(self.points) - np.nanmin(self.points)), np.finfo(float).tiny)
+        return np.array([_period(row, near) for row in self.points])
+
+    def draw(self, ax: Axes | None = None) -> Axes:
+        """Draw it: all points over the parameter."""
+        ax = axes_of(ax)
+        keep = self.points.shape[1]
+        ax.plot(np.repeat(self.values, keep), self.points.ravel(), ".", markersize=1.5, color="black")
+        ax.set_xlabel(self.name)
+        ax.set_ylabel(f"{self.coordinate}, once a period")
+        failed = [value for value, text in zip(self.values.tolist(), self.failures, strict=True) if text]
+        for value in failed:
+            ax.axvline(value, color="#d55e00", linewidth=0.8, linestyle=":")
+        ax.set_title(f"{len(failed)} of {len(self.values)} runs failed (dotted)" if failed else "", fontsize=10)
+        return ax
+
+
+def bifurcation(
+    what: Scenario | Family,
+    name: str,
+    values: ArrayLike,
+    period: float,
+    coordinate: str,
+    *,
+    at: float = 0.0,
+    settle: int = 200,
+    keep: int = 64,
+    progress: Callable[[int, int], None] | None = None,
+) -> Diagram:
+    """Run a system with each value of a parameter, and look once a period.
+
+    Parameters
+    ----------
+    what : Scenario or Family
+        The system; each run starts as it is placed.
+    name : str
+        The parameter.
+    values : array
+        Its values, shape [n].
+    period : float
+        [s].
+    coordinate : str
+        Which coordinate or velocity is looked at, "vz" or "ball.vz".
+    at : float
+        When in each period it is looked at [s]: where no velocity jumps, or points lie on either side of it.
+    settle, keep : int
+        Periods that are left out, and those that are kept.
+    progress : callable, optional
+        Called with the number of runs done and of all.
+
+    Raises
+    ------
+    UnknownName
+        If there is no such parameter or coordinate.
+    InvalidInput
+        If a number is not valid, or no value makes a system.
+    """
+    row = np.atleast_1d(floats("bifurcation: values", values))
+    for word, number in (("period", period), ("keep", keep), ("settle", settle)):
+        if not (is_finite(number) and number > 0):
+            raise InvalidInput(f"bifurcation: {word}", "must be positive and finite", number, "Give a larger one.")
+    if not (is_finite(at) and 0.0 <= at < period):
+        raise InvalidInput("bifurcation: at", "must be a time within a period", at, "Give it in [s].")
+    family = Family.of(what, EventDriven())
+    _ = family[name]
+    points, failures = np.full((len(row), keep), np.nan), list[str]()
+    for i, value in enumerate(row.tolist()):
+        model = family.model(**{name: value})
+        column = coordinate_number(model.system, coordinate)
+        try:
+            start = model.run(at, sample_interval=at).state if at > 0.0 else None
+            run = model.run(at + (settle + keep) * period, start=start, sample_interval=period)
+            if run.status == "interrupted":
+                raise KeyboardInterrupt
+            points[i] = np.concatenate([run.q, run.u], axis=1)[settle + 1 : settle + 1 + keep, column]
+            failures.append("")
+        except RunFailed as error:
+            failures.append(str(error))
+        if progress is not None:
+            progress(i + 1, len(row))
+    return Diagram(name, row, coordinate, points, tuple(failures))
+
+
+def _period(points: Sequence[float] | Floats, near: float) -> int:
+    row = np.asarray(points)
+    for period in range(1, len(row) // 2 + 1):
+        if np.all(np.abs(row[period:] - row[:-period]) <= near):
+            return period
+    return 0

@@ -1,0 +1,63 @@
+"""Bifurcation diagrams of the ball on a table."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import nonsmooth as ns
+from bodies import Ball, Plate
+from laws import EnergeticImpact, Frictionless, Unilateral
+from nonsmooth.engine.native.kernel import PLAIN
+from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.orbits.diagram import bifurcation
+from scenarios.bouncing_ball import orbits
+from scenarios.bouncing_ball.scenario import BouncingBall
+
+pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of periods take minutes in plain mode")
+
+
+def _ball(gamma: float) -> ns.System:
+    """Start on the orbit of one period, but for a little, with the phase of the table that it has there."""
+    phase = orbits.impact_phase(gamma, 0.8, 1)
+    return BouncingBall(gamma=gamma, start_phase=phase, speed=9.81 / 50.0 + 1e-4).build()
+
+
+def test_one_period_becomes_two() -> None:
+    """On either side of the period doubling of the closed form, at 1.0708364682."""
+    fold = math.pi / 9.0
+    doubling = math.sqrt(fold**2 + 4.0 * 1.64**2 / 1.8**4)
+    family, values = Family(_ball, {"gamma": 0.9}), [0.9, 1.05, 1.09]
+    found = bifurcation(family, "gamma", values, 0.04, "vz", at=0.02, settle=600, keep=16)
+    assert doubling == pytest.approx(1.0708364682, abs=1e-9)
+    assert found.periods.tolist() == [1, 1, 2]
+    assert found.failures == ("", "", "")
+    assert found.points.shape == (3, 16)
+
+
+def _dropped(restitution: float) -> ns.System:
+    plate, ball = Plate(), Ball(0.01)
+    system = ns.System([plate, ball])
+    system.contact(plate, ball, normal=Unilateral(), friction=Frictionless(), impact=EnergeticImpact(restitution))
+    system.place(ball, position=(0.0, 0.0, 0.02))
+    return system
+
+
+def test_it_is_counted_and_refused() -> None:
+    told: list[tuple[int, int]] = []
+    family = Family(_dropped, {"restitution": 0.5})
+    found = bifurcation(
+        family, "restitution", [0.4, 0.5], 0.05, "z", settle=20, keep=4, progress=lambda i, n: told.append((i, n))
+    )
+    assert told == [(1, 2), (2, 2)]
+    np.testing.assert_allclose(found.points, 0.01, atol=1e-12)
+    with pytest.raises(ns.InvalidInput, match=r"ball\.vzz.*Did you mean 'ball\.vz'"):
+        bifurcation(family, "restitution", [0.5], 0.05, "ball.vzz")
+    with pytest.raises(ns.InvalidInput, match=r"at must be a time within a period, but it is 0\.06"):
+        bifurcation(family, "restitution", [0.5], 0.05, "vz", at=0.06)
+    with pytest.raises(ns.InvalidInput, match="keep must be positive"):
+        bifurcation(family, "restitution", [0.5], 0.05, "vz", keep=0)
+    with pytest.raises(ns.InvalidInput, match="Did you mean 'restitution'"):
+        bifurcation(family, "restituton", [0.5], 0.05, "vz")
