@@ -92,7 +92,7 @@ def main() -> None:
     for case in CASES:
         with (
             tempfile.TemporaryDirectory() as folder,
-            LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50) as cluster,
+            LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0", silence_logs=50) as cluster,
         ):
             compare(*case, Path(folder), cluster.scheduler_address)
 

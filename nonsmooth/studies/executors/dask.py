@@ -70,7 +70,7 @@ class Dask(Executor):
         if address is None:
             n, quiet = check_workers("Dask: n", self.n), logging.CRITICAL
             address = stack.enter_context(
-                LocalCluster(n_workers=n, threads_per_worker=1, dashboard_address=None, silence_logs=quiet)
+                LocalCluster(n_workers=n, threads_per_worker=1, dashboard_address=":0", silence_logs=quiet)
             )
             # what restarts a worker is gone itself where one dies at once
             address.adapt(minimum=n, maximum=n)
