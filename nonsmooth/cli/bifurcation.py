@@ -8,12 +8,9 @@ from collections import Counter
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from nonsmooth.cli import outputs, request
+from nonsmooth.cli import outputs, over, request
 from nonsmooth.cli.messages import say, tell
 from nonsmooth.cli.orbit import prepare, save
-from nonsmooth.errors import InvalidInput
 
 
 def add_to(commands: Any) -> None:
@@ -23,7 +20,7 @@ def add_to(commands: Any) -> None:
     )
     command.add_argument("scenario", metavar="SCENARIO", help="as for `run`")
     command.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="as for `run`")
-    command.add_argument("--over", required=True, metavar="NAME=FROM:TO:COUNT", help="the parameter and its values")
+    command.add_argument("--over", required=True, metavar="NAME=LOW:HIGH:N", help="the parameter and its values")
     command.add_argument("--period", type=float, required=True, metavar="SECONDS", help="after which it is looked at")
     command.add_argument("--show", required=True, metavar="NAME", help="which coordinate or velocity, as vz")
     command.add_argument("--at", type=float, default=0.0, metavar="SECONDS", help="when in each period; 0 by default")
@@ -36,7 +33,7 @@ def add_to(commands: Any) -> None:
 
 def execute(arguments: argparse.Namespace) -> bool:
     """Run all, print how many repeat after how many periods, save; tell whether all went well."""
-    name, values = _over(arguments.over)
+    name, values = over.axis(arguments.over)
     prepare(arguments)
     job = request.job(arguments.scenario, arguments.set)
     # imported when asked for: the other commands start faster without it
@@ -69,14 +66,3 @@ def execute(arguments: argparse.Namespace) -> bool:
         *(f"{value!r},{','.join(map(repr, row))}" for value, row in zip(values, found.points.tolist(), strict=True)),
     ]
     return save(arguments.out, "bifurcation", found.draw(), "\n".join(rows)) and not failed
-
-
-def _over(word: str) -> tuple[str, list[float]]:
-    name, equals, span = word.partition("=")
-    try:
-        low, high, count = span.split(":")
-        if name and equals and int(count) > 0:
-            return name.strip(), np.linspace(float(low), float(high), int(count)).tolist()
-    except ValueError:
-        pass
-    raise InvalidInput("--over", "must have the form NAME=FROM:TO:COUNT", word, "For example --over gamma=0.4:2:200.")

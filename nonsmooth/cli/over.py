@@ -30,9 +30,7 @@ def sampling(words: Iterable[str], sample: str | None, seed: int) -> Sampling:
     """
     named: dict[str, str] = {}
     for word in words:
-        name, equals, values = (part.strip() for part in word.partition("="))
-        if not (name and equals and values):
-            raise InvalidInput("--over", "must have the form NAME=VALUES", word, f"{_EXAMPLE}.")
+        name, values = _cut(word)
         if name in named:
             raise InvalidInput(f"--over {name}", "must come once", word, "Leave one out.")
         named[name] = values
@@ -43,6 +41,28 @@ def sampling(words: Iterable[str], sample: str | None, seed: int) -> Sampling:
         raise UnknownName("--sample", kind, _DRAWS)
     ranges = {name: _numbers(name, word.split(":"), _RANGE) for name, word in named.items()}
     return _DRAWS[kind](_whole("--sample", count), seed, **ranges)
+
+
+def axis(word: str) -> tuple[str, list[float]]:
+    """Return a parameter and its values.
+
+    Raises
+    ------
+    InvalidInput
+        If the word has another form, a range is empty, or a value is no number.
+    """
+    name, values = _cut(word)
+    row = _values(name, values)
+    if not np.issubdtype(row.dtype, np.floating):
+        raise _refusal(name, _GRID, values)
+    return name, row.tolist()
+
+
+def _cut(word: str) -> tuple[str, str]:
+    name, equals, values = (part.strip() for part in word.partition("="))
+    if not (name and equals and values):
+        raise InvalidInput("--over", "must have the form NAME=VALUES", word, f"{_EXAMPLE}.")
+    return name, values
 
 
 def _values(name: str, word: str) -> NDArray[Any]:

@@ -48,7 +48,10 @@ def test_a_bifurcation_diagram(call: Call, tmp_path: Path) -> None:
         (("orbit", *BALL, "--period", "-1"), "period must be positive and finite, but it is -1.0"),
         (("orbit", *BALL, "--period", "0.04", "--within", "z,vx2"), "'vx2'"),
         (("continue", *ASKED, "--over", "gamma=0.7"), "--over must have the form NAME=FROM:TO"),
-        (("bifurcation", *BALL, "--over", "gamma=0.7:0.8", "--period", "0.04", "--show", "vz"), "NAME=FROM:TO:COUNT"),
+        (
+            ("bifurcation", *BALL, "--over", "gamma=0.7:0.8", "--period", "0.04", "--show", "vz"),
+            "must have the form LOW:HIGH:N",
+        ),
         (("continue", *ASKED, "--over", "gama=0.7:0.9"), "Did you mean 'gamma'"),
         (("continue", *ASKED, "--over", "gamma=0.9:1.0"), "around the value of the orbit"),
     ],

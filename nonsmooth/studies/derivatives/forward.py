@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
@@ -16,11 +15,11 @@ from nonsmooth.interfaces import Scenario
 from nonsmooth.runs.model import Model
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.derivatives.passage import Signature, named, passage
-from nonsmooth.studies.derivatives.slope import BACKWARD, CENTRAL, FORWARD, OrderOfEvents, Stencil, slope
+from nonsmooth.studies.derivatives.slope import BACKWARD, CENTRAL, FORWARD, OrderOfEvents, Stencil, slope, steady
 
 Floats = NDArray[np.float64]
 _STEPS = (1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6)
-"""Changes of a parameter over its value, of which that is taken that agrees best with the next smaller one."""
+"""Changes of a parameter that derivatives are tried with, over its value; of a parameter that is 0, in its unit."""
 
 
 class NotDifferentiable(InvalidInput):
@@ -43,7 +42,8 @@ class Sensitivity:
     q_by, u_by : array
         Their derivatives, shapes [n, n_q, p] and [n, n_u, p], in units of q and u over that of the parameter.
     error : array
-        By how much those of the next smaller step differ, relative to the largest one, per parameter, shape [p].
+        By how much those of the next smaller step differ, relative to the largest one, per parameter; nan where only
+        one step keeps the order of events; shape [p].
     """
 
     t: Floats
@@ -111,26 +111,11 @@ def _course(model: Model, times: Floats) -> tuple[Floats, Signature]:
 def _steady(family: Family, name: str, times: Floats, expected: Signature) -> tuple[Floats, float]:
     value = family[name]
     unit = abs(value) if value else 1.0
-    best, least, last, trouble = None, math.inf, None, None
-    for step in _STEPS:
-        try:
-            found = _slope(family, name, times, expected, step * unit)
-        except OrderOfEvents as error:
-            trouble, last = error, None
-            continue
-        if last is not None:
-            differs = float(np.max(np.abs(found - last)) / max(float(np.max(np.abs(found))), np.finfo(float).tiny))
-            if differs < least:
-                best, least = last, differs
-            elif best is not None:
-                break
-        last = found
-    if best is not None:
-        return best, least
-    if last is not None:
-        return last, math.nan
-    assert trouble is not None
-    raise _refused(family, name, value, trouble)
+    try:
+        found, _, differs = steady(lambda step: _slope(family, name, times, expected, step * unit), _STEPS)
+    except OrderOfEvents as trouble:
+        raise _refused(family, name, value, trouble) from trouble
+    return found, differs
 
 
 def _slope(family: Family, name: str, times: Floats, expected: Signature, step: float) -> Floats:

@@ -12,7 +12,7 @@ from scipy.optimize import OptimizeResult, least_squares
 from scipy.stats.qmc import Sobol
 
 from nonsmooth.checks import check_callable, floats, is_finite
-from nonsmooth.errors import InvalidInput
+from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import Scenario
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.family import Family
@@ -104,7 +104,12 @@ def fit(
     low, high = _bounds(family, bounds)
     given = np.isfinite(data)
     if np.count_nonzero(given) < len(names) or not names:
-        raise InvalidInput("fit: measured", "must be more numbers than parameters", int(np.count_nonzero(given)), "")
+        raise InvalidInput(
+            "fit: measured",
+            "must be more numbers than parameters",
+            int(np.count_nonzero(given)),
+            "Measure more, or fit fewer.",
+        )
 
     def modelled(values: Floats) -> Floats:
         model, rows = family.model(**dict(zip(names, values.tolist(), strict=True))), list[Floats]()
@@ -120,7 +125,15 @@ def fit(
     own = np.clip([(family[name] - a) / (b - a) for name, a, b in zip(names, low, high, strict=True)], 0.0, 1.0)
     spread = Sobol(len(names), seed=0).random(starts) if starts else np.zeros((0, len(names)))
     points = np.concatenate([own[None], spread])
-    best = np.argsort([float(np.sum(residual(point) ** 2)) for point in points], kind="stable")[:_REFINED]
+
+    def cost(point: Floats) -> float:
+        try:
+            return float(np.sum(residual(point) ** 2))
+        except RunFailed:
+            # a point in which nothing runs is no place to begin
+            return np.inf
+
+    best = np.argsort([cost(point) for point in points], kind="stable")[:_REFINED]
     found = min((_refined(residual, points[i]) for i in best), key=lambda one: float(one.cost))
     values = low + found.x * (high - low)
     freedom = max(1, len(found.fun) - len(names))

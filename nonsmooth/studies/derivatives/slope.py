@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TypeVar
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.errors import NonsmoothError
+from nonsmooth.errors import InvalidInput, NonsmoothError
 from nonsmooth.studies.derivatives.passage import Signature
 
 Floats = NDArray[np.float64]
-Key = TypeVar("Key")
 CENTRAL = ((-2, 1.0 / 12.0), (-1, -2.0 / 3.0), (1, 2.0 / 3.0), (2, -1.0 / 12.0))
 FORWARD = ((0, -25.0 / 12.0), (1, 4.0), (2, -3.0), (3, 4.0 / 3.0), (4, -0.25))
 BACKWARD = tuple((-i, -weight) for i, weight in FORWARD)
@@ -63,3 +61,42 @@ def slope(sampled: Sampled, step: float, expected: Signature, stencil: Stencil =
         total = weight * value if total is None else total + weight * value
     assert total is not None
     return np.asarray(total / step)
+
+
+def steady(found_with: Callable[[float], Floats], steps: Sequence[float]) -> tuple[Floats, float, float]:
+    """Return the derivative that changes least with the next smaller step, its step, and by how much.
+
+    Where motions are as small as a change the larger steps say nothing, and of the smaller ones round-off is left.
+    The change is relative to the largest number of the derivative; nan where only one step gives any.
+
+    Raises
+    ------
+    OrderOfEvents
+        If all steps change the order of events.
+    InvalidInput
+        If no change makes a system and a start.
+    """
+    best: tuple[Floats, float, float] | None = None
+    last: tuple[Floats, float] | None = None
+    trouble: OrderOfEvents | InvalidInput | None = None
+    for step in steps:
+        try:
+            found = found_with(step)
+        except (OrderOfEvents, InvalidInput) as error:
+            # a start that overlaps is refused: that change was too large, too
+            trouble, last = error, None
+            continue
+        if last is not None:
+            largest = max(float(np.max(np.abs(found), initial=0.0)), np.finfo(float).tiny)
+            differs = float(np.max(np.abs(found - last[0]), initial=0.0)) / largest
+            if best is None or differs < best[2]:
+                best = (*last, differs)
+            else:
+                return best
+        last = found, step
+    if best is not None:
+        return best
+    if last is not None:
+        return (*last, np.nan)
+    assert trouble is not None
+    raise trouble

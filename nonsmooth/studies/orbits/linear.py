@@ -4,22 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.errors import InvalidInput
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.chart import Chart
 from nonsmooth.studies.derivatives.passage import Passage, Signature, passage
-from nonsmooth.studies.derivatives.slope import BACKWARD, CENTRAL, FORWARD, OrderOfEvents, Sampled, Stencil, slope
+from nonsmooth.studies.derivatives.slope import BACKWARD, FORWARD, OrderOfEvents, Sampled, slope, steady
 
 Floats = NDArray[np.float64]
 STEPS = (3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7)
-"""Changes, in units of scales, of which that is taken that agrees best with the next smaller one: where flights are as
-small as a change of the larger ones, these say nothing, and of the smaller ones round-off is left."""
+"""Changes that derivatives are tried with, in units of scales."""
 
 
 @final
@@ -92,7 +91,7 @@ def linear(
     for k, name in enumerate(chart.names):
         sampled = _moved(model, state, t_end, chart, np.eye(len(chart.names))[k], end.state)
         try:
-            column, step = steady_slope(sampled, end.signature, steps)
+            column, step, _ = steady(partial(slope, sampled, expected=end.signature), steps)
             columns.append(column)
             taken.append(step)
         except OrderOfEvents:
@@ -100,40 +99,6 @@ def linear(
             corners.append(_corner(name, sampled))
     matrix = np.array(columns).reshape(len(columns), -1).T
     return Linear(chart, end, chart.between(state, end.state), matrix, tuple(corners), min(taken))
-
-
-def steady_slope(
-    sampled: Sampled, expected: Signature, steps: Sequence[float] = STEPS, stencil: Stencil = CENTRAL
-) -> tuple[Floats, float]:
-    """Return the derivative, and its step: the one whose result changes least with the next smaller one.
-
-    Raises
-    ------
-    OrderOfEvents
-        If all steps change the order of events.
-    InvalidInput
-        If no change makes a start.
-    """
-    best, least, last, trouble = None, np.inf, None, None
-    for step in steps:
-        try:
-            found = slope(sampled, step, expected, stencil), step
-        except (OrderOfEvents, InvalidInput) as error:
-            # a start that overlaps is refused: that change was too large, too
-            trouble, last = error, None
-            continue
-        if last is not None:
-            differs = float(np.max(np.abs(found[0] - last[0]), initial=0.0))
-            if differs < least:
-                best, least = last, differs
-            elif best is not None:
-                return best
-        last = found
-    chosen = last if best is None else best
-    if chosen is None:
-        assert trouble is not None
-        raise trouble
-    return chosen
 
 
 def _moved(model: Model, state: State, t_end: float, chart: Chart, way: Floats, origin: State) -> Sampled:
@@ -153,7 +118,7 @@ def _corner(name: str, sampled: Sampled) -> Corner:
         inner = tuple((offset + int(sign), weight) for offset, weight in stencil)
         try:
             # next to the corner, not at it: what happens there belongs to neither side
-            sides.append(steady_slope(sampled, signature, stencil=inner)[0])
+            sides.append(steady(partial(slope, sampled, expected=signature, stencil=inner), STEPS)[0])
         except OrderOfEvents:
             sides.append(np.full(size, np.nan))
     return Corner(name, sides[0], sides[1], (told[0], told[1]))
