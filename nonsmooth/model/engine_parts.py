@@ -6,6 +6,7 @@ from collections.abc import Collection, Iterable, Mapping
 from numbers import Real
 
 from nonsmooth.engine.memory.arrays.arrays import Arrays
+from nonsmooth.engine.memory.memory import NOTHING
 from nonsmooth.engine.memory.tables import ARRAYS_OF, CONSTANT_SCALARS, SCALARS, floats_of, integers_of
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.interfaces import Engine
@@ -58,7 +59,7 @@ def settings_of(engine: Engine, time_scale: float) -> Mapping[str, float]:
 
 def own_of(engine: Engine) -> Arrays:
     """Return what it has of its own."""
-    return engine.own or Arrays()
+    return NOTHING if engine.own is None else engine.own
 
 
 def laid_own(engine: Engine, counts: Mapping[str, int]) -> Arrays:

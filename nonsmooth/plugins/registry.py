@@ -169,16 +169,20 @@ def load(group: str, name: str) -> Any:
     """
     if name not in _points(group):
         raise UnknownName(KINDS[group], name, names(group), said_of(name))
-    point = _points(group)[name]
+    return _usable(_points(group)[name], group)
+
+
+@functools.cache
+def _usable(point: EntryPoint, group: str) -> Any:
+    """Return a class; kept, as every contact of a system asks for all kinematics."""
     try:
         loaded = point.load()
     except Exception as error:
         reason = f"{type(error).__name__}: {error}"
-        raise PluginError(" ".join([f"{_title(group, name)} cannot be loaded: {reason}.", *_hidden()])) from error
-    # the title reads the files of the distribution, for which there is no time at every contact
+        raise PluginError(" ".join([f"{_title(group, point.name)} cannot be loaded: {reason}.", *_hidden()])) from error
     found = fault(loaded, GROUPS[group])
     if found is not None:
-        raise PluginError(f"{_title(group, name)} {found}")
+        raise PluginError(f"{_title(group, point.name)} {found}")
     return loaded
 
 

@@ -77,25 +77,11 @@ class Motion:
         tilts = np.concatenate([self.beta, self.beta_at_events[inside]])
         return float(tilts.min()), float(tilts.max())
 
-    def tail(self) -> tuple[int, Motion]:
-        """Return the number of plate periods in the settled part, and that part."""
-        available = (self.t[-1] - self.t[0]) / self.period
-        n = min(LONGEST_TAIL, math.floor(available / 2.0 + 1e-9))
-        start = self.t[-1] - n * self.period if n else self.t[0]
-        keep = self.t >= start - 1e-9 * self.period
-        cut = Motion(
-            self.t[keep],
-            self.gap[keep],
-            self.gap_rate[keep],
-            self.beta[keep],
-            self.beta_at_events,
-            self.centre[keep],
-            self.events,
-            self.period,
-            self.length,
-            self.speed,
-        )
-        return n, cut
+
+def settled(t: Floats, period: float) -> tuple[int, float]:
+    """Return how many plate periods the settled part of a run has that was sampled at times [s], and its begin [s]."""
+    n = min(LONGEST_TAIL, math.floor((t[-1] - t[0]) / period / 2.0 + 1e-9))
+    return n, float(t[-1] - n * period if n else t[0])
 
 
 def period_of(motion: Motion) -> int | None:
@@ -208,9 +194,8 @@ def largest_gaps(motion: Motion) -> list[float]:
     return [float(max(peaks[:, ball].max(initial=0.0), motion.gap[:, ball].max())) for ball in (0, 1)]
 
 
-def summary(motion: Motion) -> dict[str, object]:
-    """Return attractor, period, drift velocity, largest gaps and range of the tilt over the settled part."""
-    cycles, tail = motion.tail()
+def summary(tail: Motion, cycles: int) -> dict[str, object]:
+    """Return attractor, period, drift velocity, largest gaps and range of the tilt of a settled part of such length."""
     period = period_of(tail) if cycles >= SHORTEST_TAIL else None
     attractor = classify(tail, period, cycles)
     elapsed = float(tail.t[-1] - tail.t[0])

@@ -97,6 +97,12 @@ def from_state(t: Floats, q: Floats, u: Floats, centre_distance: float) -> tuple
     return places, rates
 
 
+def tilt(q: Floats) -> Floats:
+    """Return the angle beta of the rod with the plate [rad], shape [n], out of coordinates of the body [n, 7]."""
+    e1, _, _ = _axes(q[:, 3:7])
+    return np.asarray(np.arctan2(e1[:, 2], np.hypot(e1[:, 0], e1[:, 1])))
+
+
 def _continuous(t: Floats, angle: Floats, rate: Floats) -> Floats:
     """Undo the jumps of 2 pi; the rates [rad/s] allow for several turns between two samples."""
     travelled = np.concatenate([[0.0], np.cumsum(np.diff(t) * (rate[1:] + rate[:-1]) / 2.0)])
@@ -135,5 +141,7 @@ def _about(axis: int, angle: float) -> Floats:
 def _product(p: Floats, q: Floats) -> Floats:
     """Return the quaternion product p q."""
     scalar = p[0] * q[0] - p[1:] @ q[1:]
-    vector = p[0] * q[1:] + q[0] * p[1:] + np.cross(p[1:], q[1:])
-    return np.concatenate([[scalar], vector])
+    (a, b, c), (d, e, f) = p[1:].tolist(), q[1:].tolist()
+    # numpy's takes as long as all the rest
+    cross = np.array([b * f - c * e, c * d - a * f, a * e - b * d])
+    return np.concatenate([[scalar], p[0] * q[1:] + q[0] * p[1:] + cross])

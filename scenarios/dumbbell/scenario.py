@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import warnings
 from collections.abc import Callable, Mapping
@@ -156,6 +157,10 @@ class DumbbellScenario(Scenario):
 
     def resolved(self) -> Mapping[str, Any]:
         """Return all parameters with the values that the run uses."""
+        return self._used
+
+    @functools.cached_property
+    def _used(self) -> Mapping[str, Any]:
         left_out = defaults(self.mode, self.frequency, self.friction)
         left_out["contact_time"] = self._hertz_time(self.aspect_ratio or left_out["aspect_ratio"])
         given = {name: getattr(self, name) for name in rules(type(self))}
@@ -238,13 +243,19 @@ class DumbbellScenario(Scenario):
             warnings.simplefilter("ignore", UnusualValue)
             return make()
 
-    def paper_motion(self, solution: Solution) -> tuple[Floats, Floats, Floats]:
-        """Return times [n], paper coordinates and rates [n, 6] of the samples and, if it is later, of the end."""
+    def paper_motion(self, solution: Solution, since: float = 0.0) -> tuple[Floats, Floats, Floats]:
+        """Return times [n], paper coordinates and rates [n, 6] of the samples from a time on [s], and of the end."""
+        t, q, u = self._samples(solution)
+        first = int(np.searchsorted(t, since))
+        return t[first:], *coordinates.from_state(t[first:], q[first:], u[first:], self.centre_distance)
+
+    def _samples(self, solution: Solution) -> tuple[Floats, Floats, Floats]:
+        """Return times, coordinates and velocities of the samples and, if it is later, of the end."""
         t, q, u = solution.t, solution.q, solution.u
         if len(t) == 0 or solution.t_end > t[-1] + 1e-9 / self.frequency:
             t = np.append(t, solution.t_end)
             q, u = np.vstack([q, solution.q_end]), np.vstack([u, solution.u_end])
-        return t, *coordinates.from_state(t, q, u, self.centre_distance)
+        return t, q, u
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
         """Return x1 ... gamma [m, rad] and their rates (x1_rate ...) over the samples."""
@@ -260,15 +271,20 @@ class DumbbellScenario(Scenario):
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
         """Return attractor, period [plate periods], drift_velocity [m/s], max_gap [m], beta_range [rad]."""
-        return attractor.summary(self.motion(solution))
+        return attractor.summary(*self.settled(solution))
 
-    def motion(self, solution: Solution) -> attractor.Motion:
-        """Return gaps, tilt and path of a run, for its classification."""
-        t, q, u = self.paper_motion(solution)
+    def settled(self, solution: Solution) -> tuple[attractor.Motion, int]:
+        """Return the settled part of a run, and how many plate periods it has."""
+        t, *_ = self._samples(solution)
+        cycles, start = attractor.settled(t, 1.0 / self.frequency)
+        return self.motion(solution, start - 1e-9 / self.frequency), cycles
+
+    def motion(self, solution: Solution, since: float = 0.0) -> attractor.Motion:
+        """Return gaps, tilt and path of a run from a time on [s], for its classification."""
+        t, q, u = self.paper_motion(solution, since)
         between = self.centre_distance
         beta, beta_rate = q[:, 4], u[:, 4]
         events = solution.events
-        at_events, _ = coordinates.from_state(events.time, events.q, events.u_after, between)
         first = q[:, 2] - self.radius - self.plate_height(t)
         first_rate = u[:, 2] - self.plate_velocity(t)
         reach = between / 2.0 * np.cos(beta)
@@ -278,7 +294,7 @@ class DumbbellScenario(Scenario):
             np.column_stack([first, first + between * np.sin(beta)]),
             np.column_stack([first_rate, first_rate + between * np.cos(beta) * beta_rate]),
             beta,
-            at_events[:, 4],
+            coordinates.tilt(events.q),
             np.column_stack([q[:, 0] - reach * np.sin(q[:, 3]), q[:, 1] + reach * np.cos(q[:, 3])]),
             events,
             1.0 / self.frequency,

@@ -166,18 +166,8 @@ def allocate(counts: Mapping[str, int], layers: Collection[str], own: Arrays = N
 
     ``own`` is what an engine brings besides.  Blocks are appended by :class:`Heap`.
     """
-    every = *ARRAYS_OF.values(), own
-    laid = [*(ARRAYS_OF[layer] for layer in {*ALWAYS, *layers}), own]
-    values = {name: begin for arrays in every for name, begin in arrays.scalars.items()} | dict(counts)
-    totals: list[int] = []
-    for arrays_of in (floats_of, integers_of):
-        total, with_length = 0, arrays_of(laid)
-        for name in arrays_of(every):
-            values[name] = total
-            total += with_length[name](counts) if name in with_length else 0
-        totals.append(total)
-    record = record_with(own)
-    scalars = np.array([tuple(values[name] for name in record.names or ())], record)
+    values, totals = _laid(tuple(counts.items()), frozenset(layers), own)
+    scalars = np.array([values], record_with(own))
     memory = Memory(scalars, np.zeros(totals[0]), np.zeros(max(totals[1], 1), np.int64), totals[0], totals[0], own=own)
     n = counts["n_slots"]
     memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)[:, PAIR:] = UNTOUCHED
@@ -189,3 +179,25 @@ def allocate(counts: Mapping[str, int], layers: Collection[str], own: Arrays = N
     memory.array("implicit_bend", N_STAGES)[:] = implicit_tableau.BEND
     memory.array("dense", 4 * N_STAGES)[:] = np.ravel(tableau.DENSE)
     return memory
+
+
+@functools.lru_cache(maxsize=16)
+def _laid(
+    counts: tuple[tuple[str, int], ...], layers: frozenset[str], own: Arrays
+) -> tuple[tuple[float, ...], tuple[int, int]]:
+    """Return the numbers of the record, and the lengths of the heaps of floats and of integers.
+
+    Kept, as systems that differ in their numbers only are laid out alike, and often one after another.
+    """
+    every = *ARRAYS_OF.values(), own
+    laid = [*(ARRAYS_OF[layer] for layer in {*ALWAYS, *layers}), own]
+    known = dict(counts)
+    values = {name: begin for arrays in every for name, begin in arrays.scalars.items()} | known
+    totals: list[int] = []
+    for arrays_of in (floats_of, integers_of):
+        total, with_length = 0, arrays_of(laid)
+        for name in arrays_of(every):
+            values[name] = total
+            total += with_length[name](known) if name in with_length else 0
+        totals.append(total)
+    return tuple(values[name] for name in record_with(own).names or ()), (totals[0], totals[1])

@@ -55,7 +55,7 @@ def paths(runs: Mapping[str, Run], spans: Mapping[str, float], title: str) -> Fi
 
 def goes(run: Run) -> bool:
     """Tell whether the settled mass centre goes anywhere on the mean, beyond the error of its mean velocity."""
-    _, settled = run[0].motion(run[1]).tail()
+    settled, _ = run[0].settled(run[1])
     velocities = _means(run, settled.t, settled.centre)[1]
     if len(velocities) < 2:
         return bool(np.any(velocities != 0.0))

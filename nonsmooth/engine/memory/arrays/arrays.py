@@ -13,7 +13,7 @@ Size: TypeAlias = Callable[[Counts], int]
 
 
 @final
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Arrays:
     """The scalars and the arrays of a layer: the length of each array as a function of the counts of a system.
 
