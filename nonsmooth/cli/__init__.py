@@ -1,1 +1,1 @@
-"""The command line: one file per command."""
+"""The command line: ``main`` hands a request to one of the commands."""

@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Sequence
 from importlib.metadata import version
 
-from nonsmooth.cli import (
+from nonsmooth.cli.commands import (
     bifurcation,
     check,
     export,
@@ -23,7 +23,7 @@ from nonsmooth.cli import (
     sweep,
     view,
 )
-from nonsmooth.cli.messages import complain, warn_plainly
+from nonsmooth.cli.telling.messages import complain, warn_plainly
 from nonsmooth.errors import InvalidInput, MissingPackagesError, NonsmoothError, NonsmoothWarning
 
 DONE, FAILED, WRONG_REQUEST = 0, 1, 2

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from nonsmooth.cli import figures
+from nonsmooth.cli.commands import figures
 
 Call = Callable[..., tuple[int, str, str]]
 

@@ -10,8 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from nonsmooth.cli import perform, run
-from nonsmooth.cli.interrupt import Interrupt
+from nonsmooth.cli.commands import run
+from nonsmooth.cli.running import perform
+from nonsmooth.cli.running.interrupt import Interrupt
 
 Call = Callable[..., tuple[int, str, str]]
 

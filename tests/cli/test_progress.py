@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from nonsmooth.cli.progress import Bar, Display, Lines, Progress, on_standard_error
+from nonsmooth.cli.telling.progress import Bar, Display, Lines, Progress, on_standard_error
 
 
 class _Clock:

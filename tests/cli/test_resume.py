@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from nonsmooth.cli import perform
+from nonsmooth.cli.running import perform
 
 Call = Callable[..., tuple[int, str, str]]
 

@@ -8,12 +8,11 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from nonsmooth.cli import extras, report, request
-from nonsmooth.cli.messages import say, tell
-from nonsmooth.cli.perform import Told, perform
-from nonsmooth.files.scenario import FileScenario
-from nonsmooth.plugins import file, registry
-from nonsmooth.results.opening import stored_setup
+from nonsmooth.cli.asking import extras
+from nonsmooth.cli.running import obtain
+from nonsmooth.cli.running.perform import Told, perform
+from nonsmooth.cli.telling import report
+from nonsmooth.cli.telling.messages import say
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.runs.resuming import check_resumable
@@ -48,7 +47,7 @@ def execute(arguments: argparse.Namespace) -> bool:
 def _perform(output: Output, trust: bool, troubles: list[str]) -> report.Report:
     extras.require(extras.PICTURES)
     folder = SolutionFolder.opened(output)
-    name, job = job_of(output, folder, trust)
+    name, job = obtain.job_of(output, folder, trust)
     system = job.build()
     check_resumable(output)
 
@@ -57,20 +56,3 @@ def _perform(output: Output, trust: bool, troubles: list[str]) -> report.Report:
         return model.resume(output, progress=lambda t, t_end: told(t, t_end, model.n_events))
 
     return perform(job, {"scenario": name, **job.head()}, compute, output.folder, False, troubles)
-
-
-def job_of(output: Output, folder: SolutionFolder, trust: bool) -> tuple[str, request.Job]:
-    """Return what ran: a scenario by its name, all else by what the folder says of its system.
-
-    No Python file is executed because the folder names it, unless the user trusts it.
-    """
-    asked = folder.said("request")
-    name = str(asked.get("scenario", output.folder))
-    words = [name, *(word.partition("=")[2] for word in asked.get("law", ())), asked.get("engine") or ""]
-    files = [word for one in words if file.is_file(word := one.partition(",")[0])]
-    if (name in registry.names("scenarios") or file.is_file(name)) and (trust or not files):
-        return name, request.job(name, asked["set"], asked["law"], asked.get("engine"))
-    if files:
-        tell(f"without {', '.join(files)}, and so without what only they can say: see --trust")
-    setup = stored_setup(output, folder)
-    return name, request.Job(FileScenario(setup), setup.engine, {})

@@ -5,10 +5,10 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from nonsmooth.cli.list import GROUPS
-from nonsmooth.cli.messages import say
-from nonsmooth.cli.parameter_rows import ASSUMED, HEAD, parameter_rows
-from nonsmooth.cli.table import first_line, lines
+from nonsmooth.cli.commands.list import GROUPS
+from nonsmooth.cli.telling.messages import say
+from nonsmooth.cli.telling.parameter_rows import ASSUMED, HEAD, parameter_rows
+from nonsmooth.cli.telling.table import first_line, lines
 from nonsmooth.plugins import file, registry
 
 
@@ -34,7 +34,7 @@ def execute(arguments: argparse.Namespace) -> bool:
     """Print everything of that name: a scenario and a body may share one."""
     if arguments.proximity:
         # imported when asked for: the other commands start faster without it
-        from nonsmooth.cli import near
+        from nonsmooth.cli.commands import near
 
         say(near.table(arguments.name))
         return True

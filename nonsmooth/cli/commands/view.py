@@ -9,8 +9,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from nonsmooth.cli import obtain, outputs
-from nonsmooth.cli.messages import tell
+from nonsmooth.cli.asking import outputs
+from nonsmooth.cli.running import obtain
+from nonsmooth.cli.telling.messages import tell
 from nonsmooth.solution.solution import Solution
 
 

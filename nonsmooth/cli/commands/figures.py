@@ -6,10 +6,11 @@ import argparse
 from collections.abc import Mapping
 from typing import Any
 
-from nonsmooth.cli import extras, outputs, results
-from nonsmooth.cli.interrupt import Interrupt
-from nonsmooth.cli.messages import complain, say
-from nonsmooth.cli.progress import on_standard_error
+from nonsmooth.cli.asking import extras, outputs
+from nonsmooth.cli.running import results
+from nonsmooth.cli.running.interrupt import Interrupt
+from nonsmooth.cli.telling.messages import complain, say
+from nonsmooth.cli.telling.progress import on_standard_error
 from nonsmooth.plugins import registry
 from nonsmooth.results.output import Output
 

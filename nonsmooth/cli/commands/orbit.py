@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from nonsmooth.cli import extras, outputs, request, results
-from nonsmooth.cli.messages import say, tell
+from nonsmooth.cli.asking import extras, outputs, request
+from nonsmooth.cli.running import results
+from nonsmooth.cli.telling.messages import say, tell
 from nonsmooth.errors import InvalidInput
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from nonsmooth.cli import component
+from nonsmooth.cli.asking import component
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.interfaces import CompliantNormalLaw, ImpactLaw, NormalLaw, TangentialLaw
 from nonsmooth.parameters import rules

@@ -8,9 +8,12 @@ import json
 import sys
 from typing import Any
 
-from nonsmooth.cli import acceptance, engine, extras, law, obtain, outputs, report, request, view
-from nonsmooth.cli.messages import say
-from nonsmooth.cli.perform import Told, perform
+from nonsmooth.cli.asking import engine, extras, law, outputs, request
+from nonsmooth.cli.commands import view
+from nonsmooth.cli.running import acceptance, obtain
+from nonsmooth.cli.running.perform import Told, perform
+from nonsmooth.cli.telling import report
+from nonsmooth.cli.telling.messages import say
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import check_free
 from nonsmooth.simulate import assemble

@@ -7,11 +7,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import final
 
-from nonsmooth.cli import engine, law, request, resume
-from nonsmooth.cli.perform import computed
+from nonsmooth.cli.asking import engine, law, request
+from nonsmooth.cli.running.perform import computed
+from nonsmooth.cli.telling.messages import tell
 from nonsmooth.errors import InvalidInput
+from nonsmooth.files.scenario import FileScenario
 from nonsmooth.interfaces import Scenario
-from nonsmooth.results.opening import open_solution
+from nonsmooth.plugins import file, registry
+from nonsmooth.results.opening import open_solution, stored_setup
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.simulate import assemble
@@ -61,6 +64,23 @@ def title_of(scenario: Scenario) -> str:
     return str(scenario.resolved().get("title", type(scenario).title))
 
 
+def job_of(output: Output, folder: SolutionFolder, trust: bool) -> tuple[str, request.Job]:
+    """Return what ran: a scenario by its name, all else by what the folder says of its system.
+
+    No Python file is executed because the folder names it, unless the user trusts it.
+    """
+    asked = folder.said("request")
+    name = str(asked.get("scenario", output.folder))
+    words = [name, *(word.partition("=")[2] for word in asked.get("law", ())), asked.get("engine") or ""]
+    files = [word for one in words if file.is_file(word := one.partition(",")[0])]
+    if (name in registry.names("scenarios") or file.is_file(name)) and (trust or not files):
+        return name, request.job(name, asked["set"], asked["law"], asked.get("engine"))
+    if files:
+        tell(f"without {', '.join(files)}, and so without what only they can say: see --trust")
+    setup = stored_setup(output, folder)
+    return name, request.Job(FileScenario(setup), setup.engine, {})
+
+
 def _stored(command: str, arguments: argparse.Namespace) -> Obtained:
     if arguments.set or arguments.law or arguments.engine:
         raise InvalidInput(
@@ -68,7 +88,7 @@ def _stored(command: str, arguments: argparse.Namespace) -> Obtained:
         )
     output = Output(Path(arguments.run))
     folder = SolutionFolder.opened(output)
-    name, job = resume.job_of(output, folder, arguments.trust)
+    name, job = job_of(output, folder, arguments.trust)
     return Obtained(str(folder.attributes.get("title") or name), open_solution(output, system=job.build()), True)
 
 

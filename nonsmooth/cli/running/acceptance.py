@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from nonsmooth.cli.messages import complain
-from nonsmooth.cli.request import Job
+from nonsmooth.cli.asking.request import Job
+from nonsmooth.cli.telling.messages import complain
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Scenario
 from nonsmooth.solution.solution import Solution

@@ -8,9 +8,9 @@ from collections import Counter
 from pathlib import Path
 from typing import Any
 
-from nonsmooth.cli import outputs, over, request
-from nonsmooth.cli.messages import say, tell
-from nonsmooth.cli.orbit import prepare, save
+from nonsmooth.cli.asking import outputs, over, request
+from nonsmooth.cli.commands.orbit import prepare, save
+from nonsmooth.cli.telling.messages import say, tell
 
 
 def add_to(commands: Any) -> None:

@@ -9,8 +9,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from nonsmooth.cli import obtain, outputs
-from nonsmooth.cli.messages import tell
+from nonsmooth.cli.asking import outputs
+from nonsmooth.cli.running import obtain
+from nonsmooth.cli.telling.messages import tell
 from nonsmooth.export.camera import VIEWS
 from nonsmooth.solution.csv_format import SERIES
 from nonsmooth.solution.exports import FORMATS, exporter

@@ -13,8 +13,8 @@ from pathlib import Path
 from string import Template
 from typing import Any
 
-from nonsmooth.cli import outputs
-from nonsmooth.cli.messages import say
+from nonsmooth.cli.asking import outputs
+from nonsmooth.cli.telling.messages import say
 from nonsmooth.errors import InvalidInput
 from nonsmooth.plugins import registry
 from nonsmooth.solution.files import replacing

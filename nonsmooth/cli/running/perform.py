@@ -6,10 +6,12 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import cast
 
-from nonsmooth.cli import acceptance, report, request, results
-from nonsmooth.cli.interrupt import Interrupt
-from nonsmooth.cli.messages import complain, tell
-from nonsmooth.cli.progress import on_standard_error
+from nonsmooth.cli.asking import request
+from nonsmooth.cli.running import acceptance, results
+from nonsmooth.cli.running.interrupt import Interrupt
+from nonsmooth.cli.telling import report
+from nonsmooth.cli.telling.messages import complain, tell
+from nonsmooth.cli.telling.progress import on_standard_error
 from nonsmooth.errors import PluginError, RunFailed
 from nonsmooth.interfaces import Scenario
 from nonsmooth.results.output import Output

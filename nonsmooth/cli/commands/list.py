@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from nonsmooth.cli.law import ROLES
-from nonsmooth.cli.messages import say
-from nonsmooth.cli.table import first_line, folded
+from nonsmooth.cli.asking.law import ROLES
+from nonsmooth.cli.telling.messages import say
+from nonsmooth.cli.telling.table import first_line, folded
 from nonsmooth.plugins import registry
 
 GROUPS = ("scenarios", "bodies", "shapes", "motions", "joints", "loads", "guards", "laws", "engines")

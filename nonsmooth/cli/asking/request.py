@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from nonsmooth.cli import engine, law
+from nonsmooth.cli.asking import engine, law
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files.reading import read

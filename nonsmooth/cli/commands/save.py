@@ -6,8 +6,9 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from nonsmooth.cli import engine, law, obtain, outputs, request
-from nonsmooth.cli.messages import tell
+from nonsmooth.cli.asking import engine, law, outputs, request
+from nonsmooth.cli.running import obtain
+from nonsmooth.cli.telling.messages import tell
 from nonsmooth.files import formats
 from nonsmooth.files.writing import save_system
 

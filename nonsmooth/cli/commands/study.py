@@ -7,8 +7,9 @@ import json
 from pathlib import Path
 from typing import Any
 
-from nonsmooth.cli import outputs, sweep
-from nonsmooth.cli.messages import complain, say, tell
+from nonsmooth.cli.asking import outputs
+from nonsmooth.cli.commands import sweep
+from nonsmooth.cli.telling.messages import complain, say, tell
 from nonsmooth.studies.drawing import draw_study
 from nonsmooth.studies.extras import require, require_store
 from nonsmooth.studies.opening import open_study

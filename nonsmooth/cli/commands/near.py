@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from nonsmooth.cli import request
-from nonsmooth.cli.table import lines
+from nonsmooth.cli.asking import request
+from nonsmooth.cli.telling.table import lines
 from nonsmooth.files.formats import SUFFIXES
 from nonsmooth.files.reading import read
 from nonsmooth.queries.proximity import NearPair, proximity

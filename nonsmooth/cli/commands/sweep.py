@@ -9,8 +9,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from nonsmooth.cli import engine, over, request
-from nonsmooth.cli.messages import say, tell
+from nonsmooth.cli.asking import engine, over, request
+from nonsmooth.cli.telling.messages import say, tell
 from nonsmooth.errors import InvalidInput
 from nonsmooth.studies.executors import Dask
 from nonsmooth.studies.executors.executor import Executor

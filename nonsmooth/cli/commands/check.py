@@ -8,9 +8,9 @@ import json
 import sys
 from typing import Any
 
-from nonsmooth.cli import request
-from nonsmooth.cli.messages import say
-from nonsmooth.cli.table import lines
+from nonsmooth.cli.asking import request
+from nonsmooth.cli.telling.messages import say
+from nonsmooth.cli.telling.table import lines
 from nonsmooth.plugins import file, registry
 
 _HOLDS, _FAILS, _DEPARTS, _OPEN = "holds", "fails", "departs", "not checked"

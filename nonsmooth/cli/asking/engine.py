@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from nonsmooth.cli import component
+from nonsmooth.cli.asking import component
 from nonsmooth.interfaces import Engine
 from nonsmooth.parameters import rules
 
