@@ -107,6 +107,19 @@ class LaidOut:
         gaps[self.memory.array("identity", n)] = listed
         return gaps
 
+    def rates(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return gaps [m, n_contacts] and relative velocities [m/s, n_contacts x 3] at the present state.
+
+        Those of contacts that are too far to be listed are not a number.
+        """
+        self.evaluate()
+        total, n = len(self.system.contacts), int(self.memory.scalars["n_contacts"][0])
+        gaps, rates = np.full(total, np.nan), np.full((total, 3), np.nan)
+        listed = self.memory.array("identity", n)
+        gaps[listed] = self.memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)[:, 0]
+        rates[listed] = self.memory.array("rate", 3 * n).reshape(n, 3)
+        return gaps, rates
+
 
 def energies(bodies: tuple[Body, ...], tails: np.ndarray, numbers: np.ndarray) -> tuple[float, float]:
     """Return kinetic and potential energy [J] of bodies that were evaluated; their tails stand there in ``numbers``."""

@@ -36,7 +36,7 @@ from nonsmooth.runs.start import begin, check_arrays, check_closed, check_start_
 from nonsmooth.runs.writer import Writer
 from nonsmooth.solution.files import FileError
 from nonsmooth.solution.solution import Solution
-from nonsmooth.solution.state import State
+from nonsmooth.solution.state import Floats, State
 from nonsmooth.system.system import System
 
 _T_END, _INTERVAL, _FIRST, _NEXT, _SPAN, _INDEX, _CAPACITY = places(
@@ -232,6 +232,33 @@ class Model:
         self._seize("run")
         try:
             return self._run(t_end, state, interval, sample_interval is None, progress, where, until)
+        finally:
+            self._runs.release()
+
+    def contact_rates(self, state: State) -> tuple[Floats, Floats]:
+        """Return gaps and relative velocities of all contacts in a state; not a number where bodies are far apart.
+
+        Parameters
+        ----------
+        state : State
+            The state; nothing runs.
+
+        Returns
+        -------
+        gaps, rates : array
+            Gaps [m], shape [n_contacts]; velocities of the second body over the first, along the normal and the two
+            tangents [m/s], shape [n_contacts, 3].
+
+        Raises
+        ------
+        InvalidInput
+            If the state is none of this model, or the model runs.
+        """
+        check_arrays(self._laid, state)
+        self._seize("contact_rates")
+        try:
+            begin(self._laid, self._blank, state)
+            return self._laid.rates()
         finally:
             self._runs.release()
 

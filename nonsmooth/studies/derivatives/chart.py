@@ -1,4 +1,4 @@
-"""Directions in which a state can be moved, of which unit quaternions stay unit."""
+"""Directions in which a state can be moved: unit quaternions stay unit, closed contacts closed."""
 
 from __future__ import annotations
 
@@ -11,7 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.errors import UnknownName
+from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
+from nonsmooth.studies.derivatives.held import Held
 from nonsmooth.system.system import System
 
 Floats = NDArray[np.float64]
@@ -19,10 +21,23 @@ TURNS = ("rx", "ry", "rz")
 """Turns of a body with a quaternion about its own axes, which stand for the quaternion's four numbers."""
 
 
+_PROBE = 1e-6
+"""Change that derivatives of what is held are taken with, in units of scales."""
+_DEPENDS = 1e-6
+"""Part of the largest derivative below which one is none,"""
+_EARLIER = 0.1
+"""and of the largest that is left, above which the first one is taken: so that neighbours have the same directions."""
+_MOST = 20
+"""Steps of Newton's method."""
+
+
 @final
 @dataclass(frozen=True)
 class Chart:
     """Directions about a state, in units of the scales of the bodies.
+
+    Closed contacts take directions away: along the rest a state moves freely, and those that were taken away follow,
+    so that gaps stay closed, and what sticks goes on sticking.
 
     Attributes
     ----------
@@ -32,58 +47,137 @@ class Chart:
         What each moves: a coordinate or a velocity, or the turn of a body.
     quaternions : tuple of int
         Where the quaternions begin.
+    held : Held
+        The closed contacts.
+    following : array
+        The directions that follow, shape [n_q + n_u, k].
+    inverse : array
+        How far these go for what is left of gaps and rates, shape [k, n_held].
     """
 
     basis: Floats
     names: tuple[str, ...]
     quaternions: tuple[int, ...]
+    held: Held
+    following: Floats
+    inverse: Floats
 
     @classmethod
-    def at(cls, system: System, state: State, within: Collection[str] | None = None) -> Chart:
+    def at(
+        cls, model: Model, state: State, within: Collection[str] | None = None, without: Collection[str] = ()
+    ) -> Chart:
         """Return the directions about a state.
 
         Parameters
         ----------
-        system : System
-            The system.
+        model : Model
+            The model.
         state : State
             The state.
         within : collection of str, optional
             Names of the coordinates and velocities that may change ("z", or "ball.z" where only that of one body is
             meant), and of turns about a body's own axes ("rx", "ry", "rz"); all by default.
+        without : collection of str
+            Whole names of those that do not ("ball.z").
 
         Raises
         ------
         UnknownName
             If a coordinate has no such name.
+        InvalidInput
+            If the law of a closed contact has inner states.
         """
-        labels, chosen = list(_labels(system)), _chosen(system, within)
-        scale = np.concatenate([*(b.scales[0] for b in system.bodies), *(b.scales[1] for b in system.bodies)])
-        y, (turning, starts) = np.concatenate([state.q, state.u]), _quaternions(system)
-        columns, names = list[Floats](), list[str]()
-        for i, (body, label) in enumerate(labels):
-            if not any(start <= i < start + 4 for start in starts) and label in chosen[body]:
-                columns.append(scale[i] * np.eye(len(y))[i])
-                names.append(f"{body}.{label}")
-        for body, start in zip(turning, starts, strict=True):
-            for turn, column in zip(TURNS, _turns(y[start : start + 4]), strict=True):
-                if turn in chosen[body]:
-                    columns.append(np.zeros(len(y)))
-                    columns[-1][start : start + 4] = column
-                    names.append(f"{body}.{turn}")
-        return cls(np.array(columns).reshape(-1, len(y)).T, tuple(names), starts)
+        system, held = model.system, Held.at(model, state)
+        columns, names = _columns(system, state, within, without)
+        quaternions = _quaternions(system)[1]
+        whole = cls(columns, names, quaternions, held, columns[:, :0], np.zeros((0, 0)))
+        rows = whole._slopes(model, state)
+        follow = _following(rows)
+        free = [i for i in range(len(names)) if i not in follow]
+        inverse = np.linalg.pinv(rows[:, follow], rcond=_DEPENDS)
+        chosen = tuple(names[i] for i in free)
+        return cls(columns[:, free], chosen, quaternions, held, columns[:, follow], inverse)
 
-    def moved(self, state: State, way: Floats) -> State:
-        """Return a state moved along the directions, shape [m]."""
-        x = np.concatenate([state.q, state.u]) + self.basis @ way
-        for start in self.quaternions:
-            x[start : start + 4] /= np.linalg.norm(x[start : start + 4])
-        return dataclasses.replace(state, q=x[: len(state.q)], u=x[len(state.q) :])
+    def moved(self, model: Model, state: State, way: Floats) -> State:
+        """Return a state moved along the directions, shape [m]; what is closed in it is closed in this model."""
+        return self.held_in(model, self._stepped(state, self.basis @ way))
+
+    def held_in(self, model: Model, state: State) -> State:
+        """Return a state near another one, in which contacts are as closed as they can be in a model."""
+        if not self.following.size:
+            return state
+        left = self.held.left(model, state)
+        for _ in range(_MOST):
+            there = self._stepped(state, -self.following @ (self.inverse @ left))
+            smaller = self.held.left(model, there)
+            if not np.max(np.abs(smaller)) < np.max(np.abs(left)):
+                break
+            state, left = there, smaller
+        return state
 
     def between(self, one: State, two: State) -> Floats:
         """Return how far along the directions the second state is from the first, shape [m]."""
         x = np.concatenate([two.q - one.q, two.u - one.u])
         return np.asarray(np.linalg.lstsq(self.basis, x, rcond=None)[0])
+
+    def _stepped(self, state: State, change: Floats) -> State:
+        x = np.concatenate([state.q, state.u]) + change
+        for start in self.quaternions:
+            x[start : start + 4] /= np.linalg.norm(x[start : start + 4])
+        return dataclasses.replace(state, q=x[: len(state.q)], u=x[len(state.q) :])
+
+    def _slopes(self, model: Model, state: State) -> Floats:
+        """Return the derivatives of what is held along all directions, shape [n_held, m]."""
+
+        def left(change: Floats) -> Floats:
+            return self.held.left(model, self._stepped(state, change))
+
+        found = [(left(_PROBE * way) - left(-_PROBE * way)) / (2.0 * _PROBE) for way in self.basis.T]
+        return np.array(found).reshape(len(found), -1).T if len(self.held.closed) else np.zeros((0, len(found)))
+
+
+def _following(rows: Floats) -> list[int]:
+    """Return directions that follow all others, as many as there are independent rows.
+
+    One after the other is taken, and what it does is taken off the rest.
+    """
+    # gaps and rates have other units
+    sizes = np.linalg.norm(rows, axis=1, keepdims=True)
+    left, found = rows / np.where(sizes > 0.0, sizes, 1.0), list[int]()
+    largest = np.max(np.linalg.norm(left, axis=0), initial=0.0)
+    while True:
+        lengths = np.linalg.norm(left, axis=0)
+        longest = np.max(lengths, initial=0.0)
+        if longest <= _DEPENDS * largest:
+            return found
+        i = int(np.flatnonzero(lengths >= _EARLIER * longest)[0])
+        found.append(i)
+        unit = left[:, i] / lengths[i]
+        left = left - np.outer(unit, unit @ left)
+        left[:, i] = 0.0
+
+
+def _columns(
+    system: System, state: State, within: Collection[str] | None, without: Collection[str]
+) -> tuple[Floats, tuple[str, ...]]:
+    """Return all directions about a state that may change, shape [n_q + n_u, m], and their names."""
+    labels, chosen = list(_labels(system)), _chosen(system, within)
+    scale = np.concatenate([*(b.scales[0] for b in system.bodies), *(b.scales[1] for b in system.bodies)])
+    y, (turning, starts) = np.concatenate([state.q, state.u]), _quaternions(system)
+    columns, names = list[Floats](), list[str]()
+    for i, (body, label) in enumerate(labels):
+        name = f"{body}.{label}"
+        free = label in chosen[body] and name not in without
+        if free and not any(start <= i < start + 4 for start in starts):
+            columns.append(scale[i] * np.eye(len(y))[i])
+            names.append(name)
+    for body, start in zip(turning, starts, strict=True):
+        for turn, column in zip(TURNS, _turns(y[start : start + 4]), strict=True):
+            if turn in chosen[body]:
+                columns.append(np.zeros(len(y)))
+                columns[-1][start : start + 4] = column
+                names.append(f"{body}.{turn}")
+    return np.array(columns).reshape(-1, len(y)).T, tuple(names)
 
 
 def _labels(system: System) -> Iterator[tuple[str, str]]:
@@ -141,3 +235,19 @@ def coordinate_number(system: System, name: str) -> int:
         if name in (label, f"{body}.{label}"):
             return i
     raise UnknownName("coordinate", name, {f"{body}.{label}" for body, label in labels})
+
+
+def whole_name(system: System, number: int) -> str:
+    """Return the name of a coordinate or velocity with that of its body, "ball.z"."""
+    return ".".join(list(_labels(system))[number])
+
+
+def unit(system: System, number: int) -> str:
+    """Return the unit of a coordinate or velocity."""
+    kinds = ((label for body in system.bodies for label in body.q_labels), (label for body in system.bodies for label in body.u_labels))
+    return [unit for kind in kinds for _, unit in kind][number]
+
+
+def turns(system: System, number: int) -> bool:
+    """Tell whether a coordinate is one of the four numbers of a quaternion."""
+    return any(start <= number < start + 4 for start in _quaternions(system)[1])

@@ -4,9 +4,11 @@ from nonsmooth.studies.orbits.diagram import Diagram, bifurcation
 from nonsmooth.studies.orbits.exponents import Lyapunov, lyapunov
 from nonsmooth.studies.orbits.following import Branch, Special, continuation
 from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit, orbit
+from nonsmooth.studies.orbits.sections import Crossing
 
 __all__ = [
     "Branch",
+    "Crossing",
     "Diagram",
     "Lyapunov",
     "NoOrbit",

@@ -14,8 +14,9 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Scenario
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.orbits.choosing import chosen, seen
 from nonsmooth.studies.orbits.linear import linear
-from nonsmooth.studies.orbits.periodic import section
+from nonsmooth.studies.orbits.sections import Strobe
 
 Floats = NDArray[np.float64]
 
@@ -69,18 +70,20 @@ def lyapunov(
     Raises
     ------
     InvalidInput
-        If a number is not valid, or contacts are closed all the time.
+        If a number is not valid, or contacts are closed where a period ends.
     """
     for name, value in (("period", period), ("n_periods", n_periods)):
         if not (is_finite(value) and value > 0):
             raise InvalidInput(f"lyapunov: {name}", "must be positive and finite", value, "Give a larger one.")
     model = Family.of(what).model()
-    begin = model.run(settle, start=model.start).state if settle > 0.0 else model.start
-    state = section(model, begin, period)
+    state = chosen(model, seen(model, model.start, settle), period)
     sums, told, left_out = None, list[Floats](), 0
     directions = None
     for _ in range(int(n_periods)):
-        found = linear(model, state, state.time + period, within)
+        if np.any(state.modes):
+            remedy = "Take another period: directions are told apart where all coordinates are free."
+            raise InvalidInput("lyapunov: period", "must end where no contact is closed", period, remedy)
+        found = linear(model, state, Strobe(period), within)
         state = found.end.state
         if found.corners:
             left_out += 1

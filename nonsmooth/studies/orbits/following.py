@@ -15,10 +15,11 @@ from nonsmooth.checks import is_finite
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.family import Family
-from nonsmooth.studies.derivatives.passage import Signature, passage
+from nonsmooth.studies.derivatives.passage import Signature
 from nonsmooth.studies.derivatives.slope import OrderOfEvents, Sampled, slope
 from nonsmooth.studies.orbits.linear import STEPS, linear
 from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit
+from nonsmooth.studies.orbits.sections import Section, Strobe
 
 Floats = NDArray[np.float64]
 _CLOSE = 1e-11
@@ -89,13 +90,13 @@ class _Point:
 @final
 @dataclass(frozen=True)
 class _Path:
-    """What is followed, over which range of which parameter; ``period`` gives that of a value [s]."""
+    """What is followed, over which range of which parameter; ``section`` gives that of a value."""
 
     family: Family
     name: str
     low: float
     high: float
-    period: Callable[[float], float]
+    section: Callable[[float], Section]
     within: tuple[str, ...] | None
 
     @property
@@ -110,15 +111,18 @@ class _Path:
         The last two are one array, shape [2 m + 1].
         """
         family = self.family.at(**{self.name: value})
-        period = self.period(value)
-        found = linear(family.model(), state, state.time + period, self.within, steps)
+        section = self.section(value)
+        found = linear(family.model(), state, section, self.within, steps)
         if found.corners:
             raise OrderOfEvents(found.end.signature, found.corners[0].signatures[0])
 
         def changed(change: float) -> tuple[Floats, Signature]:
             there = value + change * self.range
-            end = passage(self.family.model(**{self.name: there}), state, state.time + self.period(there))
-            return found.chart.between(state, end.state), end.signature
+            model = self.family.model(**{self.name: there})
+            # what is closed moves with what carries it
+            begin = found.chart.held_in(model, state)
+            end = self.section(there).passage(model, begin)
+            return found.chart.between(begin, end.state), end.signature
 
         along = _first_slope(changed, found.end.signature)
         matrix = np.column_stack([found.matrix - np.eye(len(found.way)), along])
@@ -126,7 +130,7 @@ class _Path:
         if way is not None and tangent @ way < 0.0:
             tangent = -tangent
         residual = float(np.max(np.abs(found.way), initial=0.0))
-        return Orbit(family, state, period, self.within, residual, found), np.concatenate([along, tangent])
+        return Orbit(family, state, section, self.within, residual, found), np.concatenate([along, tangent])
 
     def corrected(self, point: _Point, step: float) -> _Point:
         """Return the point on the branch whose projection on the way on from a point is a step.
@@ -142,10 +146,10 @@ class _Path:
         value = point.orbit.family[self.name]
         m, moved = len(point.tangent) - 1, step * point.tangent
         for _ in range(_CORRECTIONS):
-            state = chart.moved(start, moved[:m])
             there = value + moved[m] * self.range
             if not self.low <= there <= self.high:
                 raise _OutOfRange(there)
+            state = chart.moved(self.family.model(**{self.name: there}), start, moved[:m])
             try:
                 orbit, rest = self.at(state, there, point.tangent, (point.orbit.map.step,))
             except OrderOfEvents:
@@ -187,7 +191,7 @@ def continuation(
     span : tuple of float
         Its range, around the value of the orbit.
     period : callable, optional
-        The period [s] at a value of the parameter; that of the orbit by default.
+        The period [s] of what drives the system at a value of the parameter; that of the orbit by default.
     most : int
         Steps at most, either way.
     progress : callable, optional
@@ -211,7 +215,8 @@ def continuation(
             ", ".join(corner.direction for corner in orbit.corners),
             "Leave these directions out of `within`, if the motion stays in the others.",
         )
-    path = _Path(orbit.family, name, low, high, period or (lambda _: orbit.period), orbit.within)
+    section: Callable[[float], Section] = (lambda _: orbit.section) if period is None else lambda v: Strobe(period(v))
+    path = _Path(orbit.family, name, low, high, section, orbit.within)
     first, rest = path.at(orbit.state, value, None)
     tangent = rest[len(first.map.way) :]
     up = tangent if tangent[-1] >= 0.0 else -tangent

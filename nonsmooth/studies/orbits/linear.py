@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.chart import Chart
-from nonsmooth.studies.derivatives.passage import Passage, Signature, passage
+from nonsmooth.studies.derivatives.passage import Passage, Signature
 from nonsmooth.studies.derivatives.slope import BACKWARD, FORWARD, OrderOfEvents, Sampled, slope, steady
+from nonsmooth.studies.orbits.sections import Section
 
 Floats = NDArray[np.float64]
 STEPS = (3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7)
@@ -72,9 +73,9 @@ class Linear:
 
 
 def linear(
-    model: Model, state: State, t_end: float, within: Sequence[str] | None, steps: Sequence[float] = STEPS
+    model: Model, state: State, section: Section, within: Sequence[str] | None, steps: Sequence[float] = STEPS
 ) -> Linear:
-    """Return the map from a state to a time [s], along the coordinates that are named.
+    """Return the map from a state to the next one of a section, along the coordinates that are named.
 
     The steps are those that may be taken; one that is known to be good saves the others.
 
@@ -84,12 +85,14 @@ def linear(
         If a coordinate has no such name.
     RunFailed
         If a run cannot go on.
+    InvalidInput
+        If a motion does not come back to the section, or the law of a closed contact has inner states.
     """
-    chart = Chart.at(model.system, state, within)
-    end = passage(model, state, t_end)
+    chart = Chart.at(model, state, within, section.without(model))
+    end = section.passage(model, state)
     columns, corners, taken = list[Floats](), list[Corner](), [max(steps)]
     for k, name in enumerate(chart.names):
-        sampled = _moved(model, state, t_end, chart, np.eye(len(chart.names))[k], end.state)
+        sampled = _moved(model, state, section, chart, np.eye(len(chart.names))[k], end.state)
         try:
             column, step, _ = steady(partial(slope, sampled, expected=end.signature), steps)
             columns.append(column)
@@ -97,13 +100,13 @@ def linear(
         except OrderOfEvents:
             columns.append(np.full(len(chart.names), np.nan))
             corners.append(_corner(name, sampled))
-    matrix = np.array(columns).reshape(len(columns), -1).T
+    matrix = np.array(columns).reshape(len(columns), len(columns)).T
     return Linear(chart, end, chart.between(state, end.state), matrix, tuple(corners), min(taken))
 
 
-def _moved(model: Model, state: State, t_end: float, chart: Chart, way: Floats, origin: State) -> Sampled:
+def _moved(model: Model, state: State, section: Section, chart: Chart, way: Floats, origin: State) -> Sampled:
     def sampled(change: float) -> tuple[Floats, Signature]:
-        end = passage(model, chart.moved(state, change * way), t_end)
+        end = section.passage(model, chart.moved(model, state, change * way))
         return chart.between(origin, end.state), end.signature
 
     return sampled

@@ -1,4 +1,4 @@
-"""Orbits that repeat after a period: Newton's method on the map of one period, Floquet multipliers."""
+"""Orbits that repeat after a period: Newton's method on the map from section to section, Floquet multipliers."""
 
 from __future__ import annotations
 
@@ -14,19 +14,18 @@ from nonsmooth.errors import InvalidInput, NonsmoothError, RunFailed
 from nonsmooth.interfaces import Scenario
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
+from nonsmooth.studies.derivatives.chart import coordinate_number
 from nonsmooth.studies.derivatives.family import Family
-from nonsmooth.studies.derivatives.passage import Signature, named, passage
+from nonsmooth.studies.derivatives.passage import Signature, named
+from nonsmooth.studies.orbits.choosing import at_phase, chosen, seen
 from nonsmooth.studies.orbits.linear import Corner, Linear, linear
+from nonsmooth.studies.orbits.sections import Crossing, Section, Strobe
 
 Floats = NDArray[np.float64]
 _CLOSE = 1e-12
 """What is left of an orbit that has been found, in units of scales."""
 _AGAIN = 1e-8
 """What may be left of it after another period, for a map that stretches by 1."""
-_CLOSED = 1
-"""Bit a of Eq. (29)."""
-_LOOKED_AT = 200
-"""Times of a period among which the section is chosen."""
 _MOST = 30
 """Steps of Newton's method."""
 
@@ -43,11 +42,11 @@ class Orbit:
     Attributes
     ----------
     family : Family
-        What it is an orbit of, at its values.
+        What it is an orbit of, at its values; where a coordinate that passes a level ends a period, so do its runs.
     state : State
-        Where it is at the time of the section.
-    period : float
-        [s].
+        Where it is at the section.
+    section : Section
+        Where a period ends.
     within : tuple of str or None
         The coordinates and velocities that repeat.
     residual : float
@@ -58,10 +57,15 @@ class Orbit:
 
     family: Family
     state: State
-    period: float
+    section: Section
     within: tuple[str, ...] | None
     residual: float
     map: Linear
+
+    @property
+    def period(self) -> float:
+        """[s]."""
+        return self.map.end.state.time - self.state.time
 
     @property
     def smooth(self) -> tuple[str, ...]:
@@ -101,31 +105,53 @@ class Orbit:
         model = self.family.model()
         values = ", ".join(f"{value:.8g}" for value in self.multipliers)
         rough = f"; no derivative along {', '.join(c.direction for c in self.corners)}" if self.corners else ""
+        passes = ", ".join(self.section.without(model))
+        trivial = f" besides 1 along the motion, which the section of {passes} takes away" if passes else ""
         return (
-            f"period {self.period:.9g} s, residual {self.residual:.1e}, multipliers {values}{rough}; "
+            f"period {self.period:.9g} s, residual {self.residual:.1e}, multipliers {values}{trivial}{rough}; "
             f"events: {named(self.events, model)}"
         )
+
+    def value(self, coordinate: str, at: float) -> float:
+        """Return a coordinate or velocity at a time within each period [s].
+
+        Raises
+        ------
+        UnknownName
+            If there is none of that name.
+        """
+        model = self.family.model()
+        there = at_phase(model, self.state, self.period, at)
+        return float(np.concatenate([there.q, there.u])[coordinate_number(model.system, coordinate)])
 
 
 def orbit(
     what: Scenario | Family,
-    period: float,
+    period: float | None = None,
     *,
+    section: Crossing | None = None,
+    at: float | None = None,
     settle: float = 0.0,
     start: State | None = None,
     within: Sequence[str] | None = None,
 ) -> Orbit:
     """Find the orbit near a start.
 
-    The section is put where the least of all gaps is largest, in the period behind ``settle``: where no contact is
-    closed all coordinates are free.
+    Of a system that has a period the section is a time in it; by default, in the period behind ``settle``, the one at
+    which the least of all gaps is largest: where no contact is closed all coordinates are free.  Where one is closed,
+    the coordinates and velocities that it holds follow the others.  A system without a period of its own needs a
+    section that its motion passes; the period is found, and the multiplier 1, along the motion, is left out.
 
     Parameters
     ----------
     what : Scenario or Family
         The system.
-    period : float
-        [s].
+    period : float, optional
+        Period of what drives the system, or a multiple [s].
+    section : Crossing, optional
+        Where a period ends, in place of that.
+    at : float, optional
+        When in each period the section is [s].
     settle : float
         Time to run before, from the start [s]; attracting orbits come closer in it.
     start : State, optional
@@ -137,46 +163,35 @@ def orbit(
     Raises
     ------
     InvalidInput
-        If a number is not valid, contacts are closed all the time, or the system does not have the period.
+        If a number is not valid, the system does not have the period, or the motion does not pass the section.
     UnknownName
         If a coordinate has no such name.
     NoOrbit
         If Newton's method does not arrive.
     """
-    if not (is_finite(period) and period > 0.0):
+    if (period is None) == (section is None):
+        remedy = "Give the period of what drives the system; of a system without one a section=Crossing(...)."
+        raise InvalidInput("orbit: period", "must be given, or a section in its place", period, remedy)
+    if period is not None and not (is_finite(period) and period > 0.0):
         raise InvalidInput("orbit: period", "must be positive and finite", period, "Give it in [s].")
+    if at is not None and not (period is not None and is_finite(at) and 0.0 <= at < period):
+        raise InvalidInput("orbit: at", "must be a time within a period", at, "Give it in [s].")
     if not (is_finite(settle) and settle >= 0.0):
         raise InvalidInput("orbit: settle", "must not be negative", settle, "Give it in [s].")
     family, names = Family.of(what), None if within is None else tuple(within)
     model = family.model()
     begin = model.start if start is None else start
     if settle > 0.0:
-        begin = model.run(begin.time + settle, start=begin).state
-    return close(family, section(model, begin, period), period, names)
+        begin = seen(model, begin, begin.time + settle)
+    if section is not None:
+        watched = section.watched(family)
+        return close(watched, section.entered(watched.model(), begin), section, names)
+    assert period is not None
+    state = chosen(model, begin, period) if at is None else at_phase(model, begin, period, at)
+    return close(family, state, Strobe(period), names)
 
 
-def section(model: Model, begin: State, period: float) -> State:
-    """Return the state in the period behind a state in which the least gap of all contacts is largest.
-
-    Raises
-    ------
-    InvalidInput
-        If contacts are closed all the time.
-    """
-    times = begin.time + period * (np.arange(_LOOKED_AT) + 0.5) / _LOOKED_AT
-    run = model.run(begin.time + period, start=begin, sample_interval=period)
-    gaps = run.contact_motion(times).gap.reshape(_LOOKED_AT, -1)
-    which = np.searchsorted(run.events.time, times, side="right") - 1
-    closed = np.any(run.events.after[which] & _CLOSED, axis=1)
-    room = np.where(closed, 0.0, np.min(gaps, axis=1, initial=np.inf))
-    best = int(np.argmax(room))
-    if room[best] <= 0.0:
-        remedy = "Orbits are looked for where a system flies at least once in a period."
-        raise InvalidInput("orbit: section", "must be where no contact is closed", "none within a period", remedy)
-    return model.run(float(times[best]), start=begin, sample_interval=period).state
-
-
-def close(family: Family, state: State, period: float, within: tuple[str, ...] | None) -> Orbit:
+def close(family: Family, state: State, section: Section, within: tuple[str, ...] | None) -> Orbit:
     """Return the orbit near a state of the section.
 
     Raises
@@ -187,29 +202,27 @@ def close(family: Family, state: State, period: float, within: tuple[str, ...] |
     model, residual = family.model(), np.inf
     for i in range(_MOST):
         try:
-            found = linear(model, state, state.time + period, within)
+            found = linear(model, state, section, within)
         except (InvalidInput, RunFailed) as error:
             if i == 0:
                 raise
-            raise NoOrbit(
-                f"no orbit of {period:.9g} s near the start: step {i} leads where no run is ({error})"
-            ) from error
+            raise NoOrbit(f"no orbit near the start: step {i} leads where no run is ({error})") from error
         residual = float(np.max(np.abs(found.way), initial=0.0))
         if residual <= _CLOSE:
-            _check_again(model, found, period)
-            return Orbit(family, state, period, within, residual, found)
+            if not np.array_equal(found.end.state.modes, state.modes):
+                raise NoOrbit("no orbit near the start: other contacts are closed at the end; choose another section")
+            _check_again(model, found, section)
+            return Orbit(family, state, section, within, residual, found)
         smooth = ~np.isnan(found.matrix[0]) if len(found.matrix) else np.zeros(0, dtype=bool)
         change = np.zeros(len(found.way))
         reduced = found.matrix[np.ix_(smooth, smooth)] - np.eye(int(np.sum(smooth)))
         # along directions of symmetry nothing is to be changed: the least change of all
         change[smooth] = np.linalg.lstsq(reduced, -found.way[smooth], rcond=1e-9)[0]
-        state = found.chart.moved(state, change)
-    raise NoOrbit(
-        f"no orbit of {period:.9g} s near the start: after {_MOST} steps {residual:.2g} is left; begin nearer"
-    )
+        state = found.chart.moved(model, state, change)
+    raise NoOrbit(f"no orbit near the start: after {_MOST} steps {residual:.2g} is left; begin nearer")
 
 
-def _check_again(model: Model, found: Linear, period: float) -> None:
+def _check_again(model: Model, found: Linear, section: Section) -> None:
     """Look whether the end of a period leads to itself as the start does: else the system has another period.
 
     Raises
@@ -218,11 +231,12 @@ def _check_again(model: Model, found: Linear, period: float) -> None:
         If it does not.
     """
     end = found.end.state
-    again = passage(model, end, end.time + period).state
+    again = section.passage(model, end).state
     off = float(np.max(np.abs(found.chart.between(end, again)), initial=0.0))
     finite = found.matrix[np.isfinite(found.matrix)]
     if off > _AGAIN * max(1.0, float(np.linalg.norm(finite))):
         rule = (
             f"must be one of the system, but after a second one {off:.2g} is left of what repeats, in units of scales"
         )
-        raise InvalidInput("orbit: period", rule, period, "A plate that vibrates has that of its motion, or multiples.")
+        remedy = "A plate that vibrates has that of its motion, or multiples."
+        raise InvalidInput("orbit: period", rule, again.time - end.time, remedy)
