@@ -82,8 +82,6 @@ def test_what_is_no_orbit() -> None:
         orbit(scenario, 0.0)
     with pytest.raises(ns.InvalidInput, match=r"'ball\.zz'.*Did you mean 'ball\.z'"):
         orbit(scenario, scenario.period, within=("ball.zz",))
-    with pytest.raises(ns.InvalidInput, match="where no contact is closed, but it is 'none within a period'"):
-        orbit(BouncingBall(gamma=0.5, height=1e-4, restitution=0.1), 0.04, settle=2.0)
     with pytest.raises(ns.InvalidInput, match="must be one of the system, but after a second one"):
         orbit(scenario, 0.0311, within=("z", "vz"))
     # beyond the fold there is none
