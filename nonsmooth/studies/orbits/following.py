@@ -17,7 +17,8 @@ from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.derivatives.passage import Signature
 from nonsmooth.studies.derivatives.slope import OrderOfEvents, Sampled, slope
-from nonsmooth.studies.orbits.linear import STEPS, linear
+from nonsmooth.studies.orbits.linear import STEPS, smooth
+from nonsmooth.studies.orbits.margins import Foretold, Margins, foretold, margins
 from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit
 from nonsmooth.studies.orbits.sections import Section, Strobe
 
@@ -30,6 +31,8 @@ _MOST = 2000
 _ALONG = 1e-5
 """Change of the parameter over its range: of what it does no more than some digits are needed."""
 _GROWS = 1.3
+_KNOWN = 1e-9
+"""How well margins tell the parameter at which events change, over its value or its range, where no more is looked."""
 
 
 @final
@@ -40,9 +43,10 @@ class Special:
     Attributes
     ----------
     kind : str
-        "fold", "period doubling", "Neimark-Sacker", or "sequence" where the branch ends as events change.
+        "fold", "period doubling", "Neimark-Sacker"; where the branch ends as events change "grazing", "corner" where
+        two impacts come to be at once, or "sequence" for all others.
     value : float
-        The parameter there.
+        The parameter there; where events change for another reason than the two, that of the last orbit.
     orbit : Orbit
         The orbit there, the last one of its events where these change.
     """
@@ -65,6 +69,8 @@ class Branch:
         Its values, shape [n].
     orbits : tuple of Orbit
         The orbits.
+    margins : tuple of Margins
+        How far each is from grazing, and from two impacts at once.
     special : tuple of Special
         What happens on the way.
     ending : str
@@ -74,6 +80,7 @@ class Branch:
     name: str
     values: Floats
     orbits: tuple[Orbit, ...]
+    margins: tuple[Margins, ...]
     special: tuple[Special, ...]
     ending: str
 
@@ -81,10 +88,14 @@ class Branch:
 @final
 @dataclass(frozen=True)
 class _Point:
-    """An orbit with the way on: along its chart, and in the parameter over its range, which is the last number."""
+    """An orbit with the way on: along its chart, and in the parameter over its range, which is the last number.
+
+    ``along`` is how far it is from where the branch began.
+    """
 
     orbit: Orbit
     tangent: Floats
+    along: float
 
 
 @final
@@ -103,18 +114,25 @@ class _Path:
     def range(self) -> float:
         return self.high - self.low
 
+    def value(self, point: _Point) -> float:
+        """Return the parameter of a point."""
+        return point.orbit.family[self.name]
+
     def at(
         self, state: State, value: float, way: Floats | None, steps: Sequence[float] = STEPS
     ) -> tuple[Orbit, Floats]:
         """Return the map about a state as an orbit, what the parameter does, and the tangent, on along a way if given.
 
         The last two are one array, shape [2 m + 1].
+
+        Raises
+        ------
+        OrderOfEvents
+            If the map lacks a derivative.
         """
         family = self.family.at(**{self.name: value})
         section = self.section(value)
-        found = linear(family.model(), state, section, self.within, steps)
-        if found.corners:
-            raise OrderOfEvents(found.end.signature, found.corners[0].signatures[0])
+        found = smooth(family.model(), state, section, self.within, steps)
 
         def changed(change: float) -> tuple[Floats, Signature]:
             there = value + change * self.range
@@ -143,7 +161,7 @@ class _Path:
             If events change on the way.
         """
         start, chart = point.orbit.state, point.orbit.map.chart
-        value = point.orbit.family[self.name]
+        value = self.value(point)
         m, moved = len(point.tangent) - 1, step * point.tangent
         for _ in range(_CORRECTIONS):
             there = value + moved[m] * self.range
@@ -157,7 +175,7 @@ class _Path:
             along, tangent = rest[:m], rest[m:]
             off = float(point.tangent @ moved - step)
             if orbit.residual <= _CLOSE and abs(off) <= _CLOSE:
-                return _Point(orbit, tangent)
+                return _Point(orbit, tangent, point.along + step)
             matrix = np.zeros((m + 1, m + 1))
             matrix[:m, :m], matrix[:m, m] = orbit.map.matrix - np.eye(m), along
             matrix[m] = point.tangent
@@ -228,38 +246,60 @@ def continuation(
         if progress is not None:
             progress(found, count)
 
-    back, special_back, why_back = _followed(path, _Point(first, -up), most, told)
-    on, special_on, why_on = _followed(path, _Point(first, up), most, told)
-    orbits = (*(p.orbit for p in reversed(back)), first, *(p.orbit for p in on))
+    back, on = (_followed(path, _Point(first, way, 0.0), most, told) for way in (-up, up))
+    orbits = (*reversed(back.orbits), first, *on.orbits)
     values = np.array([one.family[name] for one in orbits])
-    return Branch(name, values, orbits, (*reversed(special_back), *special_on), f"{why_back}; {why_on}")
+    nearness = (*reversed(back.margins[1:]), *on.margins)
+    special = (*reversed(back.special), *on.special)
+    return Branch(name, values, orbits, nearness, special, f"{back.ending}; {on.ending}")
 
 
-def _followed(
-    path: _Path, point: _Point, most: int, told: Callable[[Orbit], None]
-) -> tuple[list[_Point], list[Special], str]:
-    found, special, step = list[_Point](), list[Special](), _FIRST
-    while len(found) < most:
+@final
+@dataclass(frozen=True)
+class _Way:
+    """What was found on one of the two ways on from an orbit, whose margins come first."""
+
+    orbits: list[Orbit]
+    margins: list[Margins]
+    special: list[Special]
+    ending: str
+
+
+def _followed(path: _Path, point: _Point, most: int, told: Callable[[Orbit], None]) -> _Way:
+    found, left, special, step = [point], [margins(point.orbit)], list[Special](), _FIRST
+    ending, bound = f"{most} steps", np.inf
+    while len(found) <= most:
         try:
             following = path.corrected(point, step)
             if following.orbit.events != point.orbit.events:
                 raise OrderOfEvents(point.orbit.events, following.orbit.events)
-        except _OutOfRange:
-            if step <= _SMALLEST:
-                return found, special, "the end of the range"
-            step *= 0.5
-            continue
-        except (NoOrbit, OrderOfEvents, InvalidInput, RunFailed) as error:
-            if step <= _SMALLEST:
-                special.append(Special("sequence", point.orbit.family[path.name], point.orbit))
-                return found, special, f"events change ({error})"
-            step *= 0.5
-            continue
+        except (_OutOfRange, NoOrbit, OrderOfEvents, InvalidInput, RunFailed) as error:
+            what = None if isinstance(error, _OutOfRange) else _behind(path, found, left)
+            known = what is not None and what.error <= _KNOWN * max(path.range, abs(what.value))
+            if step > _SMALLEST and not known:
+                bound, step = point.along + step, 0.5 * step
+                continue
+            ending = "the end of the range"
+            if not isinstance(error, _OutOfRange):
+                value, kind = (path.value(point), "sequence") if what is None else (what.value, what.kind)
+                special.append(Special(kind, value, point.orbit))
+                ending = f"events change ({error})"
+            break
         special += _between(path, point, step, following)
         found.append(following)
+        left.append(margins(following.orbit))
         told(following.orbit)
         point, step = following, min(_GROWS * step, _LARGEST)
-    return found, special, f"{most} steps"
+        # where nothing was found half of the way is likely to lead to something
+        if bound > point.along:
+            step = min(step, max(0.5 * (bound - point.along), _SMALLEST))
+    return _Way([one.orbit for one in found[1:]], left, special, ending)
+
+
+def _behind(path: _Path, found: Sequence[_Point], left: Sequence[Margins]) -> Foretold | None:
+    """Return what happens behind the last of some points."""
+    along, values = (np.array(row) for row in zip(*((one.along, path.value(one)) for one in found), strict=True))
+    return foretold(along, values, left)
 
 
 def _between(path: _Path, one: _Point, step: float, two: _Point) -> list[Special]:

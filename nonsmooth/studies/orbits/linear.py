@@ -72,12 +72,8 @@ class Linear:
     step: float
 
 
-def linear(
-    model: Model, state: State, section: Section, within: Sequence[str] | None, steps: Sequence[float] = STEPS
-) -> Linear:
+def linear(model: Model, state: State, section: Section, within: Sequence[str] | None) -> Linear:
     """Return the map from a state to the next one of a section, along the coordinates that are named.
-
-    The steps are those that may be taken; one that is known to be good saves the others.
 
     Raises
     ------
@@ -88,20 +84,50 @@ def linear(
     InvalidInput
         If a motion does not come back to the section, or the law of a closed contact has inner states.
     """
-    chart = Chart.at(model, state, within, section.without(model))
-    end = section.passage(model, state)
-    columns, corners, taken = list[Floats](), list[Corner](), [max(steps)]
-    for k, name in enumerate(chart.names):
-        sampled = _moved(model, state, section, chart, np.eye(len(chart.names))[k], end.state)
+    chart, end = Chart.at(model, state, within, section.without(model)), section.passage(model, state)
+    columns, corners, taken = list[Floats](), list[Corner](), [max(STEPS)]
+    for name, sampled in zip(chart.names, _directions(model, state, section, chart, end), strict=True):
         try:
-            column, step, _ = steady(partial(slope, sampled, expected=end.signature), steps)
+            column, step, _ = steady(partial(slope, sampled, expected=end.signature), STEPS)
             columns.append(column)
             taken.append(step)
         except OrderOfEvents:
             columns.append(np.full(len(chart.names), np.nan))
             corners.append(_corner(name, sampled))
+    return _joined(chart, state, end, columns, tuple(corners), min(taken))
+
+
+def smooth(
+    model: Model, state: State, section: Section, within: Sequence[str] | None, steps: Sequence[float] = STEPS
+) -> Linear:
+    """Return the same of a map that has all derivatives.
+
+    The steps are those that may be taken; one that is known to be good saves the others.
+
+    Raises
+    ------
+    OrderOfEvents
+        If it lacks one.
+    """
+    chart, end = Chart.at(model, state, within, section.without(model)), section.passage(model, state)
+    columns, taken = list[Floats](), [max(steps)]
+    for sampled in _directions(model, state, section, chart, end):
+        column, step, _ = steady(partial(slope, sampled, expected=end.signature), steps)
+        columns.append(column)
+        taken.append(step)
+    return _joined(chart, state, end, columns, (), min(taken))
+
+
+def _joined(
+    chart: Chart, state: State, end: Passage, columns: list[Floats], corners: tuple[Corner, ...], step: float
+) -> Linear:
     matrix = np.array(columns).reshape(len(columns), len(columns)).T
-    return Linear(chart, end, chart.between(state, end.state), matrix, tuple(corners), min(taken))
+    return Linear(chart, end, chart.between(state, end.state), matrix, corners, step)
+
+
+def _directions(model: Model, state: State, section: Section, chart: Chart, end: Passage) -> list[Sampled]:
+    """Return what comes of small changes along each direction of a chart."""
+    return [_moved(model, state, section, chart, way, end.state) for way in np.eye(len(chart.names))]
 
 
 def _moved(model: Model, state: State, section: Section, chart: Chart, way: Floats, origin: State) -> Sampled:

@@ -15,7 +15,7 @@ from nonsmooth.studies.orbits.periodic import Orbit
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-_MARKS = {"fold": "s", "period doubling": "D", "Neimark-Sacker": "^", "sequence": "X"}
+_MARKS = {"fold": "s", "period doubling": "D", "Neimark-Sacker": "^", "grazing": "v", "corner": "*", "sequence": "X"}
 
 
 def multipliers(orbit: Orbit, ax: Axes | None = None) -> Axes:
