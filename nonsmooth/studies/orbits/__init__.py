@@ -3,6 +3,7 @@
 from nonsmooth.studies.orbits.diagram import Diagram, bifurcation
 from nonsmooth.studies.orbits.exponents import Lyapunov, lyapunov
 from nonsmooth.studies.orbits.following import Branch, Special, continuation
+from nonsmooth.studies.orbits.hysteresis import Hysteresis, hysteresis
 from nonsmooth.studies.orbits.margins import Margins
 from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit, orbit
 from nonsmooth.studies.orbits.sections import Crossing
@@ -11,6 +12,7 @@ __all__ = [
     "Branch",
     "Crossing",
     "Diagram",
+    "Hysteresis",
     "Lyapunov",
     "Margins",
     "NoOrbit",
@@ -18,6 +20,7 @@ __all__ = [
     "Special",
     "bifurcation",
     "continuation",
+    "hysteresis",
     "lyapunov",
     "orbit",
 ]

@@ -7,6 +7,7 @@ import numpy as np
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
+from nonsmooth.studies.derivatives.passage import passage
 
 _LOOKED_AT = 200
 """Times of a period among which one is chosen."""
@@ -36,7 +37,7 @@ def chosen(model: Model, begin: State, period: float) -> State:
 
 def seen(model: Model, begin: State, time: float) -> State:
     """Return the state of a motion at a time [s]."""
-    return model.run(time, start=begin, sample_interval=time - begin.time).state if time > begin.time else begin
+    return passage(model, begin, time).state if time > begin.time else begin
 
 
 def at_phase(model: Model, begin: State, period: float, at: float) -> State:

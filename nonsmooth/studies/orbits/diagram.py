@@ -14,8 +14,11 @@ from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import Scenario
 from nonsmooth.plot.asked import axes_of
-from nonsmooth.studies.derivatives.chart import coordinate_number
+from nonsmooth.runs.model import Model
+from nonsmooth.solution.state import State
+from nonsmooth.studies.derivatives.chart import coordinate_number, unit
 from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.orbits.choosing import at_phase
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -36,8 +39,8 @@ class Diagram:
         The parameter.
     values : array
         Its values, shape [n].
-    coordinate : str
-        What is looked at once a period.
+    coordinate, unit : str
+        What is looked at once a period, and its unit.
     points : array
         What it was, the last ``keep`` times; nan where a run failed; shape [n, keep].
     failures : tuple of str
@@ -47,6 +50,7 @@ class Diagram:
     name: str
     values: Floats
     coordinate: str
+    unit: str
     points: Floats
     failures: tuple[str, ...]
 
@@ -56,18 +60,102 @@ class Diagram:
         near = _ALIKE * max(float(np.nanmax(self.points) - np.nanmin(self.points)), np.finfo(float).tiny)
         return np.array([_period(row, near) for row in self.points])
 
-    def draw(self, ax: Axes | None = None) -> Axes:
-        """Draw it: all points over the parameter."""
+    @property
+    def failed(self) -> int:
+        """How many runs failed."""
+        return sum(bool(text) for text in self.failures)
+
+    def draw(self, ax: Axes | None = None, *, colour: str = "black", mark: str = ".", label: str | None = None) -> Axes:
+        """Draw it: all points over the parameter; dotted lines are at values whose runs failed.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where, a branch of orbits may be there already; a new figure by default.
+        colour, mark : str
+            Of the points.
+        label : str, optional
+            What they are called in a legend.
+
+        Returns
+        -------
+        Axes
+            The axes.
+        """
         ax = axes_of(ax)
-        keep = self.points.shape[1]
-        ax.plot(np.repeat(self.values, keep), self.points.ravel(), ".", markersize=1.5, color="black")
+        over = np.repeat(self.values, self.points.shape[1])
+        ax.plot(over, self.points.ravel(), mark, markersize=2.0, color=colour, fillstyle="none", label=label)
         ax.set_xlabel(self.name)
-        ax.set_ylabel(f"{self.coordinate}, once a period")
-        failed = [value for value, text in zip(self.values.tolist(), self.failures, strict=True) if text]
-        for value in failed:
-            ax.axvline(value, color="#d55e00", linewidth=0.8, linestyle=":")
-        ax.set_title(f"{len(failed)} of {len(self.values)} runs failed (dotted)" if failed else "", fontsize=10)
+        ax.set_ylabel(f"{self.coordinate}, once a period [{self.unit}]")
+        for value, text in zip(self.values.tolist(), self.failures, strict=True):
+            if text:
+                ax.axvline(value, color="#d55e00", linewidth=0.8, linestyle=":")
+        ax.set_title(f"{self.failed} of {len(self.values)} runs failed (dotted)" if self.failed else "", fontsize=10)
         return ax
+
+
+@final
+@dataclass(frozen=True)
+class Looks:
+    """When and at what a diagram looks.
+
+    Attributes
+    ----------
+    period : float
+        [s].
+    coordinate : str
+        Which coordinate or velocity, "vz" or "ball.vz".
+    at : float
+        When in each period [s].
+    settle, keep : int
+        Periods that are left out, and those that are kept.
+
+    Raises
+    ------
+    InvalidInput
+        If a number is not valid.
+    """
+
+    period: float
+    coordinate: str
+    at: float
+    settle: int
+    keep: int
+
+    def __post_init__(self) -> None:
+        for word in ("period", "keep", "settle"):
+            number = getattr(self, word)
+            if not (is_finite(number) and number > 0):
+                raise InvalidInput(f"bifurcation: {word}", "must be positive and finite", number, "Give a larger one.")
+        if not (is_finite(self.at) and 0.0 <= self.at < self.period):
+            raise InvalidInput("bifurcation: at", "must be a time within a period", self.at, "Give it in [s].")
+
+    def unit(self, model: Model) -> str:
+        """Return the unit of what is looked at.
+
+        Raises
+        ------
+        UnknownName
+            If there is no such coordinate.
+        """
+        return unit(model.system, coordinate_number(model.system, self.coordinate))
+
+    def settled(self, model: Model, start: State) -> tuple[Floats, State]:
+        """Return what is looked at in the last periods, shape [keep], and where the run ended.
+
+        Raises
+        ------
+        RunFailed
+            If a run cannot go on.
+        """
+        begin = at_phase(model, start, self.period, self.at)
+        number = coordinate_number(model.system, self.coordinate)
+        last = begin.time + (self.settle + self.keep) * self.period
+        run = model.run(last, start=begin, sample_interval=self.period)
+        if run.status == "interrupted":
+            raise KeyboardInterrupt
+        kept = slice(self.settle + 1, self.settle + 1 + self.keep)
+        return np.concatenate([run.q, run.u], axis=1)[kept, number], run.state
 
 
 def bifurcation(
@@ -110,30 +198,21 @@ def bifurcation(
     InvalidInput
         If a number is not valid, or no value makes a system.
     """
-    row = np.atleast_1d(floats("bifurcation: values", values))
-    for word, number in (("period", period), ("keep", keep), ("settle", settle)):
-        if not (is_finite(number) and number > 0):
-            raise InvalidInput(f"bifurcation: {word}", "must be positive and finite", number, "Give a larger one.")
-    if not (is_finite(at) and 0.0 <= at < period):
-        raise InvalidInput("bifurcation: at", "must be a time within a period", at, "Give it in [s].")
+    row, looks = np.atleast_1d(floats("bifurcation: values", values)), Looks(period, coordinate, at, settle, keep)
     family = Family.of(what, EventDriven())
     _ = family[name]
+    word = looks.unit(family.model(**{name: row[0]}))
     points, failures = np.full((len(row), keep), np.nan), list[str]()
     for i, value in enumerate(row.tolist()):
         model = family.model(**{name: value})
-        column = coordinate_number(model.system, coordinate)
         try:
-            start = model.run(at, sample_interval=at).state if at > 0.0 else None
-            run = model.run(at + (settle + keep) * period, start=start, sample_interval=period)
-            if run.status == "interrupted":
-                raise KeyboardInterrupt
-            points[i] = np.concatenate([run.q, run.u], axis=1)[settle + 1 : settle + 1 + keep, column]
+            points[i], _ = looks.settled(model, model.start)
             failures.append("")
         except RunFailed as error:
             failures.append(str(error))
         if progress is not None:
             progress(i + 1, len(row))
-    return Diagram(name, row, coordinate, points, tuple(failures))
+    return Diagram(name, row, coordinate, word, points, tuple(failures))
 
 
 def _period(points: Sequence[float] | Floats, near: float) -> int:

@@ -69,8 +69,8 @@ def margins(orbit: Orbit) -> Margins:
             approach.append(float(np.min(-model.contact_rates(before)[1][collide, 0], initial=np.inf)))
         times = np.linspace(run.t[0], run.t_end, _LOOKED_AT + 1)
         motion = run.contact_motion(times)
-        fastest = max(fastest, float(np.nanmax(np.abs(motion.normal_velocity), initial=0.0)))
-        widest = max(widest, float(np.nanmax(motion.gap, initial=0.0)))
+        fastest = max(fastest, _largest(np.abs(motion.normal_velocity)))
+        widest = max(widest, _largest(motion.gap))
         gap += _least_gaps(run, times, motion)
     beside = fastest, widest, orbit.period
     return Margins(min(approach), min(gap), _least_time(impacts, orbit.period), beside)
@@ -157,6 +157,11 @@ def _least_gaps(run: Solution, times: Floats, motion: ContactMotion) -> list[flo
         nearest = brentq(rate, times[i], times[i + 1], xtol=1e-13)
         found.append(float(run.contact_motion(nearest, [contact]).gap[0]))
     return found
+
+
+def _largest(numbers: Floats) -> float:
+    """Return the largest of some numbers, where all contacts may be too far for any."""
+    return float(np.max(np.nan_to_num(numbers), initial=0.0))
 
 
 def _least_time(impacts: Sequence[tuple[float, int]], period: float) -> float:

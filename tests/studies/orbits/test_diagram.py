@@ -13,6 +13,7 @@ from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.orbits.diagram import bifurcation
+from nonsmooth.studies.orbits.hysteresis import hysteresis
 from scenarios.bouncing_ball import orbits
 from scenarios.bouncing_ball.scenario import BouncingBall
 
@@ -61,3 +62,29 @@ def test_it_is_counted_and_refused() -> None:
         bifurcation(family, "restitution", [0.5], 0.05, "vz", keep=0)
     with pytest.raises(ns.InvalidInput, match="Did you mean 'restitution'"):
         bifurcation(family, "restituton", [0.5], 0.05, "vz")
+
+
+def test_it_persists_where_a_fresh_start_rests() -> None:
+    """The orbit of one period ends at the fold, pi / 9; below it, and on the way up from there, the ball rests.
+
+    In flight its height halfway through a period of the table follows from where the table throws it off.
+    """
+    fold, rate = math.pi / 9.0, 50.0 * math.pi
+    family = Family(lambda gamma: BouncingBall(gamma=gamma, start_phase=1.1, speed=0.19).build(), {"gamma": 0.3})
+    values = np.array([0.3, 0.97 * fold, 1.03 * fold, 0.5, 0.7, 0.9])
+    told: list[tuple[int, int]] = []
+    found = hysteresis(
+        family, "gamma", values, 0.04, "z", at=0.02, settle=400, keep=8, progress=lambda i, n: told.append((i, n))
+    )
+    assert found.up.failures == found.down.failures == 6 * ("",)
+    assert found.apart.tolist() == [False, False, True, True, True, True]
+    assert found.up.periods.tolist() == found.down.periods.tolist() == 6 * [1]
+    amplitude = values * 9.81 / rate**2
+    rests = 0.01 + amplitude * math.sin(0.02 * rate + 1.1)
+    np.testing.assert_allclose(found.up.points[:, 0], rests, atol=1e-12)
+    np.testing.assert_allclose(found.down.points[:2, 0], rests[:2], atol=1e-12)
+    angle = np.arccos(fold / values[2:])
+    late = np.mod(0.02 - (angle - 1.1) / rate, 0.04)
+    flies = 0.01 + amplitude[2:] * np.sin(angle) + 0.5 * 9.81 * late * (0.04 - late)
+    np.testing.assert_allclose(found.down.points[2:, 0], flies, atol=1e-8)
+    assert told[-1] == (12, 12)

@@ -1,0 +1,137 @@
+"""Bifurcation diagrams that follow a motion: each value of the parameter starts where the one before has come to."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from nonsmooth.checks import floats
+from nonsmooth.engines.event_driven import EventDriven
+from nonsmooth.errors import InvalidInput, RunFailed
+from nonsmooth.interfaces import Scenario
+from nonsmooth.plot.asked import axes_of
+from nonsmooth.plot.lines import beside
+from nonsmooth.runs.model import Model
+from nonsmooth.solution.state import State
+from nonsmooth.studies.derivatives.chart import Chart
+from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.orbits.choosing import chosen
+from nonsmooth.studies.orbits.diagram import Diagram, Looks
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Floats = NDArray[np.float64]
+_ALIKE = 1e-5
+"""Part of the range of all points within which two count as one."""
+
+
+@final
+@dataclass(frozen=True)
+class Hysteresis:
+    """What a motion comes to as a parameter rises, and as it falls again.
+
+    Attributes
+    ----------
+    up, down : Diagram
+        Both ways, each with its values rising.
+    """
+
+    up: Diagram
+    down: Diagram
+
+    @property
+    def apart(self) -> NDArray[np.bool_]:
+        """Where both ways have come to other motions, of which one repeats at least; shape [n]."""
+        both = np.array([self.up.points, self.down.points])
+        near = _ALIKE * max(float(np.nanmax(both) - np.nanmin(both)), np.finfo(float).tiny)
+        differ = np.max(np.abs(np.diff(np.sort(both, axis=2), axis=0)[0]), axis=1) > near
+        periodic = np.array([self.up.periods, self.down.periods]) > 0
+        return np.asarray((periodic[0] != periodic[1]) | (periodic.all(axis=0) & differ))
+
+    def draw(self, ax: Axes | None = None) -> Axes:
+        """Draw both ways, told apart by marks and colours.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where; a new figure by default.
+
+        Returns
+        -------
+        Axes
+            The axes.
+        """
+        ax = self.up.draw(axes_of(ax), colour="#0072b2", mark="^", label=f"{self.up.name} rises")
+        self.down.draw(ax, colour="#d55e00", mark="v", label=f"{self.down.name} falls")
+        ax.set_title(f"{np.sum(self.apart)} of {len(self.up.values)} values have two motions", fontsize=10)
+        beside(ax)
+        return ax
+
+
+def hysteresis(
+    what: Scenario | Family,
+    name: str,
+    values: ArrayLike,
+    period: float,
+    coordinate: str,
+    *,
+    at: float = 0.0,
+    settle: int = 200,
+    keep: int = 64,
+    progress: Callable[[int, int], None] | None = None,
+) -> Hysteresis:
+    """Follow a motion through rising values of a parameter, and through falling ones, and look once a period.
+
+    At the first value either way the system starts as it is placed.  At each other one the motion goes on from that of
+    its neighbour, where least is closed; what is closed there stays so.  Where that leads nowhere, as bodies overlap or
+    a run has failed, the next one starts as the system is placed.
+
+    Parameters
+    ----------
+    what, name, values, period, coordinate, at, settle, keep
+        As of :func:`bifurcation`; the values are sorted.
+    progress : callable, optional
+        Called with the number of runs done and of all.
+
+    Raises
+    ------
+    UnknownName
+        If there is no such parameter or coordinate.
+    InvalidInput
+        If a number is not valid, or no value makes a system.
+    """
+    row, looks = np.unique(floats("hysteresis: values", values)), Looks(period, coordinate, at, settle, keep)
+    family = Family.of(what, EventDriven())
+    _ = family[name]
+    word = looks.unit(family.model(**{name: row[0]}))
+    points, failures = np.full((2, len(row), keep), np.nan), np.full((2, len(row)), "", dtype=object)
+    done, upwards = 0, range(len(row))
+    for way, order in enumerate((upwards, reversed(upwards))):
+        before: tuple[Model, State] | None = None
+        for i in order:
+            model = family.model(**{name: float(row[i])})
+            try:
+                start = model.start if before is None else _carried(model, *before, period)
+                points[way, i], end = looks.settled(model, start)
+                before = model, end
+            except (RunFailed, InvalidInput) as error:
+                failures[way, i], before = str(error), None
+            done += 1
+            if progress is not None:
+                progress(done, 2 * len(row))
+    up, down = (
+        Diagram(name, row, coordinate, word, points[way], tuple(map(str, failures[way].tolist()))) for way in (0, 1)
+    )
+    return Hysteresis(up, down)
+
+
+def _carried(model: Model, last: Model, state: State, period: float) -> State:
+    """Return where a motion of another model goes on in a model, early in the time of its period."""
+    there = chosen(last, state, period)
+    there = replace(there, time=there.time % period)
+    return Chart.at(model, there).held_in(model, there)
