@@ -6,11 +6,14 @@ import argparse
 import sys
 from collections import Counter
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from nonsmooth.cli.asking import outputs, over, request
 from nonsmooth.cli.commands.orbit import prepare, save
 from nonsmooth.cli.telling.messages import say, tell
+
+if TYPE_CHECKING:
+    from nonsmooth.studies.orbits import Diagram, Hysteresis
 
 
 def add_to(commands: Any) -> None:
@@ -26,6 +29,11 @@ def add_to(commands: Any) -> None:
     command.add_argument("--at", type=float, default=0.0, metavar="SECONDS", help="when in each period; 0 by default")
     command.add_argument("--settle", type=int, default=200, metavar="N", help="periods left out; 200 by default")
     command.add_argument("--keep", type=int, default=64, metavar="N", help="periods kept; 64 by default")
+    command.add_argument(
+        "--follow",
+        action="store_true",
+        help="start each value where the one before has come to, upwards and downwards, so that hysteresis shows",
+    )
     command.add_argument("--out", type=Path, metavar="DIR", help="save a picture and numbers there")
     outputs.add_to(command)
     command.set_defaults(execute=execute)
@@ -37,32 +45,34 @@ def execute(arguments: argparse.Namespace) -> bool:
     prepare(arguments)
     job = request.job(arguments.scenario, arguments.set)
     # imported when asked for: the other commands start faster without it
-    from nonsmooth.studies.orbits import bifurcation
+    from nonsmooth.studies.orbits import bifurcation, hysteresis
 
     def progress(done: int, of: int) -> None:
         if done % 25 == 0 or sys.stderr.isatty():
             tell(f"{done} of {of} runs")
 
-    found = bifurcation(
-        job.scenario,
-        name,
-        values,
-        arguments.period,
-        arguments.show,
-        at=arguments.at,
-        settle=arguments.settle,
-        keep=arguments.keep,
-        progress=progress,
-    )
-    for period, count in sorted(Counter(found.periods.tolist()).items()):
-        say(f"{count} repeat after {period} periods" if period else f"{count} do not repeat")
-    failed = [text for text in found.failures if text]
+    given = job.scenario, name, values, arguments.period, arguments.show
+    asked = {word: getattr(arguments, word) for word in ("at", "settle", "keep")}
+    ways: dict[str, Diagram]
+    found: Diagram | Hysteresis
+    if arguments.follow:
+        found = hysteresis(*given, **asked, progress=progress)
+        ways = {"up": found.up, "down": found.down}
+        say(f"{found.apart.sum()} of {len(values)} values have two motions")
+    else:
+        found = bifurcation(*given, **asked, progress=progress)
+        ways = {"": found}
+    for way, diagram in ways.items():
+        for period, count in sorted(Counter(diagram.periods.tolist()).items()):
+            words = f"repeat after {period} periods" if period else "do not repeat"
+            say(f"{f'{way}: ' if way else ''}{count} {words}")
+    failed = [text for diagram in ways.values() for text in diagram.failures if text]
     for text in failed[:3]:
         tell(f"failed: {text}")
     if arguments.out is None:
         return not failed
-    rows = [
-        name,
-        *(f"{value!r},{','.join(map(repr, row))}" for value, row in zip(values, found.points.tolist(), strict=True)),
-    ]
+    rows = [f"way,{name}" if arguments.follow else name]
+    for way, diagram in ways.items():
+        for value, row in zip(diagram.values.tolist(), diagram.points.tolist(), strict=True):
+            rows.append(",".join([*([way] if way else []), repr(value), *map(repr, row)]))
     return save(arguments.out, "bifurcation", found.draw(), "\n".join(rows)) and not failed

@@ -14,7 +14,7 @@ from nonsmooth.cli.telling.messages import say, tell
 from nonsmooth.errors import InvalidInput
 
 if TYPE_CHECKING:
-    from nonsmooth.studies.orbits import Branch, Orbit
+    from nonsmooth.studies.orbits import Branch, Crossing, Orbit
 
 
 def add_to(commands: Any) -> None:
@@ -26,7 +26,14 @@ def add_to(commands: Any) -> None:
         command = commands.add_parser(name, help=text, allow_abbrev=False)
         command.add_argument("scenario", metavar="SCENARIO", help="as for `run`")
         command.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="as for `run`")
-        command.add_argument("--period", type=float, required=True, metavar="SECONDS", help="after which it repeats")
+        command.add_argument("--period", type=float, metavar="SECONDS", help="after which what drives it repeats")
+        command.add_argument(
+            "--section",
+            metavar="NAME=LEVEL",
+            help="of a scenario that nothing drives: a period ends where this coordinate or velocity rises to a level, "
+            "or falls with NAME=LEVEL:falling",
+        )
+        command.add_argument("--at", type=float, metavar="SECONDS", help="when in each period it is looked at")
         command.add_argument(
             "--settle", type=float, default=0.0, metavar="SECONDS", help="time to run before; none by default"
         )
@@ -94,7 +101,24 @@ def _found(arguments: argparse.Namespace) -> Orbit:
     from nonsmooth.studies.orbits import orbit
 
     within = None if arguments.within is None else tuple(word.strip() for word in arguments.within.split(","))
-    return orbit(job.scenario, arguments.period, settle=arguments.settle, within=within)
+    section = None if arguments.section is None else _section(arguments.section)
+    return orbit(
+        job.scenario, arguments.period, section=section, at=arguments.at, settle=arguments.settle, within=within
+    )
+
+
+def _section(word: str) -> Crossing:
+    from nonsmooth.studies.orbits import Crossing
+
+    name, equals, told = word.partition("=")
+    level, colon, way = told.partition(":")
+    try:
+        if name and equals and (way == "falling" if colon else True):
+            return Crossing(name.strip(), float(level), rising=not colon)
+    except ValueError:
+        pass
+    remedy = "For example --section phi_m=0, or --section vz=0:falling."
+    raise InvalidInput("--section", "must have the form NAME=LEVEL or NAME=LEVEL:falling", word, remedy)
 
 
 def _over(word: str) -> tuple[str, float, float]:

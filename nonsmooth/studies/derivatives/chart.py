@@ -94,7 +94,7 @@ class Chart:
         rows = whole._slopes(model, state)
         follow = _following(rows)
         free = [i for i in range(len(names)) if i not in follow]
-        inverse = np.linalg.pinv(rows[:, follow], rcond=_DEPENDS)
+        inverse = np.asarray(np.linalg.pinv(rows[:, follow], rcond=_DEPENDS), dtype=np.float64)
         chosen = tuple(names[i] for i in free)
         return cls(columns[:, free], chosen, quaternions, held, columns[:, follow], inverse)
 
@@ -244,8 +244,9 @@ def whole_name(system: System, number: int) -> str:
 
 def unit(system: System, number: int) -> str:
     """Return the unit of a coordinate or velocity."""
-    kinds = ((label for body in system.bodies for label in body.q_labels), (label for body in system.bodies for label in body.u_labels))
-    return [unit for kind in kinds for _, unit in kind][number]
+    bodies = system.bodies
+    labels = [*(one for body in bodies for one in body.q_labels), *(one for body in bodies for one in body.u_labels)]
+    return labels[number][1]
 
 
 def turns(system: System, number: int) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import final
 
-from nonsmooth.engine.memory.modes import CAUSES, START
+from nonsmooth.engine.memory.modes import CAUSES, GUARD, START
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
 
@@ -51,6 +51,9 @@ def passage(model: Model, start: State, t_end: float) -> Passage:
 def named(signature: Signature, model: Model, most: int = 4) -> str:
     """Return the words for some events."""
     names = model.system.names
-    words = [f"{CAUSES[cause]} of {names.contacts[i]!r}" if i >= 0 else CAUSES[cause] for cause, i in signature[:most]]
+    words = []
+    for cause, i in signature[:most]:
+        known = names.guards if cause == GUARD else names.contacts
+        words.append(f"{CAUSES[cause]} of {known[i]!r}" if i >= 0 else CAUSES[cause])
     more = [f"{len(signature) - most} more"] if len(signature) > most else []
     return ", ".join([*words, *more]) or "none"

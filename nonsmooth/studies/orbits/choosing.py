@@ -48,4 +48,4 @@ def at_phase(model: Model, begin: State, period: float, at: float) -> State:
 def _from_events(run: Solution, times: np.ndarray, period: float) -> np.ndarray:
     """Return how far times are from the events of a motion that repeats [s]."""
     apart = np.abs(times[:, None] - run.events.time[1:])
-    return np.min(np.minimum(apart, np.abs(period - apart)), axis=1, initial=np.inf)
+    return np.asarray(np.min(np.minimum(apart, np.abs(period - apart)), axis=1, initial=np.inf))

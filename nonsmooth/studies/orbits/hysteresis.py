@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.checks import floats
+from nonsmooth.engine.memory.modes import OPEN, SLIDE
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import Scenario
@@ -67,8 +68,10 @@ class Hysteresis:
             The axes.
         """
         ax = self.up.draw(axes_of(ax), colour="#0072b2", mark="^", label=f"{self.up.name} rises")
-        self.down.draw(ax, colour="#d55e00", mark="v", label=f"{self.down.name} falls")
-        ax.set_title(f"{np.sum(self.apart)} of {len(self.up.values)} values have two motions", fontsize=10)
+        self.down.draw(ax, colour="#009e73", mark="v", label=f"{self.down.name} falls")
+        failed = self.up.failed + self.down.failed
+        words = f"; {failed} runs failed (dotted)" if failed else ""
+        ax.set_title(f"{np.sum(self.apart)} of {len(self.up.values)} values have two motions{words}", fontsize=10)
         beside(ax)
         return ax
 
@@ -88,8 +91,8 @@ def hysteresis(
     """Follow a motion through rising values of a parameter, and through falling ones, and look once a period.
 
     At the first value either way the system starts as it is placed.  At each other one the motion goes on from that of
-    its neighbour, where least is closed; what is closed there stays so.  Where that leads nowhere, as bodies overlap or
-    a run has failed, the next one starts as the system is placed.
+    its neighbour, where least is closed; what is closed there stays so, and what would overlap touches.  Behind a run
+    that failed the next one starts as the system is placed.
 
     Parameters
     ----------
@@ -134,4 +137,7 @@ def _carried(model: Model, last: Model, state: State, period: float) -> State:
     """Return where a motion of another model goes on in a model, early in the time of its period."""
     there = chosen(last, state, period)
     there = replace(there, time=there.time % period)
+    # what flew so low that it is reached by what moves otherwise now is taken along
+    reached = (model.contact_rates(there)[0] < 0.0) & (there.modes == OPEN)
+    there = replace(there, modes=np.where(reached, SLIDE, there.modes))
     return Chart.at(model, there).held_in(model, there)

@@ -1,7 +1,8 @@
 """Orbits of systems without a period of their own: a hopper in closed form, and the woodpecker.
 
-The hopper is thrown off the floor against gravity g, with a thrust of c times its velocity: with g and c at 1 its flight
-from the speed v has the velocity 1 - (1 - v) exp(t), and returns as fast as its impact must slow it down for an orbit.
+The hopper is thrown off the floor against gravity g, with a thrust of c times its velocity: with g and c at 1 its
+flight from the speed v has the velocity 1 - (1 - v) exp(t); an impact that takes away what it has gained makes an
+orbit.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from scipy.optimize import brentq
 
 import nonsmooth as ns
 from bodies import Coordinate, GeneralisedBody, Plate, Point, PointFrame
-from laws import Frictionless, EnergeticImpact, Unilateral
+from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.studies.derivatives.family import EXACT, Family
 from nonsmooth.studies.orbits.following import continuation
@@ -161,9 +162,9 @@ def test_what_is_no_section() -> None:
         orbit(family)
     with pytest.raises(ns.InvalidInput, match="must be given, or a section in its place"):
         orbit(family, 1.0, section=TOP)
-    with pytest.raises(ns.InvalidInput, match="'zz'. Known: generalised.work, generalised.z, "):
+    with pytest.raises(ns.InvalidInput, match=r"'zz'\. Known: generalised\.work, generalised\.z, "):
         orbit(family, section=Crossing("zz"))
-    with pytest.raises(ns.InvalidInput, match="Crossing.times must be positive"):
+    with pytest.raises(ns.InvalidInput, match=r"Crossing\.times must be positive"):
         Crossing("z", times=0)
     with pytest.raises(NoOrbit, match="leads where no run is"):
         # it falls asleep on the floor
