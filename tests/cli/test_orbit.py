@@ -42,11 +42,37 @@ def test_a_bifurcation_diagram(call: Call, tmp_path: Path) -> None:
     assert len((tmp_path / "out" / "bifurcation.csv").read_text(encoding="utf-8").splitlines()) == 4
 
 
+def test_a_followed_diagram(call: Call, tmp_path: Path) -> None:
+    words = ("--over", "gamma=0.3:0.8:2", "--period", "0.04", "--show", "vz", "--settle", "200", "--keep", "8")
+    status, output, _ = call("bifurcation", *BALL, *words, "--at", "0.02", "--follow", "--out", str(tmp_path / "out"))
+    assert status == 0
+    assert "1 of 2 values have two motions" in output
+    assert "up: 2 repeat after 1 periods" in output
+    lines = (tmp_path / "out" / "bifurcation.csv").read_text(encoding="utf-8").splitlines()
+    assert lines[0] == "way,gamma"
+    assert [line.split(",")[:2] for line in lines[1:]] == [
+        ["up", "0.3"],
+        ["up", "0.8"],
+        ["down", "0.3"],
+        ["down", "0.8"],
+    ]
+
+
+def test_an_orbit_without_a_period(call: Call) -> None:
+    within = "phi_m,phi_s,y rate,phi_m rate,phi_s rate"
+    status, output, _ = call("orbit", "woodpecker", "--section", "phi_m=0", "--settle", "1", "--within", within)
+    assert status == 0
+    assert "period 0.14597606" in output
+    assert "besides 1 along the motion" in output
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
         (("orbit", *BALL, "--period", "-1"), "period must be positive and finite, but it is -1.0"),
         (("orbit", *BALL, "--period", "0.04", "--within", "z,vx2"), "'vx2'"),
+        (("orbit", *BALL), "must be given, or a section in its place"),
+        (("orbit", *BALL, "--section", "z=0:up"), "must have the form NAME=LEVEL or NAME=LEVEL:falling"),
         (("continue", *ASKED, "--over", "gamma=0.7"), "--over must have the form NAME=FROM:TO"),
         (
             ("bifurcation", *BALL, "--over", "gamma=0.7:0.8", "--period", "0.04", "--show", "vz"),
