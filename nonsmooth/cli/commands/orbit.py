@@ -63,7 +63,7 @@ def _execute_orbit(arguments: argparse.Namespace) -> bool:
 def _execute_continue(arguments: argparse.Namespace) -> bool:
     name, low, high = _over(arguments.over)
     found = _found(arguments)
-    from nonsmooth.studies.derivatives.chart import coordinate_number
+    from nonsmooth.studies.derivatives.coordinates import coordinate_number
     from nonsmooth.studies.orbits import continuation
 
     shown = arguments.show or found.map.chart.names[0]

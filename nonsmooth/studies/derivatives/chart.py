@@ -3,24 +3,20 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Collection, Iterator
+from collections.abc import Collection
 from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.errors import UnknownName
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
+from nonsmooth.studies.derivatives.coordinates import TURNS, labels_of, labels_within, quaternions_of
 from nonsmooth.studies.derivatives.held import Held
 from nonsmooth.system.system import System
 
 Floats = NDArray[np.float64]
-TURNS = ("rx", "ry", "rz")
-"""Turns of a body with a quaternion about its own axes, which stand for the quaternion's four numbers."""
-
-
 _PROBE = 1e-6
 """Change that derivatives of what is held are taken with, in units of scales."""
 _DEPENDS = 1e-6
@@ -89,7 +85,7 @@ class Chart:
         """
         system, held = model.system, Held.at(model, state)
         columns, names = _columns(system, state, within, without)
-        quaternions = _quaternions(system)[1]
+        quaternions = quaternions_of(system)[1]
         whole = cls(columns, names, quaternions, held, columns[:, :0], np.zeros((0, 0)))
         rows = whole._slopes(model, state)
         follow = _following(rows)
@@ -161,9 +157,9 @@ def _columns(
     system: System, state: State, within: Collection[str] | None, without: Collection[str]
 ) -> tuple[Floats, tuple[str, ...]]:
     """Return all directions about a state that may change, shape [n_q + n_u, m], and their names."""
-    labels, chosen = list(_labels(system)), _chosen(system, within)
+    labels, chosen = list(labels_of(system)), labels_within(system, within)
     scale = np.concatenate([*(b.scales[0] for b in system.bodies), *(b.scales[1] for b in system.bodies)])
-    y, (turning, starts) = np.concatenate([state.q, state.u]), _quaternions(system)
+    y, (turning, starts) = np.concatenate([state.q, state.u]), quaternions_of(system)
     columns, names = list[Floats](), list[str]()
     for i, (body, label) in enumerate(labels):
         name = f"{body}.{label}"
@@ -180,75 +176,7 @@ def _columns(
     return np.array(columns).reshape(-1, len(y)).T, tuple(names)
 
 
-def _labels(system: System) -> Iterator[tuple[str, str]]:
-    """Give body and name of each coordinate, then of each velocity."""
-    for kind in ("q_labels", "u_labels"):
-        for name, body in zip(system.names.bodies, system.bodies, strict=True):
-            yield from ((name, label) for label, _ in getattr(body, kind))
-
-
-def _quaternions(system: System) -> tuple[tuple[str, ...], tuple[int, ...]]:
-    """Return the bodies that have a quaternion, and where these begin."""
-    firsts = np.cumsum([0, *(body.n_q for body in system.bodies)]).tolist()
-    found = [
-        (name, first + body.quaternion)
-        for name, body, first in zip(system.names.bodies, system.bodies, firsts, strict=False)
-        if body.quaternion >= 0
-    ]
-    return tuple(name for name, _ in found), tuple(start for _, start in found)
-
-
 def _turns(q: Floats) -> Floats:
     """Return how a unit quaternion changes with turns about the three axes of its body, shape [3, 4]."""
     w, x, y, z = q
     return 0.5 * np.array([[-x, w, z, -y], [-y, -z, w, x], [-z, y, -x, w]])
-
-
-def _chosen(system: System, within: Collection[str] | None) -> dict[str, set[str]]:
-    """Return the names that may change, by body."""
-    known = {
-        name: {label for label, _ in (*body.q_labels, *body.u_labels)} | (set(TURNS) if body.quaternion >= 0 else set())
-        for name, body in zip(system.names.bodies, system.bodies, strict=True)
-    }
-    if within is None:
-        return known
-    whole = {f"{body}.{label}" for body, labels in known.items() for label in labels}
-    for name in within:
-        if name not in whole and not any(name in labels for labels in known.values()):
-            raise UnknownName("coordinate", name, whole)
-    return {
-        body: {label for label in labels if label in within or f"{body}.{label}" in within}
-        for body, labels in known.items()
-    }
-
-
-def coordinate_number(system: System, name: str) -> int:
-    """Return where a coordinate or velocity stands behind one another with all coordinates and velocities.
-
-    Raises
-    ------
-    UnknownName
-        If there is none of that name.
-    """
-    labels = list(_labels(system))
-    for i, (body, label) in enumerate(labels):
-        if name in (label, f"{body}.{label}"):
-            return i
-    raise UnknownName("coordinate", name, {f"{body}.{label}" for body, label in labels})
-
-
-def whole_name(system: System, number: int) -> str:
-    """Return the name of a coordinate or velocity with that of its body, "ball.z"."""
-    return ".".join(list(_labels(system))[number])
-
-
-def unit(system: System, number: int) -> str:
-    """Return the unit of a coordinate or velocity."""
-    bodies = system.bodies
-    labels = [*(one for body in bodies for one in body.q_labels), *(one for body in bodies for one in body.u_labels)]
-    return labels[number][1]
-
-
-def turns(system: System, number: int) -> bool:
-    """Tell whether a coordinate is one of the four numbers of a quaternion."""
-    return any(start <= number < start + 4 for start in _quaternions(system)[1])

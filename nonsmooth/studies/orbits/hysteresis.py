@@ -21,7 +21,8 @@ from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.chart import Chart
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.orbits.choosing import chosen
-from nonsmooth.studies.orbits.diagram import Diagram, Looks
+from nonsmooth.studies.orbits.diagram import Diagram
+from nonsmooth.studies.orbits.looks import Looks
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

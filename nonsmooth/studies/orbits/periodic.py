@@ -14,7 +14,7 @@ from nonsmooth.errors import InvalidInput, NonsmoothError, RunFailed
 from nonsmooth.interfaces import Scenario
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
-from nonsmooth.studies.derivatives.chart import coordinate_number
+from nonsmooth.studies.derivatives.coordinates import coordinate_number
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.derivatives.passage import Signature, named
 from nonsmooth.studies.orbits.choosing import at_phase, chosen, seen

@@ -9,7 +9,7 @@ import numpy as np
 
 from nonsmooth.plot.asked import axes_of
 from nonsmooth.plot.lines import beside
-from nonsmooth.studies.orbits.following import Branch
+from nonsmooth.studies.orbits.branch import Branch
 from nonsmooth.studies.orbits.periodic import Orbit
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ from nonsmooth.interfaces import Guard
 from nonsmooth.parameters import parameter
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
-from nonsmooth.studies.derivatives.chart import coordinate_number, turns, whole_name
+from nonsmooth.studies.derivatives.coordinates import coordinate_number, turns, whole_name
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.derivatives.passage import Passage, Signature, passage
 from nonsmooth.system.system import System

@@ -12,6 +12,7 @@ import math
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 import nonsmooth as ns
 from bodies import Ball, Harmonic, Plate, Rest, Spring
@@ -20,9 +21,9 @@ from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.orbits.following import continuation
 from nonsmooth.studies.orbits.periodic import Orbit, orbit
-from nonsmooth.types import Floats
 
 pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of runs take minutes in plain mode")
+Floats = NDArray[np.float64]
 RADIUS, E = 0.01, 0.8
 OWN, DAMPING, FREQUENCY, CLEARANCE, LENGTH = 20.0, 0.05, 8.0, 0.01, 0.3
 RATE, PERIOD = 2.0 * math.pi * FREQUENCY, 1.0 / FREQUENCY

@@ -1,0 +1,82 @@
+"""When and at what diagrams look."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.checks import is_finite
+from nonsmooth.errors import InvalidInput
+from nonsmooth.runs.model import Model
+from nonsmooth.solution.state import State
+from nonsmooth.studies.derivatives.coordinates import coordinate_number, unit
+from nonsmooth.studies.orbits.choosing import at_phase
+
+Floats = NDArray[np.float64]
+
+
+@final
+@dataclass(frozen=True)
+class Looks:
+    """When and at what a diagram looks.
+
+    Attributes
+    ----------
+    period : float
+        [s].
+    coordinate : str
+        Which coordinate or velocity, "vz" or "ball.vz".
+    at : float
+        When in each period [s].
+    settle, keep : int
+        Periods that are left out, and those that are kept.
+
+    Raises
+    ------
+    InvalidInput
+        If a number is not valid.
+    """
+
+    period: float
+    coordinate: str
+    at: float
+    settle: int
+    keep: int
+
+    def __post_init__(self) -> None:
+        for word in ("period", "keep", "settle"):
+            number = getattr(self, word)
+            if not (is_finite(number) and number > 0):
+                raise InvalidInput(f"bifurcation: {word}", "must be positive and finite", number, "Give a larger one.")
+        if not (is_finite(self.at) and 0.0 <= self.at < self.period):
+            raise InvalidInput("bifurcation: at", "must be a time within a period", self.at, "Give it in [s].")
+
+    def unit(self, model: Model) -> str:
+        """Return the unit of what is looked at.
+
+        Raises
+        ------
+        UnknownName
+            If there is no such coordinate.
+        """
+        return unit(model.system, coordinate_number(model.system, self.coordinate))
+
+    def settled(self, model: Model, start: State) -> tuple[Floats, State]:
+        """Return what is looked at in the last periods, shape [keep], and where the run ended.
+
+        Raises
+        ------
+        RunFailed
+            If a run cannot go on.
+        """
+        begin = at_phase(model, start, self.period, self.at)
+        number = coordinate_number(model.system, self.coordinate)
+        last = begin.time + (self.settle + self.keep) * self.period
+        run = model.run(last, start=begin, sample_interval=self.period)
+        if run.status == "interrupted":
+            raise KeyboardInterrupt
+        kept = slice(self.settle + 1, self.settle + 1 + self.keep)
+        return np.concatenate([run.q, run.u], axis=1)[kept, number], run.state
