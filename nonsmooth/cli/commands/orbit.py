@@ -10,7 +10,7 @@ import numpy as np
 
 from nonsmooth.cli.asking import extras, outputs, request
 from nonsmooth.cli.running import results
-from nonsmooth.cli.telling.messages import say, tell
+from nonsmooth.cli.telling.messages import say
 from nonsmooth.errors import InvalidInput
 
 if TYPE_CHECKING:
@@ -62,11 +62,7 @@ def _execute_continue(arguments: argparse.Namespace) -> bool:
     shown = arguments.show or found.map.chart.names[0]
     number = coordinate_number(found.family.model().system, shown)
 
-    def progress(orbit: Orbit, count: int) -> None:
-        if count % 10 == 0:
-            tell(f"{count} orbits, {name} = {orbit.family[name]:.6g}")
-
-    branch = continuation(found, name, (low, high), progress=progress)
+    branch = continuation(found, name, (low, high))
     say(f"{len(branch.orbits)} orbits, {name} from {branch.values.min():.9g} to {branch.values.max():.9g}")
     say(f"ends by {branch.ending}")
     for one in branch.special:
