@@ -208,7 +208,7 @@ class Study:
         }
         attributes = {
             "Conventions": "CF-1.11",
-            "title": repr(self),
+            "title": f"{len(self)} runs of {self._target.name}",
             "spec": spec,
             "sha256": hashlib.sha256(spec.encode()).hexdigest(),
             "layout": json.dumps(layout),

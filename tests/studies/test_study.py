@@ -83,17 +83,6 @@ def test_a_budget_ends_a_run_by_its_steps(tmp_path: Path) -> None:
     assert "its 60 steps were used up" in Store(tmp_path / "s.zarr").texts()[1]
 
 
-def test_a_map_hatches_what_has_no_record(tmp_path: Path) -> None:
-    axes = studies.grid(height=[-1.0, 0.01, 0.05], restitution=[0.5, 0.7])
-    found = studies.Study(drop, axes, ["impacts"], t_end=T_END).run(tmp_path / "s.zarr", executor="serial")
-    mesh, hatched = studies.draw_study(found).axes[0].collections
-    drawn = mesh.get_array()
-    assert drawn is not None
-    assert np.ma.getmaskarray(drawn).tolist() == [[True, True], [False, False], [False, False]]
-    assert len(hatched.get_paths()) == 2
-    assert hatched.get_hatch() == "xxx"
-
-
 def test_what_runs_are_made_of_is_written_beside_them(tmp_path: Path) -> None:
     study = studies.Study(BouncingBall(t_end=0.1), studies.sobol(4, 7, gamma=(0.3, 0.9)), ["impacts"])
     found = study.run(tmp_path / "s.zarr", executor="serial")
