@@ -123,7 +123,7 @@ class Study:
             "points": self._points.digest,
             "engine": {"type": type(self._work.engine.engine).__name__, **vars(self._work.engine.engine)},
             "budget": self._budget,
-            "records": [{"name": one.name, "axes": dict(one.axes)} for one in self._work.records],
+            "records": [{"name": one.name, "dtype": one.dtype, "axes": dict(one.axes)} for one in self._work.records],
         }
         return json.dumps(known, sort_keys=True, default=repr)
 

@@ -19,7 +19,7 @@ from nonsmooth.studies.records.asked import Asked
 from nonsmooth.studies.store import Store
 from scenarios.bouncing_ball.scenario import BouncingBall
 from scenarios.dumbbell.scenario import DumbbellScenario
-from tests.studies.ball import RECORD, T_END, draws, drop
+from tests.studies.ball import RECORD, T_END, draws, drop, shaken
 
 pytest.importorskip("zarr", "3.1.3")
 
@@ -70,6 +70,16 @@ def test_a_run_that_fails_is_a_row(tmp_path: Path) -> None:
     texts = Store(tmp_path / "s.zarr").texts()
     assert texts[1] == "ArithmeticError: no ball at -1.0"
     assert "record _raises: OverflowError: too much" in texts[0]
+
+
+def test_counts_are_whole_and_a_seed_is_a_parameter(tmp_path: Path) -> None:
+    """The same seed gives the same run, stored with it."""
+    study = studies.Study(shaken, studies.listed([{"seed": seed} for seed in (3, 7, 3)]), RECORD, t_end=T_END)
+    found = study.run(tmp_path / "s.zarr", executor="threads")
+    one, other, again = (found.isel(run=run) for run in range(3))
+    assert one.q_end.values.tobytes() == again.q_end.values.tobytes() != other.q_end.values.tobytes()
+    assert found.seed.values.tolist() == [3, 7, 3]
+    assert {found[name].dtype.str for name in ("seed", "impacts", "steps")} == {"<i8"}
 
 
 def test_a_budget_ends_a_run_by_its_steps(tmp_path: Path) -> None:
