@@ -47,7 +47,7 @@ def test_a_bifurcation_diagram(call: Call, tmp_path: Path) -> None:
     [
         (("orbit", *BALL, "--period", "-1"), "period must be positive and finite, but it is -1.0"),
         (("orbit", *BALL, "--period", "0.04", "--within", "z,vx2"), "'vx2'"),
-        (("continue", *ASKED, "--over", "gamma=0.7"), "--over must have the form NAME=FROM:TO"),
+        (("continue", *ASKED, "--over", "gamma=0.7"), "--over gamma must have the form LOW:HIGH, "),
         (
             ("bifurcation", *BALL, "--over", "gamma=0.7:0.8", "--period", "0.04", "--show", "vz"),
             "must have the form LOW:HIGH:N",

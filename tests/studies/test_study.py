@@ -19,7 +19,7 @@ from nonsmooth.studies.records.asked import Asked
 from nonsmooth.studies.store import Store
 from scenarios.bouncing_ball.scenario import BouncingBall
 from scenarios.dumbbell.scenario import DumbbellScenario
-from tests.studies.ball import RECORD, T_END, draws, drop
+from tests.studies.ball import RECORD, T_END, draws, drop, shaken
 
 pytest.importorskip("zarr", "3.1.3")
 
@@ -72,6 +72,16 @@ def test_a_run_that_fails_is_a_row(tmp_path: Path) -> None:
     assert "record _raises: OverflowError: too much" in texts[0]
 
 
+def test_counts_are_whole_and_a_seed_is_a_parameter(tmp_path: Path) -> None:
+    """The same seed gives the same run, stored with it."""
+    study = studies.Study(shaken, studies.listed([{"seed": seed} for seed in (3, 7, 3)]), RECORD, t_end=T_END)
+    found = study.run(tmp_path / "s.zarr", executor="threads")
+    one, other, again = (found.isel(run=run) for run in range(3))
+    assert one.q_end.values.tobytes() == again.q_end.values.tobytes() != other.q_end.values.tobytes()
+    assert found.seed.values.tolist() == [3, 7, 3]
+    assert {found[name].dtype.str for name in ("seed", "impacts", "steps")} == {"<i8"}
+
+
 def test_a_budget_ends_a_run_by_its_steps(tmp_path: Path) -> None:
     study = studies.Study(drop, studies.grid(restitution=[0.2, 0.9], height=[0.05]), RECORD, t_end=2.0, budget=60)
     found = study.run(tmp_path / "s.zarr", executor="serial")
@@ -81,17 +91,6 @@ def test_a_budget_ends_a_run_by_its_steps(tmp_path: Path) -> None:
     assert found.status.values.ravel().tolist() == [status.DONE, status.BUDGET]
     assert found.q_end.values[0].tobytes() == whole.q_end.values[0].tobytes()
     assert "its 60 steps were used up" in Store(tmp_path / "s.zarr").texts()[1]
-
-
-def test_a_map_hatches_what_has_no_record(tmp_path: Path) -> None:
-    axes = studies.grid(height=[-1.0, 0.01, 0.05], restitution=[0.5, 0.7])
-    found = studies.Study(drop, axes, ["impacts"], t_end=T_END).run(tmp_path / "s.zarr", executor="serial")
-    mesh, hatched = studies.draw_study(found).axes[0].collections
-    drawn = mesh.get_array()
-    assert drawn is not None
-    assert np.ma.getmaskarray(drawn).tolist() == [[True, True], [False, False], [False, False]]
-    assert len(hatched.get_paths()) == 2
-    assert hatched.get_hatch() == "xxx"
 
 
 def test_what_runs_are_made_of_is_written_beside_them(tmp_path: Path) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections import Counter
 from pathlib import Path
 from typing import Any
@@ -39,10 +38,6 @@ def execute(arguments: argparse.Namespace) -> bool:
     # imported when asked for: the other commands start faster without it
     from nonsmooth.studies.orbits import bifurcation
 
-    def progress(done: int, of: int) -> None:
-        if done % 25 == 0 or sys.stderr.isatty():
-            tell(f"{done} of {of} runs")
-
     found = bifurcation(
         job.scenario,
         name,
@@ -52,7 +47,6 @@ def execute(arguments: argparse.Namespace) -> bool:
         at=arguments.at,
         settle=arguments.settle,
         keep=arguments.keep,
-        progress=progress,
     )
     for period, count in sorted(Counter(found.periods.tolist()).items()):
         say(f"{count} repeat after {period} periods" if period else f"{count} do not repeat")

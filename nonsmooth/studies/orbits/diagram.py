@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, final
 
@@ -14,6 +14,7 @@ from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import Scenario
 from nonsmooth.plot.asked import axes_of
+from nonsmooth.progress import Display, Pace, RunsDone, on_standard_error
 from nonsmooth.studies.derivatives.chart import coordinate_number
 from nonsmooth.studies.derivatives.family import Family
 
@@ -80,7 +81,7 @@ def bifurcation(
     at: float = 0.0,
     settle: int = 200,
     keep: int = 64,
-    progress: Callable[[int, int], None] | None = None,
+    display: Display | None = None,
 ) -> Diagram:
     """Run a system with each value of a parameter, and look once a period.
 
@@ -100,8 +101,8 @@ def bifurcation(
         When in each period it is looked at [s]: where no velocity jumps, or points lie on either side of it.
     settle, keep : int
         Periods that are left out, and those that are kept.
-    progress : callable, optional
-        Called with the number of runs done and of all.
+    display : Display, optional
+        Where progress is shown; on standard error by default.
 
     Raises
     ------
@@ -119,20 +120,21 @@ def bifurcation(
     family = Family.of(what, EventDriven())
     _ = family[name]
     points, failures = np.full((len(row), keep), np.nan), list[str]()
-    for i, value in enumerate(row.tolist()):
-        model = family.model(**{name: value})
-        column = coordinate_number(model.system, coordinate)
-        try:
-            start = model.run(at, sample_interval=at).state if at > 0.0 else None
-            run = model.run(at + (settle + keep) * period, start=start, sample_interval=period)
-            if run.status == "interrupted":
-                raise KeyboardInterrupt
-            points[i] = np.concatenate([run.q, run.u], axis=1)[settle + 1 : settle + 1 + keep, column]
-            failures.append("")
-        except RunFailed as error:
-            failures.append(str(error))
-        if progress is not None:
-            progress(i + 1, len(row))
+    with Pace(display or on_standard_error()) as pace:
+        counted = RunsDone(pace, len(row))
+        for i, value in enumerate(row.tolist()):
+            model = family.model(**{name: value})
+            column = coordinate_number(model.system, coordinate)
+            try:
+                start = model.run(at, sample_interval=at).state if at > 0.0 else None
+                run = model.run(at + (settle + keep) * period, start=start, sample_interval=period)
+                if run.status == "interrupted":
+                    raise KeyboardInterrupt
+                points[i] = np.concatenate([run.q, run.u], axis=1)[settle + 1 : settle + 1 + keep, column]
+                failures.append("")
+            except RunFailed as error:
+                failures.append(str(error))
+            counted.add(1, bool(failures[-1]))
     return Diagram(name, row, coordinate, points, tuple(failures))
 
 

@@ -13,6 +13,7 @@ from scipy.optimize import brentq
 
 from nonsmooth.checks import is_finite
 from nonsmooth.errors import InvalidInput, RunFailed
+from nonsmooth.progress import Display, Pace, RangeCovered, on_standard_error
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.derivatives.passage import Signature, passage
@@ -174,7 +175,7 @@ def continuation(
     *,
     period: Callable[[float], float] | None = None,
     most: int = _MOST,
-    progress: Callable[[Orbit, int], None] | None = None,
+    display: Display | None = None,
 ) -> Branch:
     """Follow an orbit along a parameter, both ways, as far as a range or its events go.
 
@@ -190,8 +191,8 @@ def continuation(
         The period [s] at a value of the parameter; that of the orbit by default.
     most : int
         Steps at most, either way.
-    progress : callable, optional
-        Called with each orbit found and their number.
+    display : Display, optional
+        Where progress is shown; on standard error by default.
 
     Raises
     ------
@@ -215,24 +216,16 @@ def continuation(
     first, rest = path.at(orbit.state, value, None)
     tangent = rest[len(first.map.way) :]
     up = tangent if tangent[-1] >= 0.0 else -tangent
-    count = 0
-
-    def told(found: Orbit) -> None:
-        nonlocal count
-        count += 1
-        if progress is not None:
-            progress(found, count)
-
-    back, special_back, why_back = _followed(path, _Point(first, -up), most, told)
-    on, special_on, why_on = _followed(path, _Point(first, up), most, told)
+    with Pace(display or on_standard_error()) as pace:
+        covered = RangeCovered(pace, name, value, span)
+        back, special_back, why_back = _followed(path, _Point(first, -up), most, covered)
+        on, special_on, why_on = _followed(path, _Point(first, up), most, covered)
     orbits = (*(p.orbit for p in reversed(back)), first, *(p.orbit for p in on))
     values = np.array([one.family[name] for one in orbits])
     return Branch(name, values, orbits, (*reversed(special_back), *special_on), f"{why_back}; {why_on}")
 
 
-def _followed(
-    path: _Path, point: _Point, most: int, told: Callable[[Orbit], None]
-) -> tuple[list[_Point], list[Special], str]:
+def _followed(path: _Path, point: _Point, most: int, covered: RangeCovered) -> tuple[list[_Point], list[Special], str]:
     found, special, step = list[_Point](), list[Special](), _FIRST
     while len(found) < most:
         try:
@@ -252,7 +245,7 @@ def _followed(
             continue
         special += _between(path, point, step, following)
         found.append(following)
-        told(following.orbit)
+        covered.add(following.orbit.family[path.name])
         point, step = following, min(_GROWS * step, _LARGEST)
     return found, special, f"{most} steps"
 

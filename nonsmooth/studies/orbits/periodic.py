@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from nonsmooth.checks import is_finite
 from nonsmooth.errors import InvalidInput, NonsmoothError, RunFailed
 from nonsmooth.interfaces import Scenario
+from nonsmooth.progress import Display, Pace, TimeReached, on_standard_error
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.family import Family
@@ -114,6 +115,7 @@ def orbit(
     settle: float = 0.0,
     start: State | None = None,
     within: Sequence[str] | None = None,
+    display: Display | None = None,
 ) -> Orbit:
     """Find the orbit near a start.
 
@@ -133,6 +135,8 @@ def orbit(
     within : sequence of str, optional
         Names of coordinates and velocities that repeat ("z", or "ball.z" where bodies share a name); by default all.
         Leave out those along which the motion drifts, and all out of a plane that it stays in.
+    display : Display, optional
+        Where it is shown how far the time before is; on standard error by default.
 
     Raises
     ------
@@ -151,7 +155,8 @@ def orbit(
     model = family.model()
     begin = model.start if start is None else start
     if settle > 0.0:
-        begin = model.run(begin.time + settle, start=begin).state
+        with Pace(display or on_standard_error()) as pace:
+            begin = model.run(begin.time + settle, start=begin, progress=TimeReached(pace)).state
     return close(family, section(model, begin, period), period, names)
 
 

@@ -11,6 +11,7 @@ import nonsmooth as ns
 from bodies import Ball, Plate
 from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.native.kernel import PLAIN
+from nonsmooth.progress import Display
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.orbits.diagram import bifurcation
 from scenarios.bouncing_ball import orbits
@@ -45,13 +46,24 @@ def _dropped(restitution: float) -> ns.System:
     return system
 
 
+class _Told(Display):
+    patience = interval = 0.0
+
+    def __init__(self) -> None:
+        self.told: list[str] = []
+
+    def show(self, share: float, before: str, behind: str) -> None:
+        self.told.append(before)
+
+    def close(self) -> None:
+        pass
+
+
 def test_it_is_counted_and_refused() -> None:
-    told: list[tuple[int, int]] = []
+    display = _Told()
     family = Family(_dropped, {"restitution": 0.5})
-    found = bifurcation(
-        family, "restitution", [0.4, 0.5], 0.05, "z", settle=20, keep=4, progress=lambda i, n: told.append((i, n))
-    )
-    assert told == [(1, 2), (2, 2)]
+    found = bifurcation(family, "restitution", [0.4, 0.5], 0.05, "z", settle=20, keep=4, display=display)
+    assert display.told == ["1 of 2 runs", "2 of 2 runs"]
     np.testing.assert_allclose(found.points, 0.01, atol=1e-12)
     with pytest.raises(ns.InvalidInput, match=r"ball\.vzz.*Did you mean 'ball\.vz'"):
         bifurcation(family, "restitution", [0.5], 0.05, "ball.vzz")
