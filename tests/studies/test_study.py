@@ -51,6 +51,16 @@ def test_a_study_of_a_scenario_has_what_single_runs_have(tmp_path: Path) -> None
             assert row.last_flight == one.summarise(run)["last_flight"]
 
 
+def test_rows_of_numbers_are_kept_whole(tmp_path: Path) -> None:
+    scenario = DumbbellScenario(t_end=0.4)
+    found = studies.Study(scenario, studies.grid(friction=[0.1, 0.3]), ["drift_velocity"]).run(tmp_path / "s.zarr")
+    assert found.drift_velocity.dims == ("friction", "drift_velocity_part")
+    for friction in (0.1, 0.3):
+        one = dataclasses.replace(scenario, friction=friction)
+        run = ns.simulate(one.build(), one.t_end, sample_interval=one.sample_interval)
+        assert found.drift_velocity.sel(friction=friction).values.tolist() == one.summarise(run)["drift_velocity"]
+
+
 def test_words_are_coordinates_and_classes(tmp_path: Path) -> None:
     scenario = DumbbellScenario(t_end=1.0)
     study = studies.Study(scenario, studies.grid(mode=["jump", "drift"]), ["attractor", "period"])

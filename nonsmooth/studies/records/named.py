@@ -30,6 +30,7 @@ _NUMBERS: Mapping[str, tuple[Callable[[Outcome], float], str, str]] = {
     "t_end": (attrgetter("solution.t_end"), "s", "time reached"),
     "energy_residual": (attrgetter("solution.energy.residual"), "1", "relative error of the energy account"),
 }
+_NUMBER = (int, float, np.number, np.bool_)
 _STATES = {"q_end": ("coordinate", "coordinates at the end"), "u_end": ("velocity", "velocities at the end")}
 
 
@@ -60,12 +61,14 @@ class Named(Recorder):
         value, scenario = look.summary[self.name], look.scenario
         words = () if scenario is None else tuple(scenario.words.get(self.name, ()))
         units = {} if scenario is None else scenario.units
-        is_number = value is None or isinstance(value, (int, float, np.number, np.bool_))
-        if not (words or is_number):
+        parts = value if isinstance(value, (list, tuple, np.ndarray)) else (value,)
+        if not (words or all(part is None or isinstance(part, _NUMBER) for part in parts)):
             remedy = "Give a function f(scenario, solution) -> number, or list the words in `words` of the scenario."
-            raise InvalidInput(f"record {self.name}", "must be one number, or a word of a list", value, remedy)
+            rule = "must be a number, a row of numbers, or a word of a list"
+            raise InvalidInput(f"record {self.name}", rule, value, remedy)
         told = described(f"{self.name} of the scenario", units.get(self.name, ""))
-        return Record(self.name, Summarised(self.name), told, words=words, dtype="int8" if words else "float64")
+        axes = {} if parts is not value else {f"{self.name}_part": range(len(parts))}
+        return Record(self.name, Summarised(self.name), told, axes, words, "int8" if words else "float64")
 
 
 @final
