@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.errors import InvalidInput
-from nonsmooth.plot.lines import COLOURS
+from nonsmooth.studies.colours import class_colours
 from nonsmooth.studies.status import VALUED
 from nonsmooth.studies.summary import ends, of_record, records_of
 
@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
 _MOST = 12
 """Panels at most."""
-_CLASSES = (*COLOURS[1:], COLOURS[0])
-"""Black is the last of them: areas of it outshine the others."""
+_NAMED = 20
+"""Classes at most that have their names beside a map."""
 _HATCHED: dict[str, Any] = {"edgecolor": "0.6", "hatch": "xxx", "linewidth": 0.0}
 _DOTTED: dict[str, Any] = {"color": "0.5", "linewidth": 1.0, "linestyle": ":"}
 
@@ -86,7 +86,8 @@ def _words(record: xarray.DataArray) -> list[str]:
     return str(record.attrs.get("flag_meanings", "")).split()
 
 
-def _label(one: xarray.DataArray) -> str:
+def label_of(one: xarray.DataArray) -> str:
+    """Return the name of a record or parameter, with its unit."""
     unit = one.attrs.get("units", "")
     return f"{one.name} [{unit}]" if unit not in ("", "1") else str(one.name)
 
@@ -105,8 +106,8 @@ def _points(axes: Axes, record: xarray.DataArray, along: xarray.DataArray, value
         axes.axvline(missing, **_DOTTED)
     if words := _words(record):
         axes.set_yticks(record.attrs["flag_values"], words)
-    axes.set_xlabel(_label(along))
-    axes.set_ylabel(_label(record))
+    axes.set_xlabel(label_of(along))
+    axes.set_ylabel(label_of(record))
 
 
 def _map(figure: Figure, axes: Axes, record: xarray.DataArray, valued: NDArray[np.bool_]) -> None:
@@ -117,13 +118,12 @@ def _map(figure: Figure, axes: Axes, record: xarray.DataArray, valued: NDArray[n
     told: dict[str, Any] = {"shading": "nearest"}
     words = _words(record)
     if words:
-        colours = [_CLASSES[i % len(_CLASSES)] for i in range(len(words))]
-        told |= {"cmap": ListedColormap(colours), "vmin": -0.5, "vmax": len(words) - 0.5}
+        told |= {"cmap": ListedColormap(class_colours(len(words))), "vmin": -0.5, "vmax": len(words) - 0.5}
     mesh = axes.pcolormesh(second.values, first.values, shown, **told)
-    bar = figure.colorbar(mesh, ax=axes, label=_label(record))
+    bar = figure.colorbar(mesh, ax=axes, label=label_of(record))
     if words:
-        bar.set_ticks(record.attrs["flag_values"], labels=words)
+        bar.set_ticks(record.attrs["flag_values"][:_NAMED], labels=words[:_NAMED])
     failed = np.ma.masked_where(valued, np.ones(valued.shape))
     axes.pcolor(second.values, first.values, failed, shading="nearest", cmap=ListedColormap(["white"]), **_HATCHED)
-    axes.set_xlabel(_label(second))
-    axes.set_ylabel(_label(first))
+    axes.set_xlabel(label_of(second))
+    axes.set_ylabel(label_of(first))

@@ -103,6 +103,11 @@ class Study:
         """Return how many runs of what it is."""
         return f"Study({len(self)} runs of {self._target.name})"
 
+    @property
+    def records(self) -> tuple[str, ...]:
+        """Names of what is kept of each run, besides ``status`` and ``reason``."""
+        return tuple(one.name for one in self._work.records)
+
     def _look(self) -> Outcome:
         """Begin the first run that can be built: what cannot be is a row later."""
         last: Exception = InvalidInput("study", "must have a run", None, "Add one.")
@@ -123,7 +128,10 @@ class Study:
             "points": self._points.digest,
             "engine": {"type": type(self._work.engine.engine).__name__, **vars(self._work.engine.engine)},
             "budget": self._budget,
-            "records": [{"name": one.name, "dtype": one.dtype, "axes": dict(one.axes)} for one in self._work.records],
+            "records": [
+                {"name": one.name, "dtype": one.dtype, "axes": dict(one.axes), "how": one.how}
+                for one in self._work.records
+            ],
         }
         return json.dumps(known, sort_keys=True, default=repr)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, final
 
@@ -17,6 +16,7 @@ from nonsmooth.plot.asked import axes_of
 from nonsmooth.progress import Display, Pace, RunsDone, on_standard_error
 from nonsmooth.studies.derivatives.chart import coordinate_number
 from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.periods import periods
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -55,7 +55,7 @@ class Diagram:
     def periods(self) -> NDArray[np.int64]:
         """After how many periods the motion repeats; 0 where it does not within those that were kept; shape [n]."""
         near = _ALIKE * max(float(np.nanmax(self.points) - np.nanmin(self.points)), np.finfo(float).tiny)
-        return np.array([_period(row, near) for row in self.points])
+        return periods(self.points[:, :, np.newaxis], near)
 
     def draw(self, ax: Axes | None = None) -> Axes:
         """Draw it: all points over the parameter."""
@@ -136,11 +136,3 @@ def bifurcation(
                 failures.append(str(error))
             counted.add(1, bool(failures[-1]))
     return Diagram(name, row, coordinate, points, tuple(failures))
-
-
-def _period(points: Sequence[float] | Floats, near: float) -> int:
-    row = np.asarray(points)
-    for period in range(1, len(row) // 2 + 1):
-        if np.all(np.abs(row[period:] - row[:-period]) <= near):
-            return period
-    return 0

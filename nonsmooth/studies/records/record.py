@@ -62,6 +62,8 @@ class Record:
         Of a class all names that it can have; empty for numbers.
     dtype : str
         Of the values: "int8" of a class, "int64" of a count.
+    how : str
+        What decides its values besides its name and axes, for the record.
     """
 
     name: str
@@ -70,6 +72,7 @@ class Record:
     axes: Mapping[str, Sequence[Any]] = field(default_factory=dict)
     words: tuple[str, ...] = ()
     dtype: str = "float64"
+    how: str = ""
 
     @property
     def shape(self) -> tuple[int, ...]:
