@@ -21,7 +21,7 @@ FOLD = math.pi * (1.0 - E) / (1.0 + E)
 DOUBLING = math.hypot(FOLD, 2.0 * (1.0 + E**2) / (1.0 + E) ** 2)
 
 
-def main():
+def main() -> None:
     """Follow, compare, draw."""
     matplotlib.use("Agg")
     n = int(sys.argv[2]) if len(sys.argv) > 2 else 160

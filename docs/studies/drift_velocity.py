@@ -5,25 +5,28 @@
 N x N runs for each of six laws, 24 x 24 by default; cut off, it goes on where it was.
 """
 
+from __future__ import annotations
+
 import sys
 
 import matplotlib
 import numpy as np
+import xarray
 from matplotlib.figure import Figure
 
-from nonsmooth import studies
+from nonsmooth import Solution, studies
 from scenarios.dumbbell.scenario import DumbbellScenario
 
 LAWS = ["energetic", "mono_stiffness", "moreau", "poisson", "newton", "plastic"]
 
 
-def drift_velocity(scenario, solution):
+def drift_velocity(scenario: DumbbellScenario, solution: Solution) -> float | None:
     """Mean velocity along the rod where the dumbbell drifts [m/s]."""
     found = scenario.summarise(solution)
     return found["drift_velocity"][1] if found["attractor"] == "drift" else None
 
 
-def drawn(found):
+def drawn(found: xarray.Dataset) -> Figure:
     """Draw a map for each law, all with one scale."""
     millimetres = 1e3 * found.drift_velocity
     most = float(np.nanmax(np.abs(millimetres)))

@@ -6,13 +6,17 @@ The measurements are made up: 20 positions of the mass centre in 0.2 s of a run 
 coordinate off by a normal deviate of 0.02 mm.
 """
 
+from __future__ import annotations
+
 import sys
 
 import matplotlib
 import numpy as np
-
-from nonsmooth.studies import Family, fit
 from nonsmooth.studies.derivatives.pictures import fitted
+from numpy.typing import NDArray
+
+from nonsmooth import State
+from nonsmooth.studies import Family, fit
 from scenarios.dumbbell.scenario import DumbbellScenario
 
 TRUE, NOISE = {"restitution": 0.65, "friction": 0.2}, 2e-5
@@ -20,12 +24,12 @@ TIMES = np.linspace(0.01, 0.2, 20)
 BOUNDS = {"restitution": (0.5, 0.8), "friction": (0.1, 0.3)}
 
 
-def place(state):
+def place(state: State) -> NDArray[np.float64]:
     """Where the mass centre is along and above the plate [m]."""
     return state.q[1:3]
 
 
-def main():
+def main() -> None:
     """Measure, fit, draw."""
     matplotlib.use("Agg")
     seed = int(sys.argv[2]) if len(sys.argv) > 2 else 1

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
@@ -14,6 +14,8 @@ import pytest
 import nonsmooth as ns
 from nonsmooth import studies
 from nonsmooth.engine.memory.modes import DONE
+from nonsmooth.parameters import parameter
+from nonsmooth.simple_scenario import SimpleScenario
 from nonsmooth.studies import status
 from nonsmooth.studies.records.asked import Asked
 from nonsmooth.studies.store import Store
@@ -31,6 +33,24 @@ def _double(scenario: BouncingBall, solution: ns.Solution) -> float:
 
 def _raises(scenario: BouncingBall, solution: ns.Solution) -> float:
     raise OverflowError("too much")
+
+
+@dataclasses.dataclass(frozen=True)
+class _Telling(SimpleScenario):
+    """A drop that is told of in words that nobody listed."""
+
+    title: ClassVar[str] = "A drop"
+    height: float = parameter(0.1, doc="height", unit="m", above=0.0)
+    t_end: float = parameter(T_END, doc="end time", unit="s", above=0.0)
+
+    def build(self) -> ns.System:
+        return drop(self.height)
+
+    def summarise(self, solution: ns.Solution) -> Mapping[str, Any]:
+        return {"told": "much"}
+
+    def acceptance(self, solution: ns.Solution) -> tuple[ns.Criterion, ...]:
+        return ()
 
 
 def test_a_study_of_a_scenario_has_what_single_runs_have(tmp_path: Path) -> None:
@@ -144,7 +164,7 @@ _BALL, _GRID = BouncingBall(t_end=0.1), studies.grid(gamma=[0.5])
             lambda: studies.Study(DumbbellScenario(), studies.grid(mode=["jum"]), RECORD),
             ("mode", "Did you mean 'jump'"),
         ),
-        (lambda: studies.Study(DumbbellScenario(), _GRID, ["max_gap"]), ("max_gap", "one number")),
+        (lambda: studies.Study(_Telling(), studies.grid(height=[0.1]), ["told"]), ("told", "a row of numbers", "much")),
     ],
 )
 def test_what_cannot_be_run_is_refused_before_it_is(make: Callable[[], Any], words: tuple[str, ...]) -> None:
