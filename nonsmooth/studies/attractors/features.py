@@ -15,6 +15,7 @@ from nonsmooth.studies.attractors.group import Group
 from nonsmooth.studies.attractors.labels import labelled
 from nonsmooth.studies.attractors.linkage import linked
 from nonsmooth.studies.status import VALUED
+from nonsmooth.studies.summary import records_of
 
 if TYPE_CHECKING:
     import xarray
@@ -48,7 +49,7 @@ def features(study: xarray.Dataset, tolerances: Mapping[str, float], along: Alon
     UnknownName
         If a feature is no record that is one number, or the parameter is none that is varied.
     """
-    known = [str(name) for name, one in study.data_vars.items() if one.dims == study.status.dims]
+    known = records_of(study)
     if not tolerances:
         raise InvalidInput("features", "must be one at least", dict(tolerances), 'For example {"last_flight": 1e-3}.')
     for name, tolerance in tolerances.items():
@@ -57,7 +58,7 @@ def features(study: xarray.Dataset, tolerances: Mapping[str, float], along: Alon
         if not (is_finite(tolerance) and tolerance > 0.0):
             thing = f"features: tolerance of {name}"
             raise InvalidInput(thing, "must be positive and finite", tolerance, "Give it in the unit of the record.")
-    columns = [study[name].values.ravel() / tolerance for name, tolerance in tolerances.items()]
+    columns = [known[name].values.ravel() / tolerance for name, tolerance in tolerances.items()]
     values = np.stack(columns, axis=1).astype(float)
     missing = np.isnan(values)
     # numbers that are missing agree, and are apart from all that are there
