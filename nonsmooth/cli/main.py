@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from importlib.metadata import version
 
 from nonsmooth.cli.commands import (
+    basin,
     bifurcation,
     check,
     export,
@@ -29,7 +30,7 @@ from nonsmooth.errors import InvalidInput, MissingPackagesError, NonsmoothError,
 DONE, FAILED, WRONG_REQUEST = 0, 1, 2
 """Exit statuses."""
 
-_COMMANDS = (list, show, check, run, view, export, resume, save, figures, sweep, study, orbit, bifurcation, new)
+_COMMANDS = (list, show, check, run, view, export, resume, save, figures, sweep, basin, study, orbit, bifurcation, new)
 
 
 def parser() -> argparse.ArgumentParser:

@@ -28,7 +28,7 @@ def open_study(path: Path | str) -> xarray.Dataset:
     -------
     xarray.Dataset
         The records: of a grid over its axes, else over ``run`` with the parameters as coordinates.  Runs that have
-        not come to their end have NaN, or -1 in place of a word; ``status`` and ``reason`` tell why.
+        not come to their end have NaN, or -1 in place of a count or a word; ``status`` and ``reason`` tell why.
 
     Raises
     ------

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import hashlib
 import json
@@ -14,12 +15,12 @@ from nonsmooth.checks import check_kind, path_of
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput, NonsmoothWarning, UnknownName
 from nonsmooth.interfaces import Engine, Scenario
+from nonsmooth.progress import Display, Pace, RunsDone, on_standard_error
 from nonsmooth.studies.budget import Budgeted
 from nonsmooth.studies.executors import Dask, Executor, Serial, Threads
 from nonsmooth.studies.extras import require_store
 from nonsmooth.studies.layout import coordinates, labels_of, stored, variables
 from nonsmooth.studies.opening import open_study
-from nonsmooth.studies.progress import Display, Progress, on_standard_error
 from nonsmooth.studies.provenance import provenance
 from nonsmooth.studies.records.asked import Asked, records
 from nonsmooth.studies.records.record import Outcome
@@ -102,6 +103,11 @@ class Study:
         """Return how many runs of what it is."""
         return f"Study({len(self)} runs of {self._target.name})"
 
+    @property
+    def records(self) -> tuple[str, ...]:
+        """Names of what is kept of each run, besides ``status`` and ``reason``."""
+        return tuple(one.name for one in self._work.records)
+
     def _look(self) -> Outcome:
         """Begin the first run that can be built: what cannot be is a row later."""
         last: Exception = InvalidInput("study", "must have a run", None, "Add one.")
@@ -122,7 +128,10 @@ class Study:
             "points": self._points.digest,
             "engine": {"type": type(self._work.engine.engine).__name__, **vars(self._work.engine.engine)},
             "budget": self._budget,
-            "records": [{"name": one.name, "axes": dict(one.axes)} for one in self._work.records],
+            "records": [
+                {"name": one.name, "dtype": one.dtype, "axes": dict(one.axes), "how": one.how}
+                for one in self._work.records
+            ],
         }
         return json.dumps(known, sort_keys=True, default=repr)
 
@@ -172,7 +181,7 @@ class Study:
         store = Store(place)
         self._check_same(store, chunk)
         with store.writing():
-            self._run(store, does, on_standard_error() if display is None else display)
+            self._run(store, does, display or on_standard_error())
         return open_study(place)
 
     def _run(self, store: Store, executor: Executor, display: Display) -> None:
@@ -181,15 +190,12 @@ class Study:
         if not left:
             return
         n_done = len(self) - sum(len(one.parameters) for one in left)
-        progress, blocks = Progress(display, len(self), n_done), executor.blocks(self._work, left)
-        try:
+        with Pace(display) as pace, contextlib.closing(executor.blocks(self._work, left)) as blocks:
+            counted = RunsDone(pace, len(self), n_done)
             for block in blocks:
                 store.write(block)
                 ends = block.arrays["status"].tolist()
-                progress.add(len(ends), sum(end not in VALUED for end in ends))
-        finally:
-            blocks.close()  # type: ignore[attr-defined]
-            progress.finish()
+                counted.add(len(ends), sum(end not in VALUED for end in ends))
         store.finish()
 
     def _chunk(self, store: Store, number: int) -> Chunk:
@@ -210,7 +216,7 @@ class Study:
         }
         attributes = {
             "Conventions": "CF-1.11",
-            "title": repr(self),
+            "title": f"{len(self)} runs of {self._target.name}",
             "spec": spec,
             "sha256": hashlib.sha256(spec.encode()).hexdigest(),
             "layout": json.dumps(layout),

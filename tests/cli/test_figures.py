@@ -22,14 +22,10 @@ def test_every_figure_of_the_gallery(call: Call, tmp_path: Path) -> None:
 
 
 def test_after_ctrl_c_no_figure_of_half_a_run(call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    class Impatient:
-        def __call__(self, t: float, t_end: float) -> None:
-            signal.raise_signal(signal.SIGINT)
+    def impatient(t: float, t_end: float) -> None:
+        signal.raise_signal(signal.SIGINT)
 
-        def finish(self) -> None:
-            pass
-
-    monkeypatch.setattr(figures, "on_standard_error", Impatient)
+    monkeypatch.setattr(figures, "TimeReached", lambda _: impatient)
     status, _, errors = call("figures", "tiny", "--out", str(tmp_path))
     assert status == 1
     assert "error: interrupted: no figure was saved\n" in errors

@@ -44,14 +44,10 @@ def test_a_process_that_is_interrupted_saves_its_results(
 
 
 def test_ctrl_c_between_two_calls_of_the_engine(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
-    class Impatient:
-        def __call__(self, t: float, t_end: float, events: int) -> None:
-            signal.raise_signal(signal.SIGINT)
+    def impatient(t: float, t_end: float, events: int) -> None:
+        signal.raise_signal(signal.SIGINT)
 
-        def finish(self) -> None:
-            pass
-
-    monkeypatch.setattr(perform, "on_standard_error", Impatient)
+    monkeypatch.setattr(perform, "TimeReached", lambda _: impatient)
     status, output, _ = call("run", "tiny", "--set", "t_end=1e5", "--json")
     report = json.loads(output)
     assert status == 1

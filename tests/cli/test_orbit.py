@@ -73,7 +73,7 @@ def test_an_orbit_without_a_period(call: Call) -> None:
         (("orbit", *BALL, "--period", "0.04", "--within", "z,vx2"), "'vx2'"),
         (("orbit", *BALL), "must be given, or a section in its place"),
         (("orbit", *BALL, "--section", "z=0:up"), "must have the form NAME=LEVEL or NAME=LEVEL:falling"),
-        (("continue", *ASKED, "--over", "gamma=0.7"), "--over must have the form NAME=FROM:TO"),
+        (("continue", *ASKED, "--over", "gamma=0.7"), "--over gamma must have the form LOW:HIGH, "),
         (
             ("bifurcation", *BALL, "--over", "gamma=0.7:0.8", "--period", "0.04", "--show", "vz"),
             "must have the form LOW:HIGH:N",

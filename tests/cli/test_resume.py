@@ -15,15 +15,10 @@ from nonsmooth.cli.running import perform
 Call = Callable[..., tuple[int, str, str]]
 
 
-class _Impatient:
-    """Progress that interrupts the run when half of it is done."""
-
-    def __call__(self, t: float, t_end: float, n_events: int) -> None:
-        if t > 0.5 * t_end:
-            signal.raise_signal(signal.SIGINT)
-
-    def finish(self) -> None:
-        pass
+def _impatient(t: float, t_end: float, n_events: int) -> None:
+    """Interrupt the run when half of it is done."""
+    if t > 0.5 * t_end:
+        signal.raise_signal(signal.SIGINT)
 
 
 def _same(report: dict[str, Any]) -> dict[str, Any]:
@@ -58,7 +53,7 @@ def test_an_interrupted_run_ends_as_the_whole_one(
     trust = ["--trust"] if kind == "class" else []
     folder = tmp_path / "results"
     with monkeypatch.context() as patch:
-        patch.setattr(perform, "on_standard_error", _Impatient)
+        patch.setattr(perform, "TimeReached", lambda _: _impatient)
         patch.setattr(perform, "_save_figures", lambda *_: None)
         status, output, _ = call("run", *asked, "--json", "--out", str(folder))
         assert (status, json.loads(output)["status"]) == (1, "interrupted")

@@ -29,6 +29,11 @@ def drop(height: float, restitution: float = 0.7) -> ns.System:
     return system
 
 
+def shaken(seed: int) -> ns.System:
+    """Return a ball at a height that a seed decides."""
+    return drop(np.random.default_rng(seed).uniform(0.01, 0.05))
+
+
 def slow(height: float) -> ns.System:
     """Take a while."""
     time.sleep(0.03)

@@ -44,6 +44,14 @@ def test_rows_and_tables_are_the_same() -> None:
     assert studies.columns(pandas.DataFrame({"a": [1.0, 2.0]})).points().at(1) == {"a": 2.0}
 
 
+def test_whole_numbers_stay_whole() -> None:
+    """A seed is a parameter, too, of 64 bits without a sign at most."""
+    large = np.random.SeedSequence(1).generate_state(2, np.uint64)
+    points = studies.columns({"large": large, "seed": range(2), "mixed": [0, 0.5]}).points()
+    assert points.at(0) == {"large": int(large[0]), "seed": 0, "mixed": 0.0}
+    assert [type(value) for value in points.at(0).values()] == [int, int, float]
+
+
 @pytest.mark.parametrize(
     ("make", "words"),
     [

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
@@ -14,12 +14,14 @@ import pytest
 import nonsmooth as ns
 from nonsmooth import studies
 from nonsmooth.engine.memory.modes import DONE
+from nonsmooth.parameters import parameter
+from nonsmooth.simple_scenario import SimpleScenario
 from nonsmooth.studies import status
 from nonsmooth.studies.records.asked import Asked
 from nonsmooth.studies.store import Store
 from scenarios.bouncing_ball.scenario import BouncingBall
 from scenarios.dumbbell.scenario import DumbbellScenario
-from tests.studies.ball import RECORD, T_END, draws, drop
+from tests.studies.ball import RECORD, T_END, draws, drop, shaken
 
 pytest.importorskip("zarr", "3.1.3")
 
@@ -31,6 +33,24 @@ def _double(scenario: BouncingBall, solution: ns.Solution) -> float:
 
 def _raises(scenario: BouncingBall, solution: ns.Solution) -> float:
     raise OverflowError("too much")
+
+
+@dataclasses.dataclass(frozen=True)
+class _Telling(SimpleScenario):
+    """A drop that is told of in words that nobody listed."""
+
+    title: ClassVar[str] = "A drop"
+    height: float = parameter(0.1, doc="height", unit="m", above=0.0)
+    t_end: float = parameter(T_END, doc="end time", unit="s", above=0.0)
+
+    def build(self) -> ns.System:
+        return drop(self.height)
+
+    def summarise(self, solution: ns.Solution) -> Mapping[str, Any]:
+        return {"told": "much"}
+
+    def acceptance(self, solution: ns.Solution) -> tuple[ns.Criterion, ...]:
+        return ()
 
 
 def test_a_study_of_a_scenario_has_what_single_runs_have(tmp_path: Path) -> None:
@@ -49,6 +69,16 @@ def test_a_study_of_a_scenario_has_what_single_runs_have(tmp_path: Path) -> None
             assert row.q.values.tobytes() == run.at([0.0, 0.1]).q.tobytes()
             assert (row.impacts, row._double, row.reason) == (run.counters.impacts, 0.4, DONE)
             assert row.last_flight == one.summarise(run)["last_flight"]
+
+
+def test_rows_of_numbers_are_kept_whole(tmp_path: Path) -> None:
+    scenario = DumbbellScenario(t_end=0.4)
+    found = studies.Study(scenario, studies.grid(friction=[0.1, 0.3]), ["drift_velocity"]).run(tmp_path / "s.zarr")
+    assert found.drift_velocity.dims == ("friction", "drift_velocity_part")
+    for friction in (0.1, 0.3):
+        one = dataclasses.replace(scenario, friction=friction)
+        run = ns.simulate(one.build(), one.t_end, sample_interval=one.sample_interval)
+        assert found.drift_velocity.sel(friction=friction).values.tolist() == one.summarise(run)["drift_velocity"]
 
 
 def test_words_are_coordinates_and_classes(tmp_path: Path) -> None:
@@ -72,6 +102,16 @@ def test_a_run_that_fails_is_a_row(tmp_path: Path) -> None:
     assert "record _raises: OverflowError: too much" in texts[0]
 
 
+def test_counts_are_whole_and_a_seed_is_a_parameter(tmp_path: Path) -> None:
+    """The same seed gives the same run, stored with it."""
+    study = studies.Study(shaken, studies.listed([{"seed": seed} for seed in (3, 7, 3)]), RECORD, t_end=T_END)
+    found = study.run(tmp_path / "s.zarr", executor="threads")
+    one, other, again = (found.isel(run=run) for run in range(3))
+    assert one.q_end.values.tobytes() == again.q_end.values.tobytes() != other.q_end.values.tobytes()
+    assert found.seed.values.tolist() == [3, 7, 3]
+    assert {found[name].dtype.str for name in ("seed", "impacts", "steps")} == {"<i8"}
+
+
 def test_a_budget_ends_a_run_by_its_steps(tmp_path: Path) -> None:
     study = studies.Study(drop, studies.grid(restitution=[0.2, 0.9], height=[0.05]), RECORD, t_end=2.0, budget=60)
     found = study.run(tmp_path / "s.zarr", executor="serial")
@@ -81,17 +121,6 @@ def test_a_budget_ends_a_run_by_its_steps(tmp_path: Path) -> None:
     assert found.status.values.ravel().tolist() == [status.DONE, status.BUDGET]
     assert found.q_end.values[0].tobytes() == whole.q_end.values[0].tobytes()
     assert "its 60 steps were used up" in Store(tmp_path / "s.zarr").texts()[1]
-
-
-def test_a_map_hatches_what_has_no_record(tmp_path: Path) -> None:
-    axes = studies.grid(height=[-1.0, 0.01, 0.05], restitution=[0.5, 0.7])
-    found = studies.Study(drop, axes, ["impacts"], t_end=T_END).run(tmp_path / "s.zarr", executor="serial")
-    mesh, hatched = studies.draw_study(found).axes[0].collections
-    drawn = mesh.get_array()
-    assert drawn is not None
-    assert np.ma.getmaskarray(drawn).tolist() == [[True, True], [False, False], [False, False]]
-    assert len(hatched.get_paths()) == 2
-    assert hatched.get_hatch() == "xxx"
 
 
 def test_what_runs_are_made_of_is_written_beside_them(tmp_path: Path) -> None:
@@ -135,7 +164,7 @@ _BALL, _GRID = BouncingBall(t_end=0.1), studies.grid(gamma=[0.5])
             lambda: studies.Study(DumbbellScenario(), studies.grid(mode=["jum"]), RECORD),
             ("mode", "Did you mean 'jump'"),
         ),
-        (lambda: studies.Study(DumbbellScenario(), _GRID, ["max_gap"]), ("max_gap", "one number")),
+        (lambda: studies.Study(_Telling(), studies.grid(height=[0.1]), ["told"]), ("told", "a row of numbers", "much")),
     ],
 )
 def test_what_cannot_be_run_is_refused_before_it_is(make: Callable[[], Any], words: tuple[str, ...]) -> None:

@@ -1,4 +1,4 @@
-"""What ``sweep --over`` and ``--sample`` say, as a sampling."""
+"""What ``--over`` and ``--sample`` say: a sampling, the values of one parameter, or its range."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def sampling(words: Iterable[str], sample: str | None, seed: int) -> Sampling:
     kind, _, count = sample.partition(":")
     if kind not in _DRAWS:
         raise UnknownName("--sample", kind, _DRAWS)
-    ranges = {name: _numbers(name, word.split(":"), _RANGE) for name, word in named.items()}
+    ranges = {name: _range(name, word) for name, word in named.items()}
     return _DRAWS[kind](_whole("--sample", count), seed, **ranges)
 
 
@@ -56,6 +56,18 @@ def axis(word: str) -> tuple[str, list[float]]:
     if not np.issubdtype(row.dtype, np.floating):
         raise _refusal(name, _GRID, values)
     return name, row.tolist()
+
+
+def span(word: str) -> tuple[str, tuple[float, float]]:
+    """Return a parameter and its range.
+
+    Raises
+    ------
+    InvalidInput
+        If the word has another form.
+    """
+    name, values = _cut(word)
+    return name, _range(name, values)
 
 
 def _cut(word: str) -> tuple[str, str]:
@@ -81,6 +93,10 @@ def _values(name: str, word: str) -> NDArray[Any]:
         return np.array(parts)
 
 
+def _range(name: str, word: str) -> tuple[float, float]:
+    return _numbers(name, word.split(":"), _RANGE)
+
+
 def _numbers(name: str, words: list[str], form: str) -> tuple[float, float]:
     """Return two numbers out of as many words."""
     try:
@@ -91,7 +107,7 @@ def _numbers(name: str, words: list[str], form: str) -> tuple[float, float]:
 
 
 def _refusal(name: str, form: str, word: str) -> InvalidInput:
-    return InvalidInput(f"--over {name}", f"must have the form {form}", word, f"{_EXAMPLE}, or 0.5:0.9 with --sample.")
+    return InvalidInput(f"--over {name}", f"must have the form {form}", word, f"{_EXAMPLE}, or 0.5:0.9 for a range.")
 
 
 def _whole(thing: str, word: str) -> int:

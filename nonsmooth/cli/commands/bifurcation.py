@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -47,20 +46,16 @@ def execute(arguments: argparse.Namespace) -> bool:
     # imported when asked for: the other commands start faster without it
     from nonsmooth.studies.orbits import bifurcation, hysteresis
 
-    def progress(done: int, of: int) -> None:
-        if done % 25 == 0 or sys.stderr.isatty():
-            tell(f"{done} of {of} runs")
-
     given = job.scenario, name, values, arguments.period, arguments.show
     asked = {word: getattr(arguments, word) for word in ("at", "settle", "keep")}
     ways: dict[str, Diagram]
     found: Diagram | Hysteresis
     if arguments.follow:
-        found = hysteresis(*given, **asked, progress=progress)
+        found = hysteresis(*given, **asked)
         ways = {"up": found.up, "down": found.down}
         say(f"{found.apart.sum()} of {len(values)} values have two motions")
     else:
-        found = bifurcation(*given, **asked, progress=progress)
+        found = bifurcation(*given, **asked)
         ways = {"": found}
     for way, diagram in ways.items():
         for period, count in sorted(Counter(diagram.periods.tolist()).items()):

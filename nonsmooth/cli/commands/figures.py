@@ -10,8 +10,8 @@ from nonsmooth.cli.asking import extras, outputs
 from nonsmooth.cli.running import results
 from nonsmooth.cli.running.interrupt import Interrupt
 from nonsmooth.cli.telling.messages import complain, say
-from nonsmooth.cli.telling.progress import on_standard_error
 from nonsmooth.plugins import registry
+from nonsmooth.progress import Pace, TimeReached, on_standard_error
 from nonsmooth.results.output import Output
 
 
@@ -43,19 +43,17 @@ def execute(arguments: argparse.Namespace) -> bool:
 
 def _draw(owner: Any) -> Mapping[str, Any] | None:
     """Return the figures by name, None after Ctrl-C: figures of half a run would be wrong ones."""
-    progress = on_standard_error()
 
     def after_steps(t: float, t_end: float) -> None:
         progress(t, t_end)
         if t < t_end:
             interrupt.check()
 
-    with Interrupt() as interrupt:
+    with Pace(on_standard_error()) as pace, Interrupt() as interrupt:
+        progress = TimeReached(pace)
         try:
             drawn: Mapping[str, Any] = owner.gallery(after_steps)
         except (Exception, KeyboardInterrupt):
             if not interrupt.asked:
                 raise
-        finally:
-            progress.finish()
     return None if interrupt.asked else drawn

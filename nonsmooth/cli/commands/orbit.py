@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from nonsmooth.cli.asking import extras, outputs, request
+from nonsmooth.cli.asking import extras, outputs, over, request
 from nonsmooth.cli.running import results
-from nonsmooth.cli.telling.messages import say, tell
+from nonsmooth.cli.telling.messages import say
 from nonsmooth.errors import InvalidInput
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ def add_to(commands: Any) -> None:
             help="coordinates and velocities that repeat, apart by commas (z,ry,vz,wy); all by default",
         )
         if name == "continue":
-            command.add_argument("--over", required=True, metavar="NAME=FROM:TO", help="the parameter and its range")
+            command.add_argument("--over", required=True, metavar="NAME=LOW:HIGH", help="the parameter and its range")
             command.add_argument("--show", metavar="NAME", help="coordinate of the picture; the first of --within")
         command.add_argument("--out", type=Path, metavar="DIR", help="save a picture and numbers there")
         outputs.add_to(command)
@@ -61,7 +61,7 @@ def _execute_orbit(arguments: argparse.Namespace) -> bool:
 
 
 def _execute_continue(arguments: argparse.Namespace) -> bool:
-    name, low, high = _over(arguments.over)
+    name, span = over.span(arguments.over)
     found = _found(arguments)
     from nonsmooth.studies.derivatives.coordinates import coordinate_number
     from nonsmooth.studies.orbits import continuation
@@ -69,11 +69,7 @@ def _execute_continue(arguments: argparse.Namespace) -> bool:
     shown = arguments.show or found.map.chart.names[0]
     number = coordinate_number(found.family.model().system, shown)
 
-    def progress(orbit: Orbit, count: int) -> None:
-        if count % 10 == 0:
-            tell(f"{count} orbits, {name} = {orbit.family[name]:.6g}")
-
-    branch = continuation(found, name, (low, high), progress=progress)
+    branch = continuation(found, name, span)
     say(f"{len(branch.orbits)} orbits, {name} from {branch.values.min():.9g} to {branch.values.max():.9g}")
     say(f"ends by {branch.ending}")
     for one in branch.special:
@@ -119,17 +115,6 @@ def _section(word: str) -> Crossing:
         pass
     remedy = "For example --section phi_m=0, or --section vz=0:falling."
     raise InvalidInput("--section", "must have the form NAME=LEVEL or NAME=LEVEL:falling", word, remedy)
-
-
-def _over(word: str) -> tuple[str, float, float]:
-    name, equals, span = word.partition("=")
-    low, colon, high = span.partition(":")
-    try:
-        if name and equals and colon:
-            return name.strip(), float(low), float(high)
-    except ValueError:
-        pass
-    raise InvalidInput("--over", "must have the form NAME=FROM:TO", word, "For example --over gamma=0.3:1.2.")
 
 
 def _table(branch: Branch) -> str:

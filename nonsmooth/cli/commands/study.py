@@ -8,8 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from nonsmooth.cli.asking import outputs
-from nonsmooth.cli.commands import sweep
+from nonsmooth.cli.asking.study import add_executor_to, executor_asked, study_of
+from nonsmooth.cli.running.study import perform
 from nonsmooth.cli.telling.messages import complain, say, tell
+from nonsmooth.errors import InvalidInput
 from nonsmooth.studies.drawing import draw_study
 from nonsmooth.studies.extras import require, require_store
 from nonsmooth.studies.opening import open_study
@@ -31,9 +33,9 @@ def add_to(commands: Any) -> None:
         ("draw", draw, "draw its records"),
     ):
         part = parts.add_parser(name, help=words, allow_abbrev=False)
-        part.add_argument("study", type=Path, metavar="STUDY.zarr", help="what `sweep --out` was given")
+        part.add_argument("study", type=Path, metavar="STUDY.zarr", help="what `--out` was given")
         part.set_defaults(execute=execute)
-    sweep.add_executor_to(parts.choices["resume"])
+    add_executor_to(parts.choices["resume"])
     parts.choices["draw"].add_argument("--out", type=Path, metavar="FILE", help="STUDY.png by default")
     outputs.add_to(parts.choices["draw"])
 
@@ -56,9 +58,19 @@ def status(arguments: argparse.Namespace) -> bool:
 
 
 def resume(arguments: argparse.Namespace) -> bool:
-    """Go on with it."""
-    words = json.loads(str(_store(arguments).attributes["request"]))
-    return sweep.resumed(words, arguments.study, sweep.executor_asked(arguments))
+    """Go on with it.
+
+    Raises
+    ------
+    InvalidInput
+        If it was not begun on the command line.
+    """
+    words, path = json.loads(str(_store(arguments).attributes["request"])), arguments.study
+    if not words:
+        remedy = "Run the Python program again that began it: it goes on."
+        raise InvalidInput(str(path), "must have been begun on the command line", "a study of a program", remedy)
+    perform(study_of(words), words, path, executor_asked(arguments))
+    return True
 
 
 def verify(arguments: argparse.Namespace) -> bool:

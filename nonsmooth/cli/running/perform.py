@@ -11,9 +11,9 @@ from nonsmooth.cli.running import acceptance, results
 from nonsmooth.cli.running.interrupt import Interrupt
 from nonsmooth.cli.telling import report
 from nonsmooth.cli.telling.messages import complain, tell
-from nonsmooth.cli.telling.progress import on_standard_error
 from nonsmooth.errors import PluginError, RunFailed
 from nonsmooth.interfaces import Scenario
+from nonsmooth.progress import Pace, TimeReached, on_standard_error
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import UNFINISHED, SolutionFolder
 from nonsmooth.solution.draw_graph import draw
@@ -67,7 +67,6 @@ def perform(
 
 def computed(compute: Compute) -> tuple[Solution | None, str, str]:
     """Return the solution, as far as there is one, the status and why the run stopped."""
-    progress = on_standard_error()
 
     def after_steps(t: float, t_end: float, n_events: int) -> None:
         progress(t, t_end, n_events)
@@ -75,7 +74,8 @@ def computed(compute: Compute) -> tuple[Solution | None, str, str]:
             interrupt.check()
 
     try:
-        with Interrupt() as interrupt:
+        with Pace(on_standard_error()) as pace, Interrupt() as interrupt:
+            progress = TimeReached(pace)
             solution = compute(after_steps)
     except RunFailed as error:
         kept = cast("Solution | None", error.solution)
@@ -88,8 +88,6 @@ def computed(compute: Compute) -> tuple[Solution | None, str, str]:
     except KeyboardInterrupt:
         complain("interrupted before the run began")
         return None, "interrupted", "interrupted before the run began"
-    finally:
-        progress.finish()
     if solution.status == "suspect":
         complain(f"suspect: {solution.message}")
     return solution, solution.status, solution.message

@@ -1,1 +1,1 @@
-"""What the user reads: lines, tables, reports, progress."""
+"""What the user reads: lines, tables, reports."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import logging
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, final
 
@@ -44,7 +44,7 @@ class Dask(Executor):
     def __post_init__(self) -> None:
         check_workers("Dask: n", self.n)
 
-    def blocks(self, work: Work, chunks: Sequence[Chunk]) -> Iterator[Block]:
+    def blocks(self, work: Work, chunks: Sequence[Chunk]) -> Generator[Block, None, None]:
         """Yield as workers return them.
 
         A chunk whose workers died may have been next to the one that killed them: such ones are done last, each alone,
@@ -98,7 +98,7 @@ def _block(work: Work, chunk: Chunk) -> Block:
 
 def _in_turn(
     client: Client, work: Work, chunks: Sequence[Chunk], window: int, suspects: list[Chunk]
-) -> Iterator[Block]:
+) -> Generator[Block, None, None]:
     """Yield the blocks of all chunks but of those whose workers died too often, which become suspects."""
     from distributed import KilledWorker, as_completed
 

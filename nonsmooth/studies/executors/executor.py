@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.studies.work import Block, Chunk, Work
@@ -21,7 +21,7 @@ class Executor(ABC):
     """
 
     @abstractmethod
-    def blocks(self, work: Work, chunks: Sequence[Chunk]) -> Iterator[Block]:
+    def blocks(self, work: Work, chunks: Sequence[Chunk]) -> Generator[Block, None, None]:
         """Yield what comes of the chunks.
 
         Raises

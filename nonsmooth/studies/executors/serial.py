@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from dataclasses import dataclass
 from typing import final
 
@@ -15,7 +15,7 @@ from nonsmooth.studies.work import Block, Chunk, Work
 class Serial(Executor):
     """Does everything here."""
 
-    def blocks(self, work: Work, chunks: Sequence[Chunk]) -> Iterator[Block]:
+    def blocks(self, work: Work, chunks: Sequence[Chunk]) -> Generator[Block, None, None]:
         """Yield one after another."""
         for chunk in chunks:
             yield work.block(chunk)

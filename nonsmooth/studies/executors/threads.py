@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from typing import final
@@ -35,7 +35,7 @@ class Threads(Executor):
     def __post_init__(self) -> None:
         check_workers("Threads: n", self.n)
 
-    def blocks(self, work: Work, chunks: Sequence[Chunk]) -> Iterator[Block]:
+    def blocks(self, work: Work, chunks: Sequence[Chunk]) -> Generator[Block, None, None]:
         """Yield as threads come to the end of chunks."""
         n, ended, left = check_workers("Threads: n", self.n), threading.Event(), iter(chunks)
 

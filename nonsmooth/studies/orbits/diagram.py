@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, final
 
@@ -14,8 +13,10 @@ from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import RunFailed
 from nonsmooth.interfaces import Scenario
 from nonsmooth.plot.asked import axes_of
+from nonsmooth.progress import Display, Pace, RunsDone, on_standard_error
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.orbits.looks import Looks
+from nonsmooth.studies.periods import periods
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -55,7 +56,7 @@ class Diagram:
     def periods(self) -> NDArray[np.int64]:
         """After how many periods the motion repeats; 0 where it does not within those that were kept; shape [n]."""
         near = _ALIKE * max(float(np.nanmax(self.points) - np.nanmin(self.points)), np.finfo(float).tiny)
-        return np.array([_period(row, near) for row in self.points])
+        return periods(self.points[:, :, np.newaxis], near)
 
     @property
     def failed(self) -> int:
@@ -101,7 +102,7 @@ def bifurcation(
     at: float = 0.0,
     settle: int = 200,
     keep: int = 64,
-    progress: Callable[[int, int], None] | None = None,
+    display: Display | None = None,
 ) -> Diagram:
     """Run a system with each value of a parameter, and look once a period.
 
@@ -121,8 +122,8 @@ def bifurcation(
         When in each period it is looked at [s]: where no velocity jumps, or points lie on either side of it.
     settle, keep : int
         Periods that are left out, and those that are kept.
-    progress : callable, optional
-        Called with the number of runs done and of all.
+    display : Display, optional
+        Where progress is shown; on standard error by default.
 
     Raises
     ------
@@ -136,21 +137,14 @@ def bifurcation(
     _ = family[name]
     word = looks.unit(family.model(**{name: row[0]}))
     points, failures = np.full((len(row), keep), np.nan), list[str]()
-    for i, value in enumerate(row.tolist()):
-        model = family.model(**{name: value})
-        try:
-            points[i], _ = looks.settled(model, model.start)
-            failures.append("")
-        except RunFailed as error:
-            failures.append(str(error))
-        if progress is not None:
-            progress(i + 1, len(row))
+    with Pace(display or on_standard_error()) as pace:
+        counted = RunsDone(pace, len(row))
+        for i, value in enumerate(row.tolist()):
+            model = family.model(**{name: value})
+            try:
+                points[i], _ = looks.settled(model, model.start)
+                failures.append("")
+            except RunFailed as error:
+                failures.append(str(error))
+            counted.add(1, bool(failures[-1]))
     return Diagram(name, row, coordinate, word, points, tuple(failures))
-
-
-def _period(points: Sequence[float] | Floats, near: float) -> int:
-    row = np.asarray(points)
-    for period in range(1, len(row) // 2 + 1):
-        if np.all(np.abs(row[period:] - row[:-period]) <= near):
-            return period
-    return 0

@@ -12,6 +12,7 @@ from scipy.optimize import brentq
 
 from nonsmooth.checks import is_finite
 from nonsmooth.errors import InvalidInput, RunFailed
+from nonsmooth.progress import Display, Pace, RangeCovered, on_standard_error
 from nonsmooth.studies.derivatives.slope import OrderOfEvents
 from nonsmooth.studies.orbits.branch import Branch, Special
 from nonsmooth.studies.orbits.margins import Foretold, Margins, foretold, margins
@@ -35,7 +36,7 @@ def continuation(
     *,
     period: Callable[[float], float] | None = None,
     most: int = _MOST,
-    progress: Callable[[Orbit, int], None] | None = None,
+    display: Display | None = None,
 ) -> Branch:
     """Follow an orbit along a parameter, both ways, as far as a range or its events go.
 
@@ -51,8 +52,8 @@ def continuation(
         The period [s] of what drives the system at a value of the parameter; that of the orbit by default.
     most : int
         Steps at most, either way.
-    progress : callable, optional
-        Called with each orbit found and their number.
+    display : Display, optional
+        Where progress is shown; on standard error by default.
 
     Raises
     ------
@@ -77,15 +78,9 @@ def continuation(
     first, rest = path.at(orbit.state, value, None)
     tangent = rest[len(first.map.way) :]
     up = tangent if tangent[-1] >= 0.0 else -tangent
-    count = 0
-
-    def told(found: Orbit) -> None:
-        nonlocal count
-        count += 1
-        if progress is not None:
-            progress(found, count)
-
-    back, on = (_followed(path, Point(first, way, 0.0), most, told) for way in (-up, up))
+    with Pace(display or on_standard_error()) as pace:
+        covered = RangeCovered(pace, name, value, span)
+        back, on = (_followed(path, Point(first, way, 0.0), most, covered) for way in (-up, up))
     orbits = (*reversed(back.orbits), first, *on.orbits)
     values = np.array([one.family[name] for one in orbits])
     nearness = (*reversed(back.margins[1:]), *on.margins)
@@ -104,7 +99,7 @@ class _Way:
     ending: str
 
 
-def _followed(path: Path, point: Point, most: int, told: Callable[[Orbit], None]) -> _Way:
+def _followed(path: Path, point: Point, most: int, covered: RangeCovered) -> _Way:
     found, left, special, step = [point], [margins(point.orbit)], list[Special](), _FIRST
     ending, bound = f"{most} steps", np.inf
     while len(found) <= most:
@@ -127,7 +122,7 @@ def _followed(path: Path, point: Point, most: int, told: Callable[[Orbit], None]
         special += _between(path, point, step, following)
         found.append(following)
         left.append(margins(following.orbit))
-        told(following.orbit)
+        covered.add(path.value(following))
         point, step = following, min(_GROWS * step, _LARGEST)
         # where nothing was found half of the way is likely to lead to something
         if bound > point.along:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, final
 
@@ -16,6 +15,7 @@ from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import Scenario
 from nonsmooth.plot.asked import axes_of
 from nonsmooth.plot.lines import beside
+from nonsmooth.progress import Display, Pace, RunsDone, on_standard_error
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.chart import Chart
@@ -87,7 +87,7 @@ def hysteresis(
     at: float = 0.0,
     settle: int = 200,
     keep: int = 64,
-    progress: Callable[[int, int], None] | None = None,
+    display: Display | None = None,
 ) -> Hysteresis:
     """Follow a motion through rising values of a parameter, and through falling ones, and look once a period.
 
@@ -99,8 +99,8 @@ def hysteresis(
     ----------
     what, name, values, period, coordinate, at, settle, keep
         As of :func:`bifurcation`; the values are sorted.
-    progress : callable, optional
-        Called with the number of runs done and of all.
+    display : Display, optional
+        Where progress is shown; on standard error by default.
 
     Raises
     ------
@@ -114,20 +114,20 @@ def hysteresis(
     _ = family[name]
     word = looks.unit(family.model(**{name: row[0]}))
     points, failures = np.full((2, len(row), keep), np.nan), np.full((2, len(row)), "", dtype=object)
-    done, upwards = 0, range(len(row))
-    for way, order in enumerate((upwards, reversed(upwards))):
-        before: tuple[Model, State] | None = None
-        for i in order:
-            model = family.model(**{name: float(row[i])})
-            try:
-                start = model.start if before is None else _carried(model, *before, period)
-                points[way, i], end = looks.settled(model, start)
-                before = model, end
-            except (RunFailed, InvalidInput) as error:
-                failures[way, i], before = str(error), None
-            done += 1
-            if progress is not None:
-                progress(done, 2 * len(row))
+    upwards = range(len(row))
+    with Pace(display or on_standard_error()) as pace:
+        counted = RunsDone(pace, 2 * len(row))
+        for way, order in enumerate((upwards, reversed(upwards))):
+            before: tuple[Model, State] | None = None
+            for i in order:
+                model = family.model(**{name: float(row[i])})
+                try:
+                    start = model.start if before is None else _carried(model, *before, period)
+                    points[way, i], end = looks.settled(model, start)
+                    before = model, end
+                except (RunFailed, InvalidInput) as error:
+                    failures[way, i], before = str(error), None
+                counted.add(1, bool(failures[way, i]))
     up, down = (
         Diagram(name, row, coordinate, word, points[way], tuple(map(str, failures[way].tolist()))) for way in (0, 1)
     )

@@ -12,12 +12,13 @@ from numpy.typing import NDArray
 from nonsmooth.checks import is_finite
 from nonsmooth.errors import InvalidInput, NonsmoothError, RunFailed
 from nonsmooth.interfaces import Scenario
+from nonsmooth.progress import Display, Pace, TimeReached, on_standard_error
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.coordinates import coordinate_number
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.derivatives.passage import Signature, named
-from nonsmooth.studies.orbits.choosing import at_phase, chosen, seen
+from nonsmooth.studies.orbits.choosing import at_phase, chosen
 from nonsmooth.studies.orbits.linear import Corner, Linear, linear
 from nonsmooth.studies.orbits.sections import Crossing, Section, Strobe
 
@@ -134,6 +135,7 @@ def orbit(
     settle: float = 0.0,
     start: State | None = None,
     within: Sequence[str] | None = None,
+    display: Display | None = None,
 ) -> Orbit:
     """Find the orbit near a start.
 
@@ -159,6 +161,8 @@ def orbit(
     within : sequence of str, optional
         Names of coordinates and velocities that repeat ("z", or "ball.z" where bodies share a name); by default all.
         Leave out those along which the motion drifts, and all out of a plane that it stays in.
+    display : Display, optional
+        Where it is shown how far the time before is; on standard error by default.
 
     Raises
     ------
@@ -182,7 +186,8 @@ def orbit(
     model = family.model()
     begin = model.start if start is None else start
     if settle > 0.0:
-        begin = seen(model, begin, begin.time + settle)
+        with Pace(display or on_standard_error()) as pace:
+            begin = model.run(begin.time + settle, start=begin, progress=TimeReached(pace)).state
     if section is not None:
         watched = section.watched(family)
         return close(watched, section.entered(watched.model(), begin), section, names)

@@ -21,26 +21,32 @@ def _n_events(outcome: Outcome) -> int:
     return len(outcome.solution.events)
 
 
-_NUMBERS: Mapping[str, tuple[Callable[[Outcome], Any], str, str]] = {
+_COUNTS: Mapping[str, tuple[Callable[[Outcome], int], str]] = {
+    "impacts": (attrgetter("solution.counters.impacts"), "impacts"),
+    "events": (_n_events, "events, the start among them"),
+    "steps": (attrgetter("solution.counters.steps"), "accepted steps of the flow"),
+}
+_NUMBERS: Mapping[str, tuple[Callable[[Outcome], float], str, str]] = {
     "t_end": (attrgetter("solution.t_end"), "s", "time reached"),
-    "impacts": (attrgetter("solution.counters.impacts"), "1", "impacts"),
-    "events": (_n_events, "1", "events, the start among them"),
-    "steps": (attrgetter("solution.counters.steps"), "1", "accepted steps of the flow"),
     "energy_residual": (attrgetter("solution.energy.residual"), "1", "relative error of the energy account"),
 }
+_NUMBER = (int, float, np.number, np.bool_)
 _STATES = {"q_end": ("coordinate", "coordinates at the end"), "u_end": ("velocity", "velocities at the end")}
 
 
 @final
 @dataclass(frozen=True)
 class Named(Recorder):
-    """A number, state or class by its name."""
+    """A count, number, state or class by its name."""
 
     name: str
 
     def record(self, look: Outcome) -> Record:
         """Return what every run has, or what the summary of this one has."""
         name = self.name
+        if name in _COUNTS:
+            count, told = _COUNTS[name]
+            return Record(name, count, described(told, "1"), dtype="int64")
         if name in _NUMBERS:
             find, unit, told = _NUMBERS[name]
             return Record(name, find, described(told, unit))
@@ -48,19 +54,21 @@ class Named(Recorder):
             axis, told = _STATES[name]
             return Record(name, attrgetter(f"solution.{name}"), described(told), {axis: look.along(axis)})
         if name not in look.summary:
-            raise UnknownName("record", name, [*_NUMBERS, *_STATES, *ALWAYS, *look.summary])
+            raise UnknownName("record", name, [*_COUNTS, *_NUMBERS, *_STATES, *ALWAYS, *look.summary])
         return self._of_summary(look)
 
     def _of_summary(self, look: Outcome) -> Record:
         value, scenario = look.summary[self.name], look.scenario
         words = () if scenario is None else tuple(scenario.words.get(self.name, ()))
         units = {} if scenario is None else scenario.units
-        is_number = value is None or isinstance(value, (int, float, np.number, np.bool_))
-        if not (words or is_number):
+        parts = value if isinstance(value, (list, tuple, np.ndarray)) else (value,)
+        if not (words or all(part is None or isinstance(part, _NUMBER) for part in parts)):
             remedy = "Give a function f(scenario, solution) -> number, or list the words in `words` of the scenario."
-            raise InvalidInput(f"record {self.name}", "must be one number, or a word of a list", value, remedy)
+            rule = "must be a number, a row of numbers, or a word of a list"
+            raise InvalidInput(f"record {self.name}", rule, value, remedy)
         told = described(f"{self.name} of the scenario", units.get(self.name, ""))
-        return Record(self.name, Summarised(self.name), told, words=words)
+        axes = {} if parts is not value else {f"{self.name}_part": range(len(parts))}
+        return Record(self.name, Summarised(self.name), told, axes, words, "int8" if words else "float64")
 
 
 @final

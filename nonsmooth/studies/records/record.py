@@ -60,6 +60,10 @@ class Record:
         Of each axis behind that of the runs its name and the labels along it.
     words : tuple of str
         Of a class all names that it can have; empty for numbers.
+    dtype : str
+        Of the values: "int8" of a class, "int64" of a count.
+    how : str
+        What decides its values besides its name and axes, for the record.
     """
 
     name: str
@@ -67,6 +71,8 @@ class Record:
     attributes: Mapping[str, Any]
     axes: Mapping[str, Sequence[Any]] = field(default_factory=dict)
     words: tuple[str, ...] = ()
+    dtype: str = "float64"
+    how: str = ""
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -76,12 +82,7 @@ class Record:
     @property
     def none(self) -> float:
         """What stands where there is no value."""
-        return -1 if self.words else np.nan
-
-    @property
-    def dtype(self) -> str:
-        """Of the values."""
-        return "int8" if self.words else "float64"
+        return np.nan if self.dtype == "float64" else -1
 
     def of(self, outcome: Outcome) -> Any:
         """Return the value of a run: numbers of this shape, or the number of a word.
@@ -96,7 +97,7 @@ class Record:
             return self.none
         if self.words:
             return self.words.index(found)
-        value = np.asarray(found, float)
+        value = np.asarray(found, self.dtype)
         if value.shape != self.shape:
             raise ValueError(f"the record {self.name} has the shape {value.shape}, not {self.shape}")
         return value

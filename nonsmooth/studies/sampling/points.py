@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from nonsmooth.errors import InvalidInput
 
 Value: TypeAlias = float | str
+_STORED = {"i": "int64", "u": "uint64", "f": "float64", "U": "U"}
 
 
 @final
@@ -48,7 +49,7 @@ class Points:
 
 
 def column(name: str, values: Any) -> NDArray[Any]:
-    """Return the values of a parameter as a row of numbers or words.
+    """Return the values of a parameter as a row of numbers or words; whole numbers, as seeds are, stay whole.
 
     Raises
     ------
@@ -60,13 +61,11 @@ def column(name: str, values: Any) -> NDArray[Any]:
         found = np.asarray(values)
     except ValueError as error:
         raise InvalidInput(thing, "must be a row of numbers or of words", values, "Give a list of them.") from error
-    if found.dtype.kind in "iuf":
-        found = found.astype(float)
-    if found.ndim != 1 or found.dtype.kind not in "fU":
+    if found.ndim != 1 or found.dtype.kind not in "iufU":
         raise InvalidInput(thing, "must be a row of numbers or of words", values, "Give a list of them.")
     if len(found) == 0:
         raise InvalidInput(thing, "must have a value at least", values, "Give one value or more.")
     if found.dtype.kind == "f" and not np.isfinite(found).all():
         bad = found[~np.isfinite(found)][0].item()
         raise InvalidInput(thing, "must have finite values", bad, "Leave out what is not a number.")
-    return found
+    return found.astype(_STORED[found.dtype.kind], copy=False)

@@ -11,6 +11,7 @@ import nonsmooth as ns
 from bodies import Ball, Plate
 from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.native.kernel import PLAIN
+from nonsmooth.progress import Display
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.orbits.diagram import bifurcation
 from nonsmooth.studies.orbits.hysteresis import hysteresis
@@ -46,13 +47,24 @@ def _dropped(restitution: float) -> ns.System:
     return system
 
 
+class _Told(Display):
+    patience = interval = 0.0
+
+    def __init__(self) -> None:
+        self.told: list[str] = []
+
+    def show(self, share: float, before: str, behind: str) -> None:
+        self.told.append(before)
+
+    def close(self) -> None:
+        pass
+
+
 def test_it_is_counted_and_refused() -> None:
-    told: list[tuple[int, int]] = []
+    display = _Told()
     family = Family(_dropped, {"restitution": 0.5})
-    found = bifurcation(
-        family, "restitution", [0.4, 0.5], 0.05, "z", settle=20, keep=4, progress=lambda i, n: told.append((i, n))
-    )
-    assert told == [(1, 2), (2, 2)]
+    found = bifurcation(family, "restitution", [0.4, 0.5], 0.05, "z", settle=20, keep=4, display=display)
+    assert display.told == ["1 of 2 runs", "2 of 2 runs"]
     np.testing.assert_allclose(found.points, 0.01, atol=1e-12)
     with pytest.raises(ns.InvalidInput, match=r"ball\.vzz.*Did you mean 'ball\.vz'"):
         bifurcation(family, "restitution", [0.5], 0.05, "ball.vzz")
@@ -72,10 +84,8 @@ def test_it_persists_where_a_fresh_start_rests() -> None:
     fold, rate = math.pi / 9.0, 50.0 * math.pi
     family = Family(lambda gamma: BouncingBall(gamma=gamma, start_phase=1.1, speed=0.19).build(), {"gamma": 0.3})
     values = np.array([0.3, 0.97 * fold, 1.03 * fold, 0.5, 0.7, 0.9])
-    told: list[tuple[int, int]] = []
-    found = hysteresis(
-        family, "gamma", values, 0.04, "z", at=0.02, settle=400, keep=8, progress=lambda i, n: told.append((i, n))
-    )
+    display = _Told()
+    found = hysteresis(family, "gamma", values, 0.04, "z", at=0.02, settle=400, keep=8, display=display)
     assert found.up.failures == found.down.failures == 6 * ("",)
     assert found.apart.tolist() == [False, False, True, True, True, True]
     assert found.up.periods.tolist() == found.down.periods.tolist() == 6 * [1]
@@ -87,4 +97,4 @@ def test_it_persists_where_a_fresh_start_rests() -> None:
     late = np.mod(0.02 - (angle - 1.1) / rate, 0.04)
     flies = 0.01 + amplitude[2:] * np.sin(angle) + 0.5 * 9.81 * late * (0.04 - late)
     np.testing.assert_allclose(found.down.points[2:, 0], flies, atol=1e-8)
-    assert told[-1] == (12, 12)
+    assert display.told[-1] == "12 of 12 runs"

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from nonsmooth.errors import InvalidInput
+from nonsmooth.studies.attractors.labels import words_of
 
 if TYPE_CHECKING:
     import xarray
@@ -17,21 +18,22 @@ def basin_stability(attractor: xarray.DataArray) -> dict[str, tuple[float, float
     Parameters
     ----------
     attractor : DataArray
-        The record ``attractor`` of a study whose starts were drawn from the volume that is asked about; N counts the
-        runs that came to their end.
+        The attractors of a study whose starts were drawn from the volume that is asked about; N counts the runs that
+        came to their end.
 
     Raises
     ------
     InvalidInput
         If it is no record of words, or no run came to its end.
+
+    References
+    ----------
+    P. J. Menck, J. Heitzig, N. Marwan, J. Kurths, "How basin stability complements the linear-stability paradigm",
+    Nature Physics 9 (2013) 89-92.
     """
-    words = attractor.attrs.get("flag_meanings")
-    if words is None:
-        remedy = "Give dataset.attractor of a scenario that classifies its runs."
-        raise InvalidInput("basin_stability", "needs a record of words", attractor.name, remedy)
-    values = attractor.values.ravel()
+    words, values = words_of(attractor, "basin_stability"), attractor.values.ravel()
     n = int((values >= 0).sum())
     if n == 0:
         raise InvalidInput("basin_stability", "needs runs that came to their end", n, "See `status` and `reason`.")
-    shares = {word: float((values == i).sum()) / n for i, word in enumerate(words.split(" "))}
+    shares = {word: float((values == i).sum()) / n for i, word in enumerate(words)}
     return {word: (b, math.sqrt(b * (1.0 - b) / n)) for word, b in shares.items()}

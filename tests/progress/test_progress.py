@@ -1,4 +1,4 @@
-"""When progress is shown, and what stays of it."""
+"""When progress is shown, what is said of the rest, and what stays of it."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from nonsmooth.cli.telling.progress import Bar, Display, Lines, Progress, on_standard_error
+from nonsmooth.progress import Bar, Display, Lines, Pace, RangeCovered, RunsDone, TimeReached, on_standard_error
 
 
 class _Clock:
@@ -27,11 +27,11 @@ class _Terminal(io.StringIO):
 def _shown(display: Display, seconds: float) -> None:
     """Run ten simulated seconds in so many seconds of wall time, reported a hundred times."""
     clock = _Clock()
-    progress = Progress(display, clock)
-    for i in range(1, 101):
-        clock.now = seconds * i / 100
-        progress(0.1 * i, 10.0, 3 * i)
-    progress.finish()
+    with Pace(display, clock) as pace:
+        progress = TimeReached(pace)
+        for i in range(1, 101):
+            clock.now = seconds * i / 100
+            progress(0.1 * i, 10.0, 3 * i)
 
 
 @pytest.mark.parametrize("kind", [Lines, Bar])
@@ -65,7 +65,7 @@ def test_a_terminal_has_one_line_that_is_gone_in_the_end(monkeypatch: pytest.Mon
 def test_what_came_before_the_run_does_not_count() -> None:
     """The engine may have been compiled for half a minute."""
     clock, stream = _Clock(), io.StringIO()
-    progress = Progress(Lines(stream), clock)
+    progress = TimeReached(Pace(Lines(stream), clock))
     clock.now = 30.0
     progress(1.0, 10.0)
     assert stream.getvalue() == ""
@@ -76,11 +76,44 @@ def test_what_came_before_the_run_does_not_count() -> None:
 
 def test_the_next_of_several_runs_is_estimated_by_itself() -> None:
     clock, stream = _Clock(), io.StringIO()
-    progress = Progress(Lines(stream), clock)
+    progress = TimeReached(Pace(Lines(stream), clock))
     for now, t in ((0.0, 1.0), (100.0, 10.0), (101.0, 0.1), (111.0, 5.0)):
         clock.now = now
         progress(t, 10.0)
     assert stream.getvalue().splitlines()[-1] == "t = 5 of 10 s (50%, about 10 s to go)"
+
+
+def test_runs_have_a_rate_that_leaves_out_those_done_before() -> None:
+    clock, stream = _Clock(), io.StringIO()
+    counted = RunsDone(Pace(Lines(stream), clock), 1000, 100)
+    for _ in range(4):
+        clock.now += 20.0
+        counted.add(100, 1)
+    assert stream.getvalue().splitlines()[-1] == "500 of 1000 runs (50%, 4 failed, 5 per s, about 100 s to go)"
+
+
+def test_the_last_of_all_runs_leaves_no_time() -> None:
+    clock, stream = _Clock(), io.StringIO()
+    counted = RunsDone(Pace(Lines(stream), clock), 5)
+    clock.now = 4.0
+    counted.add(5, 5)
+    assert stream.getvalue() == "5 of 5 runs (100%, 5 failed, 1.25 per s, about 0 s to go)\n"
+
+
+def test_orbits_cover_a_range_both_ways() -> None:
+    """Behind a fold, where the parameter turns back, no more of the range is covered."""
+    clock, stream = _Clock(), io.StringIO()
+    covered = RangeCovered(Pace(Lines(stream), clock), "gamma", 2.0, (1.0, 5.0))
+    for value in (1.5, 1.0, 2.5, 3.0, 2.8):
+        clock.now += 20.0
+        covered.add(value)
+    assert stream.getvalue().splitlines() == [
+        "orbit 1, gamma = 1.5 (12%, 0.05 per s, about 140 s to go)",
+        "orbit 2, gamma = 1 (25%, 0.05 per s, about 120 s to go)",
+        "orbit 3, gamma = 2.5 (38%, 0.05 per s, about 100 s to go)",
+        "orbit 4, gamma = 3 (50%, 0.05 per s, about 80 s to go)",
+        "orbit 5, gamma = 2.8 (50%, 0.05 per s, about 100 s to go)",
+    ]
 
 
 def test_a_stream_that_takes_nothing_does_not_stop_the_run() -> None:
@@ -95,9 +128,7 @@ def test_a_stream_that_takes_nothing_does_not_stop_the_run() -> None:
 
 def test_without_standard_error_nothing_is_written(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("sys.stderr", None)
-    progress = on_standard_error()
-    progress(1.0, 10.0)
-    progress.finish()
+    _shown(on_standard_error(), 30.0)
 
 
 def test_nobody_waits_for_the_bar_to_be_imported() -> None:

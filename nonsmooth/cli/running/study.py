@@ -1,0 +1,28 @@
+"""What all commands that run a study have in common: run what is not stored yet, tell what came of it."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from nonsmooth.cli.telling.messages import say, tell
+from nonsmooth.studies.executors.executor import Executor
+from nonsmooth.studies.study import Study
+from nonsmooth.studies.summary import summary
+
+if TYPE_CHECKING:
+    import xarray
+
+
+def perform(
+    study: Study, words: Mapping[str, Any], path: Path, executor: Executor, chunk: int | None = None
+) -> xarray.Dataset:
+    """Run, or go on with, a study that was asked for in words; return all of it."""
+    with contextlib.redirect_stdout(sys.stderr):  # whatever a plug-in prints
+        found = study.run(path, executor=executor, chunk=chunk, request=words)
+    say(summary(found))
+    tell(f"the study is in {path}")
+    return found

@@ -1,0 +1,19 @@
+"""Attractors of a study: told apart, their basins, and how these change along a parameter."""
+
+from nonsmooth.studies.attractors.boundary import Boundary, uncertainty_exponent
+from nonsmooth.studies.attractors.features import features
+from nonsmooth.studies.attractors.following import Along, matched
+from nonsmooth.studies.attractors.fractions import basin_fractions
+from nonsmooth.studies.attractors.recurrences import recurrences
+from nonsmooth.studies.attractors.stability import basin_stability
+
+__all__ = [
+    "Along",
+    "Boundary",
+    "basin_fractions",
+    "basin_stability",
+    "features",
+    "matched",
+    "recurrences",
+    "uncertainty_exponent",
+]

@@ -1,0 +1,129 @@
+"""The uncertainty exponent of a basin boundary: how much is gained by knowing the start better."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.studies.attractors.labels import words_of
+
+if TYPE_CHECKING:
+    import xarray
+
+Floats = NDArray[np.float64]
+_MARGIN = 8
+"""The largest distance is such a part of the shortest side of the grid."""
+_FEWEST = 3
+"""Distances that a fit with an error needs."""
+_SATURATED = 0.5
+"""Above this share of uncertain starts a distance is no longer small beside the basins."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Boundary:
+    """How uncertain the attractor is by the distance eps of starts: f ~ eps^exponent.
+
+    Attributes
+    ----------
+    steps : array
+        Distances eps, in steps of the grid, shape [n].
+    uncertain : array
+        Share f of the starts that have a neighbour at that distance, along an axis of the grid, with another
+        attractor, shape [n].
+    starts : int
+        Starts that were looked at.
+    exponent, error : float
+        The uncertainty exponent, 1 for a smooth boundary, and its standard error, out of the scatter about the fit.
+    offset : float
+        ln f of the fit at one step.
+    dimension : float
+        Of the boundary: that of the grid less the exponent.
+    """
+
+    steps: Floats
+    uncertain: Floats
+    starts: int
+    exponent: float
+    error: float
+    offset: float
+    dimension: float
+
+
+def uncertainty_exponent(attractor: xarray.DataArray) -> Boundary:
+    """Return the uncertainty exponent of the boundaries between all attractors of a grid of starts.
+
+    Distances are 1, 2, 4 ... steps of the grid, up to an eighth of its shortest side; the starts are those that have
+    all neighbours, all of which came to their end.  The fit is of ln f over ln eps, by least squares, for f up to
+    a half: beyond, a distance is as large as the basins.
+
+    Parameters
+    ----------
+    attractor : DataArray
+        The attractors of a study over a grid of evenly spaced starts; of a study that varies a parameter as well, those
+        of one value, ``attractor.sel(gamma=0.8)``.
+
+    Raises
+    ------
+    InvalidInput
+        If it is no record of words, not over an even grid, over too small a one, or has no boundary.
+
+    References
+    ----------
+    S. W. McDonald, C. Grebogi, E. Ott, J. A. Yorke, "Fractal basin boundaries", Physica D 17 (1985) 125-153.
+    """
+    from scipy.stats import linregress
+
+    words_of(attractor, "uncertainty_exponent")
+    _check_even(attractor)
+    labels = attractor.values
+    steps = 2 ** np.arange(int(np.log2(max(min(labels.shape) // _MARGIN, 1))) + 1)
+    if len(steps) < _FEWEST:
+        remedy = f"Take {_MARGIN * 2 ** (_FEWEST - 1)} values of each parameter, or more."
+        raise InvalidInput("uncertainty_exponent", "needs a larger grid", labels.shape, remedy)
+    found = [_neighbours(labels, int(step), int(steps[-1])) for step in steps]
+    known = np.all([whole for whole, _ in found], axis=0)
+    uncertain = np.array([other[known].mean() if known.any() else 0.0 for _, other in found])
+    if not uncertain.any():
+        rule = "needs starts next to which others lead to another attractor"
+        raise InvalidInput("uncertainty_exponent", rule, uncertain.tolist(), "Draw the map: is there a boundary?")
+    fitted = (uncertain > 0.0) & (uncertain <= _SATURATED)
+    if fitted.sum() < _FEWEST:
+        rule = f"needs {_FEWEST} distances at which at most half of the starts have another attractor"
+        raise InvalidInput("uncertainty_exponent", rule, uncertain.tolist(), "Take a finer grid.")
+    fit = linregress(np.log(steps[fitted]), np.log(uncertain[fitted]))
+    exponent, error = float(fit.slope), float(fit.stderr)
+    return Boundary(
+        steps.astype(float),
+        uncertain,
+        int(known.sum()),
+        exponent,
+        error,
+        float(fit.intercept),
+        labels.ndim - exponent,
+    )
+
+
+def _check_even(attractor: xarray.DataArray) -> None:
+    for name in attractor.dims:
+        values = attractor[name].values
+        gaps = np.diff(values) if name in attractor.coords and values.dtype.kind == "f" else np.zeros(0)
+        if not len(gaps) or not np.allclose(gaps, gaps.mean(), rtol=1e-6, atol=0.0):
+            remedy = "Vary numbers evenly by studies.grid; of a further parameter choose one value."
+            raise InvalidInput("uncertainty_exponent", "must be over an even grid", str(name), remedy)
+
+
+def _neighbours(labels: NDArray[np.int64], step: int, margin: int) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Return of the starts within a margin whether all neighbours are known, and whether one has another attractor."""
+    inner = tuple(slice(margin, n - margin) for n in labels.shape)
+    known, other = labels[inner] >= 0, np.zeros(labels[inner].shape, bool)
+    for axis in range(labels.ndim):
+        for way in (-step, step):
+            there = np.roll(labels, way, axis)[inner]
+            known &= there >= 0
+            other |= there != labels[inner]
+    return known, other

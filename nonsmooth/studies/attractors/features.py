@@ -1,0 +1,72 @@
+"""Attractors by features: runs whose numbers agree."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.checks import is_finite
+from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.studies.attractors.following import Along
+from nonsmooth.studies.attractors.group import Group
+from nonsmooth.studies.attractors.labels import labelled
+from nonsmooth.studies.attractors.linkage import linked
+from nonsmooth.studies.status import VALUED
+from nonsmooth.studies.summary import records_of
+
+if TYPE_CHECKING:
+    import xarray
+
+
+def features(study: xarray.Dataset, tolerances: Mapping[str, float], along: Along | None = None) -> xarray.Dataset:
+    """Return the attractor of each run, by numbers that were recorded.
+
+    Two runs are on one attractor where they agree in every feature within its tolerance, or through further runs that
+    do (single linkage).  To have no such number, as a run that never came to rest has no time of it, is a feature, too.
+
+    Parameters
+    ----------
+    study : Dataset
+        A study.
+    tolerances : mapping of str to float
+        Of each feature, a record that is one number, the greatest difference that counts as none, in its unit.
+    along : Along, optional
+        A parameter along which attractors are told apart value by value, and followed.
+
+    Returns
+    -------
+    Dataset
+        ``attractor``, numbers with names in ``flag_meanings``, the largest first, -1 for runs without records.  Add it
+        by ``study.assign(...)``.
+
+    Raises
+    ------
+    InvalidInput
+        If there is no feature, or a tolerance is not valid.
+    UnknownName
+        If a feature is no record that is one number, or the parameter is none that is varied.
+    """
+    known = records_of(study)
+    if not tolerances:
+        raise InvalidInput("features", "must be one at least", dict(tolerances), 'For example {"last_flight": 1e-3}.')
+    for name, tolerance in tolerances.items():
+        if name not in known:
+            raise UnknownName("features: record", name, known)
+        if not (is_finite(tolerance) and tolerance > 0.0):
+            thing = f"features: tolerance of {name}"
+            raise InvalidInput(thing, "must be positive and finite", tolerance, "Give it in the unit of the record.")
+    columns = [known[name].values.ravel() / tolerance for name, tolerance in tolerances.items()]
+    values = np.stack(columns, axis=1).astype(float)
+    missing = np.isnan(values)
+    # numbers that are missing agree, and are apart from all that are there
+    points = np.concatenate([np.where(missing, 0.0, values), 2.0 * missing], axis=1)
+
+    def grouping(runs: NDArray[np.int64]) -> list[Group]:
+        labels = linked(points[runs])
+        members = [runs[labels == label] for label in range(labels.max(initial=-1) + 1)]
+        return [Group(some, points[some].mean(axis=0)[np.newaxis], None) for some in members]
+
+    return labelled(study, np.isin(study.status.values.ravel(), VALUED), grouping, along)

@@ -1,0 +1,57 @@
+"""Basin fractions: how the shares of the attractors change along a parameter."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from nonsmooth.studies.attractors.labels import words_of
+from nonsmooth.studies.attractors.parts import parts
+
+if TYPE_CHECKING:
+    import xarray
+
+
+def basin_fractions(attractor: xarray.DataArray, parameter: str, bins: int = 10) -> xarray.Dataset:
+    """Return the share of the starts that lead to each attractor, value by value of a parameter.
+
+    Parameters
+    ----------
+    attractor : DataArray
+        The attractors of a study.
+    parameter : str
+        A parameter that the study varies.
+    bins : int
+        Parts of its range where the runs are draws; of a grid each value counts.
+
+    Returns
+    -------
+    Dataset
+        Over the attractors and the parameter ``share`` b and its standard ``error`` sqrt(b (1 - b) / N); over the
+        parameter ``runs`` N, those that came to their end.  Where there is none, the share is nan.
+
+    Raises
+    ------
+    InvalidInput
+        If it is no record of words.
+    UnknownName
+        If the parameter is none that is varied.
+    """
+    import xarray
+
+    words, values = words_of(attractor, "basin_fractions"), attractor.values.ravel()
+    split = parts(attractor, parameter, bins)
+    counts = np.zeros((len(words), len(split.values)))
+    np.add.at(counts, (values[values >= 0], split.of_runs[values >= 0]), 1.0)
+    runs = counts.sum(axis=0)
+    share = counts / np.where(runs > 0.0, runs, np.nan)
+    over = "attractor", parameter
+    return xarray.Dataset(
+        {
+            "share": (over, share, {"long_name": "share of the starts", "units": "1"}),
+            "error": (over, np.sqrt(share * (1.0 - share) / runs), {"long_name": "standard error", "units": "1"}),
+            "runs": (parameter, runs.astype(int), {"long_name": "runs that came to their end", "units": "1"}),
+        },
+        {"attractor": list(words), parameter: (parameter, split.values, attractor[parameter].attrs)},
+    )

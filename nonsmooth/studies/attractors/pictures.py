@@ -1,0 +1,169 @@
+"""Pictures of basins: shares of attractors, the shares along a parameter, the uncertainty of the boundary."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from nonsmooth.plot.asked import axes_of
+from nonsmooth.plot.lines import beside
+from nonsmooth.studies.attractors.boundary import Boundary
+from nonsmooth.studies.attractors.stability import basin_stability
+from nonsmooth.studies.colours import class_colours
+from nonsmooth.studies.drawing import draw_study, label_of
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+_MOST = 12
+"""Attractors that are drawn at most, those of most starts."""
+
+
+def shares(attractor: xarray.DataArray, ax: Axes | None = None) -> Axes:
+    """Draw the basin stability of each attractor that was found, with its standard error.
+
+    Parameters
+    ----------
+    attractor : DataArray
+        The attractors of a study.
+    ax : Axes, optional
+        Where; a new figure by default.
+
+    Returns
+    -------
+    Axes
+        The axes.
+
+    Raises
+    ------
+    InvalidInput
+        If it is no record of words, or no run came to its end.
+    """
+    stability = basin_stability(attractor)
+    colours = dict(zip(stability, class_colours(len(stability)), strict=True))
+    found = {word: stability[word] for word in largest(stability)}
+    ax = axes_of(ax, 1.2 + 0.32 * len(found))
+    width, error = np.array(list(found.values())).T
+    ax.barh(list(found), width, xerr=error, color=[colours[word] for word in found], capsize=3.0)
+    ax.invert_yaxis()
+    ax.set_xlim(0.0, 1.0)
+    ax.set_xlabel("basin stability [1], with its standard error")
+    ax.set_title(_largest_share(attractor), fontsize=10)
+    return ax
+
+
+def basins(study: xarray.Dataset) -> Figure:
+    """Draw the attractors of a study over its starts, with the runs hatched that did not come to their end.
+
+    Parameters
+    ----------
+    study : Dataset
+        A study with ``attractor``.
+
+    Returns
+    -------
+    Figure
+        What :func:`draw_study` makes of it.
+    """
+    figure = draw_study(study[["attractor", "status"]])
+    figure.suptitle(_largest_share(study.attractor), fontsize=10)
+    return figure
+
+
+def largest(stability: Mapping[str, tuple[float, float]]) -> list[str]:
+    """Return the attractors that starts lead to, that of most first, not more than can be told apart in a picture."""
+    found = [word for word, (share, _) in stability.items() if share > 0.0]
+    return sorted(found, key=lambda word: -stability[word][0])[:_MOST]
+
+
+def _largest_share(attractor: xarray.DataArray) -> str:
+    found, n_failed = basin_stability(attractor), int((attractor < 0).sum())
+    most = largest(found)[0]
+    failed = f"; {n_failed} failed" if n_failed else ""
+    return f"{100.0 * found[most][0]:.1f} % of {attractor.size - n_failed} starts lead to {most}{failed}"
+
+
+def fractions(found: xarray.Dataset, ax: Axes | None = None) -> Axes:
+    """Draw basin fractions along a parameter, with bands of one standard error on either side.
+
+    Parameters
+    ----------
+    found : Dataset
+        What :func:`basin_fractions` returns.
+    ax : Axes, optional
+        Where; a new figure by default.
+
+    Returns
+    -------
+    Axes
+        The axes.
+    """
+    ax = axes_of(ax)
+    parameter = str(found.runs.dims[0])
+    along = found[parameter]
+    colours = class_colours(found.sizes["attractor"])
+    peaks = np.nan_to_num(found.share.values).max(axis=1)
+    for place in np.argsort(-peaks, kind="stable")[: min(_MOST, np.count_nonzero(peaks))].tolist():
+        one, colour = found.isel(attractor=place), colours[place]
+        low, high = one.share - one.error, one.share + one.error
+        ax.plot(along, one.share, "o-", markersize=3.0, linewidth=1.3, color=colour, label=one.attractor.item())
+        ax.fill_between(along, low, high, color=colour, alpha=0.2, linewidth=0.0)
+    ax.set_ylim(-0.02, 1.02)
+    ax.set_xlabel(label_of(along))
+    ax.set_ylabel("share of the starts [1]")
+    ax.set_title(_largest_change(found, parameter), fontsize=10)
+    ax.grid(color="0.9", linewidth=0.6)
+    ax.set_axisbelow(True)
+    beside(ax)
+    return ax
+
+
+def _largest_change(found: xarray.Dataset, parameter: str) -> str:
+    known = found.share.dropna(parameter, how="all")
+    change = np.ptp(known.values, axis=1)
+    word, share = known.attractor.values[change.argmax()], known.values[change.argmax()]
+    ends = sorted((int(share.argmin()), int(share.argmax())))
+    places = [f"{share[i]:.2f} at {parameter} = {_value(known[parameter].values[i])}" for i in ends]
+    return f"{word}: {places[0]}, {places[1]}" if change.max() > 0.0 else "The shares do not change"
+
+
+def _value(value: object) -> str:
+    return f"{value:.4g}" if isinstance(value, float) else str(value)
+
+
+def uncertainty(found: Boundary, ax: Axes | None = None) -> Axes:
+    """Draw the share of uncertain starts over their distance, and the fit whose slope is the uncertainty exponent.
+
+    Parameters
+    ----------
+    found : Boundary
+        What :func:`uncertainty_exponent` returns.
+    ax : Axes, optional
+        Where; a new figure by default.
+
+    Returns
+    -------
+    Axes
+        The axes.
+    """
+    ax = axes_of(ax)
+    share = found.uncertain
+    ax.plot(found.steps, np.exp(found.offset) * found.steps**found.exponent, "-", color="0.4", label="fit")
+    ax.plot(found.steps[share > 0.0], share[share > 0.0], "o", color="#0072b2", label="starts")
+    for axis, scale in (ax.xaxis, ax.set_xscale), (ax.yaxis, ax.set_yscale):
+        scale("log", base=2)
+        axis.set_major_formatter("{x:g}")
+    ax.set_ylim(2.0 ** np.floor(np.log2(share[share > 0.0].min())), 1.0)
+    ax.set_xlabel("distance [steps of the grid]")
+    ax.set_ylabel("share with another\nattractor that far away [1]")
+    exponent = f"{found.exponent:.3f} ± {found.error:.3f}"
+    ax.set_title(f"Uncertainty exponent {exponent}: a boundary of dimension {found.dimension:.2f}", fontsize=10)
+    ax.grid(color="0.9", linewidth=0.6)
+    ax.set_axisbelow(True)
+    beside(ax)
+    return ax
