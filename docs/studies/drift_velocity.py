@@ -12,6 +12,7 @@ import sys
 import matplotlib
 import numpy as np
 import xarray
+from matplotlib.colors import SymLogNorm
 from matplotlib.figure import Figure
 
 from nonsmooth import Solution, studies
@@ -34,13 +35,14 @@ def drawn(found: xarray.Dataset) -> Figure:
     panels = figure.subplots(2, 3, sharex=True, sharey=True)
     for law, axes in zip(LAWS, panels.flat, strict=True):
         one = millimetres.sel(impact=law).transpose("aspect_ratio", "friction")
-        mesh = axes.pcolormesh(one.friction, one.aspect_ratio, one, cmap="RdBu_r", vmin=-most, vmax=most)
-        axes.contour(one.friction, one.aspect_ratio, one.fillna(0.0), levels=[0.0], colors="black", linewidths=0.8)
+        mesh = axes.pcolormesh(one.friction, one.aspect_ratio, one, cmap="RdBu_r", norm=SymLogNorm(1.0, 1.0, -most, most))
+        if one.min() < 0.0 < one.max():
+            axes.contour(one.friction, one.aspect_ratio, one, levels=[0.0], colors="black", linewidths=1.0)
         axes.set_facecolor("0.8")
         axes.set_title(f"{law}: {int(one.notnull().mean() * 100)} % drift", fontsize=10)
     figure.supxlabel("friction coefficient mu [1]")
     figure.supylabel("aspect ratio A_r [1]")
-    figure.colorbar(mesh, ax=panels, label="drift velocity [mm/s], grey where it does not drift")
+    figure.colorbar(mesh, ax=panels, label="drift velocity [mm/s]; line: 0; grey: no drift")
     return figure
 
 
