@@ -112,6 +112,7 @@ def cone_deviation(
     xi = (rates + shift + delassus @ impulses).reshape(n, 3)
     own = np.diag(delassus).reshape(n, 3)
     across = own[:, 1:].sum(axis=1, keepdims=True)
+    across = np.where(across > 0.0, across, own[:, :1])
     normal, counted = impulses.reshape(n, 3)[:, 0], (impulses - base).reshape(n, 3)
     complementary = np.minimum(own[:, 0] * (normal - least), xi[:, 0])
     aim = counted[:, 1:] - xi[:, 1:] / across

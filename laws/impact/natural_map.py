@@ -5,7 +5,8 @@ With xi = G P + c, the impulses P of a solution are where a step against xi lead
     P_N = max(least, P_N - xi_N / g_N),
     P_T = projection of P_T - xi_T / g_T on the disc of radius mu (P_N - base_N) about base_T,
 
-g_N being the own entry of the normal and g_T the trace of the own tangential block.
+g_N being the own entry of the normal and g_T the trace of the own tangential block, or g_N where a body cannot move
+along the tangents: any positive number leads to the same zeros.
 """
 
 from __future__ import annotations
@@ -26,6 +27,13 @@ _UNBOUNDED = 1e9
 
 
 @compiled
+def _tangential_scale(matrix: Array, i: int) -> float:
+    """Return g_T of the contact whose normal has the row i."""
+    trace = matrix[i + 1, i + 1] + matrix[i + 2, i + 2]
+    return trace if trace > 0.0 else matrix[i, i]  # type: ignore[no-any-return]
+
+
+@compiled
 def sweep(n: int, matrix: Array, free: Array, base: Array, least: Array, friction: Array, p: Array) -> None:
     """Project the impulses ``p`` [N s], contact by contact; the arguments are those of :func:`find_zero`."""
     width = 3 * n
@@ -39,7 +47,7 @@ def sweep(n: int, matrix: Array, free: Array, base: Array, least: Array, frictio
         for j in range(width):
             x1 += matrix[i + 1, j] * p[j]
             x2 += matrix[i + 2, j] * p[j]
-        across = matrix[i + 1, i + 1] + matrix[i + 2, i + 2]
+        across = _tangential_scale(matrix, i)
         q1, q2 = p[i + 1] - base[i + 1] - x1 / across, p[i + 2] - base[i + 2] - x2 / across
         size, radius = math.sqrt(q1 * q1 + q2 * q2), friction[a] * (p[i] - base[i])
         cut = radius / size if size > radius else 1.0
@@ -63,7 +71,7 @@ def _miss(
     square = 0.0
     for a in range(n):
         i = 3 * a
-        own, across = matrix[i, i], matrix[i + 1, i + 1] + matrix[i + 2, i + 2]
+        own, across = matrix[i, i], _tangential_scale(matrix, i)
         x0, x1, x2 = free[i], free[i + 1], free[i + 2]
         for j in range(width):
             x0 += matrix[i, j] * p[j]
@@ -132,7 +140,7 @@ def find_zero(
     for i in range(width):
         largest = max(largest, abs(free[i]))
         r = i - i % 3
-        own[i] = matrix[i, i] if i == r else matrix[r + 1, r + 1] + matrix[r + 2, r + 2]
+        own[i] = matrix[i, i] if i == r else _tangential_scale(matrix, r)
         soft[i, i] += compliance * own[i]
     for _round in range(_ROUNDS):
         square = _miss(n, matrix, free, base, least, friction, p, missed, slope)

@@ -49,6 +49,19 @@ def test_energy_is_lost_where_all_approach_alike(law: ImpactLaw, seed: int, n: i
 
 
 @every_law
+@pytest.mark.parametrize("friction", [0.0, 0.4])
+def test_what_cannot_move_along_the_tangents_rebounds(law: ImpactLaw, friction: float) -> None:
+    """A body on a rail, of one coordinate."""
+    problem = Problem(np.eye(1) * 2.0, np.ones((1, 1)), np.zeros((1, 1, 2)), -np.ones(1), np.array([friction]))
+    after, impulse = solve([law], problem)
+    assert 0.0 <= after[0] < 1.0
+    if "restitution" in law.parameters():
+        assert after[0] == pytest.approx(E)
+    assert impulse[0, 0] == pytest.approx(2.0 * (after[0] + 1.0))
+    assert np.hypot(*impulse[0, 1:]) <= friction * impulse[0, 0] + 1e-12
+
+
+@every_law
 @few
 @given(seed=SEEDS, scale=st.floats(0.01, 100.0))
 def test_scale_of_speed_and_mass(law: ImpactLaw, seed: int, scale: float) -> None:
