@@ -39,7 +39,7 @@ def study(runs: int) -> studies.Study:
     """Return the study."""
     draws = studies.random(runs, 1, beta0=(0.02, 0.4), phase=(0.0, 6.2))
     record = ["attractor", "t_end", "impacts", "events", "steps", "q_end", "u_end", "energy_residual"]
-    return studies.Study(DumbbellScenario(mode="free", t_end=1.0), draws, record)
+    return studies.Study(DumbbellScenario(mode="free", t_end=0.6), draws, record)
 
 
 def _client(path: Path, name: str, runs: int) -> None:
