@@ -4,7 +4,7 @@
 
 Starts of the dumbbell, 20 000 by default, are run one after another, in two threads, and by two processes of dask;
 then once more with kill -9 of the client in threads, kill -9 of a worker, Ctrl-C to the client of dask and kill -9 of
-that client.  Printed are the sha256 of all arrays of each, the time, and the most memory that a client held.
+that client.  Printed are the sha256 of all arrays of each, the time, and the most memory that a process held.
 """
 
 from __future__ import annotations
@@ -42,33 +42,46 @@ def study(runs: int) -> studies.Study:
     return studies.Study(DumbbellScenario(mode="free", t_end=0.6), draws, record)
 
 
-def _client(path: Path, name: str, runs: int) -> None:
-    study(runs).run(path, executor=EXECUTORS[name], chunk=CHUNK)
-    with open("/proc/self/status", encoding="ascii") as told:
-        print(next(line.split()[1] for line in told if line.startswith("VmHWM")))
-
-
-def _begun(path: Path, name: str, runs: int) -> subprocess.Popen[str]:
+def _begun(path: Path, name: str, runs: int) -> subprocess.Popen[bytes]:
     words = [sys.executable, "-m", "tests.benchmarks.killed", str(runs), "--client", name, "--path", str(path)]
-    return subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    return subprocess.Popen(words, stderr=subprocess.DEVNULL)
 
 
 def _undisturbed(path: Path, name: str, runs: int) -> str:
-    began = time.perf_counter()
-    kilobytes, _ = _begun(path, name, runs).communicate()
+    began, client, most = time.perf_counter(), _begun(path, name, runs), 0
+    while client.poll() is None:
+        most = max([most, *map(_held, _family(client))])
+        time.sleep(0.5)
     seconds, found = time.perf_counter() - began, digest(studies.open_study(path))
-    print(f"{name:<12}{found[:16]}  {runs} runs in {seconds:.0f} s, at most {int(kilobytes) / 1024:.0f} MB", flush=True)
+    print(f"{name:<12}{found[:16]}  {runs} runs in {seconds:.0f} s, at most {most / 2**20:.0f} MB each", flush=True)
     return found
 
 
-def _wait_for(path: Path, chunks: int, client: subprocess.Popen[str]) -> None:
+def _family(client: subprocess.Popen[bytes]) -> list[psutil.Process]:
+    """Return a client and the processes that it has started."""
+    try:
+        one = psutil.Process(client.pid)
+        return [one, *one.children(recursive=True)]
+    except psutil.NoSuchProcess:
+        return []
+
+
+def _held(process: psutil.Process) -> int:
+    """Return the memory of a process [bytes]."""
+    try:
+        return int(process.memory_info().rss)
+    except psutil.NoSuchProcess:
+        return 0
+
+
+def _wait_for(path: Path, chunks: int, client: subprocess.Popen[bytes]) -> None:
     while len(list(path.glob("status/c/*"))) < chunks:
         if client.poll() is not None:
             raise RuntimeError("the client came to its end too early")
         time.sleep(0.02)
 
 
-def _worker(client: subprocess.Popen[str]) -> psutil.Process:
+def _worker(client: subprocess.Popen[bytes]) -> psutil.Process:
     """Return a process of dask that runs something now."""
     busy = [one for one in psutil.Process(client.pid).children(recursive=True) if one.cpu_percent(0.2) > 10.0]
     return max(busy, key=lambda one: one.cpu_times().user)
@@ -83,7 +96,7 @@ def _killed(path: Path, runs: int) -> str:
         if client is None:
             client = _begun(path, name, runs)
         _wait_for(path, at, client)
-        there = psutil.Process(client.pid).children(recursive=True)
+        there = _family(client)[1:]
         victim = client.pid if whom == "client" else _worker(client).pid
         os.kill(victim, getattr(signal, f"SIG{how}"))
         print(f"  {how} to the {whom} ({name}) with {at} chunks stored", flush=True)
@@ -115,4 +128,4 @@ if __name__ == "__main__":
     given = parser.parse_args()
     if given.client is None:
         sys.exit(not main(given.runs))
-    _client(given.path, given.client, given.runs)
+    study(given.runs).run(given.path, executor=EXECUTORS[given.client], chunk=CHUNK)
