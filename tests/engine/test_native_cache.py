@@ -11,6 +11,7 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
+import numba
 import pytest
 
 from nonsmooth.engine.native.kernel import PLAIN
@@ -18,6 +19,7 @@ from nonsmooth.engine.native.kernel import PLAIN
 if PLAIN:
     pytest.skip("nothing is compiled", allow_module_level=True)
 
+from nonsmooth.engine.native import cache
 from nonsmooth.engine.native.cache import Store, build_name, folders
 from nonsmooth.notices import say
 
@@ -269,3 +271,15 @@ def test_windows_knows_no_user_numbers(home: Path, monkeypatch: pytest.MonkeyPat
     monkeypatch.setenv("XDG_CACHE_HOME", str(home.parents[1] / "file" / "cache"))
     (home.parents[1] / "file").write_text("")
     assert folders()[1] == Path(tempfile.gettempdir()) / "nonsmooth" / build_name()
+
+
+def test_code_for_a_chosen_processor_is_code_of_its_own_on_every_processor(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As by NUMBA_CPU_NAME=generic: what was compiled for this processor must not be taken for it, nor be another."""
+    name = build_name.__wrapped__
+    here = name()
+    monkeypatch.setattr(numba.config, "CPU_NAME", "generic")
+    monkeypatch.setattr(numba.config, "CPU_FEATURES", "")
+    generic = name()
+    assert generic != here
+    monkeypatch.setattr(cache, "get_host_cpu_name", lambda: "another")
+    assert name() == generic

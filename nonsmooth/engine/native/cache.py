@@ -41,10 +41,12 @@ _CHECKSUM = hashlib.sha256().digest_size
 def build_name() -> str:
     """Return the name of what is compiled from these sources, a hash over all of them.
 
-    An edit of any source file, another numba, another Python or another kind of processor gives another name: a stale
-    file cannot be met.
+    An edit of any source file, another numba, another Python or another kind of processor that it is compiled for gives
+    another name: a stale file cannot be met.
     """
-    digest = hashlib.sha256(f"{numba.__version__}{np.__version__}{sys.version}{get_host_cpu_name()}".encode())
+    # unlike processors that compile for the same one (NUMBA_CPU_NAME) are alike
+    processor = f"{numba.config.CPU_NAME or get_host_cpu_name()}{numba.config.CPU_FEATURES or ''}"
+    digest = hashlib.sha256(f"{numba.__version__}{np.__version__}{sys.version}{processor}".encode())
     for source in sorted(_ENGINE.rglob("*.py")):
         digest.update(source.relative_to(_ENGINE).as_posix().encode() + source.read_bytes())
     return f"engine-{digest.hexdigest()[:16]}"
