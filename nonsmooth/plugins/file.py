@@ -7,6 +7,7 @@ import importlib.util
 import inspect
 import re
 import sys
+import threading
 import traceback
 from pathlib import Path
 from types import ModuleType
@@ -16,6 +17,8 @@ from nonsmooth.errors import InvalidInput, PluginError, UnknownName
 from nonsmooth.plugins import registry
 
 _FILE = re.compile(r"(?P<file>.*\.py):(?P<name>[^:]*)")
+_KEY = re.compile(r".+_[0-9a-f]{8}")
+_LOADING = threading.Lock()
 
 
 def is_file(word: str) -> bool:
@@ -85,9 +88,35 @@ def _fits(owner: type, bases: tuple[type, ...]) -> bool:
     return issubclass(owner, bases) and not inspect.isabstract(owner)
 
 
+def loaded() -> tuple[Path, ...]:
+    """Return the files that this process has loaded so."""
+    files = {
+        name: Path(str(vars(sys.modules[name]).get("__file__"))) for name in [*sys.modules] if _KEY.fullmatch(name)
+    }
+    return tuple(path for name, path in files.items() if name == _key(path))
+
+
+def again(path: Path) -> None:
+    """Load a file that another process has loaded, unless this one has.
+
+    Raises
+    ------
+    PluginError
+        If it cannot be loaded.
+    """
+    with _LOADING:
+        if _key(path) not in sys.modules:
+            _module("worker", path)
+
+
+def _key(path: Path) -> str:
+    """Return the name of the module of a file, which no package has."""
+    return f"{path.stem}_{hashlib.sha256(str(path).encode()).hexdigest()[:8]}"
+
+
 def _module(thing: str, path: Path) -> ModuleType:
-    """Run a file as a module of a name that no package has."""
-    key = f"{path.stem}_{hashlib.sha256(str(path).encode()).hexdigest()[:8]}"
+    """Run a file as a module."""
+    key = _key(path)
     specification = importlib.util.spec_from_file_location(key, path)
     if specification is None or specification.loader is None:
         raise InvalidInput(thing, "must name a Python file", str(path), "Its name must end in .py.")

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import importlib
 import os
+import re
 import signal
 import threading
 import time
@@ -10,11 +12,16 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import nonsmooth as ns
 from nonsmooth import studies
+from nonsmooth.interfaces import Scenario
+from nonsmooth.plugins import file
 from nonsmooth.studies import status
+from nonsmooth.studies.executors.dask import SchedulerLost
+from nonsmooth.studies.executors.parcel import Parcel
 from nonsmooth.studies.store import Store
 from tests.studies import ball
 
@@ -77,6 +84,82 @@ def test_the_run_that_kills_its_worker_is_found(tmp_path: Path, cluster: Any, mo
     assert found.reason.values[3] == status.WORKER_DIED
     assert "died" in Store(tmp_path / "s.zarr").texts()[3]
     assert (found.impacts >= 0).sum() == 4
+
+
+_FALLING = """
+from dataclasses import dataclass
+
+from bodies import Ball
+from nonsmooth import System
+from nonsmooth.parameters import parameter
+from nonsmooth.simple_scenario import SimpleScenario
+
+
+@dataclass(frozen=True)
+class Falling(SimpleScenario):
+    title = "A ball that falls"
+    t_end: float = parameter(0.1, doc="end time", unit="s", above=0.0)
+
+    def build(self):
+        system = System([Ball(0.01)])
+        system.place(system.bodies[0], position=(0.0, 0.0, 1.0))
+        return system
+
+    def acceptance(self, solution):
+        return ()
+"""
+
+
+def _falling(folder: Path) -> studies.Study:
+    (folder / "falling.py").write_text(_FALLING, encoding="utf-8")
+    scenario = file.load("scenario", (Scenario,), f"{folder}/falling.py:Falling")()
+    return studies.Study(scenario, studies.grid(t_end=[0.1, 0.2]), ["u_end"])
+
+
+def test_other_processes_find_a_class_of_a_file(tmp_path: Path, cluster: Any) -> None:
+    executor = studies.Dask(cluster.scheduler_address)
+    found = _falling(tmp_path).run(tmp_path / "s.zarr", executor=executor)
+    np.testing.assert_allclose(found.u_end[:, 2], [-0.981, -1.962], rtol=1e-12)
+
+
+def test_a_file_that_is_another_one_by_now_is_refused(tmp_path: Path) -> None:
+    _falling(tmp_path)
+    parcel = Parcel.of(ball.study()._work)
+    assert parcel.fault() == ""
+    (tmp_path / "falling.py").write_text("", encoding="utf-8")
+    assert re.search(r"must find the file that the study was begun with.*falling\.py", parcel.fault())
+
+
+def test_workers_without_the_module_are_refused(tmp_path: Path, cluster: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "only_here.py").write_text(
+        "from tests.studies.ball import drop as made\n\ndef drop(height):\n    return made(height)\n"
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    study = studies.Study(
+        importlib.import_module("only_here").drop, studies.grid(height=[0.01]), ["impacts"], t_end=0.1
+    )
+    with pytest.raises(ns.InvalidInput, match=r"must find what the study runs.*only_here.*PYTHONPATH"):
+        study.run(tmp_path / "s.zarr", executor=studies.Dask(cluster.scheduler_address))
+    assert (studies.open_study(tmp_path / "s.zarr").status == status.NOT_RUN).all()
+
+
+def test_a_scheduler_that_ends_is_told_and_the_study_goes_on(tmp_path: Path) -> None:
+    distributed = pytest.importorskip("distributed")
+    path = tmp_path / "s.zarr"
+    with distributed.LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=":0", silence_logs=50) as made:
+
+        def end() -> None:
+            while not list(path.glob("status/c/*")):
+                time.sleep(0.02)
+            made.close()
+
+        ender = threading.Thread(target=end)
+        ender.start()
+        with pytest.raises(SchedulerLost, match="What is stored stays"):
+            ball.slow_study().run(path, executor=studies.Dask(made.scheduler_address), chunk=5)
+        ender.join()
+    whole = ball.slow_study().run(tmp_path / "whole.zarr", executor="serial")
+    assert ball.digest(ball.slow_study().run(path, executor="serial")) == ball.digest(whole)
 
 
 def test_no_scheduler_is_told_within_seconds(tmp_path: Path) -> None:

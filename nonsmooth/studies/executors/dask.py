@@ -8,9 +8,10 @@ from collections.abc import Generator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, final
 
-from nonsmooth.errors import InvalidInput
+from nonsmooth.errors import InvalidInput, NonsmoothError
 from nonsmooth.results.output import versions
 from nonsmooth.studies.executors.executor import Executor, check_workers
+from nonsmooth.studies.executors.parcel import Parcel
 from nonsmooth.studies.extras import require
 from nonsmooth.studies.work import Block, Chunk, Work
 
@@ -23,6 +24,10 @@ _PATIENCE = 5.0
 """So long a scheduler may take to answer [s]."""
 _DEATHS = 3
 """A chunk that so many workers did not survive is cut in halves."""
+
+
+class SchedulerLost(NonsmoothError):
+    """The scheduler ended, or cannot be reached any more, before the study did."""
 
 
 @final
@@ -49,16 +54,29 @@ class Dask(Executor):
 
         A chunk whose workers died may have been next to the one that killed them: such ones are done last, each alone,
         and in halves where they kill again, until the run is found that does.
+
+        Raises
+        ------
+        InvalidInput
+            If no scheduler answers, or workers are not like this process, or do not find what they shall run.
+        SchedulerLost
+            If the scheduler ends before the study.
         """
         require("the executor dask", "dask", "distributed")
+        from distributed import CancelledError
+
         with contextlib.ExitStack() as stack:
-            client = self._client(stack)
+            client, parcel = self._client(stack), Parcel.of(work)
             _check_alike(client)
+            _check_open(client, parcel)
             suspects: list[Chunk] = []
             window = _WINDOW * max(1, sum(client.nthreads().values()))
-            yield from _in_turn(client, work, chunks, window, suspects)
-            for chunk in suspects:
-                yield _in_halves(client, work, chunk)
+            try:
+                yield from _in_turn(client, parcel, chunks, window, suspects)
+                for chunk in suspects:
+                    yield _in_halves(client, parcel, chunk)
+            except CancelledError as error:
+                raise SchedulerLost("The scheduler is gone. What is stored stays: start one, and go on.") from error
 
     def _client(self, stack: contextlib.ExitStack) -> Client:
         import dask
@@ -92,12 +110,20 @@ def _check_alike(client: Client) -> None:
             raise InvalidInput(f"worker {address}", f"must have the versions of this process, {here}", differ, remedy)
 
 
-def _block(work: Work, chunk: Chunk) -> Block:
-    return work.block(chunk)
+def _check_open(client: Client, parcel: Parcel) -> None:
+    """Refuse workers that have not the modules of what is run."""
+    for address, fault in client.run(Parcel.fault, parcel).items():
+        if fault:
+            remedy = "Install it there, or start the workers where they find it (PYTHONPATH)."
+            raise InvalidInput(f"worker {address}", "must find what the study runs", fault, remedy)
+
+
+def _block(parcel: Parcel, chunk: Chunk) -> Block:
+    return parcel.open().block(chunk)
 
 
 def _in_turn(
-    client: Client, work: Work, chunks: Sequence[Chunk], window: int, suspects: list[Chunk]
+    client: Client, parcel: Parcel, chunks: Sequence[Chunk], window: int, suspects: list[Chunk]
 ) -> Generator[Block, None, None]:
     """Yield the blocks of all chunks but of those whose workers died too often, which become suspects."""
     from distributed import KilledWorker, as_completed
@@ -107,7 +133,7 @@ def _in_turn(
 
     def hand_out() -> None:
         for chunk in left:
-            future = client.submit(_block, work, chunk, pure=False, retries=2)
+            future = client.submit(_block, parcel, chunk, pure=False, retries=2)
             running[future.key] = chunk
             done.add(future)
             return
@@ -125,21 +151,22 @@ def _in_turn(
             yield block
 
 
-def _alone(client: Client, work: Work, chunk: Chunk) -> Block:
+def _alone(client: Client, parcel: Parcel, chunk: Chunk) -> Block:
     """Return the block of a chunk next to which nothing else runs, so that who dies died of it."""
     from distributed import KilledWorker
 
     try:
-        return client.submit(_block, work, chunk, pure=False).result()  # type: ignore[no-any-return]
+        return client.submit(_block, parcel, chunk, pure=False).result()  # type: ignore[no-any-return]
     except KilledWorker:
         if len(chunk.parameters) == 1:
-            return work.crashed(chunk, "The process that ran it died, in each of the tries that the scheduler allows.")
-    return _in_halves(client, work, chunk)
+            text = "The process that ran it died, in each of the tries that the scheduler allows."
+            return parcel.open().crashed(chunk, text)
+    return _in_halves(client, parcel, chunk)
 
 
-def _in_halves(client: Client, work: Work, chunk: Chunk) -> Block:
+def _in_halves(client: Client, parcel: Parcel, chunk: Chunk) -> Block:
     """Return the block of a chunk that is suspected, whose halves run alone."""
     if len(chunk.parameters) == 1:
-        return _alone(client, work, chunk)
+        return _alone(client, parcel, chunk)
     one, other = chunk.halves()
-    return _alone(client, work, one).joined(_alone(client, work, other))
+    return _alone(client, parcel, one).joined(_alone(client, parcel, other))
