@@ -1,4 +1,4 @@
-"""Studies: many runs over parameters, stored as they come, the same on one machine and on many."""
+"""Studies: many runs over parameters, stored as they come; orbits, derivatives, and fits."""
 
 from nonsmooth.studies.attractors import (
     Along,
@@ -8,9 +8,11 @@ from nonsmooth.studies.attractors import (
     recurrences,
     uncertainty_exponent,
 )
+from nonsmooth.studies.derivatives import Family, fit, sensitivity
 from nonsmooth.studies.drawing import draw_study
 from nonsmooth.studies.executors import Dask, Executor, Serial, Threads
 from nonsmooth.studies.opening import open_study
+from nonsmooth.studies.orbits import bifurcation, continuation, lyapunov, orbit
 from nonsmooth.studies.records import Stroboscope, Trajectory
 from nonsmooth.studies.sampling import Sampling, columns, grid, latin_hypercube, listed, random, sobol
 from nonsmooth.studies.study import Study
@@ -19,6 +21,7 @@ __all__ = [
     "Along",
     "Dask",
     "Executor",
+    "Family",
     "Sampling",
     "Serial",
     "Stroboscope",
@@ -27,15 +30,21 @@ __all__ = [
     "Trajectory",
     "basin_fractions",
     "basin_stability",
+    "bifurcation",
     "columns",
+    "continuation",
     "draw_study",
     "features",
+    "fit",
     "grid",
     "latin_hypercube",
     "listed",
+    "lyapunov",
     "open_study",
+    "orbit",
     "random",
     "recurrences",
+    "sensitivity",
     "sobol",
     "uncertainty_exponent",
 ]

@@ -34,11 +34,14 @@ class Family:
         The values of all parameters that may be changed.
     engine : Engine
         What integrates the systems; :data:`EXACT` by default.
+    units : mapping of str to str
+        Units of the parameters, as far as they are known.
     """
 
     make: Callable[..., System]
     values: Mapping[str, float]
     engine: Engine = EXACT
+    units: Mapping[str, str] = field(default_factory=dict)
     _models: dict[tuple[float, ...], Model] = field(default_factory=dict, repr=False, compare=False)
 
     @classmethod
@@ -49,14 +52,16 @@ class Family:
         if not isinstance(what, Scenario):
             remedy = "Give a scenario, or Family(make, values) with a function that returns a System."
             raise InvalidInput("studies", "must be of a scenario or a family", what, remedy)
-        given = {name: getattr(what, name) for name in rules(type(what))}
+        declared = rules(type(what))
+        given = {name: getattr(what, name) for name in declared}
         known = {name: float(value) for name, value in what.resolved().items() if is_finite(value)}
 
         def make(**values: float) -> System:
             # what the scenario derives from others goes on following them, unless it is changed itself
             return type(what)(**{**given, **{n: x for n, x in values.items() if x != known[n]}}).build()
 
-        return cls(make, known, engine)
+        units = {name: declared[name][1].unit for name in known if name in declared}
+        return cls(make, known, engine, units)
 
     def __getitem__(self, name: str) -> float:
         """Return the value of a parameter.
@@ -69,6 +74,11 @@ class Family:
         if name not in self.values:
             raise UnknownName("parameter", name, set(self.values))
         return float(self.values[name])
+
+    def label(self, name: str) -> str:
+        """Return the name of a parameter with its unit, for the axis of a picture."""
+        unit = self.units.get(name, "")
+        return f"{name} [{unit}]" if unit not in ("", "1") else name
 
     def at(self, **changed: float) -> Family:
         """Return the family with other values, which shares its models."""

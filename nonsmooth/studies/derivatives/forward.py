@@ -33,6 +33,8 @@ class Sensitivity:
 
     Attributes
     ----------
+    family : Family
+        What was differentiated, at its values.
     t : array
         Times [s], shape [n].
     parameters : tuple of str
@@ -44,8 +46,11 @@ class Sensitivity:
     error : array
         By how much those of the next smaller step differ, relative to the largest one, per parameter; nan where only
         one step keeps the order of events; shape [p].
+    events : array
+        Times of the events up to the last of the times [s], where derivatives jump.
     """
 
+    family: Family
     t: Floats
     parameters: tuple[str, ...]
     q: Floats
@@ -53,6 +58,7 @@ class Sensitivity:
     q_by: Floats
     u_by: Floats
     error: Floats
+    events: Floats
 
 
 def sensitivity(what: Scenario | Family, parameters: Sequence[str], *, at: ArrayLike) -> Sensitivity:
@@ -84,7 +90,7 @@ def sensitivity(what: Scenario | Family, parameters: Sequence[str], *, at: Array
     if not (len(times) and times[0] > 0.0 and np.all(np.diff(times) > 0.0)):
         raise InvalidInput("sensitivity: at", "must be positive, rising times", times.tolist(), "Give them in [s].")
     family = Family.of(what)
-    states, expected = _course(family.model(), times)
+    states, expected, events = _course(family.model(), times)
     columns, errors = list[Floats](), list[float]()
     for name in parameters:
         column, error = _steady(family, name, times, expected)
@@ -93,19 +99,28 @@ def sensitivity(what: Scenario | Family, parameters: Sequence[str], *, at: Array
     n_q = len(family.model().start.q)
     by = np.stack(columns, axis=-1) if columns else np.zeros((*states.shape, 0))
     return Sensitivity(
-        times, tuple(parameters), states[:, :n_q], states[:, n_q:], by[:, :n_q], by[:, n_q:], np.array(errors)
+        family,
+        times,
+        tuple(parameters),
+        states[:, :n_q],
+        states[:, n_q:],
+        by[:, :n_q],
+        by[:, n_q:],
+        np.array(errors),
+        events,
     )
 
 
-def _course(model: Model, times: Floats) -> tuple[Floats, Signature]:
-    """Return the states at times, shape [n, n_q + n_u], and all events; a mark lies between the times."""
-    state, rows, told = model.start, list[Floats](), list[tuple[int, int]]()
+def _course(model: Model, times: Floats) -> tuple[Floats, Signature, Floats]:
+    """Return the states at times, shape [n, n_q + n_u], all events, between which the times are marks, and when."""
+    state, rows, told, when = model.start, list[Floats](), list[tuple[int, int]](), list[float]()
     for time in times.tolist():
         piece = passage(model, state, time)
         state = piece.state
         rows.append(np.concatenate([state.q, state.u]))
         told += [*piece.signature, (-1, -1)]
-    return np.array(rows), tuple(told)
+        when += piece.times
+    return np.array(rows), tuple(told), np.array(when)
 
 
 def _steady(family: Family, name: str, times: Floats, expected: Signature) -> tuple[Floats, float]:
@@ -122,7 +137,7 @@ def _slope(family: Family, name: str, times: Floats, expected: Signature, step: 
     """Return the derivatives with a step; from one side where the parameter has no other."""
 
     def sampled(change: float) -> tuple[Floats, Signature]:
-        return _course(family.model(**{name: family[name] + change}), times)
+        return _course(family.model(**{name: family[name] + change}), times)[:2]
 
     trouble: InvalidInput | None = None
     stencils: tuple[Stencil, ...] = (CENTRAL, FORWARD, BACKWARD)

@@ -4,19 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, final
+from typing import TYPE_CHECKING, Any, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import OptimizeResult, least_squares
-from scipy.stats.qmc import Sobol
 
 from nonsmooth.checks import check_callable, floats, is_finite
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import Scenario
+from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.derivatives.passage import passage
+
+if TYPE_CHECKING:
+    from scipy.optimize import OptimizeResult
 
 Floats = NDArray[np.float64]
 Observe = Callable[[State], Any]
@@ -33,6 +35,10 @@ class Fit:
 
     Attributes
     ----------
+    family : Family
+        What was fitted, at the values found.
+    observe : callable
+        ``observe(state)`` returns what was measured of a state.
     values : mapping of str to float
         The parameters found.
     standard_errors : mapping of str to float
@@ -49,6 +55,8 @@ class Fit:
         Why the search ended.
     """
 
+    family: Family
+    observe: Observe
     values: Mapping[str, float]
     standard_errors: Mapping[str, float]
     covariance: Floats
@@ -95,6 +103,9 @@ def fit(
     InvalidInput
         If bounds, times or measurements are not valid, or there are fewer numbers than parameters.
     """
+    # takes longer to import than all of the studies
+    from scipy.stats.qmc import Sobol
+
     check_callable("fit: observe", observe, "observe(state)")
     times = np.atleast_1d(floats("fit: at", at))
     if not (len(times) and times[0] > 0.0 and np.all(np.diff(times) > 0.0)):
@@ -112,12 +123,8 @@ def fit(
         )
 
     def modelled(values: Floats) -> Floats:
-        model, rows = family.model(**dict(zip(names, values.tolist(), strict=True))), list[Floats]()
-        state = model.start
-        for time in times.tolist():
-            state = passage(model, state, time).state
-            rows.append(np.atleast_1d(np.asarray(observe(state), dtype=float)))
-        return np.array(rows)
+        model = family.model(**dict(zip(names, values.tolist(), strict=True)))
+        return observed(model, times, observe)
 
     def residual(shares: Floats) -> Floats:
         return np.asarray((modelled(low + shares * (high - low)) - data)[given])
@@ -141,8 +148,11 @@ def fit(
     inverse = np.linalg.pinv(found.jac.T @ found.jac)
     covariance = deviation**2 * inverse * np.outer(high - low, high - low)
     errors = np.sqrt(np.diag(covariance))
+    best_values = dict(zip(names, values.tolist(), strict=True))
     return Fit(
-        dict(zip(names, values.tolist(), strict=True)),
+        family.at(**best_values),
+        observe,
+        best_values,
         dict(zip(names, errors.tolist(), strict=True)),
         covariance,
         times,
@@ -153,7 +163,18 @@ def fit(
     )
 
 
+def observed(model: Model, times: Floats, observe: Observe) -> Floats:
+    """Return what is observed of a motion at rising times [s], shape [n, k]."""
+    state, rows = model.start, list[Floats]()
+    for time in times.tolist():
+        state = passage(model, state, time).state
+        rows.append(np.atleast_1d(np.asarray(observe(state), dtype=float)))
+    return np.array(rows)
+
+
 def _refined(residual: Callable[[Floats], Floats], begin: Floats) -> OptimizeResult:
+    from scipy.optimize import least_squares
+
     inside = np.clip(begin, 1e-3, 1.0 - 1e-3)
     return least_squares(residual, inside, bounds=(0.0, 1.0), diff_step=_STEP, xtol=1e-10)
 

@@ -24,10 +24,13 @@ class Passage:
         Its end.
     signature : Signature
         The events behind the start, in order.
+    times : tuple of float
+        When they were [s].
     """
 
     state: State
     signature: Signature
+    times: tuple[float, ...]
 
 
 def passage(model: Model, start: State, t_end: float) -> Passage:
@@ -44,8 +47,9 @@ def passage(model: Model, start: State, t_end: float) -> Passage:
     if run.status == "interrupted":
         raise KeyboardInterrupt
     events = run.events
-    told = zip(events.cause.tolist(), events.contact.tolist(), strict=True)
-    return Passage(run.state, tuple(event for event in told if event[0] != START))
+    kept = events.cause != START
+    told = zip(events.cause[kept].tolist(), events.contact[kept].tolist(), strict=True)
+    return Passage(run.state, tuple(told), tuple(events.time[kept].tolist()))
 
 
 def named(signature: Signature, model: Model, most: int = 4) -> str:

@@ -8,7 +8,6 @@ from typing import final
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from nonsmooth.checks import is_finite
 from nonsmooth.errors import InvalidInput, RunFailed
@@ -138,6 +137,8 @@ def _behind(path: Path, found: Sequence[Point], left: Sequence[Margins]) -> Fore
 
 def _between(path: Path, one: Point, step: float, two: Point) -> list[Special]:
     """Return the special points between two neighbours."""
+    from scipy.optimize import brentq  # as in fits: it takes longer to import than all of the studies
+
     found = []
     for kind, test in _TESTS.items():
         if test(one) * test(two) < 0.0:
