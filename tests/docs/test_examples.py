@@ -11,6 +11,8 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs" / "pages").rglob("*.md"))]
+NEEDS = {"study_tools.md": ("SALib", "optuna", "sbi")}
+"""What a page needs beyond the extra test: where it is not installed the page is not run."""
 _BLOCK = re.compile(r"^```python\n(?P<code>.*?)^```\n(?:\nprints\n\n```text\n(?P<output>.*?)^```\n)?", re.M | re.S)
 
 
@@ -23,6 +25,8 @@ def test_blocks_run_as_printed(
     page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """The blocks of a page run in order, as one module."""
+    for package in NEEDS.get(page.name, ()):
+        pytest.importorskip(package)
     module = types.ModuleType("example")
     monkeypatch.setitem(sys.modules, "example", module)
     monkeypatch.chdir(tmp_path)
