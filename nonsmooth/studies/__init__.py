@@ -1,4 +1,4 @@
-"""Studies: many runs over parameters, stored as they come; orbits, derivatives, and fits."""
+"""Studies: many runs over parameters, stored as they come; attractors, orbits, derivatives, and fits."""
 
 from nonsmooth.studies.attractors import (
     Along,
@@ -12,7 +12,7 @@ from nonsmooth.studies.derivatives import Family, fit, sensitivity
 from nonsmooth.studies.drawing import draw_study
 from nonsmooth.studies.executors import Dask, Executor, Serial, Threads
 from nonsmooth.studies.opening import open_study
-from nonsmooth.studies.orbits import bifurcation, continuation, lyapunov, orbit
+from nonsmooth.studies.orbits import bifurcation, continuation, hysteresis, lyapunov, orbit
 from nonsmooth.studies.records import Stroboscope, Trajectory
 from nonsmooth.studies.sampling import Sampling, columns, grid, latin_hypercube, listed, random, sobol
 from nonsmooth.studies.study import Study
@@ -37,6 +37,7 @@ __all__ = [
     "features",
     "fit",
     "grid",
+    "hysteresis",
     "latin_hypercube",
     "listed",
     "lyapunov",

@@ -8,7 +8,6 @@ from typing import final
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import linear_sum_assignment
 
 from nonsmooth.checks import is_finite
 from nonsmooth.errors import InvalidInput
@@ -64,6 +63,8 @@ def matched(known: Sequence[Floats], now: Sequence[Floats], tolerance: float) ->
     G. Datseris, K. L. Rossi, A. Wagemakers, "Framework for global stability analysis of dynamical systems", Chaos 33
     (2023) 073151.
     """
+    from scipy.optimize import linear_sum_assignment
+
     distances = np.array([[hausdorff(one, other) for other in known] for one in now]).reshape(len(now), len(known))
     # what is too far apart costs more than all that may be paired
     costs = np.where(distances <= tolerance, distances, 1.0 + 2.0 * tolerance * min(distances.shape, default=0))

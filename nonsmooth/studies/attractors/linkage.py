@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.cluster.hierarchy import DisjointSet
-from scipy.spatial import cKDTree
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -27,6 +25,9 @@ def linked(points: Floats) -> Ints:
     array
         Numbers from 0 on, in the order of the first points, shape [n_points].
     """
+    from scipy.cluster.hierarchy import DisjointSet
+    from scipy.spatial import cKDTree
+
     cells, of_points = np.unique(np.floor(points), axis=0, return_inverse=True)
     of_points = of_points.reshape(-1)
     order = np.argsort(of_points, kind="stable")
@@ -42,6 +43,8 @@ def linked(points: Floats) -> Ints:
 
 def nearest(points: Floats, others: Floats) -> Floats:
     """Return of each point the greatest difference of a coordinate to the nearest of other points, shape [n_points]."""
+    from scipy.spatial import cKDTree
+
     return np.asarray(cKDTree(others).query(points, p=np.inf)[0])
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from nonsmooth.studies.attractors.linkage import nearest
 
@@ -60,4 +59,6 @@ def _within(points: Floats, others: Floats, spacing: float) -> bool:
 
 def _spacing(points: Floats) -> float:
     """Return how far points are from their nearest neighbours, most of them at most."""
+    from scipy.spatial import cKDTree
+
     return float(np.quantile(cKDTree(points).query(points, k=2, p=np.inf)[0][:, 1], SPACING))

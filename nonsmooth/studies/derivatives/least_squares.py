@@ -103,7 +103,6 @@ def fit(
     InvalidInput
         If bounds, times or measurements are not valid, or there are fewer numbers than parameters.
     """
-    # takes longer to import than all of the studies
     from scipy.stats.qmc import Sobol
 
     check_callable("fit: observe", observe, "observe(state)")

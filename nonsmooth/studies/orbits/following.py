@@ -137,7 +137,7 @@ def _behind(path: Path, found: Sequence[Point], left: Sequence[Margins]) -> Fore
 
 def _between(path: Path, one: Point, step: float, two: Point) -> list[Special]:
     """Return the special points between two neighbours."""
-    from scipy.optimize import brentq  # as in fits: it takes longer to import than all of the studies
+    from scipy.optimize import brentq
 
     found = []
     for kind, test in _TESTS.items():

@@ -8,8 +8,6 @@ from typing import final
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import BarycentricInterpolator
-from scipy.optimize import brentq
 
 from nonsmooth.engine.memory.modes import IMPACT
 from nonsmooth.histories.contact_motion import ContactMotion
@@ -108,6 +106,8 @@ def foretold(along: Floats, values: Floats, found: Sequence[Margins]) -> Foretol
     found : sequence of Margins
         Their margins.
     """
+    from scipy.interpolate import BarycentricInterpolator
+
     nearest: tuple[float, Foretold] | None = None
     for (name, kind), beside in zip(_KINDS.items(), found[-1].beside, strict=True):
         left = np.array([getattr(one, name) for one in found])
@@ -142,6 +142,8 @@ def _graded(left: Floats) -> list[int]:
 
 def _least_gaps(run: Solution, times: Floats, motion: ContactMotion) -> list[float]:
     """Return the least gaps of the contacts that come near in a run, and are not hit [m]."""
+    from scipy.optimize import brentq
+
     events = run.events
     which = np.searchsorted(events.time, times, side="right") - 1
     took_part = np.cumsum((events.before | events.during | events.after) != 0, axis=0)[which]

@@ -130,11 +130,11 @@ class Crossing(Section):
 
     def passage(self, model: Model, start: State) -> Passage:
         """Run until the coordinate has passed as often as asked for."""
-        state, told = start, list[tuple[int, int]]()
+        state, told, when = start, list[tuple[int, int]](), list[float]()
         for _ in range(int(self.times)):
             piece = self._next(model, state)
-            state, told = piece.state, [*told, *piece.signature]
-        return Passage(state, tuple(told))
+            state, told, when = piece.state, [*told, *piece.signature], [*when, *piece.times]
+        return Passage(state, tuple(told), tuple(when))
 
     def without(self, model: Model) -> tuple[str, ...]:
         """Return the coordinate."""
@@ -148,7 +148,7 @@ class Crossing(Section):
             rule = f"must pass {self.level:.9g} {word} within {self.longest:.9g} s"
             remedy = "Choose a level between its least and its largest value, or begin nearer to the orbit."
             raise InvalidInput(f"section: {self.coordinate}", rule, "it does not", remedy)
-        return Passage(piece.state, piece.signature[:-1])
+        return Passage(piece.state, piece.signature[:-1], piece.times[:-1])
 
     def _guard(self, system: System) -> Guard:
         number = coordinate_number(system, self.coordinate)
