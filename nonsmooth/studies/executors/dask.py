@@ -82,7 +82,11 @@ class Dask(Executor):
         import dask
         from distributed import Client, LocalCluster
 
-        settings = {"distributed.scheduler.allowed-failures": _DEATHS - 1}
+        settings = {
+            "distributed.scheduler.allowed-failures": _DEATHS - 1,
+            # a worker keeps what its stacks were for an hour, of which nobody asks: 100 MB in some minutes
+            "distributed.worker.profile.enabled": False,
+        }
         stack.enter_context(dask.config.set(settings))
         address: Any = self.scheduler
         if address is None:
