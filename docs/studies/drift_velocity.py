@@ -35,7 +35,9 @@ def drawn(found: xarray.Dataset) -> Figure:
     panels = figure.subplots(2, 3, sharex=True, sharey=True)
     for law, axes in zip(LAWS, panels.flat, strict=True):
         one = millimetres.sel(impact=law).transpose("aspect_ratio", "friction")
-        mesh = axes.pcolormesh(one.friction, one.aspect_ratio, one, cmap="RdBu_r", norm=SymLogNorm(1.0, 1.0, -most, most))
+        mesh = axes.pcolormesh(
+            one.friction, one.aspect_ratio, one, cmap="RdBu_r", norm=SymLogNorm(1.0, 1.0, -most, most)
+        )
         if one.min() < 0.0 < one.max():
             axes.contour(one.friction, one.aspect_ratio, one, levels=[0.0], colors="black", linewidths=1.0)
         axes.set_facecolor("0.8")
