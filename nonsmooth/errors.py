@@ -55,7 +55,7 @@ class UnknownName(InvalidInput):
     """
 
     def __init__(self, kind: str, name: str, known: Iterable[str], other: str = "", remedy: str = "") -> None:
-        known = sorted(known)
+        known = sorted(set(known))
         near = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
         hint = f"That is {other}. " if other else f"Did you mean {near[0]!r}? " if near else ""
         listing = _shortened(", ".join(known)) if known else "none"

@@ -106,6 +106,8 @@ def _points(axes: Axes, record: xarray.DataArray, along: xarray.DataArray, value
         axes.axvline(missing, **_DOTTED)
     if words := _words(record):
         axes.set_yticks(record.attrs["flag_values"], words)
+    if along.dtype.kind != "U":
+        axes.locator_params(axis="x", nbins=6)  # labels of seven characters fit
     axes.set_xlabel(label_of(along))
     axes.set_ylabel(label_of(record))
 

@@ -13,6 +13,8 @@ Call = Callable[..., tuple[int, str, str]]
 BALL = ("bouncing_ball", "--set", "gamma=0.8", "--set", "start_phase=1.1", "--set", "speed=0.19")
 ASKED = (*BALL, "--period", "0.04", "--within", "z,vz")
 pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of runs take minutes in plain mode")
+STUCK = ("block_on_belt", "--section", "x=0.5", "--settle", "20", "--within", "x,vx")
+"""Stuck to the belt where it passes the section, which holds its velocity."""
 
 
 def test_an_orbit(call: Call, tmp_path: Path) -> None:
@@ -80,6 +82,7 @@ def test_an_orbit_without_a_period(call: Call) -> None:
         ),
         (("continue", *ASKED, "--over", "gama=0.7:0.9"), "Did you mean 'gamma'"),
         (("continue", *ASKED, "--over", "gamma=0.9:1.0"), "around the value of the orbit"),
+        (("continue", *STUCK, "--over", "decay=2.9:3.1"), "must leave something free at the section"),
     ],
 )
 def test_what_is_refused(call: Call, words: tuple[str, ...], said: str) -> None:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 import nonsmooth as ns
 from nonsmooth import studies
@@ -14,6 +15,8 @@ from scenarios.dumbbell.scenario import DumbbellScenario
 from tests.studies.ball import T_END, drop
 
 pytest.importorskip("zarr", "3.1.3")
+CHARACTER = 6.0
+"""Width of one that is drawn [pixels]."""
 
 
 def test_a_map_hatches_what_has_no_record(tmp_path: Path) -> None:
@@ -51,6 +54,16 @@ def test_where_all_numbers_are_the_same_they_are_drawn(tmp_path: Path) -> None:
     figure = studies.draw_study(study.run(tmp_path / "s.zarr", executor="serial"))
     assert figure.axes[0].get_ylabel() == "t_end [s]"
     assert figure.get_suptitle() == "2 runs of BouncingBall"
+
+
+def test_numbers_along_an_axis_do_not_run_together(tmp_path: Path) -> None:
+    draws = studies.listed([{"gamma": 0.3, "start_phase": -0.097}, {"gamma": 0.8, "start_phase": 0.097}])
+    study = studies.Study(BouncingBall(t_end=0.1), draws, ["impacts"])
+    figure = studies.draw_study(study.run(tmp_path / "s.zarr", executor="serial"))
+    FigureCanvasAgg(figure).draw()
+    for axes in figure.axes:
+        boxes = [one.get_window_extent() for one in axes.get_xticklabels()]
+        assert all(one.x1 + CHARACTER < other.x0 for one, other in zip(boxes, boxes[1:], strict=False))
 
 
 def test_a_study_of_states_cannot_be_drawn(tmp_path: Path) -> None:

@@ -154,6 +154,7 @@ _BALL, _GRID = BouncingBall(t_end=0.1), studies.grid(gamma=[0.5])
         (lambda: studies.Study(_BALL, _GRID, ["impacts", "impacts"]), ("impacts", "once")),
         (lambda: studies.Study(_BALL, _GRID, ["impacts"], t_end=1.0), ("t_end", "left out", "1.0")),
         (lambda: studies.Study(_BALL, _GRID, ["impacts"], budget=0), ("budget", "positive", "0")),
+        (lambda: studies.Study(_BALL, _GRID, "impacts"), ("record", "a list", '["impacts"]')),
         (lambda: studies.Study(_BALL, _GRID, [3]), ("record", "function", "3")),  # type: ignore[list-item]
         (lambda: studies.Study(_BALL, {"gamma": [1]}, ["impacts"]), ("sampling", "Sampling")),  # type: ignore[arg-type]
         (lambda: studies.Study(drop, _GRID, RECORD, t_end=1.0), ("gamma", "height, restitution")),

@@ -63,11 +63,15 @@ def _execute_orbit(arguments: argparse.Namespace) -> bool:
 def _execute_continue(arguments: argparse.Namespace) -> bool:
     name, span = over.span(arguments.over)
     found = _found(arguments)
-    from nonsmooth.studies.derivatives.coordinates import coordinate_number
+    from nonsmooth.studies.derivatives.coordinates import coordinate_number, unit
     from nonsmooth.studies.orbits import continuation
 
+    if not found.map.chart.names:
+        remedy = "Choose another --section or --at, or name more of what repeats by --within."
+        raise InvalidInput("orbit", "must leave something free at the section", arguments.within, remedy)
     shown = arguments.show or found.map.chart.names[0]
-    number = coordinate_number(found.family.model().system, shown)
+    system = found.family.model().system
+    number = coordinate_number(system, shown)
 
     branch = continuation(found, name, span)
     say(f"{len(branch.orbits)} orbits, {name} from {branch.values.min():.9g} to {branch.values.max():.9g}")
@@ -78,7 +82,8 @@ def _execute_continue(arguments: argparse.Namespace) -> bool:
         return True
     from nonsmooth.studies.orbits.pictures import branch as drawn
 
-    axes = drawn(branch, lambda orbit: float(np.concatenate([orbit.state.q, orbit.state.u])[number]), shown)
+    label = f"{shown} [{unit(system, number)}]"
+    axes = drawn(branch, lambda orbit: float(np.concatenate([orbit.state.q, orbit.state.u])[number]), label)
     return save(arguments.out, "branch", axes, _table(branch))
 
 

@@ -112,8 +112,11 @@ def _followed(path: Path, point: Point, most: int, covered: RangeCovered) -> _Wa
             if step > _SMALLEST and not known:
                 bound, step = point.along + step, 0.5 * step
                 continue
-            ending = "the end of the range"
-            if not isinstance(error, OutOfRange):
+            if isinstance(error, OutOfRange):
+                ending = "the end of the range"
+            elif what is None and not isinstance(error, OrderOfEvents):
+                ending = f"no orbit farther on ({error})"
+            else:
                 value, kind = (path.value(point), "sequence") if what is None else (what.value, what.kind)
                 special.append(Special(kind, value, point.orbit))
                 ending = f"events change ({error})"

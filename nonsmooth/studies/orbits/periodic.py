@@ -104,7 +104,7 @@ class Orbit:
     def __str__(self) -> str:
         """Return period, residual, multipliers and events."""
         model = self.family.model()
-        values = ", ".join(f"{value:.8g}" for value in self.multipliers)
+        values = ", ".join(f"{value:.8g}" for value in self.multipliers) or "none"
         rough = f"; no derivative along {', '.join(c.direction for c in self.corners)}" if self.corners else ""
         passes = ", ".join(self.section.without(model))
         trivial = f" besides 1 along the motion, which the section of {passes} takes away" if passes else ""
@@ -244,4 +244,4 @@ def _check_again(model: Model, found: Linear, section: Section) -> None:
             f"must be one of the system, but after a second one {off:.2g} is left of what repeats, in units of scales"
         )
         remedy = "A plate that vibrates has that of its motion, or multiples."
-        raise InvalidInput("orbit: period", rule, again.time - end.time, remedy)
+        raise InvalidInput("orbit: period", rule, f"{again.time - end.time:.9g}", remedy)

@@ -79,7 +79,8 @@ def branch(found: Branch, shown: Callable[[Orbit], float], label: str, ax: Axes 
     # a piece belongs to both of its ends: what joins a stable orbit and an unstable one is dashed
     for which, style, word in ((stable, "-", "stable"), (~stable, "--", "unstable")):
         wide = which if style == "-" else which | np.roll(which, 1) | np.roll(which, -1)
-        ax.plot(found.values, np.where(wide, heights, np.nan), style, color="black", linewidth=1.3, label=word)
+        if np.any(which):
+            ax.plot(found.values, np.where(wide, heights, np.nan), style, color="black", linewidth=1.3, label=word)
     for kind, mark in _MARKS.items():
         points = [one for one in found.special if one.kind == kind]
         if points:
@@ -91,7 +92,7 @@ def branch(found: Branch, shown: Callable[[Orbit], float], label: str, ax: Axes 
                 color="#d55e00",
                 label=f"{kind} at {', '.join(values)}",
             )
-    ax.set_xlabel(found.name)
+    ax.set_xlabel(found.orbits[0].family.label(found.name))
     ax.set_ylabel(label)
     ax.grid(color="0.9", linewidth=0.6)
     ax.set_axisbelow(True)

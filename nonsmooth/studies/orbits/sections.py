@@ -121,7 +121,7 @@ class Crossing(Section):
             system.guard(self._guard(system))
             return system
 
-        return Family(make, family.values, family.engine)
+        return Family(make, family.values, family.engine, family.units)
 
     def entered(self, model: Model, start: State) -> State:
         """Return where a motion first passes, from a state of the system without the section."""

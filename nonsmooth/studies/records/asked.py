@@ -52,8 +52,9 @@ def recorder(asked: Asked) -> Recorder:
         or len(inspect.signature(asked).parameters) != 2
         or not asked.__name__.isidentifier()
     ):
+        rule = "must be a name, or a function with a name and two arguments"
         remedy = "Give a name, def f(scenario, solution) that returns a number, or Trajectory(...)."
-        raise InvalidInput("record", "must be a name or a function of two arguments", asked, remedy)
+        raise InvalidInput("record", rule, asked, remedy)
     return Computed(asked)
 
 
@@ -63,8 +64,10 @@ def records(asked: Sequence[Asked], look: Outcome) -> tuple[Record, ...]:
     Raises
     ------
     InvalidInput
-        If a name is unknown, comes twice, or is that of something that is no number.
+        If it is no list, or a name is unknown, comes twice, or is that of something that is no number.
     """
+    if isinstance(asked, str):
+        raise InvalidInput("record", "must be a list", asked, f'For example record=["{asked}"].')
     found = tuple(recorder(one).record(look) for one in asked if one not in ALWAYS)
     names = [one.name for one in found]
     for name in names:

@@ -141,6 +141,10 @@ def test_the_woodpecker_pecks_its_way_down() -> None:
     assert ratios[-1] == pytest.approx(found.multipliers[0].real, abs=1e-4)
 
 
+def test_parameters_keep_their_units() -> None:
+    assert Crossing("phi_m").watched(Family.of(Woodpecker())).label("bird_arm") == "bird_arm [m]"
+
+
 def test_the_section_takes_the_multiplier_1_away() -> None:
     """After a fixed time the same perturbations have the same multipliers, and 1 along the motion."""
     found = _woodpecker()

@@ -64,6 +64,14 @@ def test_fold_and_period_doubling() -> None:
     assert np.min(np.abs(doubling.orbit.multipliers + 1.0)) < 1e-8
 
 
+def test_a_start_that_follows_the_parameter_ends_the_branch() -> None:
+    """The phase of the table, by default that of the orbit, has no derivative at the fold; no event changes there."""
+    found = orbit(BouncingBall(gamma=0.36, restitution=E), 0.04, within=("z", "vz"))
+    branch = continuation(found, "gamma", (0.3, 0.361))
+    assert branch.ending.startswith("no orbit farther on (")
+    assert "sequence" not in [one.kind for one in branch.special]
+
+
 def test_lyapunov_exponents() -> None:
     """Of a spiralling orbit both are f ln e, in the mean over a turn; of chaos one is positive."""
     scenario = BouncingBall(gamma=0.8, restitution=E)
