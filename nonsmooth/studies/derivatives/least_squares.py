@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, final
 
@@ -24,6 +24,8 @@ Floats = NDArray[np.float64]
 Observe = Callable[[State], Any]
 _STEP = 1e-5
 """Change of a parameter over its range in differences: of least squares, which need no more."""
+_TOLD = 1e-7
+"""Effect over the largest one below which it is round-off: that of runs is 1e-12, over the step."""
 _REFINED = 3
 """Points from which the search begins."""
 
@@ -101,7 +103,8 @@ def fit(
     UnknownName
         If there is no such parameter.
     InvalidInput
-        If bounds, times or measurements are not valid, or there are fewer numbers than parameters.
+        If bounds, times or measurements are not valid, there are fewer numbers than parameters, or the measurements do
+        not tell what these are.
     """
     from scipy.stats.qmc import Sobol
 
@@ -109,7 +112,11 @@ def fit(
     times = np.atleast_1d(floats("fit: at", at))
     if not (len(times) and times[0] > 0.0 and np.all(np.diff(times) > 0.0)):
         raise InvalidInput("fit: at", "must be positive, rising times", times.tolist(), "Give them in [s].")
-    data = np.asarray(measured, dtype=float).reshape(len(times), -1)
+    data = np.asarray(measured, dtype=float)
+    if data.ndim not in (1, 2) or len(data) != len(times):
+        remedy = "Put nan where nothing was measured."
+        raise InvalidInput("fit: measured", f"must have a row for each of {len(times)} times", data.shape, remedy)
+    data = data.reshape(len(times), -1)
     family, names = Family.of(what), tuple(bounds)
     low, high = _bounds(family, bounds)
     given = np.isfinite(data)
@@ -144,8 +151,7 @@ def fit(
     values = low + found.x * (high - low)
     freedom = max(1, len(found.fun) - len(names))
     deviation = float(np.sqrt(np.sum(found.fun**2) / freedom))
-    inverse = np.linalg.pinv(found.jac.T @ found.jac)
-    covariance = deviation**2 * inverse * np.outer(high - low, high - low)
+    covariance = deviation**2 * _inverse(found.jac, names) * np.outer(high - low, high - low)
     errors = np.sqrt(np.diag(covariance))
     best_values = dict(zip(names, values.tolist(), strict=True))
     return Fit(
@@ -176,6 +182,17 @@ def _refined(residual: Callable[[Floats], Floats], begin: Floats) -> OptimizeRes
 
     inside = np.clip(begin, 1e-3, 1.0 - 1e-3)
     return least_squares(residual, inside, bounds=(0.0, 1.0), diff_step=_STEP, xtol=1e-10)
+
+
+def _inverse(jacobian: Floats, names: Sequence[str]) -> Floats:
+    """Return the inverse of J^T J; without one there are combinations of parameters that change nothing."""
+    _, effects, ways = np.linalg.svd(jacobian, full_matrices=False)
+    idle = effects <= _TOLD * effects[0]
+    if np.any(idle):
+        which = [name for name, part in zip(names, np.abs(ways[idle]).max(axis=0), strict=True) if part > 0.1]
+        remedy = "Fit fewer, or measure what they change."
+        raise InvalidInput("fit: bounds", "must be of parameters that the measurements tell", which, remedy)
+    return np.asarray((ways.T / effects**2) @ ways)
 
 
 def _bounds(family: Family, bounds: Mapping[str, tuple[float, float]]) -> tuple[Floats, Floats]:

@@ -13,6 +13,7 @@ from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.derivatives.least_squares import fit
 from nonsmooth.studies.derivatives.passage import passage
 from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.sliding_rod.scenario import SlidingRod
 
 Floats = NDArray[np.float64]
 pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of runs take minutes in plain mode")
@@ -58,3 +59,15 @@ def test_bad_input() -> None:
         fit(scenario, {"friction": (0.1, 0.4)}, at=TIMES, measured=np.nan * zeros, observe=_place)
     with pytest.raises(ns.InvalidInput, match=r"positive, rising times"):
         fit(scenario, {"friction": (0.1, 0.4)}, at=TIMES[::-1], measured=zeros, observe=_place)
+
+
+def test_what_changes_nothing_is_not_told() -> None:
+    """A rod that slides and never strikes has no restitution: any value fits, none with an error of 0."""
+    times = np.linspace(0.01, 0.1, 6)
+    family = Family.of(SlidingRod(friction=0.3, restitution=0.5))
+    heights = family.model().run(0.1).at(times).q[:, 2]
+    bounds = {"friction": (0.1, 0.6), "restitution": (0.2, 0.9)}
+    with pytest.raises(ns.InvalidInput, match=r"measurements tell, but it is \['restitution'\]"):
+        fit(family, bounds, at=times, measured=heights, observe=lambda state: state.q[2], starts=4)
+    with pytest.raises(ns.InvalidInput, match=r"a row for each of 6 times, but it is \(3,\)"):
+        fit(family, bounds, at=times, measured=heights[:3], observe=lambda state: state.q[2])
