@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 import re
 import signal
+import sys
 from collections.abc import Mapping
 from typing import Any
 
@@ -47,6 +48,12 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if _ADDRESS.search(item.name):
             raise pytest.UsageError(f"{item.nodeid}: its name has an address; give the parameters ids")
+
+
+def pytest_runtest_teardown() -> None:
+    """Close what a test drew with pyplot, which keeps it and, after twenty, warns in whichever test comes next."""
+    if "matplotlib.pyplot" in sys.modules:
+        sys.modules["matplotlib.pyplot"].close("all")
 
 
 class Builders:

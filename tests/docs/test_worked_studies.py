@@ -6,7 +6,6 @@ import runpy
 import sys
 from pathlib import Path
 
-import matplotlib.pyplot as plt
 import pytest
 
 from nonsmooth.engine.native.kernel import PLAIN
@@ -21,7 +20,6 @@ def _run(name: str, *words: str) -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(sys, "argv", [path, *words])
         runpy.run_path(path, run_name="__main__")
-    plt.close("all")
 
 
 def test_drift_velocity(tmp_path: Path) -> None:
