@@ -52,8 +52,10 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 def pytest_runtest_teardown() -> None:
     """Close what a test drew with pyplot, which keeps it and, after twenty, warns in whichever test comes next."""
-    if "matplotlib.pyplot" in sys.modules:
-        sys.modules["matplotlib.pyplot"].close("all")
+    pyplot = sys.modules.get("matplotlib.pyplot")
+    # a test may have put None there, so that it cannot be imported
+    if pyplot is not None:
+        pyplot.close("all")
 
 
 class Builders:
