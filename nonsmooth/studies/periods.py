@@ -5,6 +5,21 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+_ALIKE = 1e-5
+"""Part of the range of all points within which two count as one."""
+
+
+def alike(points: NDArray[np.float64]) -> float:
+    """Return the greatest difference within which points of a diagram count as one, in their unit.
+
+    Parameters
+    ----------
+    points : array
+        All of them, nan where a run failed; any shape.
+    """
+    known = points[np.isfinite(points)]
+    return _ALIKE * max(float(np.ptp(known)) if len(known) else 0.0, np.finfo(float).tiny)
+
 
 def periods(points: NDArray[np.float64], near: float) -> NDArray[np.int64]:
     """Return of each motion the least n after which all its points repeat, up to half of them; 0 where none does.

@@ -16,14 +16,12 @@ from nonsmooth.plot.asked import axes_of
 from nonsmooth.progress import Display, Pace, RunsDone, on_standard_error
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.orbits.looks import Looks
-from nonsmooth.studies.periods import periods
+from nonsmooth.studies.periods import alike, periods
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 Floats = NDArray[np.float64]
-_ALIKE = 1e-5
-"""Part of the range of all points within which two count as one."""
 
 
 @final
@@ -33,8 +31,8 @@ class Diagram:
 
     Attributes
     ----------
-    name : str
-        The parameter.
+    name, label : str
+        The parameter, and the same with its unit.
     values : array
         Its values, shape [n].
     coordinate, unit : str
@@ -46,6 +44,7 @@ class Diagram:
     """
 
     name: str
+    label: str
     values: Floats
     coordinate: str
     unit: str
@@ -55,8 +54,7 @@ class Diagram:
     @property
     def periods(self) -> NDArray[np.int64]:
         """After how many periods the motion repeats; 0 where it does not within those that were kept; shape [n]."""
-        near = _ALIKE * max(float(np.nanmax(self.points) - np.nanmin(self.points)), np.finfo(float).tiny)
-        return periods(self.points[:, :, np.newaxis], near)
+        return periods(self.points[:, :, np.newaxis], alike(self.points))
 
     @property
     def failed(self) -> int:
@@ -83,7 +81,7 @@ class Diagram:
         ax = axes_of(ax)
         over = np.repeat(self.values, self.points.shape[1])
         ax.plot(over, self.points.ravel(), mark, markersize=2.0, color=colour, fillstyle="none", label=label)
-        ax.set_xlabel(self.name)
+        ax.set_xlabel(self.label)
         ax.set_ylabel(f"{self.coordinate}, once a period [{self.unit}]")
         for value, text in zip(self.values.tolist(), self.failures, strict=True):
             if text:
@@ -147,4 +145,4 @@ def bifurcation(
             except RunFailed as error:
                 failures.append(str(error))
             counted.add(1, bool(failures[-1]))
-    return Diagram(name, row, coordinate, word, points, tuple(failures))
+    return Diagram(name, family.label(name), row, coordinate, word, points, tuple(failures))

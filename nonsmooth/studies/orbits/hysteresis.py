@@ -23,13 +23,12 @@ from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.orbits.choosing import chosen
 from nonsmooth.studies.orbits.diagram import Diagram
 from nonsmooth.studies.orbits.looks import Looks
+from nonsmooth.studies.periods import alike
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 Floats = NDArray[np.float64]
-_ALIKE = 1e-5
-"""Part of the range of all points within which two count as one."""
 
 
 @final
@@ -48,12 +47,12 @@ class Hysteresis:
 
     @property
     def apart(self) -> NDArray[np.bool_]:
-        """Where both ways have come to other motions, of which one repeats at least; shape [n]."""
+        """Where both ways have come to other motions, of which one repeats at least, and neither failed; shape [n]."""
         both = np.array([self.up.points, self.down.points])
-        near = _ALIKE * max(float(np.nanmax(both) - np.nanmin(both)), np.finfo(float).tiny)
-        differ = np.max(np.abs(np.diff(np.sort(both, axis=2), axis=0)[0]), axis=1) > near
+        differ = np.max(np.abs(np.diff(np.sort(both, axis=2), axis=0)[0]), axis=1) > alike(both)
         periodic = np.array([self.up.periods, self.down.periods]) > 0
-        return np.asarray((periodic[0] != periodic[1]) | (periodic.all(axis=0) & differ))
+        others = (periodic[0] != periodic[1]) | (periodic.all(axis=0) & differ)
+        return np.asarray(others & np.isfinite(both).all(axis=(0, 2)))
 
     def draw(self, ax: Axes | None = None) -> Axes:
         """Draw both ways, told apart by marks and colours.
@@ -129,7 +128,8 @@ def hysteresis(
                     failures[way, i], before = str(error), None
                 counted.add(1, bool(failures[way, i]))
     up, down = (
-        Diagram(name, row, coordinate, word, points[way], tuple(map(str, failures[way].tolist()))) for way in (0, 1)
+        Diagram(name, family.label(name), row, coordinate, word, points[way], tuple(map(str, failures[way].tolist())))
+        for way in (0, 1)
     )
     return Hysteresis(up, down)
 

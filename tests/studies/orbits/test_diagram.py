@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 import nonsmooth as ns
 from bodies import Ball, Plate
@@ -13,8 +14,8 @@ from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.progress import Display
 from nonsmooth.studies.derivatives.family import Family
-from nonsmooth.studies.orbits.diagram import bifurcation
-from nonsmooth.studies.orbits.hysteresis import hysteresis
+from nonsmooth.studies.orbits.diagram import Diagram, bifurcation
+from nonsmooth.studies.orbits.hysteresis import Hysteresis, hysteresis
 from scenarios.bouncing_ball import orbits
 from scenarios.bouncing_ball.scenario import BouncingBall
 
@@ -98,3 +99,17 @@ def test_it_persists_where_a_fresh_start_rests() -> None:
     flies = 0.01 + amplitude[2:] * np.sin(angle) + 0.5 * 9.81 * late * (0.04 - late)
     np.testing.assert_allclose(found.down.points[2:, 0], flies, atol=1e-8)
     assert display.told[-1] == "12 of 12 runs"
+
+
+def test_a_run_that_failed_is_no_other_motion() -> None:
+    values, rest, none = np.array([1.0, 2.0, 3.0]), np.zeros(8), np.full(8, np.nan)
+    jumps = np.ones(8)
+
+    def one(*rows: NDArray[np.float64]) -> Diagram:
+        failures = tuple("it failed" if np.isnan(row).any() else "" for row in rows)
+        return Diagram("gamma", "gamma", values, "vz", "m/s", np.array(rows), failures)
+
+    assert Hysteresis(one(rest, rest, none), one(rest, jumps, rest)).apart.tolist() == [False, True, False]
+    nothing = one(none, none, none)
+    assert nothing.periods.tolist() == [0, 0, 0]
+    assert not Hysteresis(nothing, nothing).apart.any()
