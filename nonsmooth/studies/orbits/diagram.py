@@ -10,11 +10,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.checks import floats
 from nonsmooth.engines.event_driven import EventDriven
-from nonsmooth.errors import RunFailed
 from nonsmooth.interfaces import Scenario
 from nonsmooth.plot.asked import axes_of
-from nonsmooth.progress import Display, Pace, RunsDone, on_standard_error
+from nonsmooth.progress import Display
 from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.orbits.each import of_each
 from nonsmooth.studies.orbits.looks import Looks
 from nonsmooth.studies.periods import alike, periods
 
@@ -134,15 +134,7 @@ def bifurcation(
     family = Family.of(what, EventDriven())
     _ = family[name]
     word = looks.unit(family.model(**{name: row[0]}))
-    points, failures = np.full((len(row), keep), np.nan), list[str]()
-    with Pace(display or on_standard_error()) as pace:
-        counted = RunsDone(pace, len(row))
-        for i, value in enumerate(row.tolist()):
-            model = family.model(**{name: value})
-            try:
-                points[i], _ = looks.settled(model, model.start)
-                failures.append("")
-            except RunFailed as error:
-                failures.append(str(error))
-            counted.add(1, bool(failures[-1]))
-    return Diagram(name, family.label(name), row, coordinate, word, points, tuple(failures))
+    points, failures = of_each(
+        family, name, row.tolist(), lambda model: looks.settled(model, model.start)[0], np.full(keep, np.nan), display
+    )
+    return Diagram(name, family.label(name), row, coordinate, word, np.array(points), failures)

@@ -12,15 +12,16 @@ from numpy.typing import ArrayLike, NDArray
 from nonsmooth.checks import floats, is_finite
 from nonsmooth.engine.memory.modes import START
 from nonsmooth.engines.event_driven import EventDriven
-from nonsmooth.errors import InvalidInput, RunFailed
+from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Scenario
 from nonsmooth.plot.asked import axes_of
 from nonsmooth.plot.lines import COLOURS, beside
-from nonsmooth.progress import Display, Pace, RunsDone, on_standard_error
+from nonsmooth.progress import Display
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.solution import Solution
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.derivatives.passage import Signature, named
+from nonsmooth.studies.orbits.each import of_each
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -148,23 +149,16 @@ def ribbon(
     for word, number in (("period", period), ("keep", keep), ("settle", settle)):
         if not (is_finite(number) and number > 0):
             raise InvalidInput(f"ribbon: {word}", "must be positive and finite", number, "Give a larger one.")
-    family, rows, failures = Family.of(what, EventDriven()), list[Row](), list[str]()
-    _ = family[name]
-    with Pace(display or on_standard_error()) as pace:
-        counted = RunsDone(pace, len(column))
-        for value in column.tolist():
-            model = family.model(**{name: value})
-            try:
-                run = model.run((settle + keep) * period, sample_interval=period)
-                if run.status == "interrupted":
-                    raise KeyboardInterrupt
-                rows.append(_row(run, period, settle, keep))
-                failures.append("")
-            except RunFailed as error:
-                rows.append(Row(np.empty(0), ()))
-                failures.append(str(error))
-            counted.add(1, bool(failures[-1]))
-    return Ribbon(family.label(name), column, keep, tuple(rows), _words(rows, family.model()), tuple(failures))
+    family = Family.of(what, EventDriven())
+
+    def row(model: Model) -> Row:
+        run = model.run((settle + keep) * period, sample_interval=period)
+        if run.status == "interrupted":
+            raise KeyboardInterrupt
+        return _row(run, period, settle, keep)
+
+    rows, failures = of_each(family, name, column.tolist(), row, Row(np.empty(0), ()), display)
+    return Ribbon(family.label(name), column, keep, tuple(rows), _words(rows, family.model()), failures)
 
 
 def periods(model: Model, run: Solution, period: float) -> Ribbon:

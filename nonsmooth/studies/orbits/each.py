@@ -1,0 +1,61 @@
+"""A system with each value of a parameter, run one after another: what fails is told, and the rest goes on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TypeVar
+
+from nonsmooth.errors import RunFailed
+from nonsmooth.progress import Display, Pace, RunsDone, on_standard_error
+from nonsmooth.runs.model import Model
+from nonsmooth.studies.derivatives.family import Family
+
+Found = TypeVar("Found")
+
+
+def of_each(
+    family: Family,
+    name: str,
+    values: Sequence[float],
+    find: Callable[[Model], Found],
+    nothing: Found,
+    display: Display | None,
+) -> tuple[list[Found], tuple[str, ...]]:
+    """Return what is found with each value of a parameter, and why a run failed, "" where it did not.
+
+    Parameters
+    ----------
+    family : Family
+        The systems.
+    name : str
+        The parameter.
+    values : sequence of float
+        Its values.
+    find : callable
+        ``find(model)`` runs a model; it may raise RunFailed.
+    nothing : object
+        What stands where it does.
+    display : Display, optional
+        Where progress is shown; on standard error by default.
+
+    Raises
+    ------
+    UnknownName
+        If there is no such parameter.
+    InvalidInput
+        If no value makes a system.
+    """
+    _ = family[name]
+    found, failures = list[Found](), list[str]()
+    with Pace(display or on_standard_error()) as pace:
+        counted = RunsDone(pace, len(values))
+        for value in values:
+            model = family.model(**{name: value})
+            try:
+                found.append(find(model))
+                failures.append("")
+            except RunFailed as error:
+                found.append(nothing)
+                failures.append(str(error))
+            counted.add(1, bool(failures[-1]))
+    return found, tuple(failures)
