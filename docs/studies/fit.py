@@ -12,11 +12,11 @@ import sys
 
 import matplotlib
 import numpy as np
-from nonsmooth.studies.derivatives.pictures import fitted
 from numpy.typing import NDArray
 
 from nonsmooth import State
 from nonsmooth.studies import Family, fit
+from nonsmooth.studies.derivatives.pictures import fitted
 from scenarios.dumbbell.scenario import DumbbellScenario
 
 TRUE, NOISE = {"restitution": 0.65, "friction": 0.2}, 2e-5
