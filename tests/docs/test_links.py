@@ -63,6 +63,16 @@ def test_links_inside_lead_to_a_file_and_a_heading(path: Path) -> None:
     assert _broken(path) == []
 
 
+def test_the_site_says_each_thing_once_and_finds_what_it_adds() -> None:
+    """The second of two keys of a name would be taken without a word, as a missing style sheet is."""
+    text = (ROOT / "docs" / "mkdocs.yml").read_text(encoding="utf-8")
+    keys = re.findall(r"^(\w+):", text, re.MULTILINE)
+    assert sorted(keys) == sorted(set(keys))
+    added = re.findall(r"assets/[\w./-]+", text)
+    assert "assets/site.css" in added
+    assert [name for name in added if not (PAGES / name).is_file()] == []
+
+
 def test_addresses_are_well_formed() -> None:
     """A host with a name that others can reach, asked by https."""
     found = _addresses()
