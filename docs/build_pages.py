@@ -1,7 +1,7 @@
 """Make what the pages of the gallery show of their scenarios: ``python docs/build_pages.py [NAME ...]``.
 
-Each scenario is run with its defaults.  Its view and picture go to docs/pages/views, where pages link to them; its
-parameters, and the criteria as this run meets them, to docs/parts, from which pages include them.
+Each scenario is run with its defaults.  Its view and picture go to docs/pages/gallery/views, where pages link to them;
+its parameters, and the criteria as this run meets them, to docs/parts, from which pages include them.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.plugins import registry
 
 DOCS = Path(__file__).parent
-VIEWS = DOCS / "pages" / "views"
+VIEWS = DOCS / "pages" / "gallery" / "views"
 PARTS = DOCS / "parts"
 OTHERS: dict[str, tuple[dict[str, str], ...]] = {"dumbbell": ({"mode": "drift"}, {"mode": "jump"}, {"mode": "flutter"})}
 """Parameters to view where one run with the defaults does not show what a scenario is for."""

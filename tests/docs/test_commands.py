@@ -10,7 +10,7 @@ import pytest
 from tests.environments import ROOT, Environment
 
 PAGES = ROOT / "docs" / "pages"
-SESSIONS = ("howto/friction_law.md", "howto/scenario_file.md")
+SESSIONS = ("plugins/friction_law.md", "howto/scenario_file.md")
 """Pages whose bash blocks are one session."""
 
 _BLOCK = re.compile(
@@ -52,5 +52,5 @@ def test_the_commands_of_a_page_do_what_it_says(name: str, environment: Environm
 def test_the_law_of_the_page_is_the_one_that_is_written(environment: Environment, tmp_path: Path) -> None:
     environment.nonsmooth("new", "plugin", "felt", folder=tmp_path)
     law = (tmp_path / "felt" / "felt" / "friction.py").read_text(encoding="utf-8")
-    assert f"```python\n{law}```\n" in (PAGES / "howto" / "friction_law.md").read_text(encoding="utf-8")
+    assert f"```python\n{law}```\n" in (PAGES / "plugins" / "friction_law.md").read_text(encoding="utf-8")
     assert len(law.splitlines()) <= 25

@@ -69,7 +69,7 @@ LONGEST = 25
 @pytest.mark.parametrize("name", EXTENSION_POINTS)
 def test_the_page_of_an_extension_point_is_complete_and_short(name: str) -> None:
     """A contract as a numbered list, examples that fit on a screen, how to check and how to ship it."""
-    page = ROOT / "docs" / "pages" / "howto" / f"{name}.md"
+    page = ROOT / "docs" / "pages" / "plugins" / f"{name}.md"
     text = page.read_text(encoding="utf-8")
     codes = [block["code"] for block in _blocks(page)]
     assert any("class " in code for code in codes)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from nonsmooth.plugins import registry
 
-PAGES = Path(__file__).parents[2] / "docs" / "pages"
+PAGES = Path(__file__).parents[2] / "docs" / "pages" / "gallery"
 
 
 def test_every_scenario_has_its_view_and_its_numbers_on_one_page() -> None:
