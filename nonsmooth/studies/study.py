@@ -114,7 +114,7 @@ class Study:
         for run in range(min(len(self), 10)):
             try:
                 case = self._target.case(self._points.at(run))
-                return Outcome(case.scenario, self._work.solution(case, _end_of_look(case)))
+                return Outcome(case.scenario, self._work.solution(case, _end_of_look(case)), case.t_end)
             except Exception as error:  # of the user, too
                 last = error
         raise last
@@ -174,6 +174,7 @@ class Study:
             If it cannot be written: what was stored before is.
         """
         require_store()
+        check_chunk(chunk)
         does = executor_of(executor)
         place = path_of("study", path)
         if not is_study(place):
@@ -204,8 +205,6 @@ class Study:
 
     def _create(self, path: Path, chunk: int | None, request: Mapping[str, Any]) -> None:
         size = max(1, min(_LARGEST, -(-len(self) // _CHUNKS))) if chunk is None else chunk
-        if not isinstance(size, int) or size < 1:
-            raise InvalidInput("Study.run: chunk", "must be a positive whole number", chunk, "Leave it out.")
         spec, records_of = self.spec, self._work.records
         along, made = coordinates(records_of, self._points, self._target), variables(records_of)
         layout = {
@@ -248,6 +247,18 @@ class Study:
             differ = {name: here[name] for name in here if here[name] != before[0].get(name)}
             text = f"{store.path} began elsewhere or with other versions; here are {differ}: last digits may differ."
             warnings.warn(text, OtherVersions, stacklevel=3)
+
+
+def check_chunk(chunk: int | None) -> None:
+    """Look at how many runs are stored as one.
+
+    Raises
+    ------
+    InvalidInput
+        If it is no positive whole number.
+    """
+    if chunk is not None and (not isinstance(chunk, int) or chunk < 1):
+        raise InvalidInput("chunk", "must be a positive whole number of runs", chunk, "Leave it out.")
 
 
 def executor_of(executor: str | Executor) -> Executor:

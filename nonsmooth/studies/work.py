@@ -136,7 +136,7 @@ class Work:
         if self.engine.spent(solution):
             text = f"At t = {solution.t_end:.9g} s its {self.engine.steps} steps were used up."
             return Row(BUDGET, reason, text)
-        outcome, values = Outcome(case.scenario, solution), {}
+        outcome, values = Outcome(case.scenario, solution, case.t_end), {}
         for record in self.records:
             try:
                 values[record.name] = record.of(outcome)

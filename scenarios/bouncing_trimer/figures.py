@@ -65,7 +65,7 @@ def regimes(scenario: BouncingTrimer, entries: list[Entry]) -> Figure:
             axis.plot(
                 [e.gamma for e in mine], values, linewidth=0.8, fillstyle="full", label=f"{frequency:g} Hz", **look
             )
-            over = [i for i, entry in enumerate(mine) if entry.numbers["regime"] == "tumbling"]
+            over = [i for i, entry in enumerate(mine) if entry.numbers["attractor"] == "tumbling"]
             opened = {**look, "markersize": 9, "fillstyle": "none", "linestyle": "none"}
             axis.plot([mine[i].gamma for i in over], [values[i] for i in over], **opened)
     for axis, label in zip(

@@ -1,4 +1,4 @@
-"""What a trimer does in the long run: its regime, how fast it travels and turns."""
+"""What a trimer does in the long run: its attractor, how fast it travels and turns."""
 
 from __future__ import annotations
 
@@ -17,6 +17,10 @@ _CLOSED = 1e-9
 """A largest gap below this is none [m]."""
 _REPEATS = 1e-3
 """Gaps that differ by less, over the largest gap, count as the same."""
+_REST, _TUMBLING, _IRREGULAR = "rest", "tumbling", "irregular"
+_PERIODS = tuple(f"period_{k}" for k in range(1, _LONGEST + 1))
+NAMES = (_REST, *_PERIODS, _TUMBLING, _IRREGULAR)
+"""What a trimer may do."""
 
 
 @dataclass(frozen=True)
@@ -65,11 +69,11 @@ def repetition(motion: Motion) -> int | None:
 
 
 def summary(motion: Motion) -> Mapping[str, Any]:
-    """Return regime and numbers of the second half of a run.
+    """Return attractor and numbers of the second half of a run.
 
-    ``regime`` is "rest", "period k" (in plate periods), "tumbling" where it turns over, or "irregular"; ``drift`` [m/s]
-    is the distance between start and end over the time, ``wandering`` [m/s] the mean speed along the path seen once a
-    plate period, ``rotation`` and ``turning`` [rad/s] the mean of the vertical angular velocity and of its size.
+    ``attractor`` is "rest", "period_k" (k plate periods), "tumbling" where it turns over, or "irregular"; ``drift``
+    [m/s] is the distance between start and end over the time, ``wandering`` [m/s] the mean speed along the path seen
+    once a plate period, ``rotation`` and ``turning`` [rad/s] the mean of the vertical angular velocity and of its size.
     """
     late = motion.half
     t, place, turning = motion.t[late], motion.place[late], motion.turning[late]
@@ -79,13 +83,13 @@ def summary(motion: Motion) -> Mapping[str, Any]:
     largest = float(np.max(motion.gaps[late]))
     k = repetition(motion)
     largest_tilt = float(np.max(motion.tilt[late]))
-    regime = "irregular" if k is None else f"period {k}"
+    attractor = _IRREGULAR if k is None else _PERIODS[k - 1]
     if largest < _CLOSED:
-        regime = "rest"
+        attractor = _REST
     elif largest_tilt > 0.5 * np.pi:
-        regime = "tumbling"
+        attractor = _TUMBLING
     return {
-        "regime": regime,
+        "attractor": attractor,
         "drift": float(np.hypot(*(place[-1] - place[0]))) / elapsed,
         "wandering": float(np.sum(np.hypot(*steps.T))) / elapsed,
         "rotation": float(np.mean(turning)),

@@ -19,7 +19,7 @@ from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.bouncing_trimer.motion import Motion, summary
+from scenarios.bouncing_trimer.motion import NAMES, Motion, summary
 
 Floats = NDArray[np.float64]
 
@@ -59,6 +59,7 @@ class BouncingTrimer(Scenario):
         "largest_gap": "m",
         "largest_tilt": "rad",
     }
+    words: ClassVar[Mapping[str, tuple[str, ...]]] = {"attractor": NAMES}
 
     gamma: float = parameter(2.0, doc="peak acceleration of the plate over gravity", minimum=0.0, usual=(0.0, 20.0))
     frequency: float = parameter(50.0, doc="frequency f of the plate", unit="Hz", above=0.0, usual=(1.0, 1e3))
@@ -177,7 +178,7 @@ class BouncingTrimer(Scenario):
         return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return the regime and its numbers over the second half of the run: see :mod:`.motion`."""
+        """Return the attractor and its numbers over the second half of the run: see :mod:`.motion`."""
         return {**summary(self.motion(solution)), "impacts": solution.counters.impacts}
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:

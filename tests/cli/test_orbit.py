@@ -10,7 +10,8 @@ import pytest
 from nonsmooth.engine.native.kernel import PLAIN
 
 Call = Callable[..., tuple[int, str, str]]
-BALL = ("bouncing_ball", "--set", "gamma=0.8", "--set", "start_phase=1.1", "--set", "speed=0.19")
+START = ("bouncing_ball", "--set", "start_phase=1.1", "--set", "speed=0.19")
+BALL = (*START, "--set", "gamma=0.8")
 ASKED = (*BALL, "--period", "0.04", "--within", "z,vz")
 pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of runs take minutes in plain mode")
 STUCK = ("block_on_belt", "--section", "x=0.5", "--settle", "20", "--within", "x,vx")
@@ -38,7 +39,7 @@ def test_along_a_parameter(call: Call, tmp_path: Path) -> None:
 
 def test_a_bifurcation_diagram(call: Call, tmp_path: Path) -> None:
     words = ("--over", "gamma=0.7:0.8:3", "--period", "0.04", "--show", "vz", "--settle", "300", "--keep", "8")
-    status, output, _ = call("bifurcation", *BALL, *words, "--out", str(tmp_path / "out"))
+    status, output, _ = call("bifurcation", *START, *words, "--out", str(tmp_path / "out"))
     assert status == 0
     assert "3 repeat after 1 periods" in output
     assert len((tmp_path / "out" / "bifurcation.csv").read_text(encoding="utf-8").splitlines()) == 4
@@ -46,7 +47,7 @@ def test_a_bifurcation_diagram(call: Call, tmp_path: Path) -> None:
 
 def test_a_followed_diagram(call: Call, tmp_path: Path) -> None:
     words = ("--over", "gamma=0.3:0.8:2", "--period", "0.04", "--show", "vz", "--settle", "200", "--keep", "8")
-    status, output, _ = call("bifurcation", *BALL, *words, "--at", "0.02", "--follow", "--out", str(tmp_path / "out"))
+    status, output, _ = call("bifurcation", *START, *words, "--at", "0.02", "--follow", "--out", str(tmp_path / "out"))
     assert status == 0
     assert "1 of 2 values have two motions" in output
     assert "up: 2 repeat after 1 periods" in output
@@ -77,8 +78,12 @@ def test_an_orbit_without_a_period(call: Call) -> None:
         (("orbit", *BALL, "--section", "z=0:up"), "must have the form NAME=LEVEL or NAME=LEVEL:falling"),
         (("continue", *ASKED, "--over", "gamma=0.7"), "--over gamma must have the form LOW:HIGH, "),
         (
-            ("bifurcation", *BALL, "--over", "gamma=0.7:0.8", "--period", "0.04", "--show", "vz"),
+            ("bifurcation", *START, "--over", "gamma=0.7:0.8", "--period", "0.04", "--show", "vz"),
             "must have the form LOW:HIGH:N",
+        ),
+        (
+            ("bifurcation", *BALL, "--over", "gamma=0:1:3", "--period", "0.04", "--show", "vz"),
+            "must be left out with --over gamma",
         ),
         (("continue", *ASKED, "--over", "gama=0.7:0.9"), "Did you mean 'gamma'"),
         (("continue", *ASKED, "--over", "gamma=0.9:1.0"), "around the value of the orbit"),

@@ -58,6 +58,8 @@ def test_draws(tmp_path: Path) -> None:
         (["--over", "gamma=1:2", "--sample", "sobol:5"], "power of two"),
         (["--over", "gamma=1:2", "--sample", "sobl:4"], "Did you mean 'sobol'"),
         (["--over", "gamma=1:2:3", "--record", "impact"], "Did you mean 'impacts'"),
+        (["--over", "gamma=1:2:3", "--set", "gamma=1"], "must be left out with --over gamma"),
+        (["--over", "gamma=1:2:3", "--chunk", "0"], "positive whole number of runs"),
         (["--over", "gamma=1:2:3", "--executor", "thread"], "Did you mean 'threads'"),
     ],
 )

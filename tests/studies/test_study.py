@@ -27,7 +27,7 @@ pytest.importorskip("zarr", "3.1.3")
 
 
 def _double(scenario: BouncingBall, solution: ns.Solution) -> float:
-    """Twice the end."""
+    """Twice the end [s]."""
     return 2.0 * solution.t_end
 
 
@@ -69,6 +69,7 @@ def test_a_study_of_a_scenario_has_what_single_runs_have(tmp_path: Path) -> None
             assert row.q.values.tobytes() == run.at([0.0, 0.1]).q.tobytes()
             assert (row.impacts, row._double, row.reason) == (run.counters.impacts, 0.4, DONE)
             assert row.last_flight == one.summarise(run)["last_flight"]
+    assert found._double.attrs == {"long_name": "Twice the end", "units": "s"}
 
 
 def test_rows_of_numbers_are_kept_whole(tmp_path: Path) -> None:
@@ -144,6 +145,10 @@ def test_others_open_it_without_a_warning(tmp_path: Path) -> None:
 _BALL, _GRID = BouncingBall(t_end=0.1), studies.grid(gamma=[0.5])
 
 
+def _ball(record: Asked) -> studies.Study:
+    return studies.Study(BouncingBall(t_end=0.2), studies.grid(gamma=[0.5]), [record])
+
+
 @pytest.mark.parametrize(
     ("make", "words"),
     [
@@ -165,6 +170,8 @@ _BALL, _GRID = BouncingBall(t_end=0.1), studies.grid(gamma=[0.5])
             lambda: studies.Study(DumbbellScenario(), studies.grid(mode=["jum"]), RECORD),
             ("mode", "Did you mean 'jump'"),
         ),
+        (lambda: _ball(studies.Trajectory("q", (0.1, 0.3))), ("times", "within a run of 0.2 s", "0.3")),
+        (lambda: studies.Trajectory("q", (-0.1, 0.3)), ("times", "none negative")),
         (lambda: studies.Study(_Telling(), studies.grid(height=[0.1]), ["told"]), ("told", "a row of numbers", "much")),
     ],
 )

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.cli.asking.request import assignments
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.studies.sampling import Sampling, grid, latin_hypercube, random, sobol
 
@@ -68,6 +69,20 @@ def span(word: str) -> tuple[str, tuple[float, float]]:
     """
     name, values = _cut(word)
     return name, _range(name, values)
+
+
+def check_not_set(words: Iterable[str], given: Iterable[str]) -> None:
+    """Refuse a parameter that has a value besides those it is varied over.
+
+    Raises
+    ------
+    InvalidInput
+        If there is one.
+    """
+    fixed = assignments(given)
+    for name in (_cut(word)[0] for word in words):
+        if name in fixed:
+            raise InvalidInput(f"--set {name}", f"must be left out with --over {name}", fixed[name], "Leave one out.")
 
 
 def _cut(word: str) -> tuple[str, str]:

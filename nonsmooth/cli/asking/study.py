@@ -14,7 +14,7 @@ from nonsmooth.studies.executors import Dask
 from nonsmooth.studies.executors.executor import Executor
 from nonsmooth.studies.records import Stroboscope
 from nonsmooth.studies.records.asked import Asked
-from nonsmooth.studies.study import EXECUTORS, Study, executor_of
+from nonsmooth.studies.study import EXECUTORS, Study, check_chunk, executor_of
 
 RECORD = ("t_end", "impacts", "events", "steps", "energy_residual")
 """What is kept where nothing is asked for, besides the attractor of a scenario that classifies its runs."""
@@ -52,7 +52,15 @@ def add_executor_to(command: argparse.ArgumentParser) -> None:
 
 
 def asked(arguments: argparse.Namespace, record: list[str]) -> dict[str, Any]:
-    """Return the words of a request, from which its study can be made again."""
+    """Return the words of a request, from which its study can be made again.
+
+    Raises
+    ------
+    InvalidInput
+        If a word contradicts another one, or cannot be one of the store.
+    """
+    check_chunk(arguments.chunk)
+    over.check_not_set(arguments.over, arguments.set)
     return {name: getattr(arguments, name) for name in _ASKED} | {"record": record}
 
 

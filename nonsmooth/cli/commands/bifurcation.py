@@ -40,6 +40,7 @@ def add_to(commands: Any) -> None:
 
 def execute(arguments: argparse.Namespace) -> bool:
     """Run all, print how many repeat after how many periods, save; tell whether all went well."""
+    over.check_not_set([arguments.over], arguments.set)
     name, values = over.axis(arguments.over)
     prepare(arguments)
     job = request.job(arguments.scenario, arguments.set)

@@ -113,7 +113,12 @@ class Chart:
 
     def between(self, one: State, two: State) -> Floats:
         """Return how far along the directions the second state is from the first, shape [m]."""
-        x = np.concatenate([two.q - one.q, two.u - one.u])
+        q = two.q.copy()
+        for start in self.quaternions:
+            # after a whole turn a body has the other one of the two quaternions of its orientation
+            if q[start : start + 4] @ one.q[start : start + 4] < 0.0:
+                q[start : start + 4] *= -1.0
+        x = np.concatenate([q - one.q, two.u - one.u])
         return np.asarray(np.linalg.lstsq(self.basis, x, rcond=None)[0])
 
     def _stepped(self, state: State, change: Floats) -> State:

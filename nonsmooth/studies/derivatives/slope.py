@@ -53,14 +53,20 @@ def slope(sampled: Sampled, step: float, expected: Signature, stencil: Stencil =
     OrderOfEvents
         If the events with a change are others.
     """
-    total: Floats | None = None
-    for offset, weight in stencil:
-        value, signature = sampled(offset * step)
-        if signature != expected:
-            raise OrderOfEvents(expected, signature)
-        total = weight * value if total is None else total + weight * value
-    assert total is not None
+    (first, _), *others = stencil
+    # weights add up to 0: without the first value in all of them what does not change is 0 without round-off
+    origin = _expected(sampled(first * step), expected)
+    total = np.zeros_like(origin)
+    for offset, weight in others:
+        total = total + weight * (_expected(sampled(offset * step), expected) - origin)
     return np.asarray(total / step)
+
+
+def _expected(sample: tuple[Floats, Signature], expected: Signature) -> Floats:
+    value, signature = sample
+    if signature != expected:
+        raise OrderOfEvents(expected, signature)
+    return value
 
 
 def steady(found_with: Callable[[float], Floats], steps: Sequence[float]) -> tuple[Floats, float, float]:

@@ -13,6 +13,7 @@ from nonsmooth.checks import is_finite
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Scenario
 from nonsmooth.solution.state import State
+from nonsmooth.studies.derivatives.chart import Chart
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.orbits.choosing import chosen, seen
 from nonsmooth.studies.orbits.linear import linear
@@ -70,7 +71,7 @@ def lyapunov(
     Raises
     ------
     InvalidInput
-        If a number is not valid, or contacts are closed where a period ends.
+        If a number is not valid, or periods end with now these contacts closed, now others.
     """
     for name, value in (("period", period), ("n_periods", n_periods)):
         if not (is_finite(value) and value > 0):
@@ -78,12 +79,13 @@ def lyapunov(
     model = Family.of(what).model()
     state = chosen(model, seen(model, model.start, settle), period)
     sums, told, left_out = None, list[Floats](), 0
-    directions = None
+    names, directions = Chart.at(model, state, within).names, None
     for _ in range(int(n_periods)):
-        if np.any(state.modes):
-            remedy = "Take another period: directions are told apart where all coordinates are free."
-            raise InvalidInput("lyapunov: period", "must end where no contact is closed", period, remedy)
         found = linear(model, state, Strobe(period), within)
+        if found.chart.names != names:
+            remedy = f"Take another one, or another settle; free were {', '.join(names)} at first."
+            free = ", ".join(found.chart.names)
+            raise InvalidInput("lyapunov: period", "must end with the same coordinates free each time", free, remedy)
         state = found.end.state
         if found.corners:
             left_out += 1

@@ -57,7 +57,8 @@ class Linear:
     way : array
         How far along the directions that is, shape [m].
     matrix : array
-        The derivatives of the end along the directions, a column for each; nan where there is none; shape [m, m].
+        The derivatives of the end along the directions there, a column for each direction at the state; nan where there
+        is none; shape [m, m].
     corners : tuple of Corner
         The directions without one.
     step : float
@@ -85,8 +86,9 @@ def linear(model: Model, state: State, section: Section, within: Sequence[str] |
         If a motion does not come back to the section, or the law of a closed contact has inner states.
     """
     chart, end = Chart.at(model, state, within, section.without(model)), section.passage(model, state)
+    there = _directions_at(end, chart, model, section, within)
     columns, corners, taken = list[Floats](), list[Corner](), [max(STEPS)]
-    for name, sampled in zip(chart.names, _directions(model, state, section, chart, end), strict=True):
+    for name, sampled in zip(chart.names, _directions(model, state, section, chart, end, there), strict=True):
         try:
             column, step, _ = steady(partial(slope, sampled, expected=end.signature), STEPS)
             columns.append(column)
@@ -110,8 +112,9 @@ def smooth(
         If it lacks one.
     """
     chart, end = Chart.at(model, state, within, section.without(model)), section.passage(model, state)
+    there = _directions_at(end, chart, model, section, within)
     columns, taken = list[Floats](), [max(steps)]
-    for sampled in _directions(model, state, section, chart, end):
+    for sampled in _directions(model, state, section, chart, end, there):
         column, step, _ = steady(partial(slope, sampled, expected=end.signature), steps)
         columns.append(column)
         taken.append(step)
@@ -125,15 +128,26 @@ def _joined(
     return Linear(chart, end, chart.between(state, end.state), matrix, corners, step)
 
 
-def _directions(model: Model, state: State, section: Section, chart: Chart, end: Passage) -> list[Sampled]:
-    """Return what comes of small changes along each direction of a chart."""
-    return [_moved(model, state, section, chart, way, end.state) for way in np.eye(len(chart.names))]
+def _directions_at(end: Passage, chart: Chart, model: Model, section: Section, within: Sequence[str] | None) -> Chart:
+    """Return the directions at the end, which turn with bodies; of an orbit they are those at the start."""
+    there = Chart.at(model, end.state, within, section.without(model))
+    # on the way to an orbit other contacts may be closed at the end
+    return there if there.names == chart.names else chart
 
 
-def _moved(model: Model, state: State, section: Section, chart: Chart, way: Floats, origin: State) -> Sampled:
+def _directions(
+    model: Model, state: State, section: Section, chart: Chart, end: Passage, there: Chart
+) -> list[Sampled]:
+    """Return what comes of small changes along each direction of a chart, in those at the end."""
+    return [_moved(model, state, section, chart, way, end.state, there) for way in np.eye(len(chart.names))]
+
+
+def _moved(
+    model: Model, state: State, section: Section, chart: Chart, way: Floats, origin: State, there: Chart
+) -> Sampled:
     def sampled(change: float) -> tuple[Floats, Signature]:
         end = section.passage(model, chart.moved(model, state, change * way))
-        return chart.between(origin, end.state), end.signature
+        return there.between(origin, end.state), end.signature
 
     return sampled
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias, final
@@ -15,6 +16,8 @@ from nonsmooth.studies.records.record import Outcome, Record, Recorder
 
 Function: TypeAlias = Callable[[Any, Solution], float]
 """``f(scenario, solution) -> number``; the scenario is None where a function built the system."""
+_LINE = re.compile(r"(?P<words>.*?)(\s*\[(?P<unit>[^]]+)\])?\.?")
+"""The first line of a docstring: what it is, and its unit where that comes last."""
 Asked: TypeAlias = str | Recorder | Function
 
 
@@ -26,9 +29,11 @@ class Computed(Recorder):
     function: Function
 
     def record(self, look: Outcome) -> Record:
-        """Return it under the function's name, described by the first line of its docstring."""
+        """Return it under the function's name, described by the first line of its docstring, as "Mean height [m]."."""
         name = self.function.__name__
-        return Record(name, self, described((self.function.__doc__ or name).strip().partition("\n")[0]))
+        line = _LINE.fullmatch((self.function.__doc__ or name).strip().partition("\n")[0])
+        assert line is not None
+        return Record(name, self, described(line["words"], line["unit"] or ""))
 
     def __call__(self, outcome: Outcome) -> float:
         """Call the function."""

@@ -25,11 +25,14 @@ class Outcome:
     scenario : Scenario or None
         The scenario with the parameters of the run; None where a function built the system.
     solution : Solution
-        What it computed.
+        What it computed; of a first look only its beginning.
+    t_end : float
+        When it was to end [s].
     """
 
     scenario: Scenario | None
     solution: Solution
+    t_end: float
 
     @cached_property
     def summary(self) -> Mapping[str, Any]:

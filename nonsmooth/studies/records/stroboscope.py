@@ -75,7 +75,7 @@ class Stroboscope(Recorder):
         UnknownName
             If a coordinate or the phase has no such name.
         InvalidInput
-            If the runs of a scenario are too short.
+            If the runs are too short.
         """
         system, scenario = look.solution.system, look.scenario
         places = [coordinate_number(system, name) for name in self.within]
@@ -84,8 +84,7 @@ class Stroboscope(Recorder):
             known = {} if scenario is None else scenario.resolved()
             if self.phase not in known:
                 raise UnknownName("Stroboscope: phase", self.phase, known)
-        if scenario is not None:
-            self._times(scenario.t_end, self._start(look))
+        self._times(look.t_end, self._start(look))
         names = [*look.along("coordinate"), *look.along("velocity")]
         told = described("some of the state once a period") | {"scales": scales.tolist()}
         sections: Sequence[Any] = range(1 - self.keep, 1)

@@ -33,13 +33,21 @@ class Trajectory(Recorder):
         if self.name not in _AXES:
             raise UnknownName("Trajectory", self.name, _AXES)
         object.__setattr__(self, "times", tuple(self.times))
-        if not self.times or not all(map(is_finite, self.times)):
-            raise InvalidInput(
-                "Trajectory: times", "must be finite numbers", self.times, "For example (0.0, 0.5, 1.0)."
-            )
+        if not self.times or not all(is_finite(time) and time >= 0.0 for time in self.times):
+            rule, remedy = "must be finite numbers, none negative", "For example (0.0, 0.5, 1.0)."
+            raise InvalidInput("Trajectory: times", rule, self.times, remedy)
 
     def record(self, look: Outcome) -> Record:
-        """Return it for a system."""
+        """Return it for a system.
+
+        Raises
+        ------
+        InvalidInput
+            If the runs end before the last time.
+        """
+        if max(self.times) > look.t_end:
+            rule, remedy = f"must lie within a run of {look.t_end:g} s", "Raise t_end, or leave out what is behind it."
+            raise InvalidInput("Trajectory: times", rule, max(self.times), remedy)
         axis = _AXES[self.name]
         told = described(f"{axis} over time")
         return Record(self.name, self, told, {"time": list(map(float, self.times)), axis: look.along(axis)})

@@ -125,7 +125,7 @@ def test_survey() -> None:
     assert [entry.status for entry in entries] == ["done"] * 3
     assert all(entry.residual < 1e-7 for entry in entries)
     slow, fast, rest = entries
-    assert rest.numbers["regime"] == "rest"
+    assert rest.numbers["attractor"] == "rest"
     assert rest.numbers["wandering"] < 1e-9
     for entry in (slow, fast):
         scaled = entry.numbers["wandering"] / (GRAVITY / entry.frequency)
@@ -148,7 +148,7 @@ def test_repetition(repeats: int) -> None:
     assert repetition(_bounce(repeats)) == repeats
     assert repetition(_bounce(repeats, drift=5.0)) is None
     numbers = summary(_bounce(repeats))
-    assert numbers["regime"] == f"period {repeats}"
+    assert numbers["attractor"] == f"period_{repeats}"
     assert numbers["drift"] == pytest.approx(0.01, rel=1e-9)
     assert numbers["wandering"] == pytest.approx(0.01, rel=0.02)
     assert numbers["rotation"] == pytest.approx(-2.0)

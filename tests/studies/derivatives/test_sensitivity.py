@@ -52,6 +52,17 @@ def test_a_ball_that_bounces() -> None:
     assert np.all(found.error < 1e-7)
 
 
+def _idle(idle: float) -> ns.System:
+    return _ball(height=0.1)
+
+
+def test_what_has_no_effect_has_the_derivative_0_without_an_error() -> None:
+    found = sensitivity(Family(_idle, {"idle": 0.3}), ("idle",), at=[0.1, 0.2])
+    assert not np.any(found.q_by)
+    assert not np.any(found.u_by)
+    assert found.error.tolist() == [0.0]
+
+
 def test_a_ball_that_slides_in_space() -> None:
     """It slides from the start: friction takes mu g along the slip, and the spin makes it roll in the end."""
     family = Family(_ball, {"height": 0.0, "friction": 0.2, "speed": 1.0}, ns.EventDriven(tolerance=1e-12))

@@ -13,6 +13,7 @@ import pytest
 
 import nonsmooth as ns
 from nonsmooth.engine.native.kernel import PLAIN
+from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.orbits.exponents import lyapunov
 from nonsmooth.studies.orbits.following import continuation
 from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit, orbit
@@ -82,6 +83,31 @@ def test_lyapunov_exponents() -> None:
     chaos = lyapunov(wild, wild.period, 40, settle=1.0, within=("z", "vz"))
     assert chaos.left_out == 0
     assert chaos.exponents[0] > 5.0 > -5.0 > chaos.exponents[1]
+
+
+def _turning(x: float, y: float, z: float) -> ns.System:
+    """Return a ball that turns so often about its axes in a period."""
+    system = BouncingBall(gamma=0.8, restitution=E).build()
+    ball = system.bodies[1]
+    q, u = system.start(ball)
+    system.set_start(ball, q, np.concatenate([u[:3], 2.0 * math.pi * 25.0 * np.array([x, y, z])]))
+    return system
+
+
+def test_lyapunov_exponents_of_a_ball_that_turns() -> None:
+    """What it is turned by neither grows nor shrinks, in axes that turn with it."""
+    found = lyapunov(Family(_turning, {"x": 0.1, "y": 0.3, "z": 0.0}), 0.04, 10, within=("z", "vz", "rx", "ry", "rz"))
+    np.testing.assert_allclose(found.exponents[:3], 0.0, atol=1e-9)
+    assert np.mean(found.exponents[3:]) == pytest.approx(25.0 * math.log(E), rel=1e-8)
+
+
+def test_a_whole_turn_leads_to_the_same_orientation() -> None:
+    """Of whose two quaternions a period ends with the other one."""
+    found = orbit(Family(_turning, {"x": 0.0, "y": 1.0, "z": 0.0}), 0.04, within=("z", "vz", "rx", "ry", "rz"))
+    assert found.residual < 1e-12
+    np.testing.assert_allclose(np.abs(found.multipliers), [1.0, 1.0, 1.0, E, E], atol=1e-8)
+    with pytest.raises(NoOrbit):
+        orbit(Family(_turning, {"x": 0.0, "y": 0.9, "z": 0.0}), 0.04, within=("z", "vz", "rx", "ry", "rz"))
 
 
 def test_what_is_no_orbit() -> None:

@@ -17,6 +17,7 @@ from bodies import Ball, Harmonic, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.orbits.exponents import lyapunov
 from nonsmooth.studies.orbits.following import continuation
 from nonsmooth.studies.orbits.periodic import Orbit, orbit
 from scenarios.bouncing_ball.scenario import BouncingBall
@@ -53,6 +54,9 @@ def test_a_ball_that_slips_to_and_fro(ratio: float) -> None:
     angle = math.acos(math.pi / (2.0 * ratio))
     each = (ratio * math.sin(angle) - 1.0) / (ratio * math.sin(angle) + 1.0)
     np.testing.assert_allclose(found.multipliers, [1.0, each**2], atol=1e-9)
+    history = lyapunov(Family(_shaken, {"ratio": ratio}), PERIOD, 12, settle=1.0, within=("vx", "wy")).history
+    # of the last period alone: in the first ones directions have not yet turned to where they stay
+    np.testing.assert_allclose(12 * history[11] - 11 * history[10], [0.0, 2.0 * math.log(each) / PERIOD], atol=1e-5)
     # the slip that friction brought about since it turned round last
     time, turned = found.state.time, angle / RATE - PERIOD / 2.0
     turns = math.floor((time - turned) / (PERIOD / 2.0))
