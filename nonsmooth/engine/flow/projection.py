@@ -36,8 +36,10 @@ from nonsmooth.engine.native.kernel import (
     body_at,
     contact_at,
     entry_point,
+    frame_at,
     kernel,
 )
+from nonsmooth.engine.numerics.vectors import cross, dot, minus
 
 _ROUND_OFF = 8.0 * 2.0**-52
 """The square of a length of one this near to one is one, but for round-off."""
@@ -189,6 +191,40 @@ def _explained_motion(S: Scalars, w: Floats, i: int) -> float:
     return float(_FARTHEST * EXPLAINED * (step + S.gap_tolerance + S.time_tolerance * abs(w[S.slopes + i])))
 
 
+@kernel("f8(S, F, I, i8, i8)")
+def _speed_at(S: Scalars, w: Floats, k: Integers, c: int, number: int) -> float:
+    """Return how fast the witness point of contact ``c`` on a body moves [m/s], 0 where the contact is of others."""
+    contact, fastest = contact_at(S, w, k, c), 0.0
+    for side in range(2):
+        if (contact.body_a if side == 0 else contact.body_b) == number:
+            frame = frame_at(w, contact.frame_a if side == 0 else contact.frame_b)
+            point = contact.point_a if side == 0 else contact.point_b
+            velocity = minus(frame.velocity, cross(minus(point, frame.origin), frame.spin))
+            fastest = max(fastest, math.sqrt(dot(velocity, velocity)))
+    return float(fastest)
+
+
+@kernel("f8(S, F, I, i8, i8)")
+def _motion_by_gaps(S: Scalars, w: Floats, k: Integers, number: int, i: int) -> float:
+    """Return how far coordinate ``i`` of a body may move as its closed contacts lose what is explained of their gaps.
+
+    What a tolerance of lengths says of angles depends on the levers: each contact alone is let push the body until its
+    witness point has moved so far.
+    """
+    body, total = body_at(S, w, k, number), 0.0
+    for place in range(S.n_grouped):
+        c = k[S.grouped + place]
+        for j in range(S.n_y):
+            w[S.y_guess + j] = w[S.y + j] if j < S.n_q else 0.0
+        push_response(S, w, k, c, 0, 1.0, S.y_guess + S.n_q)
+        evaluate_body(S, w, k, S.t, S.y_guess, number)
+        speed = _speed_at(S, w, k, c, number)
+        if speed > 0.0:
+            total += abs(w[body.tail + i]) * explained_gap(S, w, k, c) / speed
+    evaluate_body(S, w, k, S.t, S.y_stage, number)
+    return float(_FARTHEST * total)
+
+
 @kernel("i8(S, F, I, i8)")
 def _is_displaced(S: Scalars, w: Floats, k: Integers, number: int) -> int:
     """Return 1 if the velocities in ``y_stage`` move a body."""
@@ -211,6 +247,9 @@ def _displace(S: Scalars, w: Floats, k: Integers) -> None:
         evaluate_body(S, w, k, S.t, S.y_stage, number)
         for i in range(body.nq):
             motion, most = w[body.tail + i], _explained_motion(S, w, body.q + i)
+            # asked only where it matters
+            if abs(motion) > most:
+                most += _motion_by_gaps(S, w, k, number, i)
             if abs(motion) > most:
                 blame(S, MOTION_UNEXPLAINED, number, motion, most)
                 return

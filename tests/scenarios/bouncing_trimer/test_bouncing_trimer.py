@@ -114,6 +114,16 @@ def test_symmetry(mapping: str) -> None:
     np.testing.assert_allclose(other.q[:, :3], expected, rtol=0, atol=1e-7)
 
 
+@pytest.mark.parametrize("gamma", [1.2, 1.5])
+def test_the_closest_tolerances_ask_for_no_more_than_they_explain(gamma: float) -> None:
+    """Its balls close one after the other, and turn it about those that are closed by a gap over a lever."""
+    scenario = BouncingTrimer(gamma=gamma, t_end=2.0)
+    exact = ns.EventDriven(tolerance=1e-12, impact_tolerance=1e-12, time_tolerance=1e-14)
+    solution = ns.simulate(scenario.build(), scenario.t_end, engine=exact)
+    assert solution.status == "done"
+    assert solution.energy.residual < 1e-11
+
+
 def test_survey() -> None:
     """At rest below one g; above, wandering and turning, at speeds that go with g/f at the same Gamma."""
     reports: list[tuple[float, float]] = []
