@@ -2,10 +2,25 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 from typing import Any
 
 READY = "document.documentElement.dataset.ready === 'yes'"
+_PATIENCE, _PAUSE = 30.0, 10.0
+"""How long something may take [s], and how often it is looked for [ms]."""
+
+
+def wait_until(page: Any, condition: str) -> None:
+    """Wait until a condition holds in a page or frame.
+
+    ``wait_for_function`` makes a function of words in the page, which forbids that, wherever the condition does not
+    hold at once.
+    """
+    end = time.monotonic() + _PATIENCE
+    while not page.evaluate(condition):
+        assert time.monotonic() < end, condition
+        page.wait_for_timeout(_PAUSE)
 
 
 class Seen:
@@ -20,7 +35,7 @@ class Seen:
         self.page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
         self.page.goto(path.as_uri())
-        self.page.wait_for_function(READY)
+        wait_until(self.page, READY)
 
     def __call__(self, script: str) -> Any:
         """Return what a script gives."""

@@ -13,7 +13,7 @@ import pytest
 
 import nonsmooth as ns
 from nonsmooth.plugins import registry
-from tests.viewer.seen import READY, Seen
+from tests.viewer.seen import READY, Seen, wait_until
 
 pytestmark = pytest.mark.xdist_group("browser")  # one browser for all
 
@@ -133,7 +133,7 @@ def test_it_plays_in_the_frame_of_a_notebook(browser: Any, drift: tuple[ns.Solut
     page = browser.new_page()
     page.goto(outer.as_uri())
     frame = page.frames[1]
-    frame.wait_for_function(READY)
+    wait_until(frame, READY)
     frame.evaluate("view.stepTo(3)")
     assert frame.evaluate("view.t") == drift[0].events.time[3]
 

@@ -12,7 +12,7 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, BoxBody, DrivenBody, Hinge, OpenBox, Plate, Rod, Wall
 from laws import Coulomb, EnergeticImpact, Unilateral
-from tests.viewer.seen import READY, Seen
+from tests.viewer.seen import READY, Seen, wait_until
 
 pytestmark = pytest.mark.xdist_group("browser")  # one browser for all
 _LAWS: dict[str, Any] = {"normal": Unilateral(), "friction": Coulomb(0.2), "impact": EnergeticImpact(0.4)}
@@ -190,7 +190,7 @@ def test_labels_of_the_strips_are_whole_and_names_keep_their_ends(browser: Any, 
 
 def test_a_page_of_its_own_plays_at_once(browser: Any, tmp_path: Path) -> None:
     seen = _see(browser, _sliding(0.8), tmp_path, reduced_motion="no-preference")
-    seen.page.wait_for_function("view.t > view.run.t0")
+    wait_until(seen.page, "view.t > view.run.t0")
     assert seen("view.playing")
     assert not seen.page.is_visible("#start")
     # who steps to an event stays there
@@ -205,7 +205,7 @@ def test_who_wants_no_motion_is_asked(browser: Any, tmp_path: Path) -> None:
     seen.page.wait_for_timeout(100)
     assert seen("[view.playing, view.t]") == [False, 0]
     seen.page.click("#start")
-    seen.page.wait_for_function("view.t > view.run.t0")
+    wait_until(seen.page, "view.t > view.run.t0")
     assert not seen.page.is_visible("#start")
 
 
@@ -215,7 +215,7 @@ def test_in_a_frame_it_waits(browser: Any, tmp_path: Path) -> None:
     page = browser.new_page()
     page.goto(outer.as_uri())
     frame = page.frames[1]
-    frame.wait_for_function(READY)
+    wait_until(frame, READY)
     page.wait_for_timeout(100)
     assert frame.evaluate("[view.playing, view.t]") == [False, 0]
     assert frame.is_visible("#start")
