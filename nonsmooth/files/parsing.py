@@ -33,8 +33,8 @@ def parse(path: Path) -> Table:
         raise InvalidInput(f"{path}", f"must be {form.name} text", str(error), "Correct the place it names.") from error
 
 
-def changed(tables: Table, changes: Mapping[str, str], path: Path) -> Table:
-    """Return the tables with the values at some dotted keys replaced; numbers count through arrays of tables, from 0.
+def changed(tables: Table, changes: Mapping[str, Any], path: Path) -> Table:
+    """Return the tables with the values at some dotted keys replaced; numbers count through arrays, from 0.
 
     Raises
     ------
@@ -42,16 +42,16 @@ def changed(tables: Table, changes: Mapping[str, str], path: Path) -> Table:
         If a key leads nowhere.
     """
     made: Any = copy.deepcopy(tables)
-    for key, text in changes.items():
+    for key, one in changes.items():
         *way, last = key.split(".")
         place: Any = made
         for step in way:
             place = _inside(place, step, key, path)
         if isinstance(place, dict):
-            place[last] = value(text)
+            place[last] = one
         else:
             _inside(place, last, key, path)
-            place[int(last)] = value(text)
+            place[int(last)] = one
     return dict(made)
 
 
@@ -60,7 +60,7 @@ def _inside(place: Any, step: str, key: str, path: Path) -> Any:
     known = {str(name): one for name, one in items}
     if step not in known:
         listing = ", ".join(known) or "nothing"
-        raise InvalidInput(f"--set {key}", f"must be a key of {path}", step, f"Known there: {listing}.")
+        raise InvalidInput(f"{key}", f"must be a key of {path}", step, f"Known there: {listing}.")
     return known[step]
 
 

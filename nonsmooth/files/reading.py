@@ -13,8 +13,11 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.files import assembling
 from nonsmooth.files.components import TYPE, Table, component
 from nonsmooth.files.keys import check_keys, number
-from nonsmooth.files.parsing import changed, parse
+from nonsmooth.files.parsing import changed, parse, value
+from nonsmooth.files.varying import numbers
+from nonsmooth.files.writing import tables_of
 from nonsmooth.interfaces import Engine
+from nonsmooth.parameters import Rule
 from nonsmooth.system.system import System
 
 _NO_CHANGES: Mapping[str, str] = {}
@@ -52,7 +55,7 @@ class Setup:
         What is to run it.
     system : System
         Bodies, contacts, starts.
-    changes : mapping of str to str
+    changes : mapping of str
         What was changed of the file, by key.
     """
 
@@ -61,13 +64,28 @@ class Setup:
     t_end: float | None
     sample_interval: float | None
     engine: Engine
-    system: System
-    changes: Mapping[str, str]
-    _tables: Table = field(repr=False)
+    system: System = field(repr=False)
+    changes: Mapping[str, Any]
+    _tables: Table
 
     def build(self) -> System:
         """Return the system anew."""
         return assembling.system(self._tables, self.path)
+
+    @property
+    def numbers(self) -> Mapping[str, tuple[float, Rule]]:
+        """All numbers of the file by dotted key, and what is known of each."""
+        return numbers(self._tables, self.path.parent)
+
+    def varied(self, changes: Mapping[str, Any]) -> Setup:
+        """Return the same with some values changed, by dotted key.
+
+        Raises
+        ------
+        InvalidInput, PluginError
+            As :func:`load_system`, or if a key leads nowhere.
+        """
+        return _setup(self.path, self._tables, {**self.changes, **changes})
 
 
 def load_system(path: str | Path) -> Setup:
@@ -102,7 +120,22 @@ def read(path: Path, changes: Mapping[str, str] = _NO_CHANGES) -> Setup:
     InvalidInput, PluginError
         As :func:`load_system`, or if a key to be changed leads nowhere.
     """
-    tables = changed(parse(path), changes, path)
+    return _setup(path, parse(path), {key: value(text) for key, text in changes.items()})
+
+
+def setup_of(system: System, t_end: float) -> Setup:
+    """Return what a file of a system would say that runs for so long [s].
+
+    Raises
+    ------
+    InvalidInput
+        If a component cannot be written; it is named.
+    """
+    return _setup(Path("system"), tables_of(system, t_end=t_end), {})
+
+
+def _setup(path: Path, said: Table, changes: Mapping[str, Any]) -> Setup:
+    tables = changed(said, changes, path)
     check_keys(f"{path}", tables, _KEYS, required=("bodies",))
     title = tables.get("title", "")
     if not isinstance(title, str):

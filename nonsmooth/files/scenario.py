@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, final
 
 from nonsmooth.errors import InvalidInput
-from nonsmooth.files.parsing import value
-from nonsmooth.files.reading import Setup
+from nonsmooth.files.reading import Setup, setup_of
 from nonsmooth.interfaces import Criterion, Scenario
+from nonsmooth.parameters import Rule
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 
@@ -24,6 +24,17 @@ class FileScenario(Scenario):
     title: ClassVar[str] = "A scenario file"
 
     setup: Setup
+
+    @classmethod
+    def of(cls, system: System, t_end: float) -> FileScenario:
+        """Return the scenario of a system, whose numbers can be varied as those of its file.
+
+        Raises
+        ------
+        InvalidInput
+            If a component cannot be written to a file; it is named.
+        """
+        return cls(setup_of(system, t_end))
 
     def _check(self) -> None:
         if self.setup.t_end is None:
@@ -48,7 +59,26 @@ class FileScenario(Scenario):
     def resolved(self) -> Mapping[str, Any]:
         """Return title, times, and what was set on the command line."""
         said = {"title": self.setup.title, "t_end": self.t_end, "sample_interval": self.sample_interval}
-        return {key: value(text) for key, text in self.setup.changes.items()} | said
+        return {**self.setup.changes, **said}
+
+    @property
+    def name(self) -> str:
+        """The file."""
+        return str(self.setup.path)
+
+    @property
+    def varies(self) -> Mapping[str, Rule]:
+        """All numbers, by dotted key."""
+        return {key: rule for key, (_, rule) in self.setup.numbers.items()}
+
+    @property
+    def values(self) -> Mapping[str, Any]:
+        """All numbers, by dotted key."""
+        return {key: number for key, (number, _) in self.setup.numbers.items()}
+
+    def varied(self, **changes: Any) -> FileScenario:
+        """Return the same with some numbers changed."""
+        return FileScenario(self.setup.varied(changes))
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
         """Return nothing: q and u are in the results as they are."""

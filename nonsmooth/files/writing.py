@@ -55,7 +55,7 @@ def save_system(
     form = formats.of(file)
     check_kind("save_system: system", system, System, "Make it by nonsmooth.System([...]).")
     check_kind("save_system: title", title, str, 'For example "Two balls".')
-    tables = _tables(system, t_end, sample_interval, engine, title)
+    tables = tables_of(system, t_end=t_end, sample_interval=sample_interval, engine=engine, title=title)
     with replacing(file) as part:
         part.write_text(form.write(tables), encoding="utf-8")
 
@@ -68,16 +68,24 @@ def text_of_system(system: System, *, t_end: float, engine: Engine | None, title
     InvalidInput
         If a component cannot be written; it is named.
     """
-    return formats.of(Path("system.toml")).write(_tables(system, t_end, None, engine, title))
+    return formats.of(Path("system.toml")).write(tables_of(system, t_end=t_end, engine=engine, title=title))
 
 
-def _tables(
+def tables_of(
     system: System,
-    t_end: float | None,
-    sample_interval: float | None,
-    engine: Engine | None,
-    title: str,
+    *,
+    t_end: float | None = None,
+    sample_interval: float | None = None,
+    engine: Engine | None = None,
+    title: str = "",
 ) -> Table:
+    """Return the tables of a system, as :func:`save_system` writes them.
+
+    Raises
+    ------
+    InvalidInput
+        If a component cannot be written; it is named.
+    """
     tables: Table = {"title": title} if title else {}
     times = {"t_end": t_end, "sample_interval": sample_interval}
     for name, value in times.items():

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from nonsmooth.interfaces.criterion import Criterion
-from nonsmooth.parameters import Component
+from nonsmooth.parameters import Component, Rule, rules
 
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
@@ -53,6 +54,31 @@ class Scenario(Component, ABC):
     @abstractmethod
     def resolved(self) -> Mapping[str, Any]:
         """Return all parameters with the values that the run uses."""
+
+    @property
+    def name(self) -> str:
+        """What messages call it; its class by default."""
+        return type(self).__name__
+
+    @property
+    def varies(self) -> Mapping[str, Rule]:
+        """What can be varied, by name, with what is known of it; all parameters by default."""
+        return {name: rule for name, (_, rule) in rules(type(self)).items()}
+
+    @property
+    def values(self) -> Mapping[str, Any]:
+        """The values that the run uses of what can be varied, and of what is derived from it."""
+        return self.resolved()
+
+    def varied(self, **changes: Any) -> Scenario:
+        """Return the same scenario with other values; what it derives from them follows.
+
+        Raises
+        ------
+        InvalidInput
+            If a value breaks a rule.
+        """
+        return dataclasses.replace(self, **changes)  # type: ignore[type-var]
 
     @abstractmethod
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:

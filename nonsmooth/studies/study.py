@@ -27,7 +27,7 @@ from nonsmooth.studies.records.record import Outcome
 from nonsmooth.studies.sampling.sampling import Sampling
 from nonsmooth.studies.status import VALUED
 from nonsmooth.studies.store import Store, is_study
-from nonsmooth.studies.target import Case, OfFunction, OfScenario, Target
+from nonsmooth.studies.target import Case, target
 from nonsmooth.studies.work import Chunk, Work
 from nonsmooth.system.system import System
 
@@ -52,8 +52,9 @@ class Study:
 
     Parameters
     ----------
-    runs : Scenario or function
-        A scenario, whose parameters are varied by name, or a function of a module, ``f(**parameters) -> System``.
+    runs : Scenario, System or function
+        A scenario, whose parameters are varied by name; a system, whose numbers are varied by the dotted keys of its
+        file (:func:`save_system`), "bodies.ball.radius"; or a function of a module, ``f(**parameters) -> System``.
     sampling : Sampling
         Which parameters: :func:`grid`, :func:`random`, :func:`sobol`, :func:`latin_hypercube`, :func:`listed`,
         :func:`columns`.
@@ -62,7 +63,7 @@ class Study:
         ``u_end``, ``t_end``, ``impacts``, ``events``, ``steps``, ``energy_residual``), names of numbers of the
         scenario's summary, functions ``f(scenario, solution) -> number``, or a :class:`Trajectory`.
     t_end : float, optional
-        End time of the systems that a function builds [s]; a scenario has its own.
+        End time of a system, or of those that a function builds [s]; a scenario has its own.
     engine : Engine, optional
         What integrates, with its options.
     budget : int, optional
@@ -76,7 +77,7 @@ class Study:
 
     def __init__(
         self,
-        runs: Scenario | Callable[..., System],
+        runs: Scenario | System | Callable[..., System],
         sampling: Sampling,
         record: Sequence[Asked],
         *,
@@ -85,7 +86,7 @@ class Study:
         budget: int | None = None,
     ) -> None:
         check_kind("Study: sampling", sampling, Sampling, "For example studies.grid(restitution=[0.5, 0.9]).")
-        self._target = _target(runs, t_end)
+        self._target = target(runs, t_end)
         self._sampling, self._points = sampling, sampling.points()
         self._target.check(self._points)
         integrates = EventDriven() if engine is None else engine
@@ -274,15 +275,6 @@ def executor_of(executor: str | Executor) -> Executor:
     if executor not in EXECUTORS:
         raise UnknownName("executor", str(executor), EXECUTORS)
     return EXECUTORS[executor]()
-
-
-def _target(runs: Scenario | Callable[..., System], t_end: float | None) -> Target:
-    if not isinstance(runs, Scenario):
-        return OfFunction(runs, t_end if t_end is not None else float("nan"))
-    if t_end is not None:
-        remedy = "Give the scenario another one, where it has such a parameter."
-        raise InvalidInput("Study: t_end", "must be left out, as the scenario has its own", t_end, remedy)
-    return OfScenario(runs)
 
 
 def _differing(one: Any, other: Any) -> Any:

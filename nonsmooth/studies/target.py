@@ -12,8 +12,9 @@ from typing import Any, final
 from nonsmooth.checks import is_finite
 from nonsmooth.datasets import described
 from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.files.scenario import FileScenario
 from nonsmooth.interfaces import Scenario
-from nonsmooth.parameters import check_number, rules
+from nonsmooth.parameters import check_number
 from nonsmooth.studies.sampling.points import Points, Value
 from nonsmooth.system.system import System
 
@@ -86,17 +87,16 @@ class OfScenario(Target):
 
     @property
     def name(self) -> str:
-        """Name of the class."""
-        return type(self.scenario).__name__
+        """As the scenario is called."""
+        return self.scenario.name
 
     def check(self, points: Points) -> None:
         """Look at the least and the greatest value of each; rules between parameters are looked at by each run."""
-        owner = type(self.scenario)
-        known = rules(owner)
+        known, owner = self.scenario.varies, self.name
         for name, values in points.columns.items():
             if name not in known:
-                raise UnknownName(f"parameter of {owner.__name__}", name, known)
-            rule, thing = known[name][1], f"{owner.__name__}.{name}"
+                raise UnknownName(f"parameter of {owner}", name, known)
+            rule, thing = known[name], f"{owner}.{name}"
             if (rule.unit == "") != (values.dtype.kind == "U"):
                 kind = "words" if rule.unit == "" else "numbers"
                 raise InvalidInput(thing, f"must be varied over {kind}", values[0].item(), f"It is the {rule.doc}.")
@@ -110,12 +110,12 @@ class OfScenario(Target):
 
     def case(self, parameters: Mapping[str, Value]) -> Case:
         """Build the scenario with these parameters."""
-        one = dataclasses.replace(self.scenario, **parameters)  # type: ignore[type-var]
+        one = self.scenario.varied(**parameters)
         return Case(one, one.build(), one.t_end, one.sample_interval)
 
     def told(self, name: str) -> dict[str, str]:
         """Return what the scenario declares."""
-        rule = rules(type(self.scenario))[name][1]
+        rule = self.scenario.varies[name]
         return described(rule.doc, rule.unit)
 
     def described(self) -> Mapping[str, Any]:
@@ -145,9 +145,6 @@ class OfFunction(Target):
         if not inspect.isfunction(self.function) or "<" in self.function.__qualname__:
             remedy = "Give a Scenario, or a function that is defined in a module and returns a System."
             raise InvalidInput("Study: what it runs", "must be a scenario or a function", self.function, remedy)
-        if not is_finite(self.t_end) or self.t_end <= 0.0:
-            remedy = "Give Study(..., t_end=1.0) in [s]."
-            raise InvalidInput("Study: t_end", "must be positive and finite for a function", self.t_end, remedy)
 
     @property
     def name(self) -> str:
@@ -178,3 +175,22 @@ class OfFunction(Target):
     def described(self) -> Mapping[str, Any]:
         """Return its name and the end time."""
         return {"function": f"{self.function.__module__}:{self.function.__qualname__}", "t_end": self.t_end}
+
+
+def target(runs: Scenario | System | Callable[..., System], t_end: float | None) -> Target:
+    """Return what a study runs; ``t_end`` is the end time of what has none of its own [s].
+
+    Raises
+    ------
+    InvalidInput
+        If it is none of them, the end time is missing, or given besides that of a scenario.
+    """
+    if isinstance(runs, Scenario):
+        if t_end is not None:
+            remedy = "Give the scenario another one, where it has such a parameter."
+            raise InvalidInput("Study: t_end", "must be left out, as the scenario has its own", t_end, remedy)
+        return OfScenario(runs)
+    if t_end is None or not is_finite(t_end) or t_end <= 0.0:
+        rule, remedy = "must be positive and finite for a system or a function", "Give Study(..., t_end=1.0) in [s]."
+        raise InvalidInput("Study: t_end", rule, t_end, remedy)
+    return OfScenario(FileScenario.of(runs, t_end)) if isinstance(runs, System) else OfFunction(runs, t_end)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,7 @@ from nonsmooth.cli.main import main
 
 pytest.importorskip("zarr", "3.1.3")
 
+Call = Callable[..., tuple[int, str, str]]
 SET = ("--set", "t_end=0.1", "--executor", "serial")
 
 
@@ -73,3 +75,37 @@ def test_what_is_no_study(tmp_path: Path, capsys: pytest.CaptureFixture[str]) ->
     for what in "status", "resume", "verify", "draw":
         assert main(["study", what, str(tmp_path / "none.zarr")]) == 2
         assert "must hold a study" in capsys.readouterr().err
+
+
+_FILE = """
+t_end = 0.3
+[bodies.floor]
+type = "plate"
+[bodies.ball]
+type = "ball"
+radius = 0.01
+start = { position = [0.0, 0.0, 0.05] }
+[[contacts]]
+between = ["floor", "ball"]
+normal = "unilateral"
+friction = "frictionless"
+impact = { type = "energetic", restitution = 0.6 }
+"""
+
+
+def test_a_file_is_swept_and_goes_on(call: Call, tmp_path: Path) -> None:
+    file, path = tmp_path / "drop.toml", tmp_path / "s.zarr"
+    file.write_text(_FILE, encoding="utf-8")
+    words = ("--over", "bodies.ball.start.position.2=0.03,0.05", "--set", "contacts.0.impact.restitution=0.5")
+    assert call("sweep", str(file), *words, "--record", "q_end", "--out", str(path))[0] == 0
+    before = studies.open_study(path).q_end.values
+    (path / "status" / "c" / "1").unlink()
+    assert call("study", "resume", str(path))[0] == 0
+    assert studies.open_study(path).q_end.values.tobytes() == before.tobytes()
+    status, _, errors = call("sweep", str(file), "--over", "bodies.ball.radus=0.01,0.02", "--out", f"{path}.2")
+    assert status == 2
+    assert f"parameter of {file}" in errors
+    assert "Did you mean 'bodies.ball.radius'" in errors
+    status, _, errors = call("sweep", str(file), "--over", "bodies.ball.radius=-0.01,0.02", "--out", f"{path}.2")
+    assert status == 2
+    assert "bodies.ball.radius must be > 0 [m]" in errors

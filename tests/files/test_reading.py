@@ -171,7 +171,7 @@ def test_values_can_be_changed_by_key(path: Path) -> None:
     assert contact.impact == EnergeticImpact(0.25)
     assert contact.friction == Frictionless()
     for key in ("bodies.bal.radius", "contacts.1.impact", "t_end.x", "contacts.x.impact"):
-        with pytest.raises(ns.InvalidInput, match=re.escape(f"--set {key} must be a key of {path}")):
+        with pytest.raises(ns.InvalidInput, match=re.escape(f"{key} must be a key of {path}")):
             read(path, {key: "1"})
 
 

@@ -164,7 +164,7 @@ def _ball(record: Asked) -> studies.Study:
         (lambda: studies.Study(_BALL, {"gamma": [1]}, ["impacts"]), ("sampling", "Sampling")),  # type: ignore[arg-type]
         (lambda: studies.Study(drop, _GRID, RECORD, t_end=1.0), ("gamma", "height, restitution")),
         (lambda: studies.Study(drop, studies.grid(restitution=[0.5]), RECORD, t_end=1.0), ("height", "no default")),
-        (lambda: studies.Study(drop, studies.grid(height=[0.1]), RECORD), ("t_end", "positive", "nan")),
+        (lambda: studies.Study(drop, studies.grid(height=[0.1]), RECORD), ("t_end", "positive", "None")),
         (lambda: studies.Study(lambda gamma: drop(gamma), _GRID, RECORD, t_end=1.0), ("lambda", "module")),
         (
             lambda: studies.Study(DumbbellScenario(), studies.grid(mode=["jum"]), RECORD),

@@ -4,19 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import final
+from typing import TypeAlias, final
 
 from nonsmooth.checks import is_finite
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.files.scenario import FileScenario
 from nonsmooth.interfaces import Engine, Scenario
-from nonsmooth.parameters import rules
 from nonsmooth.runs.model import Model
 from nonsmooth.simulate import assemble
 from nonsmooth.system.system import System
 
 EXACT = EventDriven(tolerance=1e-12, impact_tolerance=1e-12, time_tolerance=1e-14)
 """What derivatives are taken with: what the default tolerances leave at an event is as large as a small difference."""
+_UNUSED = 1.0
+"""End time of a system in a family, which says itself how far it runs [s]."""
 _KEPT = 64
 """Models that are kept at most: those of the differences about one point, and of some more."""
 
@@ -45,22 +47,30 @@ class Family:
     _models: dict[tuple[float, ...], Model] = field(default_factory=dict, repr=False, compare=False)
 
     @classmethod
-    def of(cls, what: Scenario | Family, engine: Engine = EXACT) -> Family:
-        """Return the family of a scenario, whose parameters are those that have a number; a family as it is."""
+    def of(cls, what: Varied, engine: Engine = EXACT) -> Family:
+        """Return the family of a scenario, whose parameters are those that have a number; a family as it is.
+
+        Parameters of a system are all numbers of the file that :func:`save_system` would write, by dotted key:
+        "bodies.ball.radius", "bodies.ball.start.u.2", "laws.coulomb.friction".
+
+        Raises
+        ------
+        InvalidInput
+            If it is none of them, or a component of the system cannot be written to a file.
+        """
         if isinstance(what, Family):
             return what
-        if not isinstance(what, Scenario):
-            remedy = "Give a scenario, or Family(make, values) with a function that returns a System."
-            raise InvalidInput("studies", "must be of a scenario or a family", what, remedy)
-        declared = rules(type(what))
-        given = {name: getattr(what, name) for name in declared}
-        known = {name: float(value) for name, value in what.resolved().items() if is_finite(value)}
+        scenario = FileScenario.of(what, _UNUSED) if isinstance(what, System) else what
+        if not isinstance(scenario, Scenario):
+            remedy = "Give a scenario, a System, or Family(make, values) with a function that returns a System."
+            raise InvalidInput("studies", "must be of a scenario, a system or a family", what, remedy)
+        known = {name: float(value) for name, value in scenario.values.items() if is_finite(value)}
 
         def make(**values: float) -> System:
             # what the scenario derives from others goes on following them, unless it is changed itself
-            return type(what)(**{**given, **{n: x for n, x in values.items() if x != known[n]}}).build()
+            return scenario.varied(**{name: x for name, x in values.items() if x != known[name]}).build()
 
-        units = {name: declared[name][1].unit for name in known if name in declared}
+        units = {name: rule.unit for name, rule in scenario.varies.items() if name in known}
         return cls(make, known, engine, units)
 
     def __getitem__(self, name: str) -> float:
@@ -95,3 +105,7 @@ class Family:
                 self._models.pop(next(iter(self._models)))
             self._models[key] = assemble(self.make(**values), self.engine)
         return self._models[key]
+
+
+Varied: TypeAlias = Scenario | System | Family
+"""What has numbers that can be varied."""

@@ -11,9 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.checks import floats
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Scenario
 from nonsmooth.runs.model import Model
-from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.derivatives.family import Family, Varied
 from nonsmooth.studies.derivatives.passage import Signature, named, passage
 from nonsmooth.studies.derivatives.slope import BACKWARD, CENTRAL, FORWARD, OrderOfEvents, Stencil, slope, steady
 
@@ -61,7 +60,7 @@ class Sensitivity:
     events: Floats
 
 
-def sensitivity(what: Scenario | Family, parameters: Sequence[str], *, at: ArrayLike) -> Sensitivity:
+def sensitivity(what: Varied, parameters: Sequence[str], *, at: ArrayLike) -> Sensitivity:
     """Return how the states at given times change with parameters.
 
     Runs with parameters a little changed pass the same events at other times, to which the derivative is due where a
@@ -70,7 +69,7 @@ def sensitivity(what: Scenario | Family, parameters: Sequence[str], *, at: Array
 
     Parameters
     ----------
-    what : Scenario or Family
+    what : Scenario, System or Family
         The system.
     parameters : sequence of str
         Names of parameters.

@@ -11,10 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.checks import check_callable, floats, is_finite
 from nonsmooth.errors import InvalidInput, RunFailed
-from nonsmooth.interfaces import Scenario
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
-from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.derivatives.family import Family, Varied
 from nonsmooth.studies.derivatives.passage import passage
 
 if TYPE_CHECKING:
@@ -70,7 +69,7 @@ class Fit:
 
 
 def fit(
-    what: Scenario | Family,
+    what: Varied,
     bounds: Mapping[str, tuple[float, float]],
     *,
     at: ArrayLike,
@@ -85,7 +84,7 @@ def fit(
 
     Parameters
     ----------
-    what : Scenario or Family
+    what : Scenario, System or Family
         The system; its values are where the search begins.
     bounds : mapping of str to tuple of float
         Least and largest value of each parameter that is fitted.

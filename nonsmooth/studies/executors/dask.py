@@ -16,7 +16,7 @@ from nonsmooth.studies.extras import require
 from nonsmooth.studies.work import Block, Chunk, Work
 
 if TYPE_CHECKING:
-    from distributed import Client
+    from distributed import Client, LocalCluster
 
 _WINDOW = 2
 """Chunks per thread of a worker that are handed out at once."""
@@ -80,7 +80,7 @@ class Dask(Executor):
 
     def _client(self, stack: contextlib.ExitStack) -> Client:
         import dask
-        from distributed import Client, LocalCluster
+        from distributed import Client
 
         settings = {
             "distributed.scheduler.allowed-failures": _DEATHS - 1,
@@ -90,10 +90,8 @@ class Dask(Executor):
         stack.enter_context(dask.config.set(settings))
         address: Any = self.scheduler
         if address is None:
-            n, quiet = check_workers("Dask: n", self.n), logging.CRITICAL
-            address = stack.enter_context(
-                LocalCluster(n_workers=n, threads_per_worker=1, dashboard_address=":0", silence_logs=quiet)
-            )
+            n = check_workers("Dask: n", self.n)
+            address = stack.enter_context(_cluster(n))
             # what restarts a worker is gone itself where one dies at once
             address.adapt(minimum=n, maximum=n)
         try:
@@ -101,6 +99,24 @@ class Dask(Executor):
         except (OSError, ValueError) as error:
             remedy = "Start one by `dask scheduler`, with workers by `dask worker ADDRESS`, or leave the address out."
             raise InvalidInput("scheduler", f"must answer within {_PATIENCE:g} s", self.scheduler, remedy) from error
+
+
+def _cluster(n: int) -> LocalCluster:
+    """Return processes of this machine.
+
+    Raises
+    ------
+    InvalidInput
+        If none starts.
+    """
+    from distributed import LocalCluster
+
+    quiet = logging.CRITICAL
+    try:
+        return LocalCluster(n_workers=n, threads_per_worker=1, dashboard_address=":0", silence_logs=quiet)
+    except RuntimeError as error:
+        remedy = 'Put what a script does under `if __name__ == "__main__":`, as each process reads it; or take threads.'
+        raise InvalidInput("executor dask", "must be able to start processes", str(error), remedy) from error
 
 
 def _check_alike(client: Client) -> None:

@@ -10,10 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.checks import floats
 from nonsmooth.engines.event_driven import EventDriven
-from nonsmooth.interfaces import Scenario
 from nonsmooth.plot.asked import axes_of
 from nonsmooth.progress import Display
-from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.derivatives.family import Family, Varied
 from nonsmooth.studies.orbits.each import of_each
 from nonsmooth.studies.orbits.looks import Looks
 from nonsmooth.studies.periods import alike, periods
@@ -91,7 +90,7 @@ class Diagram:
 
 
 def bifurcation(
-    what: Scenario | Family,
+    what: Varied,
     name: str,
     values: ArrayLike,
     period: float,
@@ -106,7 +105,7 @@ def bifurcation(
 
     Parameters
     ----------
-    what : Scenario or Family
+    what : Scenario, System or Family
         The system; each run starts as it is placed.
     name : str
         The parameter.

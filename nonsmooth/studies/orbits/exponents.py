@@ -11,10 +11,9 @@ from numpy.typing import NDArray
 
 from nonsmooth.checks import is_finite
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Scenario
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.chart import Chart
-from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.derivatives.family import Family, Varied
 from nonsmooth.studies.orbits.choosing import chosen, seen
 from nonsmooth.studies.orbits.linear import linear
 from nonsmooth.studies.orbits.sections import Strobe
@@ -46,7 +45,7 @@ class Lyapunov:
 
 
 def lyapunov(
-    what: Scenario | Family,
+    what: Varied,
     period: float,
     n_periods: int,
     *,
@@ -57,7 +56,7 @@ def lyapunov(
 
     Parameters
     ----------
-    what : Scenario or Family
+    what : Scenario, System or Family
         The system.
     period : float
         Time after which the directions are made orthogonal anew [s].

@@ -12,14 +12,13 @@ from nonsmooth.checks import floats
 from nonsmooth.engine.memory.modes import OPEN, SLIDE
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput, RunFailed
-from nonsmooth.interfaces import Scenario
 from nonsmooth.plot.asked import axes_of
 from nonsmooth.plot.lines import beside
 from nonsmooth.progress import Display, Pace, RunsDone, on_standard_error
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.chart import Chart
-from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.derivatives.family import Family, Varied
 from nonsmooth.studies.orbits.choosing import chosen
 from nonsmooth.studies.orbits.diagram import Diagram
 from nonsmooth.studies.orbits.looks import Looks
@@ -77,7 +76,7 @@ class Hysteresis:
 
 
 def hysteresis(
-    what: Scenario | Family,
+    what: Varied,
     name: str,
     values: ArrayLike,
     period: float,

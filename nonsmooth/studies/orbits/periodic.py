@@ -11,12 +11,11 @@ from numpy.typing import NDArray
 
 from nonsmooth.checks import is_finite
 from nonsmooth.errors import InvalidInput, NonsmoothError, RunFailed
-from nonsmooth.interfaces import Scenario
 from nonsmooth.progress import Display, Pace, TimeReached, on_standard_error
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.coordinates import coordinate_number
-from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.derivatives.family import Family, Varied
 from nonsmooth.studies.derivatives.passage import Signature, named
 from nonsmooth.studies.orbits.choosing import at_phase, chosen
 from nonsmooth.studies.orbits.linear import Corner, Linear, linear
@@ -127,7 +126,7 @@ class Orbit:
 
 
 def orbit(
-    what: Scenario | Family,
+    what: Varied,
     period: float | None = None,
     *,
     section: Crossing | None = None,
@@ -146,7 +145,7 @@ def orbit(
 
     Parameters
     ----------
-    what : Scenario or Family
+    what : Scenario, System or Family
         The system.
     period : float, optional
         Period of what drives the system, or a multiple [s].

@@ -13,13 +13,12 @@ from nonsmooth.checks import floats, is_finite
 from nonsmooth.engine.memory.modes import START
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Scenario
 from nonsmooth.plot.asked import axes_of
 from nonsmooth.plot.lines import COLOURS, beside
 from nonsmooth.progress import Display
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.solution import Solution
-from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.derivatives.family import Family, Varied
 from nonsmooth.studies.derivatives.passage import Signature, named
 from nonsmooth.studies.orbits.each import of_each
 
@@ -110,7 +109,7 @@ class Ribbon:
 
 
 def ribbon(
-    what: Scenario | Family,
+    what: Varied,
     name: str,
     values: ArrayLike,
     period: float,
@@ -123,7 +122,7 @@ def ribbon(
 
     Parameters
     ----------
-    what : Scenario or Family
+    what : Scenario, System or Family
         The system; each run starts as it is placed.
     name : str
         The parameter.

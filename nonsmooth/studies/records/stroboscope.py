@@ -81,7 +81,7 @@ class Stroboscope(Recorder):
         places = [coordinate_number(system, name) for name in self.within]
         scales = np.concatenate([one.scales[i] for i in (0, 1) for one in system.bodies])[places]
         if self.phase is not None:
-            known = {} if scenario is None else scenario.resolved()
+            known = {} if scenario is None else scenario.values
             if self.phase not in known:
                 raise UnknownName("Stroboscope: phase", self.phase, known)
         self._times(look.t_end, self._start(look))
@@ -108,7 +108,7 @@ class Stroboscope(Recorder):
         """Return how far the driving motion is at t = 0 [periods]."""
         if self.phase is None or outcome.scenario is None:
             return 0.0
-        return float(outcome.scenario.resolved()[self.phase]) / (2.0 * math.pi)
+        return float(outcome.scenario.values[self.phase]) / (2.0 * math.pi)
 
     def _times(self, t_end: float, start: float) -> NDArray[np.float64]:
         """Return the last times of a run that ends at ``t_end`` [s], shape [keep]."""

@@ -1,0 +1,52 @@
+"""The numbers of a file, by their dotted keys, and what is known of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from nonsmooth.files.components import TYPE, Table
+from nonsmooth.parameters import Component, Rule, rules
+from nonsmooth.plugins import file, registry
+
+_GROUPS = {"contacts": "laws", "materials": "laws", "engine": "engines"}
+"""Where classes of the components of a section are listed, if not under its own name."""
+_UNITS = {"t_end": "s", "sample_interval": "s", "gravity": "m/s^2"}
+_UNKNOWN = "SI"
+"""Unit of what is no parameter of a class, as the words of a start: they are in SI units."""
+
+
+def numbers(tables: Table, folder: Path) -> dict[str, tuple[float, Rule]]:
+    """Return all numbers by dotted key, "bodies.ball.radius", and what is known of each.
+
+    Elements of arrays count from 0; paths of Python files start at the folder.
+    """
+    return dict(_numbers(tables, (), None, folder))
+
+
+def _numbers(
+    place: Any, way: tuple[str, ...], rule: Rule | None, folder: Path, group: str = ""
+) -> Iterator[tuple[str, tuple[float, Rule]]]:
+    """Walk through tables; ``group`` lists the classes of the components of a section, "" outside, and within one."""
+    if isinstance(place, dict):
+        owner = _class(place, group, folder)
+        declared: Mapping[str, Any] = {} if owner is None else rules(owner)
+        for name, one in place.items():
+            inner = group or _GROUPS.get(str(name), str(name))
+            known = declared[name][1] if name in declared else None
+            yield from _numbers(one, (*way, name), known, folder, inner if owner is None else "")
+    elif isinstance(place, list):
+        for i, one in enumerate(place):
+            yield from _numbers(one, (*way, str(i)), rule, folder, group)
+    elif isinstance(place, (int, float)) and not isinstance(place, bool):
+        key = ".".join(way)
+        yield key, (place, rule or Rule(key, _UNITS.get(way[0], _UNKNOWN)))
+
+
+def _class(table: Table, group: str, folder: Path) -> Any:
+    """Return the class that the table of a component names, None where it is no such table."""
+    word = table.get(TYPE)
+    if group not in registry.GROUPS or not isinstance(word, str):
+        return None
+    return file.find(TYPE, group, Component, word, folder)
