@@ -146,5 +146,5 @@ def test_bad_input() -> None:
     for at in ([], [0.0], [0.2, 0.1]):
         with pytest.raises(ns.InvalidInput, match="positive, rising times"):
             sensitivity(scenario, ("friction",), at=at)
-    with pytest.raises(ns.InvalidInput, match="must be of a scenario or a family"):
+    with pytest.raises(ns.InvalidInput, match="must be of a scenario, a system or a family"):
         sensitivity("dumbbell", ("friction",), at=[0.1])  # type: ignore[arg-type]
