@@ -132,7 +132,7 @@ def bifurcation(
     row, looks = np.atleast_1d(floats("bifurcation: values", values)), Looks(period, coordinate, at, settle, keep)
     family = Family.of(what, EventDriven())
     _ = family[name]
-    word = looks.unit(family.model(**{name: row[0]}))
+    word = looks.unit(family.model())
     points, failures = of_each(
         family, name, row.tolist(), lambda model: looks.settled(model, model.start)[0], np.full(keep, np.nan), display
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TypeVar
 
-from nonsmooth.errors import RunFailed
+from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.progress import Display, Pace, RunsDone, on_standard_error
 from nonsmooth.runs.model import Model
 from nonsmooth.studies.derivatives.family import Family
@@ -21,7 +21,7 @@ def of_each(
     nothing: Found,
     display: Display | None,
 ) -> tuple[list[Found], tuple[str, ...]]:
-    """Return what is found with each value of a parameter, and why a run failed, "" where it did not.
+    """Return what is found with each value of a parameter, and why there is nothing, "" where there is.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ def of_each(
     values : sequence of float
         Its values.
     find : callable
-        ``find(model)`` runs a model; it may raise RunFailed.
+        ``find(model)`` runs a model; it may raise RunFailed or InvalidInput.
     nothing : object
         What stands where it does.
     display : Display, optional
@@ -46,16 +46,18 @@ def of_each(
         If no value makes a system.
     """
     _ = family[name]
-    found, failures = list[Found](), list[str]()
+    found, failures, refused = list[Found](), list[str](), list[InvalidInput]()
     with Pace(display or on_standard_error()) as pace:
         counted = RunsDone(pace, len(values))
         for value in values:
-            model = family.model(**{name: value})
             try:
-                found.append(find(model))
+                found.append(find(family.model(**{name: value})))
                 failures.append("")
-            except RunFailed as error:
+            except (RunFailed, InvalidInput) as error:
                 found.append(nothing)
                 failures.append(str(error))
+                refused += [error] if isinstance(error, InvalidInput) else []
             counted.add(1, bool(failures[-1]))
+    if len(refused) == len(values):
+        raise refused[0]
     return found, tuple(failures)

@@ -105,12 +105,12 @@ def hysteresis(
     UnknownName
         If there is no such parameter or coordinate.
     InvalidInput
-        If a number is not valid, or no value makes a system.
+        If a number is not valid.
     """
     row, looks = np.unique(floats("hysteresis: values", values)), Looks(period, coordinate, at, settle, keep)
     family = Family.of(what, EventDriven())
     _ = family[name]
-    word = looks.unit(family.model(**{name: row[0]}))
+    word = looks.unit(family.model())
     points, failures = np.full((2, len(row), keep), np.nan), np.full((2, len(row)), "", dtype=object)
     upwards = range(len(row))
     with Pace(display or on_standard_error()) as pace:
@@ -118,8 +118,8 @@ def hysteresis(
         for way, order in enumerate((upwards, reversed(upwards))):
             before: tuple[Model, State] | None = None
             for i in order:
-                model = family.model(**{name: float(row[i])})
                 try:
+                    model = family.model(**{name: float(row[i])})
                     start = model.start if before is None else _carried(model, *before, period)
                     points[way, i], end = looks.settled(model, start)
                     before = model, end

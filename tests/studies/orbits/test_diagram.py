@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -75,6 +76,19 @@ def test_it_is_counted_and_refused() -> None:
         bifurcation(family, "restitution", [0.5], 0.05, "vz", keep=0)
     with pytest.raises(ns.InvalidInput, match="Did you mean 'restitution'"):
         bifurcation(family, "restituton", [0.5], 0.05, "vz")
+
+
+def test_a_value_without_a_system_is_told_and_the_rest_goes_on() -> None:
+    """The place of the ball is below the plate for the second; where no value makes a system there is no diagram."""
+    asked: dict[str, Any] = {"settle": 5, "keep": 2}
+    place = "bodies.ball.start.q.2"
+    found = bifurcation(_dropped(0.5), place, [0.02, 0.005], 0.05, "z", **asked)
+    assert found.failures[0] == ""
+    assert "must not overlap" in found.failures[1]
+    both = hysteresis(_dropped(0.5), place, [0.005, 0.02], 0.05, "z", **asked)
+    assert [bool(text) for text in both.up.failures] == [True, False]
+    with pytest.raises(ns.InvalidInput, match="must not overlap"):
+        bifurcation(_dropped(0.5), place, [0.005, 0.006], 0.05, "z", **asked)
 
 
 def test_it_persists_where_a_fresh_start_rests() -> None:
