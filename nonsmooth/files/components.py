@@ -5,6 +5,7 @@ from __future__ import annotations
 import collections.abc
 import contextlib
 import dataclasses
+import functools
 import inspect
 import types
 import typing
@@ -43,7 +44,7 @@ def table_of(component: Any, thing: str, declared: Any = None) -> Table:
         If its class is not installed, or it holds a function that nobody can import or another object that no file
         can hold.
     """
-    owner = type(component)
+    owner: Any = type(component)
     table: Table = {}
     if declared is not owner:
         # the classes of helpers have no installed names
@@ -60,13 +61,19 @@ def table_of(component: Any, thing: str, declared: Any = None) -> Table:
         raise InvalidInput(
             f"{thing}.{TYPE}", "must not be a parameter", owner.__name__, "Files use this key for the class: rename it."
         )
-    hints = typing.get_type_hints(owner)
+    hints = _hints(owner)
     for field in dataclasses.fields(owner):
         value = getattr(component, field.name)
         if not field.init or (value is None and field.default is None):
             continue
         table[field.name] = _plain(value, f"{thing}.{field.name}", hints[field.name])
     return table
+
+
+@functools.cache
+def _hints(owner: Any) -> Mapping[str, Any]:
+    # each of them is compiled from its text: half of the time of a system from a file
+    return typing.get_type_hints(owner)
 
 
 def _plain(value: Any, thing: str, hint: Any) -> Any:
@@ -144,7 +151,7 @@ def _helper(thing: str, base: type, table: Table, folder: Path) -> Any:
 
 
 def _made(thing: str, owner: Any, table: Table, folder: Path) -> Any:
-    hints = typing.get_type_hints(owner)
+    hints = _hints(owner)
     fields = {field.name: field for field in dataclasses.fields(owner) if field.init}
     for key in table:
         if key not in fields:
