@@ -1,4 +1,4 @@
-"""Derivatives by differences of fourth order, taken only where all runs pass the same events."""
+"""Derivatives by differences, taken only where all runs pass the same events."""
 
 from __future__ import annotations
 
@@ -15,6 +15,8 @@ CENTRAL = ((-2, 1.0 / 12.0), (-1, -2.0 / 3.0), (1, 2.0 / 3.0), (2, -1.0 / 12.0))
 FORWARD = ((0, -25.0 / 12.0), (1, 4.0), (2, -3.0), (3, 4.0 / 3.0), (4, -0.25))
 BACKWARD = tuple((-i, -weight) for i, weight in FORWARD)
 """Offsets in steps, and weights, of differences of fourth order; to one side where there is no other one."""
+SECOND = ((-1, -0.5), (1, 0.5))
+"""The same of second order, where some digits are enough: of systems that are each built for it."""
 Stencil = tuple[tuple[int, float], ...]
 Sampled = Callable[[float], tuple[Floats, Signature]]
 """What comes of a small change, and the events on the way."""

@@ -14,7 +14,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.derivatives.passage import Signature
-from nonsmooth.studies.derivatives.slope import OrderOfEvents, Sampled, slope
+from nonsmooth.studies.derivatives.slope import SECOND, OrderOfEvents, Sampled, slope
 from nonsmooth.studies.orbits.linear import STEPS, smooth
 from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit
 from nonsmooth.studies.orbits.sections import Section
@@ -135,5 +135,5 @@ def _first_slope(changed: Sampled, expected: Signature) -> Floats:
     """Return a derivative with the first step that changes no order of events."""
     for step in (_ALONG, 0.1 * _ALONG):
         with contextlib.suppress(OrderOfEvents, InvalidInput):
-            return slope(changed, step, expected)
-    return slope(changed, 1e-2 * _ALONG, expected)
+            return slope(changed, step, expected, SECOND)
+    return slope(changed, 1e-2 * _ALONG, expected, SECOND)
