@@ -14,7 +14,7 @@ from nonsmooth.cli.telling.messages import say
 from nonsmooth.errors import InvalidInput
 
 if TYPE_CHECKING:
-    from nonsmooth.studies.orbits import Branch, Crossing, Orbit
+    from nonsmooth.studies.orbits import Branch, Crossing, Orbit, Spin
 
 
 def add_to(commands: Any) -> None:
@@ -41,6 +41,16 @@ def add_to(commands: Any) -> None:
             "--within",
             metavar="NAMES",
             help="coordinates and velocities that repeat, apart by commas (z,ry,vz,wy); all by default",
+        )
+        command.add_argument(
+            "--turn", action="store_true", help="a period may turn everything about the vertical through the origin"
+        )
+        command.add_argument(
+            "--spin",
+            action="append",
+            default=[],
+            metavar="BODY.AXIS",
+            help="a period may turn this body about its own axis, x, y or z, about which it is symmetric",
         )
         if name == "continue":
             command.add_argument("--over", required=True, metavar="NAME=LOW:HIGH", help="the parameter and its range")
@@ -99,13 +109,29 @@ def _found(arguments: argparse.Namespace) -> Orbit:
     prepare(arguments)
     job = request.job(arguments.scenario, arguments.set)
     # imported when asked for: the other commands start faster without it
-    from nonsmooth.studies.orbits import orbit
+    from nonsmooth.studies.orbits import Turn, orbit
 
     within = None if arguments.within is None else tuple(word.strip() for word in arguments.within.split(","))
     section = None if arguments.section is None else _section(arguments.section)
+    turns = [Turn()] if arguments.turn else []
     return orbit(
-        job.scenario, arguments.period, section=section, at=arguments.at, settle=arguments.settle, within=within
+        job.scenario,
+        arguments.period,
+        section=section,
+        at=arguments.at,
+        settle=arguments.settle,
+        within=within,
+        symmetries=(*turns, *map(_spin, arguments.spin)),
     )
+
+
+def _spin(word: str) -> Spin:
+    from nonsmooth.studies.orbits import Spin
+
+    body, dot, axis = word.rpartition(".")
+    if not dot:
+        raise InvalidInput("--spin", "must have the form BODY.AXIS", word, "For example --spin dumbbell.x.")
+    return Spin(body, axis)
 
 
 def _section(word: str) -> Crossing:

@@ -49,6 +49,8 @@ class Chart:
         The directions that follow, shape [n_q + n_u, k].
     inverse : array
         How far these go for what is left of gaps and rates, shape [k, n_held].
+    ignored : array
+        Directions in which states are taken for the same, shape [n_q + n_u, s].
     """
 
     basis: Floats
@@ -57,10 +59,16 @@ class Chart:
     held: Held
     following: Floats
     inverse: Floats
+    ignored: Floats
 
     @classmethod
     def at(
-        cls, model: Model, state: State, within: Collection[str] | None = None, without: Collection[str] = ()
+        cls,
+        model: Model,
+        state: State,
+        within: Collection[str] | None = None,
+        without: Collection[str] = (),
+        ignored: Floats | None = None,
     ) -> Chart:
         """Return the directions about a state.
 
@@ -75,6 +83,8 @@ class Chart:
             meant), and of turns about a body's own axes ("rx", "ry", "rz"); all by default.
         without : collection of str
             Whole names of those that do not ("ball.z").
+        ignored : array, optional
+            Directions in which states are taken for the same, shape [n_q + n_u, s].
 
         Raises
         ------
@@ -85,14 +95,20 @@ class Chart:
         """
         system, held = model.system, Held.at(model, state)
         columns, names = _columns(system, state, within, without)
+        # what may not change tells nothing of how far something went
+        same = (
+            np.zeros((len(columns), 0)) if ignored is None else np.where(np.any(columns, axis=1)[:, None], ignored, 0.0)
+        )
+        kept = _independent(columns, same)
+        columns, names = columns[:, kept], tuple(names[i] for i in kept)
         quaternions = quaternions_of(system)[1]
-        whole = cls(columns, names, quaternions, held, columns[:, :0], np.zeros((0, 0)))
+        whole = cls(columns, names, quaternions, held, columns[:, :0], np.zeros((0, 0)), same)
         rows = whole._slopes(model, state)
         follow = _following(rows)
         free = [i for i in range(len(names)) if i not in follow]
         inverse = np.asarray(np.linalg.pinv(rows[:, follow], rcond=_DEPENDS), dtype=np.float64)
         chosen = tuple(names[i] for i in free)
-        return cls(columns[:, free], chosen, quaternions, held, columns[:, follow], inverse)
+        return cls(columns[:, free], chosen, quaternions, held, columns[:, follow], inverse, same)
 
     def moved(self, model: Model, state: State, way: Floats) -> State:
         """Return a state moved along the directions, shape [m]; what is closed in it is closed in this model."""
@@ -119,7 +135,8 @@ class Chart:
             if q[start : start + 4] @ one.q[start : start + 4] < 0.0:
                 q[start : start + 4] *= -1.0
         x = np.concatenate([q - one.q, two.u - one.u])
-        return np.asarray(np.linalg.lstsq(self.basis, x, rcond=None)[0])
+        columns = np.column_stack([self.basis, self.ignored])
+        return np.asarray(np.linalg.lstsq(columns, x, rcond=None)[0])[: self.basis.shape[1]]
 
     def _stepped(self, state: State, change: Floats) -> State:
         x = np.concatenate([state.q, state.u]) + change
@@ -156,6 +173,21 @@ def _following(rows: Floats) -> list[int]:
         unit = left[:, i] / lengths[i]
         left = left - np.outer(unit, unit @ left)
         left[:, i] = 0.0
+
+
+def _independent(columns: Floats, same: Floats) -> list[int]:
+    """Return the directions that are left of some where others are taken for none, in their order."""
+    basis, kept = np.linalg.qr(same)[0], list[int]()
+    while True:
+        # what the others leave of each
+        left = columns - basis @ (basis.T @ columns)
+        shares = np.linalg.norm(left, axis=0) / np.linalg.norm(columns, axis=0)
+        shares[kept] = 0.0
+        i = int(np.argmax(shares)) if len(shares) else 0
+        if not len(shares) or shares[i] <= _DEPENDS:
+            return sorted(kept)
+        kept.append(i)
+        basis = np.column_stack([basis, left[:, i] / np.linalg.norm(left[:, i])])
 
 
 def _columns(

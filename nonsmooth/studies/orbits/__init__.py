@@ -8,6 +8,7 @@ from nonsmooth.studies.orbits.hysteresis import Hysteresis, hysteresis
 from nonsmooth.studies.orbits.margins import Margins
 from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit, orbit
 from nonsmooth.studies.orbits.sections import Crossing
+from nonsmooth.studies.orbits.symmetries import Spin, Turn
 
 __all__ = [
     "Branch",
@@ -19,6 +20,8 @@ __all__ = [
     "NoOrbit",
     "Orbit",
     "Special",
+    "Spin",
+    "Turn",
     "bifurcation",
     "continuation",
     "hysteresis",

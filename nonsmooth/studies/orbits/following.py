@@ -17,7 +17,7 @@ from nonsmooth.studies.orbits.branch import Branch, Special
 from nonsmooth.studies.orbits.margins import Foretold, Margins, foretold, margins
 from nonsmooth.studies.orbits.path import OutOfRange, Path, Point
 from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit
-from nonsmooth.studies.orbits.sections import Section, Strobe
+from nonsmooth.studies.orbits.sections import Section
 
 Floats = NDArray[np.float64]
 _FIRST, _LARGEST, _SMALLEST = 1e-2, 5e-2, 1e-6
@@ -72,7 +72,9 @@ def continuation(
             ", ".join(corner.direction for corner in orbit.corners),
             "Leave these directions out of `within`, if the motion stays in the others.",
         )
-    section: Callable[[float], Section] = (lambda _: orbit.section) if period is None else lambda v: Strobe(period(v))
+    section: Callable[[float], Section] = (
+        (lambda _: orbit.section) if period is None else lambda v: orbit.section.lasting(period(v))
+    )
     path = Path(orbit.family, name, low, high, section, orbit.within)
     first, rest = path.at(orbit.state, value, None)
     tangent = rest[len(first.map.way) :]

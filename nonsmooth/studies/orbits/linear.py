@@ -73,8 +73,12 @@ class Linear:
     step: float
 
 
-def linear(model: Model, state: State, section: Section, within: Sequence[str] | None) -> Linear:
+def linear(
+    model: Model, state: State, section: Section, within: Sequence[str] | None, steps: Sequence[float] = STEPS
+) -> Linear:
     """Return the map from a state to the next one of a section, along the coordinates that are named.
+
+    The steps are those that may be taken; one that is known to be good saves the others.
 
     Raises
     ------
@@ -85,12 +89,12 @@ def linear(model: Model, state: State, section: Section, within: Sequence[str] |
     InvalidInput
         If a motion does not come back to the section, or the law of a closed contact has inner states.
     """
-    chart, end = Chart.at(model, state, within, section.without(model)), section.passage(model, state)
+    chart, end = chart_at(model, state, section, within), section.passage(model, state)
     there = _directions_at(end, chart, model, section, within)
-    columns, corners, taken = list[Floats](), list[Corner](), [max(STEPS)]
+    columns, corners, taken = list[Floats](), list[Corner](), [max(steps)]
     for name, sampled in zip(chart.names, _directions(model, state, section, chart, end, there), strict=True):
         try:
-            column, step, _ = steady(partial(slope, sampled, expected=end.signature), STEPS)
+            column, step, _ = steady(partial(slope, sampled, expected=end.signature), steps)
             columns.append(column)
             taken.append(step)
         except OrderOfEvents:
@@ -104,14 +108,12 @@ def smooth(
 ) -> Linear:
     """Return the same of a map that has all derivatives.
 
-    The steps are those that may be taken; one that is known to be good saves the others.
-
     Raises
     ------
     OrderOfEvents
         If it lacks one.
     """
-    chart, end = Chart.at(model, state, within, section.without(model)), section.passage(model, state)
+    chart, end = chart_at(model, state, section, within), section.passage(model, state)
     there = _directions_at(end, chart, model, section, within)
     columns, taken = list[Floats](), [max(steps)]
     for sampled in _directions(model, state, section, chart, end, there):
@@ -128,9 +130,14 @@ def _joined(
     return Linear(chart, end, chart.between(state, end.state), matrix, corners, step)
 
 
+def chart_at(model: Model, state: State, section: Section, within: Sequence[str] | None) -> Chart:
+    """Return the directions about a state within a section; errors as :meth:`Chart.at`."""
+    return Chart.at(model, state, within, section.without(model), section.ignored(model, state))
+
+
 def _directions_at(end: Passage, chart: Chart, model: Model, section: Section, within: Sequence[str] | None) -> Chart:
     """Return the directions at the end, which turn with bodies; of an orbit they are those at the start."""
-    there = Chart.at(model, end.state, within, section.without(model))
+    there = chart_at(model, end.state, section, within)
     # on the way to an orbit other contacts may be closed at the end
     return there if there.names == chart.names else chart
 

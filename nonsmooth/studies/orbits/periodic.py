@@ -18,8 +18,10 @@ from nonsmooth.studies.derivatives.coordinates import coordinate_number
 from nonsmooth.studies.derivatives.family import Family, Varied
 from nonsmooth.studies.derivatives.passage import Signature, named
 from nonsmooth.studies.orbits.choosing import at_phase, chosen
-from nonsmooth.studies.orbits.linear import Corner, Linear, linear
+from nonsmooth.studies.orbits.linear import STEPS, Corner, Linear, linear
+from nonsmooth.studies.orbits.modulo import Modulo
 from nonsmooth.studies.orbits.sections import Crossing, Section, Strobe
+from nonsmooth.studies.orbits.symmetries import Symmetry
 
 Floats = NDArray[np.float64]
 _CLOSE = 1e-12
@@ -68,6 +70,11 @@ class Orbit:
         return self.map.end.state.time - self.state.time
 
     @property
+    def turns(self) -> dict[str, float]:
+        """By how much a period turns the motion [rad], by the name of the symmetry."""
+        return self.section.turns(self.family.model(), self.state)
+
+    @property
     def smooth(self) -> tuple[str, ...]:
         """The directions in which the map has a derivative."""
         rough = {corner.direction for corner in self.map.corners}
@@ -107,8 +114,9 @@ class Orbit:
         rough = f"; no derivative along {', '.join(c.direction for c in self.corners)}" if self.corners else ""
         passes = ", ".join(self.section.without(model))
         trivial = f" besides 1 along the motion, which the section of {passes} takes away" if passes else ""
+        turned = "".join(f"; {name} by {angle:.9g} rad" for name, angle in self.turns.items())
         return (
-            f"period {self.period:.9g} s, residual {self.residual:.1e}, multipliers {values}{trivial}{rough}; "
+            f"period {self.period:.9g} s, residual {self.residual:.1e}, multipliers {values}{trivial}{turned}{rough}; "
             f"events: {named(self.events, model)}"
         )
 
@@ -134,6 +142,7 @@ def orbit(
     settle: float = 0.0,
     start: State | None = None,
     within: Sequence[str] | None = None,
+    symmetries: Sequence[Symmetry] = (),
     display: Display | None = None,
 ) -> Orbit:
     """Find the orbit near a start.
@@ -160,6 +169,9 @@ def orbit(
     within : sequence of str, optional
         Names of coordinates and velocities that repeat ("z", or "ball.z" where bodies share a name); by default all.
         Leave out those along which the motion drifts, and all out of a plane that it stays in.
+    symmetries : sequence of Symmetry, optional
+        By which the motion may turn in a period, as one that circles: :class:`Turn` about the vertical, :class:`Spin`
+        of a symmetric body about its own axis.
     display : Display, optional
         Where it is shown how far the time before is; on standard error by default.
 
@@ -189,10 +201,14 @@ def orbit(
             begin = model.run(begin.time + settle, start=begin, progress=TimeReached(pace)).state
     if section is not None:
         watched = section.watched(family)
-        return close(watched, section.entered(watched.model(), begin), section, names)
+        return close(watched, section.entered(watched.model(), begin), _modulo(section, symmetries), names)
     assert period is not None
     state = chosen(model, begin, period) if at is None else at_phase(model, begin, period, at)
-    return close(family, state, Strobe(period), names)
+    return close(family, state, _modulo(Strobe(period), symmetries), names)
+
+
+def _modulo(section: Section, symmetries: Sequence[Symmetry]) -> Section:
+    return Modulo(section, tuple(symmetries)) if symmetries else section
 
 
 def close(family: Family, state: State, section: Section, within: tuple[str, ...] | None) -> Orbit:
@@ -204,14 +220,17 @@ def close(family: Family, state: State, section: Section, within: tuple[str, ...
         If Newton's method does not arrive.
     """
     model, residual = family.model(), np.inf
+    steps: Sequence[float] = STEPS
     for i in range(_MOST):
         try:
-            found = linear(model, state, section, within)
+            found = linear(model, state, section, within, steps)
         except (InvalidInput, RunFailed) as error:
             if i == 0:
                 raise
             raise NoOrbit(f"no orbit near the start: step {i} leads where no run is ({error})") from error
         residual = float(np.max(np.abs(found.way), initial=0.0))
+        if residual <= _CLOSE and steps is not STEPS:
+            found, steps = linear(model, state, section, within), STEPS
         if residual <= _CLOSE:
             if not np.array_equal(found.end.state.modes, state.modes):
                 raise NoOrbit("no orbit near the start: other contacts are closed at the end; choose another section")
@@ -222,7 +241,7 @@ def close(family: Family, state: State, section: Section, within: tuple[str, ...
         reduced = found.matrix[np.ix_(smooth, smooth)] - np.eye(int(np.sum(smooth)))
         # along directions of symmetry nothing is to be changed: the least change of all
         change[smooth] = np.linalg.lstsq(reduced, -found.way[smooth], rcond=1e-9)[0]
-        state = found.chart.moved(model, state, change)
+        state, steps = found.chart.moved(model, state, change), (found.step,)
     raise NoOrbit(f"no orbit near the start: after {_MOST} steps {residual:.2g} is left; begin nearer")
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nonsmooth.checks import is_finite
 from nonsmooth.engine.memory.modes import GUARD
@@ -42,6 +43,18 @@ class Section(ABC):
     def without(self, model: Model) -> tuple[str, ...]:
         """Return the coordinate that does not change within the section, if there is one."""
 
+    def ignored(self, model: Model, state: State) -> NDArray[np.float64]:
+        """Return directions in which states are taken for the same, shape [n_q + n_u, k]; none by default."""
+        return np.zeros((len(state.q) + len(state.u), 0))
+
+    def turns(self, model: Model, start: State) -> dict[str, float]:
+        """Return by how much a period turns a state [rad], by the name of the symmetry; nothing by default."""
+        return {}
+
+    @abstractmethod
+    def lasting(self, period: float) -> Section:
+        """Return the same with another period [s], where it is given by one."""
+
 
 @final
 @dataclass(frozen=True)
@@ -63,6 +76,10 @@ class Strobe(Section):
     def without(self, model: Model) -> tuple[str, ...]:
         """Return none."""
         return ()
+
+    def lasting(self, period: float) -> Strobe:
+        """Return that of the period."""
+        return Strobe(period)
 
 
 @final
@@ -135,6 +152,10 @@ class Crossing(Section):
             piece = self._next(model, state)
             state, told, when = piece.state, [*told, *piece.signature], [*when, *piece.times]
         return Passage(state, tuple(told), tuple(when))
+
+    def lasting(self, period: float) -> Crossing:
+        """Return this one: where it is passed says how long a period is."""
+        return self
 
     def without(self, model: Model) -> tuple[str, ...]:
         """Return the coordinate."""
