@@ -12,6 +12,7 @@ from bodies.shapes.drawing import solid_of
 from nonsmooth.interfaces.body import Vector
 
 Support = Callable[[Vector], Vector]
+"""Returns the farthest points along directions, shape [n, 3] both."""
 _TURN = 1e-3
 _WAYS, _FIRST, _LAST, _CLOSER = 4, 0.15, 1e-4, 0.8
 """How many ways to a flat place are gone, the first and the last step on them [rad], and what each is of the last."""
@@ -49,19 +50,23 @@ def largest_radius(support: Support, directions: Vector, points: Vector) -> floa
     for n in directions[np.argsort(apart)[-_WAYS:]]:
         step = _FIRST
         while step > _LAST:
-            t, u = _across(n[None])
-            looks = [n, *(math.cos(step) * n + math.sin(step) * (c * t[0] + s * u[0]) for c, s in _ROUND)]
-            chords = [_chord(support, look, step) for look in looks]
-            n, step = looks[int(np.argmax(chords))], _CLOSER * step
-        largest = max(largest, _chord(support, n, step) / (2.0 * step))
+            looks = np.vstack([n, math.cos(step) * n + _ways(n[None], step)[:, 0]])
+            n, step = looks[int(np.argmax(_chords(support, looks, step)))], _CLOSER * step
+        largest = max(largest, float(_chords(support, n[None], step)[0]) / (2.0 * step))
     return largest
 
 
-def _chord(support: Support, n: Vector, step: float) -> float:
-    """Return how far points lie apart on both sides of a direction at most [m]."""
-    t, u = _across(n[None])
-    ways = [math.sin(step) * (c * t[0] + s * u[0]) for c, s in _ROUND[:4]]
-    return max(float(np.linalg.norm(support(math.cos(step) * n + w) - support(math.cos(step) * n - w))) for w in ways)
+def _ways(directions: Vector, step: float, count: int = len(_ROUND)) -> Vector:
+    """Return what turns directions by an angle to sides all round, shape [count, n, 3]."""
+    t, u = _across(directions)
+    return np.array([math.sin(step) * (c * t + s * u) for c, s in _ROUND[:count]])
+
+
+def _chords(support: Support, directions: Vector, step: float) -> Vector:
+    """Return how far points lie apart on both sides of each direction at most [m], shape [n]."""
+    along, ways = math.cos(step) * directions, _ways(directions, step, len(_ROUND) // 2)
+    one, other = (support(sides.reshape(-1, 3)) for sides in (along + ways, along - ways))
+    return np.asarray(np.max(np.linalg.norm(one - other, axis=1).reshape(len(ways), -1), axis=0))
 
 
 def integrals_over(drawing: Callable[[int], tuple[Vector, Vector]]) -> tuple[float, Vector, Vector]:
@@ -99,7 +104,7 @@ def _rates(support: Support, directions: Vector) -> Vector:
     for slope, across in zip(slopes, (t, u), strict=True):
         for i, weight in ((-2, 1.0), (-1, -8.0), (1, 8.0), (2, -1.0)):
             turned = math.cos(i * _TURN) * directions + math.sin(i * _TURN) * across
-            slope += weight / (12.0 * _TURN) * np.array([support(n) for n in turned])
+            slope += weight / (12.0 * _TURN) * support(turned)
     (by_t, by_u) = slopes
     mixed = 0.5 * (np.sum(by_t * u, axis=1) + np.sum(by_u * t, axis=1))
     return np.column_stack([np.sum(by_t * t, axis=1), mixed, np.sum(by_u * u, axis=1)])

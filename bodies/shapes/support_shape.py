@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import math
 from abc import abstractmethod
@@ -23,7 +24,7 @@ _SHARPEST, _FLATTEST = 1e-3, 1e3
 _LOOKS = 400
 """Directions along which a shape is looked at before it is used."""
 _ROUND_OFF = 1e-9
-_DERIVED = ("core", "_integrals", "_checked")
+_DERIVED = ("core", "length", "_integrals", "_checked")
 
 
 class SupportShape(SmoothShape):
@@ -69,6 +70,15 @@ class SupportShape(SmoothShape):
             f"It is asked along {direction.tolist()}{where}: a direction of any length has a farthest point.",
         ) from cause
 
+    @final
+    def farthest_of(self, directions: Vector) -> Vector:
+        """Return the points of ``support`` along directions [m], shape [n, 3] both, or say what is wrong with one."""
+        with contextlib.suppress(Exception):
+            points = np.array([self.support(n) for n in directions], dtype=float)
+            if points.shape == directions.shape and np.all(np.isfinite(points)):
+                return points
+        return np.array([self.farthest(n) for n in directions])
+
     @functools.cached_property
     def core(self) -> tuple[float, ...]:
         """Half its extents [m], its middle [m], and where the engine finds its points."""
@@ -79,11 +89,11 @@ class SupportShape(SmoothShape):
         axes = np.eye(3).ravel().tolist()
         return (*half, OF_FUNCTION, OF_FUNCTION, 0.0, x, y, z, *axes, float(address), *heap)
 
-    @property
+    @functools.cached_property
     def length(self) -> float:
         """Distance of the farthest point [m], a bound: no direction is far from one that is looked at."""
         directions, reach = spiral(_LOOKS)
-        return max(float(np.linalg.norm(self.farthest(n))) for n in directions) / math.cos(reach)
+        return max(float(np.linalg.norm(p)) for p in self.farthest_of(directions)) / math.cos(reach)
 
     @functools.cached_property
     def _integrals(self) -> tuple[float, Vector, Vector]:
@@ -117,14 +127,14 @@ class SupportShape(SmoothShape):
     def drawing(self, fineness: int = 24) -> tuple[Vector, Vector]:
         """Return the points along the meridians and parallels of directions."""
         sphere, triangles = revolved(arc(fineness, math.pi, 0.0), fineness, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
-        return np.array([self.farthest(n) for n in sphere]), triangles
+        return self.farthest_of(sphere), triangles
 
 
 def _check(shape: SupportShape) -> None:
     """Look at a shape along directions all round."""
     name = f"{type(shape).__name__}.support"
     directions, _ = spiral(_LOOKS)
-    points = np.array([shape.farthest(n) for n in directions])
+    points = shape.farthest_of(directions)
     reach, heights = directions @ points.T, np.sum(directions * points, axis=1)
     size = float(np.max(heights + np.max(reach, axis=1)))
     beyond = np.max(reach, axis=1) - heights
@@ -136,15 +146,13 @@ def _check(shape: SupportShape) -> None:
             points[worst].tolist(),
             f"Along {directions[worst].tolist()} another one is {beyond[worst]:.3g} m farther. Is the shape convex?",
         )
-    twice = max(
-        float(np.max(np.abs(shape.farthest(2.0 * n) - p))) for n, p in zip(directions[:9], points, strict=False)
-    )
+    twice = float(np.max(np.abs(shape.farthest_of(2.0 * directions[:9]) - points[:9])))
     if twice > _ROUND_OFF * size:
         raise InvalidInput(
             name, "must not depend on the length of the direction", twice, "Divide by np.linalg.norm(direction)."
         )
-    least = least_radius(shape.farthest, directions) / size
-    most = largest_radius(shape.farthest, directions, points) / size
+    least = least_radius(shape.farthest_of, directions) / size
+    most = largest_radius(shape.farthest_of, directions, points) / size
     if not least >= _SHARPEST:
         raise InvalidInput(
             name,
