@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 from dataclasses import replace
 from typing import Any
@@ -33,6 +34,7 @@ def _local(shape: Any, x: Array) -> Array:
     return np.asarray(x - np.array([shape.x, shape.y, shape.z]))
 
 
+@functools.cache
 def _own_axes(shape: Any) -> Array:
     parts = [shape.orientation_x, shape.orientation_y, shape.orientation_z, shape.orientation_w]
     return np.asarray(Rotation.from_quat(parts).as_matrix())
@@ -47,6 +49,7 @@ def _across(shape: Any, x: Array) -> Any:
     return np.linalg.norm(x - np.multiply.outer(x @ axis, axis), axis=-1)
 
 
+@functools.cache
 def _feet(shape: Any) -> Array:
     """Return the tips of the feet from the centre, three on either face, a third of a turn apart [6, 3]."""
     own = getattr(shape, "half_length", shape.foot_height)
@@ -112,18 +115,24 @@ def _dual_norm(shape: Superellipsoid, n: Array) -> Any:
     return ((m[..., 0] ** q + m[..., 1] ** q) ** (p / q) + m[..., 2] ** p) ** (1.0 / p)
 
 
-def _outside_hull(shape: Any, x: Array) -> Any:
-    """Return the height over the highest plane through three points that has all others on one side."""
-    points, own = np.array(shape.points), _own_axes(shape).T @ _local(shape, x)
-    highest = -np.inf
+@functools.cache
+def _planes(shape: Any) -> tuple[Array, Array]:
+    """Return the outward normals of all planes through three points that have all others on one side, and a point."""
+    points, planes = np.array(shape.points), []
     for i, j, k in itertools.combinations(range(len(points)), 3):
         normal = np.cross(points[j] - points[i], points[k] - points[i])
         normal /= np.linalg.norm(normal)
         heights = (points - points[i]) @ normal
-        for sign in (1.0, -1.0):
-            if np.all(sign * heights <= 1e-12):
-                highest = max(highest, sign * float((own - points[i]) @ normal))
-    return highest
+        planes += [(sign * normal, points[i]) for sign in (1.0, -1.0) if np.all(sign * heights <= 1e-12)]
+    normals, through = zip(*planes, strict=True)
+    return np.array(normals), np.array(through)
+
+
+def _outside_hull(shape: Any, x: Array) -> Any:
+    """Return the height over the highest plane through three points that has all others on one side."""
+    normals, through = _planes(shape)
+    own = _own_axes(shape).T @ _local(shape, x)
+    return float(np.max(np.sum((own - through) * normals, axis=1)))
 
 
 def _core(shape: Any) -> Any:
