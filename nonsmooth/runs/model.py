@@ -66,6 +66,7 @@ class Model:
         self._begun = Image.of(laid.memory)
         self._records = Records(laid)
         self._runs = threading.Lock()
+        self._start_is_valid = False
 
     @classmethod
     def of(cls, system: System, engine: Engine) -> Model:
@@ -83,10 +84,26 @@ class Model:
         """
         check_kind("assemble: system", system, System, "Make it by nonsmooth.System([...]).")
         check_kind("engine", engine, Engine, "Give nonsmooth.EventDriven(), or another one with its options.")
-        made = cls(lay(system, engine), engine, State.at(system))
-        check_start(made._laid, made._guards)
+        made = cls.anywhere(system, engine)
+        made._check_start()
         made._undeclared.warn_of_start(made._laid.places())
         return made
+
+    @classmethod
+    def anywhere(cls, system: System, engine: Engine) -> Model:
+        """Return the model of a system that need not be able to start where it is placed, as it starts elsewhere.
+
+        Raises
+        ------
+        InvalidInput
+            If the engine cannot run it.
+        """
+        return cls(lay(system, engine), engine, State.at(system))
+
+    def _check_start(self) -> None:
+        if not self._start_is_valid:
+            check_start(self._laid, self._guards)
+            self._start_is_valid = True
 
     def __repr__(self) -> str:
         """Return what it runs, and by what."""
@@ -349,6 +366,7 @@ class Model:
         if state is self._start:
             begun = self._begun
             begun.put(laid.memory)
+            self._check_start()
             energy = self._energy
         elif self._goes_on(state):
             go_on(laid, self._blank, state, self._changing)

@@ -16,7 +16,7 @@ from nonsmooth.studies.target import Target
 
 def _classes(words: Sequence[str]) -> dict[str, Any]:
     """Return values and names of classes, as the CF conventions have them."""
-    return {"flag_values": list(range(len(words))), "flag_meanings": " ".join(words)}
+    return {"flag_values": list(range(len(words))), "flag_meanings": " ".join(word.replace(" ", "_") for word in words)}
 
 
 def variables(records: Sequence[Record]) -> list[Variable]:

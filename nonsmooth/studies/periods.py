@@ -7,18 +7,22 @@ from numpy.typing import NDArray
 
 _ALIKE = 1e-5
 """Part of the range of all points within which two count as one."""
+_LEAST = 1e-3
+"""Part of the scale of a coordinate that counts as the range where that is less: of one point only there is none."""
 
 
-def alike(points: NDArray[np.float64]) -> float:
+def alike(points: NDArray[np.float64], scale: float) -> float:
     """Return the greatest difference within which points of a diagram count as one, in their unit.
 
     Parameters
     ----------
     points : array
         All of them, nan where a run failed; any shape.
+    scale : float
+        Of the coordinate, by the size of its body, in its unit.
     """
     known = points[np.isfinite(points)]
-    return _ALIKE * max(float(np.ptp(known)) if len(known) else 0.0, np.finfo(float).tiny)
+    return _ALIKE * max(float(np.ptp(known)) if len(known) else 0.0, _LEAST * scale)
 
 
 def periods(points: NDArray[np.float64], near: float) -> NDArray[np.int64]:

@@ -90,8 +90,12 @@ class Store:
     """
 
     def __init__(self, path: Path) -> None:
-        self.path, self._group = path, _opened(path)
-        self._arrays: dict[str, Any] = dict(self._group.arrays())
+        import zarr
+
+        # the file of a chunk says that it was done, also where all of it is what stands for nothing
+        with zarr.config.set({"array.write_empty_chunks": True}):
+            self.path, self._group = path, _opened(path)
+            self._arrays: dict[str, Any] = dict(self._group.arrays())
 
     @property
     def attributes(self) -> Mapping[str, Any]:

@@ -17,6 +17,7 @@ from nonsmooth.errors import InvalidInput, NonsmoothWarning, UnknownName
 from nonsmooth.interfaces import Engine, Scenario
 from nonsmooth.progress import Display, Pace, RunsDone, on_standard_error
 from nonsmooth.studies.budget import Budgeted
+from nonsmooth.studies.definition import differing
 from nonsmooth.studies.executors import Dask, Executor, Serial, Threads
 from nonsmooth.studies.extras import require_store
 from nonsmooth.studies.layout import coordinates, labels_of, stored, variables
@@ -95,6 +96,10 @@ class Study:
             raise InvalidInput("Study: budget", "must be a positive whole number of steps", budget, "Leave it out.")
         self._work = Work(self._target, Budgeted(integrates, budget or _UNLIMITED))
         self._work = dataclasses.replace(self._work, records=records(record, self._look()))
+        for name in self.records:
+            if name in self._points.columns:
+                rule = "must be none of what is varied, which is kept anyway"
+                raise InvalidInput(f"record {name}", rule, list(self._points.columns), "Leave it out.")
         self._budget = budget
 
     def __len__(self) -> int:
@@ -236,9 +241,9 @@ class Study:
         """
         known = store.attributes
         if known["sha256"] != hashlib.sha256(self.spec.encode()).hexdigest():
-            differ = _differing(json.loads(str(known["spec"])), json.loads(self.spec))
+            where = differing(json.loads(str(known["spec"])), json.loads(self.spec))
             remedy = "Choose another folder, or ask for what began there."
-            raise InvalidInput(str(store.path), "must hold the study that goes on there", differ, remedy)
+            raise InvalidInput(str(store.path), "must hold the study that goes on there", where, remedy)
         if chunk is not None and chunk != store.chunk:
             thing = f"{store.path}: chunk"
             raise InvalidInput(thing, f"must be that of the beginning, {store.chunk}", chunk, "Leave it out.")
@@ -275,11 +280,6 @@ def executor_of(executor: str | Executor) -> Executor:
     if executor not in EXECUTORS:
         raise UnknownName("executor", str(executor), EXECUTORS)
     return EXECUTORS[executor]()
-
-
-def _differing(one: Any, other: Any) -> Any:
-    """Return the parts of a study that differ from another one."""
-    return {name: value for name, value in one.items() if value != other.get(name)}
 
 
 def _end_of_look(case: Case) -> float:

@@ -15,6 +15,7 @@ from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.files.scenario import FileScenario
 from nonsmooth.interfaces import Scenario
 from nonsmooth.parameters import check_number
+from nonsmooth.studies.definition import digest
 from nonsmooth.studies.sampling.points import Points, Value
 from nonsmooth.system.system import System
 
@@ -119,10 +120,11 @@ class OfScenario(Target):
         return described(rule.doc, rule.unit)
 
     def described(self) -> Mapping[str, Any]:
-        """Return class and parameters."""
+        """Return class, its text and parameters."""
         owner = type(self.scenario)
         values = {field.name: getattr(self.scenario, field.name) for field in dataclasses.fields(self.scenario)}  # type: ignore[arg-type]
-        return {"scenario": f"{owner.__module__}:{owner.__qualname__}", "parameters": values}
+        name = f"{owner.__module__}:{owner.__qualname__}"
+        return {"scenario": name, "text": digest(owner), "parameters": values}
 
 
 @final
@@ -173,8 +175,9 @@ class OfFunction(Target):
         return described(name)
 
     def described(self) -> Mapping[str, Any]:
-        """Return its name and the end time."""
-        return {"function": f"{self.function.__module__}:{self.function.__qualname__}", "t_end": self.t_end}
+        """Return its name, its text and the end time."""
+        name = f"{self.function.__module__}:{self.function.__qualname__}"
+        return {"function": name, "text": digest(self.function), "t_end": self.t_end}
 
 
 def target(runs: Scenario | System | Callable[..., System], t_end: float | None) -> Target:

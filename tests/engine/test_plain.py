@@ -32,6 +32,7 @@ NOT_ENTERED = {
     "events/stopping": {"_share"},
     "events/twins": {"take_over"},
     "flow/location": {"_advance", "_behind_jump", "_hides_another", "_sampled", "_soonest"},
+    "flow/projection": {"_motion_by_gaps", "_speed_at"},
     "flow/self_check": {"_presses", "blame"},
     "events/event_update": {"_force_gone", "_is_over", "_share_a_bound"},
     "contact/enumeration": {"_sweep_slips"},

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import importlib
+import linecache
 import os
 import signal
 import subprocess
@@ -74,6 +76,34 @@ def test_a_study_goes_on_where_it_began_only(tmp_path: Path) -> None:
     with pytest.raises(ns.InvalidInput, match="new or empty folder"):
         ball.study(6).run(other)
     assert (other / "thesis.tex").read_text() == "words"
+
+
+@pytest.mark.parametrize("changed", ["runs", "record"])
+def test_a_program_that_was_changed_does_not_go_on_there(
+    changed: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What functions say decides what runs; the message says where the studies differ."""
+
+    def begin(run: str, record: str) -> None:
+        (tmp_path / "program.py").write_text(
+            f"from tests.studies.ball import drop\ndef run(height):\n    return {run}\n"
+            f"def told(scenario, solution):\n    return {record}\n",
+            encoding="utf-8",
+        )
+        sys.modules.pop("program", None)
+        importlib.invalidate_caches()
+        linecache.clearcache()
+        program = importlib.import_module("program")
+        study = studies.Study(program.run, studies.grid(height=[0.01, 0.02]), [program.told], t_end=0.1)
+        study.run(tmp_path / "s.zarr", executor="serial")
+
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)
+    begin("drop(height)", "1.0")
+    begin("drop(height)", "1.0")
+    other = {"runs": ("drop(height, 0.6)", "1.0"), "record": ("drop(height)", "2.0")}[changed]
+    with pytest.raises(ns.InvalidInput, match=rf"must hold the study that goes on there.*{changed}.* was .* and is "):
+        begin(*other)
 
 
 def test_a_study_that_was_cut_off_as_it_was_made_begins_anew(tmp_path: Path) -> None:

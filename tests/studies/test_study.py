@@ -42,12 +42,13 @@ class _Telling(SimpleScenario):
     title: ClassVar[str] = "A drop"
     height: float = parameter(0.1, doc="height", unit="m", above=0.0)
     t_end: float = parameter(T_END, doc="end time", unit="s", above=0.0)
+    words: ClassVar[Mapping[str, tuple[str, ...]]] = {"bounces": ("few", "many of them")}
 
     def build(self) -> ns.System:
         return drop(self.height)
 
     def summarise(self, solution: ns.Solution) -> Mapping[str, Any]:
-        return {"told": "much"}
+        return {"told": "much", "bounces": "many of them" if solution.counters.impacts > 6 else "few"}
 
     def acceptance(self, solution: ns.Solution) -> tuple[ns.Criterion, ...]:
         return ()
@@ -91,6 +92,20 @@ def test_words_are_coordinates_and_classes(tmp_path: Path) -> None:
     assert [names[i] for i in found.attractor.values] == ["jump", "drift"]
     assert studies.basin_stability(found.attractor)["drift"] == (0.5, np.sqrt(0.125))
     assert studies.draw_study(found).axes[0].get_ylabel() == "attractor"
+
+
+def test_words_with_blanks_are_one_word(tmp_path: Path) -> None:
+    study = studies.Study(_Telling(), studies.grid(height=[0.001, 0.1]), ["bounces"])
+    found = study.run(tmp_path / "s.zarr", executor="serial").bounces
+    assert found.attrs["flag_meanings"] == "few many_of_them"
+    assert found.values.tolist() == [1, 0]
+
+
+def test_chunks_without_a_value_are_whole(tmp_path: Path) -> None:
+    """Zarr leaves out chunks of nothing but what stands for no value; these were done."""
+    study = studies.Study(drop, studies.grid(height=[-1.0, 0.01, -2.0]), RECORD, t_end=T_END)
+    study.run(tmp_path / "s.zarr", executor="serial", chunk=1)
+    assert Store(tmp_path / "s.zarr").damage() == []
 
 
 def test_a_run_that_fails_is_a_row(tmp_path: Path) -> None:
@@ -169,6 +184,10 @@ def _ball(record: Asked) -> studies.Study:
         (
             lambda: studies.Study(DumbbellScenario(), studies.grid(mode=["jum"]), RECORD),
             ("mode", "Did you mean 'jump'"),
+        ),
+        (
+            lambda: studies.Study(BouncingBall(), studies.grid(t_end=[0.1, 0.2]), ["t_end"]),
+            ("record t_end", "none of what is varied"),
         ),
         (lambda: _ball(studies.Trajectory("q", (0.1, 0.3))), ("times", "within a run of 0.2 s", "0.3")),
         (lambda: studies.Trajectory("q", (-0.1, 0.3)), ("times", "none negative")),

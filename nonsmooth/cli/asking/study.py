@@ -81,7 +81,8 @@ def study_of(words: Mapping[str, Any]) -> Study:
         job = request.job(words["scenario"], words["set"], (), words["engine"])
         sampling = over.sampling(words["over"], words["sample"], words["seed"])
         classes = [name for name in job.scenario.words if name == "attractor"]
-        record: list[Asked] = [*(words["record"] or [*RECORD, *classes]), *_stroboscope(words)]
+        usual = [name for name in (*RECORD, *classes) if name not in sampling.points().columns]
+        record: list[Asked] = [*(words["record"] or usual), *_stroboscope(words)]
         return Study(job.scenario, sampling, record, engine=job.engine, budget=words["budget"])
 
 

@@ -60,7 +60,7 @@ def execute(arguments: argparse.Namespace) -> bool:
         ways = {"": found}
     for way, diagram in ways.items():
         for period, count in sorted(Counter(diagram.periods.tolist()).items()):
-            words = f"repeat after {period} periods" if period else "do not repeat"
+            words = {-1: "failed", 0: "do not repeat"}.get(period, f"repeat after {period} periods")
             say(f"{f'{way}: ' if way else ''}{count} {words}")
     failed = [text for diagram in ways.values() for text in diagram.failures if text]
     for text in failed[:3]:

@@ -21,8 +21,12 @@ def perform(
     study: Study, words: Mapping[str, Any], path: Path, executor: Executor, chunk: int | None = None
 ) -> xarray.Dataset:
     """Run, or go on with, a study that was asked for in words; return all of it."""
-    with contextlib.redirect_stdout(sys.stderr):  # whatever a plug-in prints
-        found = study.run(path, executor=executor, chunk=chunk, request=words)
+    try:
+        with contextlib.redirect_stdout(sys.stderr):  # whatever a plug-in prints
+            found = study.run(path, executor=executor, chunk=chunk, request=words)
+    except KeyboardInterrupt:
+        tell(f"what is done stays: `nonsmooth study resume {path}` goes on")
+        raise
     say(summary(found))
     tell(f"the study is in {path}")
     return found

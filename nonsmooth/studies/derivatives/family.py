@@ -12,7 +12,6 @@ from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.files.scenario import FileScenario
 from nonsmooth.interfaces import Engine, Scenario
 from nonsmooth.runs.model import Model
-from nonsmooth.simulate import assemble
 from nonsmooth.system.system import System
 
 EXACT = EventDriven(tolerance=1e-12, impact_tolerance=1e-12, time_tolerance=1e-14)
@@ -97,13 +96,13 @@ class Family:
         return replace(self, values={**self.values, **changed})
 
     def model(self, **changed: float) -> Model:
-        """Return the model of the system with some values changed."""
+        """Return the model of the system with some values changed; it may start elsewhere than where it is placed."""
         values = self.at(**changed).values
         key = tuple(values.values())
         if key not in self._models:
             if len(self._models) >= _KEPT:
                 self._models.pop(next(iter(self._models)))
-            self._models[key] = assemble(self.make(**values), self.engine)
+            self._models[key] = Model.anywhere(self.make(**values), self.engine)
         return self._models[key]
 
 

@@ -85,6 +85,9 @@ def sensitivity(what: Varied, parameters: Sequence[str], *, at: ArrayLike) -> Se
     NotDifferentiable
         If the smallest change of a parameter reorders events; it says which.
     """
+    if isinstance(parameters, str):
+        remedy = f'For example ("{parameters}",).'
+        raise InvalidInput("sensitivity: parameters", "must be a list of names", parameters, remedy)
     times = np.atleast_1d(floats("sensitivity: at", at))
     if not (len(times) and times[0] > 0.0 and np.all(np.diff(times) > 0.0)):
         raise InvalidInput("sensitivity: at", "must be positive, rising times", times.tolist(), "Give them in [s].")

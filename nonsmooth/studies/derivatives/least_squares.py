@@ -119,7 +119,9 @@ def fit(
     family, names = Family.of(what), tuple(bounds)
     low, high = _bounds(family, bounds)
     given = np.isfinite(data)
-    if np.count_nonzero(given) < len(names) or not names:
+    if not names:
+        raise InvalidInput("fit: bounds", "must name parameters", bounds, 'For example {"restitution": (0.5, 0.9)}.')
+    if np.count_nonzero(given) < len(names):
         raise InvalidInput(
             "fit: measured",
             "must be more numbers than parameters",
@@ -141,11 +143,15 @@ def fit(
     def cost(point: Floats) -> float:
         try:
             return float(np.sum(residual(point) ** 2))
-        except RunFailed:
+        except (RunFailed, InvalidInput):
             # a point in which nothing runs is no place to begin
             return np.inf
 
-    best = np.argsort([cost(point) for point in points], kind="stable")[:_REFINED]
+    costs = np.array([cost(point) for point in points])
+    if not np.any(np.isfinite(costs)):
+        # why the first one does not
+        residual(points[0])
+    best = [i for i in np.argsort(costs, kind="stable")[:_REFINED] if np.isfinite(costs[i])]
     found = min((_refined(residual, points[i]) for i in best), key=lambda one: float(one.cost))
     values = low + found.x * (high - low)
     freedom = max(1, len(found.fun) - len(names))

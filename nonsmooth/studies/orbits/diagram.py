@@ -40,6 +40,8 @@ class Diagram:
         What it was, the last ``keep`` times; nan where a run failed; shape [n, keep].
     failures : tuple of str
         Why runs failed, "" for those that did not.
+    scale : float
+        Of the coordinate, by the size of its body, in its unit.
     """
 
     name: str
@@ -49,11 +51,16 @@ class Diagram:
     unit: str
     points: Floats
     failures: tuple[str, ...]
+    scale: float
 
     @property
     def periods(self) -> NDArray[np.int64]:
-        """After how many periods the motion repeats; 0 where it does not within those that were kept; shape [n]."""
-        return periods(self.points[:, :, np.newaxis], alike(self.points))
+        """After how many periods the motion repeats, shape [n].
+
+        0 where it does not within those that were kept; -1 where the run failed.
+        """
+        found = periods(self.points[:, :, np.newaxis], alike(self.points, self.scale))
+        return np.where([bool(text) for text in self.failures], -1, found)
 
     @property
     def failed(self) -> int:
@@ -132,8 +139,8 @@ def bifurcation(
     row, looks = np.atleast_1d(floats("bifurcation: values", values)), Looks(period, coordinate, at, settle, keep)
     family = Family.of(what, EventDriven())
     _ = family[name]
-    word = looks.unit(family.model())
+    unit, scale = looks.unit_and_scale(family.model())
     points, failures = of_each(
         family, name, row.tolist(), lambda model: looks.settled(model, model.start)[0], np.full(keep, np.nan), display
     )
-    return Diagram(name, family.label(name), row, coordinate, word, np.array(points), failures)
+    return Diagram(name, family.label(name), row, coordinate, unit, np.array(points), failures, scale)

@@ -46,6 +46,8 @@ def of_each(
         If no value makes a system.
     """
     _ = family[name]
+    if not len(values):
+        raise InvalidInput(f"values of {name}", "must be some", list(values), "Give at least one.")
     found, failures, refused = list[Found](), list[str](), list[InvalidInput]()
     with Pace(display or on_standard_error()) as pace:
         counted = RunsDone(pace, len(values))

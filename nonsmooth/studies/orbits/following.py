@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
@@ -24,6 +24,8 @@ _FIRST, _LARGEST, _SMALLEST = 1e-2, 5e-2, 1e-6
 """Steps along the arc; a step of 1 changes the parameter by its range, or a coordinate by its scale."""
 _MOST = 2000
 _GROWS = 1.3
+_SAME = 1e-6
+"""What a motion may differ by from the same a period later, for round-off."""
 _KNOWN = 1e-9
 """How well margins tell the parameter at which events change, over its value or its range, where no more is looked."""
 
@@ -59,7 +61,7 @@ def continuation(
     UnknownName
         If the family has no such parameter.
     InvalidInput
-        If the range is none, or the orbit has corners.
+        If the range is none, the orbit has corners, or the system has another period somewhere in the range.
     """
     value, (low, high) = orbit.family[name], span
     if not (is_finite(low) and is_finite(high) and low <= value <= high and low < high):
@@ -76,6 +78,7 @@ def continuation(
         (lambda _: orbit.section) if period is None else lambda v: orbit.section.lasting(period(v))
     )
     path = Path(orbit.family, name, low, high, section, orbit.within)
+    _check_period(path, orbit)
     first, rest = path.at(orbit.state, value, None)
     tangent = rest[len(first.map.way) :]
     up = tangent if tangent[-1] >= 0.0 else -tangent
@@ -87,6 +90,34 @@ def continuation(
     nearness = (*reversed(back.margins[1:]), *on.margins)
     special = (*reversed(back.special), *on.special)
     return Branch(name, values, orbits, nearness, special, f"{back.ending}; {on.ending}")
+
+
+def _check_period(path: Path, orbit: Orbit) -> None:
+    """Look at both ends of the range whether a motion that begins a period later is the same.
+
+    Raises
+    ------
+    InvalidInput
+        If it is not.
+    """
+    for there in (path.low, path.high):
+        off = _shifted(path, orbit, there)
+        if off > _SAME:
+            rule = f"must be one of the system at {path.name} = {there:.9g}, where {off:.2g} differs a period later"
+            raise InvalidInput(
+                "continuation: period", rule, f"{orbit.period:.9g}", "Give period=lambda value: ... [s]."
+            )
+
+
+def _shifted(path: Path, orbit: Orbit, value: float) -> float:
+    """Return by how much a motion differs that begins a period later, in units of scales; 0 where none can begin."""
+    model, section, start = path.family.model(**{path.name: value}), path.section(value), orbit.state
+    try:
+        one = section.passage(model, start).state
+        two = section.passage(model, replace(start, time=one.time)).state
+    except (InvalidInput, RunFailed):
+        return 0.0
+    return float(np.max(np.abs(orbit.map.chart.between(one, two)), initial=0.0))
 
 
 @final

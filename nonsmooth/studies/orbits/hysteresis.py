@@ -48,7 +48,7 @@ class Hysteresis:
     def apart(self) -> NDArray[np.bool_]:
         """Where both ways have come to other motions, of which one repeats at least, and neither failed; shape [n]."""
         both = np.array([self.up.points, self.down.points])
-        differ = np.max(np.abs(np.diff(np.sort(both, axis=2), axis=0)[0]), axis=1) > alike(both)
+        differ = np.max(np.abs(np.diff(np.sort(both, axis=2), axis=0)[0]), axis=1) > alike(both, self.up.scale)
         periodic = np.array([self.up.periods, self.down.periods]) > 0
         others = (periodic[0] != periodic[1]) | (periodic.all(axis=0) & differ)
         return np.asarray(others & np.isfinite(both).all(axis=(0, 2)))
@@ -110,7 +110,9 @@ def hysteresis(
     row, looks = np.unique(floats("hysteresis: values", values)), Looks(period, coordinate, at, settle, keep)
     family = Family.of(what, EventDriven())
     _ = family[name]
-    word = looks.unit(family.model())
+    if not len(row):
+        raise InvalidInput(f"values of {name}", "must be some", [], "Give at least one.")
+    unit, scale = looks.unit_and_scale(family.model())
     points, failures = np.full((2, len(row), keep), np.nan), np.full((2, len(row)), "", dtype=object)
     upwards = range(len(row))
     with Pace(display or on_standard_error()) as pace:
@@ -127,7 +129,9 @@ def hysteresis(
                     failures[way, i], before = str(error), None
                 counted.add(1, bool(failures[way, i]))
     up, down = (
-        Diagram(name, family.label(name), row, coordinate, word, points[way], tuple(map(str, failures[way].tolist())))
+        Diagram(
+            name, family.label(name), row, coordinate, unit, points[way], tuple(map(str, failures[way].tolist())), scale
+        )
         for way in (0, 1)
     )
     return Hysteresis(up, down)

@@ -54,15 +54,17 @@ class Looks:
         if not (is_finite(self.at) and 0.0 <= self.at < self.period):
             raise InvalidInput("bifurcation: at", "must be a time within a period", self.at, "Give it in [s].")
 
-    def unit(self, model: Model) -> str:
-        """Return the unit of what is looked at.
+    def unit_and_scale(self, model: Model) -> tuple[str, float]:
+        """Return the unit of what is looked at, and its scale by the size of its body.
 
         Raises
         ------
         UnknownName
             If there is no such coordinate.
         """
-        return unit(model.system, coordinate_number(model.system, self.coordinate))
+        number, bodies = coordinate_number(model.system, self.coordinate), model.system.bodies
+        scales = np.concatenate([body.scales[i] for i in (0, 1) for body in bodies])
+        return unit(model.system, number), float(scales[number])
 
     def settled(self, model: Model, start: State) -> tuple[Floats, State]:
         """Return what is looked at in the last periods, shape [keep], and where the run ended.

@@ -186,7 +186,8 @@ def orbit(
     """
     if (period is None) == (section is None):
         remedy = "Give the period of what drives the system; of a system without one a section=Crossing(...)."
-        raise InvalidInput("orbit: period", "must be given, or a section in its place", period, remedy)
+        rule = "must be given, or a section in its place, and not both"
+        raise InvalidInput("orbit: period and section", rule, (period, section), remedy)
     if period is not None and not (is_finite(period) and period > 0.0):
         raise InvalidInput("orbit: period", "must be positive and finite", period, "Give it in [s].")
     if at is not None and not (period is not None and is_finite(at) and 0.0 <= at < period):

@@ -11,6 +11,7 @@ from typing import Any, TypeAlias, final
 from nonsmooth.datasets import described
 from nonsmooth.errors import InvalidInput
 from nonsmooth.solution.solution import Solution
+from nonsmooth.studies.definition import digest
 from nonsmooth.studies.records.named import ALWAYS, Named
 from nonsmooth.studies.records.record import Outcome, Record, Recorder
 
@@ -33,7 +34,7 @@ class Computed(Recorder):
         name = self.function.__name__
         line = _LINE.fullmatch((self.function.__doc__ or name).strip().partition("\n")[0])
         assert line is not None
-        return Record(name, self, described(line["words"], line["unit"] or ""))
+        return Record(name, self, described(line["words"], line["unit"] or ""), how=digest(self.function))
 
     def __call__(self, outcome: Outcome) -> float:
         """Call the function."""

@@ -65,6 +65,27 @@ def test_fold_and_period_doubling() -> None:
     assert np.min(np.abs(doubling.orbit.multipliers + 1.0)) < 1e-8
 
 
+def test_a_period_that_the_system_has_not_is_refused() -> None:
+    found = _orbit(0.8)
+    with pytest.raises(
+        ns.InvalidInput, match=r"period must be one of the system at frequency = 24, .*period=lambda"
+    ):
+        continuation(found, "frequency", (24.0, 26.0))
+    branch = continuation(found, "frequency", (24.99, 25.01), period=lambda frequency: 1.0 / frequency)
+    assert branch.ending == "the end of the range; the end of the range"
+    assert branch.orbits[0].period == pytest.approx(1.0 / branch.values[0], rel=1e-12)
+
+
+def test_a_branch_goes_where_the_start_of_its_system_would_not() -> None:
+    """A ball that is placed on the table, and would be within a larger one."""
+    radius = "bodies.ball.radius"
+    found = orbit(BouncingBall(gamma=0.8, restitution=E).build(), 0.04, settle=0.5, within=("z", "vz"))
+    branch = continuation(found, radius, (0.0099, 0.0101))
+    assert branch.ending == "the end of the range; the end of the range"
+    trace = [np.trace(one.monodromy) for one in branch.orbits]
+    np.testing.assert_allclose(trace, trace[0], atol=1e-8)
+
+
 def test_a_start_that_follows_the_parameter_ends_the_branch() -> None:
     """The phase of the table, by default that of the orbit, has no derivative at the fold; no event changes there."""
     found = orbit(BouncingBall(gamma=0.36, restitution=E), 0.04, within=("z", "vz"))

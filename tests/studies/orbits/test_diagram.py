@@ -78,6 +78,14 @@ def test_it_is_counted_and_refused() -> None:
         bifurcation(family, "restituton", [0.5], 0.05, "vz")
 
 
+def test_what_stays_as_it_is_repeats() -> None:
+    """A parameter without effect leaves one point, of which round-off is no range."""
+    found = bifurcation(_dropped(0.5), "bodies.ball.start.u.5", [0.0, 1.0], 0.05, "z", settle=20, keep=8)
+    assert found.periods.tolist() == [1, 1]
+    with pytest.raises(ns.InvalidInput, match="must be some"):
+        bifurcation(_dropped(0.5), "gravity", [], 0.05, "z")
+
+
 def test_a_value_without_a_system_is_told_and_the_rest_goes_on() -> None:
     """The place of the ball is below the plate for the second; where no value makes a system there is no diagram."""
     asked: dict[str, Any] = {"settle": 5, "keep": 2}
@@ -121,9 +129,9 @@ def test_a_run_that_failed_is_no_other_motion() -> None:
 
     def one(*rows: NDArray[np.float64]) -> Diagram:
         failures = tuple("it failed" if np.isnan(row).any() else "" for row in rows)
-        return Diagram("gamma", "gamma", values, "vz", "m/s", np.array(rows), failures)
+        return Diagram("gamma", "gamma", values, "vz", "m/s", np.array(rows), failures, 0.3)
 
     assert Hysteresis(one(rest, rest, none), one(rest, jumps, rest)).apart.tolist() == [False, True, False]
     nothing = one(none, none, none)
-    assert nothing.periods.tolist() == [0, 0, 0]
+    assert nothing.periods.tolist() == [-1, -1, -1]
     assert not Hysteresis(nothing, nothing).apart.any()
