@@ -86,7 +86,7 @@ class Store:
     Raises
     ------
     InvalidInput
-        If it holds no study.
+        If it holds no study, or not all of one.
     """
 
     def __init__(self, path: Path) -> None:
@@ -96,6 +96,10 @@ class Store:
         with zarr.config.set({"array.write_empty_chunks": True}):
             self.path, self._group = path, _opened(path)
             self._arrays: dict[str, Any] = dict(self._group.arrays())
+        gone = [name for name in json.loads(self._group.attrs["layout"])["variables"] if name not in self._arrays]
+        if gone:
+            remedy = "Put back what was removed, or begin anew in another folder."
+            raise InvalidInput(str(path), "must have all of its arrays", f"without {', '.join(gone)}", remedy)
 
     @property
     def attributes(self) -> Mapping[str, Any]:

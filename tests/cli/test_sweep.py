@@ -71,6 +71,12 @@ def test_wrong_requests(words: list[str], told: str, tmp_path: Path, capsys: pyt
     assert not (tmp_path / "s.zarr").exists()
 
 
+def test_why_runs_have_no_records_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ("--over", "gamma=1:2:3", "--budget", "5", "--record", "impacts", "--out", str(tmp_path / "s.zarr"))
+    assert main(["sweep", "bouncing_ball", *words]) == 0
+    assert "3 runs have no records; the first is run 0: At t = " in capsys.readouterr().err
+
+
 def test_what_is_no_study(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for what in "status", "resume", "verify", "draw":
         assert main(["study", what, str(tmp_path / "none.zarr")]) == 2

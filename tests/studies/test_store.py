@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import linecache
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -136,3 +137,12 @@ def test_a_file_that_cannot_be_written_whole_commits_nothing(tmp_path: Path) -> 
     assert ran.returncode == 1
     assert "could not be written" in ran.stderr
     assert not list(tmp_path.glob("s.zarr/status/c/*"))
+
+
+def test_an_array_that_is_gone_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "s.zarr"
+    ball.study(2).run(path, executor="serial")
+    shutil.rmtree(path / "impacts")
+    for what in "status", "verify":
+        assert main(["study", what, str(path)]) == 2
+        assert "must have all of its arrays, but it is 'without impacts'" in capsys.readouterr().err

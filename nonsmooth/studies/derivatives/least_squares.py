@@ -178,7 +178,7 @@ def observed(model: Model, times: Floats, observe: Observe) -> Floats:
     state, rows = model.start, list[Floats]()
     for time in times.tolist():
         state = passage(model, state, time).state
-        rows.append(np.atleast_1d(np.asarray(observe(state), dtype=float)))
+        rows.append(np.atleast_1d(floats("fit: observe", observe(state))))
     return np.array(rows)
 
 

@@ -59,6 +59,10 @@ def test_bad_input() -> None:
         fit(scenario, {"friction": (0.1, 0.4)}, at=TIMES, measured=np.nan * zeros, observe=_place)
     with pytest.raises(ns.InvalidInput, match=r"positive, rising times"):
         fit(scenario, {"friction": (0.1, 0.4)}, at=TIMES[::-1], measured=zeros, observe=_place)
+    with pytest.raises(ns.InvalidInput, match=r"bounds must name parameters, but it is \{\}"):
+        fit(scenario, {}, at=TIMES, measured=zeros, observe=_place)
+    with pytest.raises(ns.InvalidInput, match="observe must be an array of numbers"):
+        fit(scenario, {"friction": (0.1, 0.4)}, at=TIMES, measured=zeros, observe=lambda state: "far", starts=2)
 
 
 def test_what_changes_nothing_is_not_told() -> None:

@@ -67,9 +67,7 @@ def test_fold_and_period_doubling() -> None:
 
 def test_a_period_that_the_system_has_not_is_refused() -> None:
     found = _orbit(0.8)
-    with pytest.raises(
-        ns.InvalidInput, match=r"period must be one of the system at frequency = 24, .*period=lambda"
-    ):
+    with pytest.raises(ns.InvalidInput, match=r"period must be one of the system at frequency = 24, .*period=lambda"):
         continuation(found, "frequency", (24.0, 26.0))
     branch = continuation(found, "frequency", (24.99, 25.01), period=lambda frequency: 1.0 / frequency)
     assert branch.ending == "the end of the range; the end of the range"
