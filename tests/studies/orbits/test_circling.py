@@ -13,6 +13,7 @@ from bodies import PlanarBody, Plate
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.rotations import rotation
 from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.orbits.following import continuation
 from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit, orbit
 from nonsmooth.studies.orbits.symmetries import Spin, Turn
 from scenarios.bouncing_ball.scenario import BouncingBall
@@ -46,6 +47,16 @@ def test_the_dumbbell_circles(circling: Orbit) -> None:
     chords = np.diff(run.q[:, 0] + 1j * run.q[:, 1])
     np.testing.assert_allclose(chords[1:] / chords[:-1], cmath.exp(1j * turn), atol=1e-7)
     assert spin == pytest.approx(0.417621407, abs=1e-7)
+
+
+def test_it_is_followed_along_a_parameter(circling: Orbit) -> None:
+    """More friction turns it faster, either way from where it was found."""
+    branch = continuation(circling, "friction", (0.199, 0.201), most=2)
+    assert branch.ending == "2 steps; 2 steps"
+    turns = [next(iter(one.turns.values())) for one in (branch.orbits[0], circling, branch.orbits[-1])]
+    assert turns[0] > turns[1] > turns[2]
+    for one in branch.orbits:
+        assert one.residual < 1e-11
 
 
 def test_a_plane_motion_has_its_multipliers_in_space_as_well() -> None:
