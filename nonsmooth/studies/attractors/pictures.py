@@ -129,7 +129,7 @@ def _largest_change(found: xarray.Dataset, parameter: str) -> str:
     word, share = known.attractor.values[change.argmax()], known.values[change.argmax()]
     ends = sorted((int(share.argmin()), int(share.argmax())))
     places = [f"{share[i]:.2f} at {parameter} = {_value(known[parameter].values[i])}" for i in ends]
-    return f"{word}: {places[0]}, {places[1]}" if change.max() > 0.0 else "The shares do not change"
+    return f"{word}: {places[0]},\n{places[1]}" if change.max() > 0.0 else "The shares do not change"
 
 
 def _value(value: object) -> str:

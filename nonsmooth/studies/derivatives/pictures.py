@@ -141,7 +141,9 @@ def _covariance(ax: Axes, found: Fit, one: str, two: str) -> None:
     )
     ax.set_xlabel(found.family.label(one))
     ax.set_ylabel(found.family.label(two))
-    told = [f"{name} = {found.values[name]:.6g} ± {found.standard_errors[name]:.1g}" for name in (one, two)]
+    # dotted keys are whole along the axes
+    words = {name: name.rpartition(".")[2] for name in (one, two)}
+    told = [f"{word} = {found.values[name]:.6g} ± {found.standard_errors[name]:.1g}" for name, word in words.items()]
     ax.set_title("\n".join([*told, "full: one standard error; dotted: 95 %"]), fontsize=9)
     ax.locator_params(nbins=4)
     ax.ticklabel_format(useOffset=False)

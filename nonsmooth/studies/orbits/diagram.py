@@ -88,6 +88,7 @@ class Diagram:
         over = np.repeat(self.values, self.points.shape[1])
         ax.plot(over, self.points.ravel(), mark, markersize=2.0, color=colour, fillstyle="none", label=label)
         ax.set_xlabel(self.label)
+        ax.locator_params(axis="x", nbins=6)  # labels of eight characters fit
         ax.set_ylabel(f"{self.coordinate}, once a period [{self.unit}]")
         for value, text in zip(self.values.tolist(), self.failures, strict=True):
             if text:

@@ -93,6 +93,7 @@ def branch(found: Branch, shown: Callable[[Orbit], float], label: str, ax: Axes 
                 label=f"{kind} at {', '.join(values)}",
             )
     ax.set_xlabel(found.orbits[0].family.label(found.name))
+    ax.locator_params(axis="x", nbins=6)  # labels of eight characters fit
     ax.set_ylabel(label)
     ax.grid(color="0.9", linewidth=0.6)
     ax.set_axisbelow(True)
