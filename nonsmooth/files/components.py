@@ -61,7 +61,7 @@ def table_of(component: Any, thing: str, declared: Any = None) -> Table:
         raise InvalidInput(
             f"{thing}.{TYPE}", "must not be a parameter", owner.__name__, "Files use this key for the class: rename it."
         )
-    hints = _hints(owner)
+    hints = hints_of(owner)
     for field in dataclasses.fields(owner):
         value = getattr(component, field.name)
         if not field.init or (value is None and field.default is None):
@@ -71,7 +71,8 @@ def table_of(component: Any, thing: str, declared: Any = None) -> Table:
 
 
 @functools.cache
-def _hints(owner: Any) -> Mapping[str, Any]:
+def hints_of(owner: Any) -> Mapping[str, Any]:
+    """Return the type hints of a component's parameters."""
     # each of them is compiled from its text: half of the time of a system from a file
     return typing.get_type_hints(owner)
 
@@ -151,7 +152,7 @@ def _helper(thing: str, base: type, table: Table, folder: Path) -> Any:
 
 
 def _made(thing: str, owner: Any, table: Table, folder: Path) -> Any:
-    hints = _hints(owner)
+    hints = hints_of(owner)
     fields = {field.name: field for field in dataclasses.fields(owner) if field.init}
     for key in table:
         if key not in fields:
@@ -233,3 +234,10 @@ def _own_class(hint: Any) -> Any:
     """Return the class that a reader takes where a table does not say any."""
     owner = _component_class(hint)
     return owner if _concrete(owner) else None
+
+
+def group_of(hint: Any) -> str:
+    """Return where the classes of the components that a hint allows are listed, or of the elements, "" without any."""
+    known = (*_options(hint), *(one for option in _options(hint) for one in typing.get_args(option)))
+    base = next((one for one in known if isinstance(one, type) and issubclass(one, _BASES)), None)
+    return "" if base is None else next(name for name, bases in registry.GROUPS.items() if issubclass(base, bases))

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from nonsmooth.files.components import TYPE, Table
+from nonsmooth.files.components import TYPE, Table, group_of, hints_of
 from nonsmooth.parameters import Component, Rule, rules
 from nonsmooth.plugins import file, registry
 
@@ -28,14 +28,16 @@ def numbers(tables: Table, folder: Path) -> dict[str, tuple[float, Rule]]:
 def _numbers(
     place: Any, way: tuple[str, ...], rule: Rule | None, folder: Path, group: str = ""
 ) -> Iterator[tuple[str, tuple[float, Rule]]]:
-    """Walk through tables; ``group`` lists the classes of the components of a section, "" outside, and within one."""
+    """Walk through tables; ``group`` lists the classes of the components that are looked for, "" where none are."""
     if isinstance(place, dict):
         owner = _class(place, group, folder)
         declared: Mapping[str, Any] = {} if owner is None else rules(owner)
+        hints: Mapping[str, Any] = {} if owner is None else hints_of(owner)
         for name, one in place.items():
-            inner = group or _GROUPS.get(str(name), str(name))
+            section = group if way else _GROUPS.get(str(name), str(name))
+            inner = section if owner is None else group_of(hints.get(name))
             known = declared[name][1] if name in declared else None
-            yield from _numbers(one, (*way, name), known, folder, inner if owner is None else "")
+            yield from _numbers(one, (*way, name), known, folder, inner)
     elif isinstance(place, list):
         for i, one in enumerate(place):
             yield from _numbers(one, (*way, str(i)), rule, folder, group)
