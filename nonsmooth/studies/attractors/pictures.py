@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 
 _MOST = 12
 """Attractors that are drawn at most, those of most starts."""
+_LINE = 72
+"""Characters of a title that fit above the axes."""
 
 
 def shares(attractor: xarray.DataArray, ax: Axes | None = None) -> Axes:
@@ -116,7 +119,7 @@ def fractions(found: xarray.Dataset, ax: Axes | None = None) -> Axes:
     ax.set_ylim(-0.02, 1.02)
     ax.set_xlabel(label_of(along))
     ax.set_ylabel("share of the starts [1]")
-    ax.set_title(_largest_change(found, parameter), fontsize=10)
+    ax.set_title(textwrap.fill(_largest_change(found, parameter), _LINE), fontsize=10)
     ax.grid(color="0.9", linewidth=0.6)
     ax.set_axisbelow(True)
     beside(ax)
@@ -129,7 +132,7 @@ def _largest_change(found: xarray.Dataset, parameter: str) -> str:
     word, share = known.attractor.values[change.argmax()], known.values[change.argmax()]
     ends = sorted((int(share.argmin()), int(share.argmax())))
     places = [f"{share[i]:.2f} at {parameter} = {_value(known[parameter].values[i])}" for i in ends]
-    return f"{word}: {places[0]},\n{places[1]}" if change.max() > 0.0 else "The shares do not change"
+    return f"{word}: {places[0]}, {places[1]}" if change.max() > 0.0 else "The shares do not change"
 
 
 def _value(value: object) -> str:
