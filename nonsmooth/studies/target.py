@@ -124,7 +124,7 @@ class OfScenario(Target):
         owner = type(self.scenario)
         values = {field.name: getattr(self.scenario, field.name) for field in dataclasses.fields(self.scenario)}  # type: ignore[arg-type]
         name = f"{owner.__module__}:{owner.__qualname__}"
-        return {"scenario": name, "text": digest(owner), "parameters": values}
+        return {"scenario": name, "source_sha256": digest(owner), "parameters": values}
 
 
 @final
@@ -177,7 +177,7 @@ class OfFunction(Target):
     def described(self) -> Mapping[str, Any]:
         """Return its name, its text and the end time."""
         name = f"{self.function.__module__}:{self.function.__qualname__}"
-        return {"function": name, "text": digest(self.function), "t_end": self.t_end}
+        return {"function": name, "source_sha256": digest(self.function), "t_end": self.t_end}
 
 
 def target(runs: Scenario | System | Callable[..., System], t_end: float | None) -> Target:

@@ -43,6 +43,20 @@ def test_derivatives_by_numbers_of_a_system() -> None:
     assert found.family.units[RADIUS] == "m"
 
 
+@pytest.mark.skipif(PLAIN, reason="hundreds of runs take minutes in plain mode")
+def test_a_fit_passes_over_starts_that_overlap() -> None:
+    """Of the heights that are tried some are within the plate."""
+    times = np.linspace(0.02, 0.3, 12)
+    heights = studies.Family.of(_dropped()).model().run(0.3).at(times).q[:, 2]
+    bounds = {PLACE: (0.002, 0.2), RESTITUTION: (0.5, 0.9)}
+    begin = _dropped(restitution=0.6)
+    found = studies.fit(begin, bounds, at=times, measured=heights, observe=lambda state: state.q[2], starts=16)
+    assert found.values[PLACE] == pytest.approx(HEIGHT + 0.01, abs=1e-7)
+    assert found.values[RESTITUTION] == pytest.approx(E, abs=1e-6)
+    with pytest.raises(ns.InvalidInput, match="observe must return finite numbers"):
+        studies.fit(begin, bounds, at=times, measured=heights, observe=lambda state: math.nan, starts=1)
+
+
 def test_a_study_of_a_system_has_what_single_runs_have(tmp_path: Path) -> None:
     pytest.importorskip("zarr", "3.1.3")
     axes = {RESTITUTION: [0.5, 0.7], RADIUS: [0.008, 0.01]}

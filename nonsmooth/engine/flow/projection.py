@@ -214,6 +214,8 @@ def _motion_by_gaps(S: Scalars, w: Floats, k: Integers, number: int, i: int) -> 
     body, total = body_at(S, w, k, number), 0.0
     for place in range(S.n_grouped):
         c = k[S.grouped + place]
+        if contact_at(S, w, k, c).normal_function != 0:
+            continue
         for j in range(S.n_y):
             w[S.y_guess + j] = w[S.y + j] if j < S.n_q else 0.0
         push_response(S, w, k, c, 0, 1.0, S.y_guess + S.n_q)

@@ -148,11 +148,7 @@ def fit(
             return np.inf
 
     costs = np.array([cost(point) for point in points])
-    if not np.any(np.isfinite(costs)):
-        # why the first one does not
-        residual(points[0])
-    best = [i for i in np.argsort(costs, kind="stable")[:_REFINED] if np.isfinite(costs[i])]
-    found = min((_refined(residual, points[i]) for i in best), key=lambda one: float(one.cost))
+    found = _deepest(residual, points[np.argsort(costs, kind="stable")][:_REFINED])
     values = low + found.x * (high - low)
     freedom = max(1, len(found.fun) - len(names))
     deviation = float(np.sqrt(np.sum(found.fun**2) / freedom))
@@ -178,8 +174,32 @@ def observed(model: Model, times: Floats, observe: Observe) -> Floats:
     state, rows = model.start, list[Floats]()
     for time in times.tolist():
         state = passage(model, state, time).state
-        rows.append(np.atleast_1d(floats("fit: observe", observe(state))))
+        row = np.atleast_1d(floats("fit: observe", observe(state)))
+        if not np.all(np.isfinite(row)):
+            raise InvalidInput(
+                "fit: observe", "must return finite numbers", row.tolist(), "Of which state does it not?"
+            )
+        rows.append(row)
     return np.array(rows)
+
+
+def _deepest(residual: Callable[[Floats], Floats], begins: Floats) -> OptimizeResult:
+    """Return the best of what is found from some points; what leads where no run is counts for nothing.
+
+    Raises
+    ------
+    RunFailed, InvalidInput
+        If all do.
+    """
+    found, trouble = list["OptimizeResult"](), list[RunFailed | InvalidInput]()
+    for begin in begins:
+        try:
+            found.append(_refined(residual, begin))
+        except (RunFailed, InvalidInput) as error:
+            trouble.append(error)
+    if not found:
+        raise trouble[0]
+    return min(found, key=lambda one: float(one.cost))
 
 
 def _refined(residual: Callable[[Floats], Floats], begin: Floats) -> OptimizeResult:

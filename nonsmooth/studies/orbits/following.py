@@ -26,6 +26,8 @@ _MOST = 2000
 _GROWS = 1.3
 _SAME = 1e-6
 """What a motion may differ by from the same a period later, for round-off."""
+_SHARES = tuple(0.5**i for i in range(11))
+"""Parts of the way to an end of the range at which that is looked at, until a motion can begin there."""
 _KNOWN = 1e-9
 """How well margins tell the parameter at which events change, over its value or its range, where no more is looked."""
 
@@ -95,28 +97,33 @@ def continuation(
 def _check_period(path: Path, orbit: Orbit) -> None:
     """Look at both ends of the range whether a motion that begins a period later is the same.
 
+    Where the orbit's state is none at an end, as bodies would overlap, nearer values tell.
+
     Raises
     ------
     InvalidInput
         If it is not.
     """
-    for there in (path.low, path.high):
-        off = _shifted(path, orbit, there)
-        if off > _SAME:
+    value = orbit.family[path.name]
+    for end in (path.low, path.high):
+        for there in (value + share * (end - value) for share in _SHARES):
+            if (off := _shifted(path, orbit, there)) is not None:
+                break
+        if off is not None and off > _SAME:
             rule = f"must be one of the system at {path.name} = {there:.9g}, where {off:.2g} differs a period later"
             raise InvalidInput(
                 "continuation: period", rule, f"{orbit.period:.9g}", "Give period=lambda value: ... [s]."
             )
 
 
-def _shifted(path: Path, orbit: Orbit, value: float) -> float:
-    """Return by how much a motion differs that begins a period later, in units of scales; 0 where none can begin."""
+def _shifted(path: Path, orbit: Orbit, value: float) -> float | None:
+    """Return by how much a motion differs that begins a period later, in units of scales; None if none can begin."""
     model, section, start = path.family.model(**{path.name: value}), path.section(value), orbit.state
     try:
         one = section.passage(model, start).state
         two = section.passage(model, replace(start, time=one.time)).state
     except (InvalidInput, RunFailed):
-        return 0.0
+        return None
     return float(np.max(np.abs(orbit.map.chart.between(one, two)), initial=0.0))
 
 

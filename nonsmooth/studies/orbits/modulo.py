@@ -9,7 +9,7 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.errors import InvalidInput
+from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.coordinates import quaternions_of
@@ -18,6 +18,8 @@ from nonsmooth.studies.orbits.sections import Section
 from nonsmooth.studies.orbits.symmetries import Symmetry
 
 Floats = NDArray[np.float64]
+_TRIED, _SAME = 1.0, 1e-6
+"""Angle by which a symmetry is tried [rad], and what may differ then for round-off, in units of scales."""
 _GUESSES, _MOST, _CLOSE = 5, 20, 1e-9
 """Angles a turn that are tried first; steps of Newton's method behind the best, and the last of them [rad]: what is
 left counts for nothing, as it is along the symmetries."""
@@ -60,6 +62,28 @@ class Modulo(Section):
     def ignored(self, model: Model, state: State) -> Floats:
         """Return the directions of the symmetries."""
         return np.column_stack([one.direction(model.system, state) for one in self.symmetries])
+
+    def check(self, model: Model, start: State) -> None:
+        """Look whether a state that is turned before a period comes to where it is turned to behind it.
+
+        Raises
+        ------
+        InvalidInput
+            If the system lacks a symmetry.
+        """
+        end = self.section.passage(model, start).state
+        sizes = np.concatenate([body.scales[i] for i in (0, 1) for body in model.system.bodies])
+        for one in self.symmetries:
+            behind, turned = one.turned(model.system, end, _TRIED), one.turned(model.system, start, _TRIED)
+            try:
+                there = self.section.passage(model, turned).state
+                off = float(np.max(np.abs(np.concatenate([there.q - behind.q, there.u - behind.u]) / sizes)))
+                found = f"a period ends {off:.2g} elsewhere, in units of scales" if off > _SAME else ""
+            except (InvalidInput, RunFailed) as error:
+                found = f"there is no period ({error})"
+            if found:
+                rule = f"must be one of the system, but turned by {_TRIED:g} rad {found}"
+                raise InvalidInput("orbit: symmetries", rule, str(one), "Leave it out.")
 
     def turns(self, model: Model, start: State) -> dict[str, float]:
         """Return by how much the next period turns a state [rad], within half a turn."""

@@ -221,6 +221,7 @@ def close(family: Family, state: State, section: Section, within: tuple[str, ...
         If Newton's method does not arrive.
     """
     model, residual = family.model(), np.inf
+    section.check(model, state)
     steps: Sequence[float] = STEPS
     for i in range(_MOST):
         try:

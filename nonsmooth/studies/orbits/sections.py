@@ -47,6 +47,16 @@ class Section(ABC):
         """Return directions in which states are taken for the same, shape [n_q + n_u, k]; none by default."""
         return np.zeros((len(state.q) + len(state.u), 0))
 
+    def check(self, model: Model, start: State) -> None:
+        """Look, by a period from a state, whether the system is as the section takes it; nothing by default.
+
+        Raises
+        ------
+        InvalidInput
+            If it is not.
+        """
+        return
+
     def turns(self, model: Model, start: State) -> dict[str, float]:
         """Return by how much a period turns a state [rad], by the name of the symmetry; nothing by default."""
         return {}

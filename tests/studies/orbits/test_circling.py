@@ -98,9 +98,11 @@ def test_what_is_refused(circling: Orbit) -> None:
         Turn((0.0, 0.0, 0.0))
     with pytest.raises(ns.InvalidInput, match=r"Spin\.body.*Did you mean 'dumbbell'"):
         orbit(scenario, PERIOD, within=ALL, symmetries=(Spin("dumbell", "x"),))
-    # the dumbbell has no symmetry about an axis across its rod
-    with pytest.raises((NoOrbit, ns.InvalidInput)):
+    # the dumbbell has no symmetry about an axis across its rod, and gravity none about a level one
+    with pytest.raises(ns.InvalidInput, match=r"must be one of the system, but .*spin of dumbbell about its z"):
         orbit(scenario, PERIOD, start=circling.state, within=ALL, symmetries=(Turn(), Spin("dumbbell", "z")))
+    with pytest.raises(ns.InvalidInput, match=r"must be one of the system, but .*turn about \(1, 0, 0\)"):
+        orbit(scenario, PERIOD, start=circling.state, within=ALL, symmetries=(Turn((1.0, 0.0, 0.0)),))
     with pytest.raises(ns.InvalidInput, match="need a section with all contacts open"):
         orbit(scenario, PERIOD, start=circling.state, at=0.0005, within=ALL, symmetries=ROLLS)
 
