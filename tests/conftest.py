@@ -5,6 +5,8 @@ They run on all processors, spread by pytest-xdist (``-n auto`` in pyproject.tom
 its own is done, so that what neighbours share, a module's fixtures or a full run of a scenario, is mostly made once.
 The process that spreads them compiles the engine before its workers start, which then find it in the cache.  The
 workers must collect the same tests under the same names: a name without an address in memory is asked of every test.
+
+``pytest`` runs the fast tier, ``pytest -m slow`` the other one (tests/README.md).
 """
 
 from __future__ import annotations
@@ -26,12 +28,20 @@ import nonsmooth as ns
 from bodies import Dumbbell, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.native.kernel import entry_addresses
+from tests import tiers
+from tests.processor_time import ProcessorTimes
 
 settings.register_profile("tests", deadline=None, derandomize=True, print_blob=False)
 settings.load_profile("tests")
 
 GRAVITY = 9.81
 _ADDRESS = re.compile(r"\b0x[0-9a-f]{6,}")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Measure the tests, and choose their tier."""
+    config.pluginmanager.register(ProcessorTimes())
+    tiers.choose(config)
 
 
 def pytest_sessionstart(session: pytest.Session) -> None:
@@ -43,8 +53,10 @@ def pytest_sessionstart(session: pytest.Session) -> None:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Refuse names of tests that are other ones in the next process."""
+    """Sort cases into tiers, and refuse names of tests that are other ones in the next process."""
+    tiers.mark_cases(items)
     for item in items:
         if _ADDRESS.search(item.name):
             raise pytest.UsageError(f"{item.nodeid}: its name has an address; give the parameters ids")

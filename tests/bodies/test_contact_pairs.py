@@ -151,6 +151,7 @@ def _rig(build: Any, name: str) -> Rig:
     return _rigs[name]
 
 
+@pytest.mark.fast_cases(4)
 @pytest.mark.parametrize("name", PAIRS)
 def test_gap_is_the_widest_empty_slab(build: Any, name: str) -> None:
     """The witness points lie on the surfaces, the gap apart, and a slab that wide is empty: there is no other gap."""

@@ -65,6 +65,7 @@ def _directions(n: int) -> np.ndarray:
     return np.asarray(directions / np.linalg.norm(directions, axis=1)[:, None])
 
 
+@pytest.mark.fast_cases(3)
 @pytest.mark.parametrize("name", SHAPES)
 def test_support_is_that_of_a_dense_drawing(name: str) -> None:
     """No vertex of the mesh, which are on the surface, is farther; the mesh comes as near as its edges are short."""

@@ -294,6 +294,7 @@ def test_rates_of_the_side_of_a_capsule_are_derivatives(build: Any) -> None:
     assert seen == {"edge", "corner"}
 
 
+@pytest.mark.slow
 def test_a_ball_over_many_triangles_has_the_gap_of_the_nearest(build: Any) -> None:
     """Each triangle held against it; the surface is kept once for all patches."""
     points, triangles = hills(40)
@@ -313,6 +314,7 @@ def test_a_ball_over_many_triangles_has_the_gap_of_the_nearest(build: Any) -> No
         assert gap == pytest.approx(float(np.min(distances(center[None], points[triangles]))) - radius, abs=1e-14)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(PLAIN, reason="thousands of searches")
 @pytest.mark.parametrize("body", [Sphere(0.03), Ellipsoid(0.03, 0.025, 0.02)], ids=["ball", "ellipsoid"])
 def test_a_body_changes_from_face_to_edge_and_on_once_each(body: Any, monkeypatch: pytest.MonkeyPatch) -> None:

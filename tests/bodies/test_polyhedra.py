@@ -19,6 +19,7 @@ _POSES, _MOTIONS = (2, 1) if PLAIN else (20, 5)
 KINDS = ("edge-edge", "face-vertex", "vertex-face")
 
 
+@pytest.mark.fast_cases(7)
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("name", NAMES)
 def test_gap_normal_and_witness_of_constructed_poses(build: Any, name: str, kind: str) -> None:

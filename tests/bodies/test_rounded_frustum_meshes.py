@@ -28,6 +28,7 @@ _CLOSE = 1e-11
 """Gap at which bodies are moved past each other [m]."""
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("name", SHAPES)
 def test_gap_is_the_distance_of_the_core(build: Any, name: str) -> None:
     """At random places: the nearest of what faces each other; a core that overlaps does so by the radius and more."""
@@ -65,6 +66,7 @@ def test_what_goes_right_through_overlaps(build: Any, shape: Frustum) -> None:
     assert deep > 5
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
 @pytest.mark.parametrize("name", SHAPES)
 def test_features_hand_over_without_a_hole_and_without_a_double(build: Any, name: str) -> None:

@@ -41,6 +41,7 @@ def _touching(one: Body, two: Body, axes: np.ndarray, off: np.ndarray, way: np.n
     return low
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
 @pytest.mark.parametrize(
     "names",

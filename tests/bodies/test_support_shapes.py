@@ -85,6 +85,7 @@ def _slab(shapes: Any, poses: Any, n: Any) -> float:
     return float(n @ (q + b @ shapes[1].support(-n @ b) - p - a @ shapes[0].support(n @ a)))
 
 
+@pytest.mark.fast_cases(10)
 @pytest.mark.parametrize("name", OTHERS)
 def test_an_ellipsoid_that_is_not_known_has_the_contacts_of_one_that_is(build: Any, name: str) -> None:
     """Apart, all but touching, and in each other by a little."""
@@ -110,6 +111,7 @@ def test_an_ellipsoid_that_is_not_known_has_the_contacts_of_one_that_is(build: A
 PAIRS = [(one, two) for one in GIVEN for two in (*OTHERS, *GIVEN)]
 
 
+@pytest.mark.fast_cases(4)
 @pytest.mark.parametrize(("one", "two"), PAIRS, ids=["-".join(pair) for pair in PAIRS])
 def test_the_gap_is_that_of_the_bodies(build: Any, one: str, two: str) -> None:
     """No slab between them is wider than they are apart, and this one is as wide as the gap."""
@@ -157,6 +159,7 @@ def test_rates_and_second_order_terms_are_the_derivatives(one: str, two: str) ->
         row.check()
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
 @pytest.mark.parametrize(("name", "other"), [("sum", "plate"), ("lens", "box"), ("lens", "mesh"), ("egg", "ellipsoid")])
 def test_bouncing_keeps_the_energy(name: str, other: str) -> None:
@@ -195,6 +198,7 @@ def test_the_run_of_an_ellipsoid_that_is_not_known(build: Any, ground: Shape) ->
     np.testing.assert_allclose(events[0].time, events[1].time, rtol=0, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_mass_properties() -> None:
     """Against closed forms: the ellipsoid's, and J. Steiner's formula for a body with a ball rolled over it."""
     ours, known = KNOWN
@@ -296,6 +300,7 @@ class Wrong(SupportShape):
         raise RuntimeError("no idea")
 
 
+@pytest.mark.fast_cases(6)
 @pytest.mark.parametrize(
     ("shape", "message"),
     [
@@ -334,6 +339,7 @@ class Blind(SupportShape):
 SOFT: dict[str, Any] = {"normal": HertzCompliant(1e6), "friction": Frictionless()}
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize(
     ("other", "laws", "number"),
     [
@@ -364,6 +370,7 @@ def test_what_is_wrong_along_one_direction_is_refused_at_the_start(
     assert isinstance(refused.value.__cause__, ValueError) is (number == 0.0)
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(("longer", "pointed"), [(1.0, 0.0), (-0.5, 0.0), (0.2, 0.45), (0.2, -0.45)])
 def test_eggs_that_are_not_convex_are_refused(longer: float, pointed: float) -> None:
     """Just beyond the bound of the radii of curvature, all of which those within it have."""
@@ -372,6 +379,7 @@ def test_eggs_that_are_not_convex_are_refused(longer: float, pointed: float) -> 
     assert SupportBody(Egg(0.01, 0.85 * longer, 0.85 * pointed)).total_mass > 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "body",
     [

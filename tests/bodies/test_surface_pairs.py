@@ -99,6 +99,7 @@ def _least(rig: Rig, poses: Any) -> float:
     return float(np.min(block[block[:, 30] <= 0.0, 0], initial=np.inf))
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize("name", PAIRS)
 def test_what_is_near_is_found_until_it_is_looked_for_again(
     name: str, build: Any, monkeypatch: pytest.MonkeyPatch
@@ -134,6 +135,7 @@ def test_what_is_near_is_found_until_it_is_looked_for_again(
     assert compared >= 8
 
 
+@pytest.mark.fast_cases(5)
 @pytest.mark.parametrize("seed", [1, 2, 3])
 @pytest.mark.parametrize("kind", BODIES)
 def test_a_run_is_that_of_all_features(kind: str, seed: int, build: Any, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -242,6 +244,7 @@ def test_with_little_room_less_is_looked_at_ahead(build: Any, monkeypatch: pytes
         rig.listed()
 
 
+@pytest.mark.slow
 def test_a_query_is_that_of_all_features(monkeypatch: pytest.MonkeyPatch) -> None:
     """Also from afar, where so many features are within reach that less must be looked for."""
     pairs = [(HILLS, Box(*HALVES)), (HILLS, Sphere(0.03)), (HILLS, Capsule(0.1, 0.3)), (HILLS, Cylinder(0.2, 0.3))]

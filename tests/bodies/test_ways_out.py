@@ -57,6 +57,7 @@ def _pose(rng: np.random.Generator, kinds: Any, gap: float) -> tuple[Array, Arra
     return one, two, turn, p + gap * n - turn @ q, n
 
 
+@pytest.mark.fast_cases(12)
 @pytest.mark.parametrize("first", EXPONENTS)
 @pytest.mark.parametrize("second", EXPONENTS)
 def test_no_direction_is_a_shorter_way_out(first: str, second: str) -> None:

@@ -32,6 +32,7 @@ def test_a_run_that_is_not(call: Call) -> None:
     assert call("run", "tiny", "--set", "mode=missed")[0] == 0
 
 
+@pytest.mark.slow
 def test_as_json(call: Call, tmp_path: Path) -> None:
     """With all digits, and in summary.json too."""
     status, output, _ = call("run", "tiny", "--accept", "--json", "--out", str(tmp_path / "out"))

@@ -23,6 +23,7 @@ def _pictures(folder: Path) -> list[str]:
     return sorted(path.stem for path in folder.glob("*.png"))
 
 
+@pytest.mark.slow
 def test_attractors_by_recurrences_which_go_on(call: Call, tmp_path: Path) -> None:
     path = tmp_path / "s.zarr"
     status, output, errors = call("basin", "bouncing_ball", *STARTS, *STROBE, "--out", str(path))
@@ -44,6 +45,7 @@ def test_attractors_by_recurrences_which_go_on(call: Call, tmp_path: Path) -> No
     assert _pictures(tmp_path / "more") == ["basins", "fractions", "shares"]
 
 
+@pytest.mark.slow
 def test_the_classifier_of_the_scenario_with_failures_apart(call: Call, tmp_path: Path) -> None:
     words = ("--over", "phase=0,3", "--over", "beta0=-0.1,0.01,0.2", "--set", "mode=free", "--set", "t_end=1")
     status, output, _ = call("basin", "dumbbell", *words, "--along", "beta0", "--out", str(tmp_path / "s.zarr"))
@@ -55,6 +57,7 @@ def test_the_classifier_of_the_scenario_with_failures_apart(call: Call, tmp_path
     assert _pictures(tmp_path / "s") == ["basins", "fractions", "shares"]
 
 
+@pytest.mark.slow
 def test_features_and_the_exponent_of_a_smooth_boundary(call: Call, tmp_path: Path) -> None:
     """The number of bounces within a short time changes across curves."""
     starts = ("--over", "start_phase=0:1.5:32", "--over", "speed=0.15:0.4:32", "--set", "t_end=0.05")

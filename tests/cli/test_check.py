@@ -14,6 +14,7 @@ from nonsmooth.plugins import registry
 Call = Callable[..., tuple[int, str, str]]
 
 
+@pytest.mark.slow
 def test_a_law_that_conforms(call: Call) -> None:
     """One line per property, with what it says, and a count."""
     status, output, _ = call("check", "stribeck", "--set", "static_friction=0.3", "--set", "decay=2")
@@ -67,6 +68,7 @@ class OneShape(FreeBody):
 """
 
 
+@pytest.mark.slow
 def test_a_class_of_a_file(call: Call, tmp_path: Path) -> None:
     """A map of one contact alone, which raises for more: it is asked for no more."""
     (tmp_path / "lone.py").write_text(_LONE)
@@ -109,6 +111,7 @@ def test_a_file_without_such_a_class(call: Call, tmp_path: Path) -> None:
     assert "Did you mean 'Lone'?" in errors
 
 
+@pytest.mark.slow
 def test_a_known_departure_is_no_failure(call: Call) -> None:
     """It is told, with the reason."""
     status, output, _ = call("check", "newton")
@@ -117,6 +120,7 @@ def test_a_known_departure_is_no_failure(call: Call) -> None:
     assert "Kane's example" in output
 
 
+@pytest.mark.slow
 def test_failures_are_told_and_status_is_1(call: Call) -> None:
     """A scenario whose summary fails: which property, and what was raised."""
     status, output, errors = call("check", "tiny", "--set", "mode=bad summary", "--json")
@@ -169,6 +173,7 @@ def test_there_is_one_of_every_kind() -> None:
     assert set(ONE_OF_A_KIND) == set(registry.GROUPS)
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
 @pytest.mark.parametrize("name", ONE_OF_A_KIND.values())
 def test_a_built_in_of_every_kind_is_checked(call: Call, name: str) -> None:
@@ -188,6 +193,7 @@ def test_an_example_takes_parameters(call: Call) -> None:
     assert "no principal moment" in call("check", "rod", "--set", "radius=0.5")[2]
 
 
+@pytest.mark.fast_cases(3)
 @pytest.mark.parametrize(
     ("words", "told"),
     [

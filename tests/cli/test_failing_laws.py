@@ -122,6 +122,7 @@ def test_a_law_that_runs_in_python_is_one_line_of_warning(call: Call, law: Path)
         assert word in told[0]
 
 
+@pytest.mark.slow
 def test_a_run_that_fails_says_where_and_saves_what_it_has(call: Call, law: Path, tmp_path: Path) -> None:
     results = tmp_path / "results"
     words = ("--set", "t_end=20", "--law", f"friction={law}:Lost", "--out", str(results), "--json")
@@ -139,6 +140,7 @@ def test_a_run_that_fails_says_where_and_saves_what_it_has(call: Call, law: Path
     assert (results / "solution.zarr").exists()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "owner", "function"),
     [

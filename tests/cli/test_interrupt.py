@@ -17,6 +17,7 @@ from nonsmooth.cli.running.interrupt import Interrupt
 Call = Callable[..., tuple[int, str, str]]
 
 
+@pytest.mark.slow
 def test_a_process_that_is_interrupted_saves_its_results(
     start: Callable[..., subprocess.Popen[str]], tmp_path: Path
 ) -> None:

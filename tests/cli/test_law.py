@@ -55,6 +55,7 @@ def law(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
     return "./my_law.py:Flat"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["dumbbell", "tiny"])
 def test_a_law_of_a_file_is_that_law(call: Call, law: str, name: str) -> None:
     words = ("run", name, "--set", "t_end=0.2", "--json", "--law")
@@ -165,6 +166,7 @@ def test_show_knows_the_class_of_a_file(call: Call, law: str) -> None:
     assert "unused     1.0      s/m   any finite number  nothing" in output
 
 
+@pytest.mark.slow
 def test_a_figure_says_that_laws_were_replaced(call: Call, law: str, monkeypatch: pytest.MonkeyPatch) -> None:
     from matplotlib.figure import Figure
 
@@ -223,6 +225,7 @@ def test_show_says_how_an_axis_is_written(call: Call) -> None:
     assert "numbers apart by colons" in output
 
 
+@pytest.mark.slow
 def test_a_run_with_a_law_of_a_file_is_looked_at_with_trust(call: Call, law: str) -> None:
     assert call("run", "tiny", "--set", "t_end=0.05", "--law", f"friction={law}", "--out", "results")[0] == 0
     status, _, errors = call("view", "results", "--html", "page.html")

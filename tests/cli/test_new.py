@@ -13,6 +13,7 @@ import pytest
 Call = Callable[..., tuple[int, str, str]]
 
 
+@pytest.mark.slow
 def test_its_own_tests_are_green_and_find_a_mistake(call: Call, tmp_path: Path) -> None:
     folder = tmp_path / "somewhere"
     status, output, errors = call("new", "plugin", "wet_sand", "--dir", str(folder))

@@ -28,6 +28,7 @@ def test_an_orbit(call: Call, tmp_path: Path) -> None:
     assert "--overwrite" in errors
 
 
+@pytest.mark.slow
 def test_along_a_parameter(call: Call, tmp_path: Path) -> None:
     status, output, _ = call("continue", *ASKED, "--over", "gamma=0.78:0.82", "--out", str(tmp_path / "out"))
     assert status == 0
@@ -61,6 +62,7 @@ def test_a_followed_diagram(call: Call, tmp_path: Path) -> None:
     ]
 
 
+@pytest.mark.slow
 def test_an_orbit_without_a_period(call: Call) -> None:
     within = "phi_m,phi_s,y rate,phi_m rate,phi_s rate"
     status, output, _ = call("orbit", "woodpecker", "--section", "phi_m=0", "--settle", "1", "--within", within)
@@ -69,6 +71,7 @@ def test_an_orbit_without_a_period(call: Call) -> None:
     assert "besides 1 along the motion" in output
 
 
+@pytest.mark.fast_cases(7)
 @pytest.mark.parametrize(
     ("words", "said"),
     [

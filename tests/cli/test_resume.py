@@ -28,6 +28,7 @@ def _same(report: dict[str, Any]) -> dict[str, Any]:
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["name", "file", "class"])
 def test_an_interrupted_run_ends_as_the_whole_one(
     call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str

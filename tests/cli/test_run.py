@@ -64,6 +64,7 @@ def test_the_summary_to_read(call: Call) -> None:
         assert words in output
 
 
+@pytest.mark.slow
 def test_nothing_is_written_and_no_heavy_package_imported(tmp_path: Path) -> None:
     code = (
         "import sys; from nonsmooth.cli.main import main; status = main(['run', 'tiny', '--json']); "

@@ -27,6 +27,7 @@ def _largest_file(size: int) -> Iterator[None]:
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
 
 
+@pytest.mark.slow
 def test_results_events_summary_and_figures(call: Call, tmp_path: Path) -> None:
     import xarray
 
@@ -49,6 +50,7 @@ def test_results_events_summary_and_figures(call: Call, tmp_path: Path) -> None:
         np.testing.assert_array_equal(saved["height"], saved["q"][:, 2])
 
 
+@pytest.mark.slow
 def test_a_disk_that_is_full_in_a_run_is_an_error_with_the_path(call: Call, tmp_path: Path) -> None:
     call("run", "tiny", "--out", str(tmp_path / "first"))  # so that what is compiled or cached is there already
     folder = tmp_path / "full"
@@ -75,6 +77,7 @@ def test_a_wrong_folder_is_found_before_the_run(call: Call, tmp_path: Path, fold
     assert errors.count("error: ") == 1
 
 
+@pytest.mark.slow
 def test_results_are_not_overwritten_unasked(call: Call, tmp_path: Path) -> None:
     assert call("run", "tiny", "--out", str(tmp_path))[0] == 0
     before = (tmp_path / "summary.json").read_bytes()

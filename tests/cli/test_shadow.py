@@ -15,6 +15,7 @@ ROOT = Path(__file__).parents[2]
 Start = Callable[..., subprocess.Popen[str]]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("file", "content", "words"),
     [
@@ -44,6 +45,7 @@ def test_the_file_that_hides_a_package_is_named(
     assert listed == ([f"{package}:", *left[package]] if words[0] == "list" else [])
 
 
+@pytest.mark.slow
 def test_a_script_is_told_when_it_imports_nonsmooth(tmp_path: Path) -> None:
     own = tmp_path / "bodies.py"
     own.touch()
@@ -59,6 +61,7 @@ def test_a_script_is_told_when_it_imports_nonsmooth(tmp_path: Path) -> None:
     assert done.stderr.count("HiddenPackage") == 1
 
 
+@pytest.mark.slow
 def test_another_folder_of_that_name_hides_nothing(start: Start, tmp_path: Path) -> None:
     (tmp_path / "laws").mkdir()
     process = start("list", "laws")

@@ -17,6 +17,7 @@ Call = Callable[..., tuple[int, str, str]]
 SET = ("--set", "t_end=0.1", "--executor", "serial")
 
 
+@pytest.mark.slow
 def test_a_sweep_its_status_and_its_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "s.zarr"
     over = "--over", "restitution=0.5:0.9:3", "--over", "gamma=0.3,0.6"
@@ -36,6 +37,7 @@ def test_a_sweep_its_status_and_its_picture(tmp_path: Path, capsys: pytest.Captu
     assert main(["study", "draw", str(path)]) == 2
 
 
+@pytest.mark.slow
 def test_draws(tmp_path: Path) -> None:
     draw = "--over", "gamma=0.3:0.9", "--over", "restitution=0.5:0.9", "--sample", "sobol:4", "--seed", "1"
     assert main(["sweep", "bouncing_ball", *draw, *SET, "--out", str(tmp_path / "s.zarr")]) == 0

@@ -65,6 +65,7 @@ def test_an_ordinary_script_is_no_scenario(call: Call, tmp_path: Path) -> None:
     assert "mine.py:MyScenario; a script is run by python itself." in errors
 
 
+@pytest.mark.slow
 def test_a_folder_of_results_is_opened_as_it_ran(call: Call, opened: list[str], tmp_path: Path) -> None:
     folder = tmp_path / "results"
     call("run", "tiny", "--set", "t_end=0.1", "--out", str(folder))

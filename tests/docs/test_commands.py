@@ -30,6 +30,7 @@ def environment(tmp_path_factory: pytest.TempPathFactory) -> Environment:
     return Environment(tmp_path_factory.mktemp("commands") / "environment")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SESSIONS)
 def test_the_commands_of_a_page_do_what_it_says(name: str, environment: Environment, tmp_path: Path) -> None:
     """A toml or yaml block with a file name in its first line is that file; the bash blocks are one session."""
@@ -49,6 +50,7 @@ def test_the_commands_of_a_page_do_what_it_says(name: str, environment: Environm
         assert text is None or text == output
 
 
+@pytest.mark.slow
 def test_the_law_of_the_page_is_the_one_that_is_written(environment: Environment, tmp_path: Path) -> None:
     environment.nonsmooth("new", "plugin", "felt", folder=tmp_path)
     law = (tmp_path / "felt" / "felt" / "friction.py").read_text(encoding="utf-8")

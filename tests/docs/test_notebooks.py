@@ -40,6 +40,7 @@ def test_each_cell_is_introduced_and_something_is_asserted(path: Path) -> None:
     assert any("assert" in _text(cell) for cell in cells if cell["cell_type"] == "code")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_it_runs(path: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """No cell fails or warns; those that end with a run show it in a frame."""

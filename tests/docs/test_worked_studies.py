@@ -22,11 +22,13 @@ def _run(name: str, *words: str) -> None:
         runpy.run_path(path, run_name="__main__")
 
 
+@pytest.mark.slow
 def test_drift_velocity(tmp_path: Path) -> None:
     _run("drift_velocity", str(tmp_path / "s.zarr"), str(tmp_path / "s.png"), "2")
     assert (tmp_path / "s.png").stat().st_size > 10_000
 
 
+@pytest.mark.slow
 def test_ball_bifurcation(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     _run("ball_bifurcation", str(tmp_path / "s.png"), "3")
     apart = [float(line.rpartition(" ")[2]) for line in capsys.readouterr().out.splitlines()]
@@ -35,6 +37,7 @@ def test_ball_bifurcation(tmp_path: Path, capsys: pytest.CaptureFixture[str]) ->
     assert (tmp_path / "s.png").stat().st_size > 10_000
 
 
+@pytest.mark.slow
 def test_fit(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     _run("fit", str(tmp_path / "s.png"), "2")
     lines = [line for line in capsys.readouterr().out.splitlines() if "standard errors" in line]

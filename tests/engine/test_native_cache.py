@@ -111,6 +111,7 @@ def _start(**environment: str) -> tuple[int, str]:
     return int(done.stdout), done.stderr
 
 
+@pytest.mark.slow
 def test_a_complete_cache_is_used_as_it_is(filled: Path) -> None:
     """Whatever numba is told about its own caches."""
     compiled, said = _start(NUMBA_CACHE_LOCATOR_CLASSES="InTreeCacheLocator")
@@ -127,6 +128,7 @@ print(len(passes.buffer), [name for name in ("scipy.linalg", "numpy.f2py", "trim
 """
 
 
+@pytest.mark.slow
 def test_a_second_start_compiles_nothing_and_loads_no_library_of_use_to_none() -> None:
     """A mechanism's equations are put together by the program; they, too, are found on disk."""
     for _ in range(2):

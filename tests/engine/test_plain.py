@@ -44,6 +44,7 @@ COMPILING = ("native", "memory")
 pytestmark = pytest.mark.skipif(PLAIN, reason="nothing is compiled")
 
 
+@pytest.mark.slow
 @pytest.mark.timeout(390)
 def test_compiled_and_plain_agree(tmp_path: Path) -> None:
     """Events and words alike, numbers to 1e-12 of the largest of their kind; and the cases enter the whole engine.

@@ -142,6 +142,7 @@ def test_a_watch_that_was_given_up_looks_again_in_the_next_run() -> None:
             model.run(1.0, progress=progress)
 
 
+@pytest.mark.slow
 def test_a_model_leaves_no_watch_behind() -> None:
     gc.collect()
     before = len(_half._watches)

@@ -51,6 +51,7 @@ def test_without_ffmpeg_the_remedy_is_told(tmp_path: Path, monkeypatch: pytest.M
         exporter(tmp_path / "a.mp4")
 
 
+@pytest.mark.slow
 def test_packages_are_asked_for_when_they_are_needed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     code = "import sys, nonsmooth.solution.exports as e; assert not {'matplotlib', 'xarray', 'PIL'} & {*sys.modules}"
     subprocess.run([sys.executable, "-c", code], check=True, timeout=60)
@@ -99,6 +100,7 @@ def test_the_command_refuses_before_it_runs(tmp_path: Path, capsys: pytest.Captu
     assert "is no option of .csv" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_a_stored_run_is_exported(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     folder = str(tmp_path / "stored")
     assert main(["run", "bouncing_ball", "--set", "t_end=0.1", "--out", folder]) == 0

@@ -26,6 +26,7 @@ def _frames(path: Path) -> Iterator[tuple[NDArray[np.uint8], int]]:
             yield np.asarray(image.convert("RGB")).copy(), int(image.info["duration"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["gif", "webp", "png"])
 def test_it_lasts_as_long_as_it_is_told_and_shows_the_motion(drift: ns.Solution, tmp_path: Path, kind: str) -> None:
     path = drift.export(tmp_path / f"run.{kind}", speed=0.5, frames_per_second=12, size=240)
@@ -38,6 +39,7 @@ def test_it_lasts_as_long_as_it_is_told_and_shows_the_motion(drift: ns.Solution,
     assert np.any(found[0][0] != found[-1][0])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", VIEWS)
 def test_nothing_is_cut_off(cradle: ns.Solution, tmp_path: Path, view: str) -> None:
     """Of balls without a ground the outermost pixels are white, and each view is another picture."""
@@ -57,6 +59,7 @@ def test_marks_are_the_contacts_that_stick_and_slip(drift: ns.Solution) -> None:
     assert sum(len(one[2]) for one in marks.places) > 0
 
 
+@pytest.mark.slow
 def test_a_gif_keeps_white_and_the_colours_of_marks(drift: ns.Solution, tmp_path: Path) -> None:
     path = drift.export(tmp_path / "a.gif", speed=0.1, frames_per_second=20, size=240)
     shown = [picture @ [1 << 16, 1 << 8, 1] for picture, _ in _frames(path)]

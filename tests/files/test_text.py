@@ -31,11 +31,13 @@ def _same(one: Any, other: Any) -> bool:
     return type(one) is type(other) and bool(one == other)
 
 
+@pytest.mark.slow
 @given(_tables)
 def test_our_reader_gives_back_what_was_written(tables: dict[str, Any]) -> None:
     assert _same(loads(text_of(tables)), tables)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.version_info < (3, 11), reason="the library of Python 3.10 has no reader")
 @given(_tables)
 def test_the_reader_of_the_library_does_too(tables: dict[str, Any]) -> None:

@@ -37,6 +37,7 @@ contacts:
 """
 
 
+@pytest.mark.slow
 @given(_tables)
 def test_what_was_written_is_read(tables: dict[str, Any]) -> None:
     assert _same(yaml_text.tables_of(yaml_text.text_of(tables)), tables)
@@ -51,6 +52,7 @@ def test_words_and_numbers() -> None:
     assert list(map(type, found[:8])) == list(map(type, numbers))
 
 
+@pytest.mark.fast_cases(12)
 @pytest.mark.parametrize("name", SCENARIOS)
 def test_every_scenario_comes_back(name: str, tmp_path: Path) -> None:
     system = registry.load("scenarios", name)().build()
@@ -120,6 +122,7 @@ def test_without_the_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     ns.load_system(path)
 
 
+@pytest.mark.slow
 def test_from_the_command_line(tmp_path: Path) -> None:
     path = _written(tmp_path)
     words = [sys.executable, "-m", "nonsmooth"]

@@ -71,6 +71,7 @@ def _deepest(mesh: TriangleMesh, shape: Frustum, q: Array) -> float:
     return float(max(deepest, -min(heights)))
 
 
+@pytest.mark.fast_cases(3)
 @pytest.mark.parametrize("part", PARTS)
 @pytest.mark.parametrize("name", SHAPES)
 def test_collisions_keep_momentum_and_energy(build: Any, name: str, part: str) -> None:
@@ -84,6 +85,7 @@ def test_collisions_keep_momentum_and_energy(build: Any, name: str, part: str) -
         assert max(_deepest(mesh, shape, q) for q in solution.q[::10]) < 1e-9
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("part", PARTS)
 @pytest.mark.parametrize("name", ROUNDED)
 def test_collisions_of_rounded_ones_keep_momentum_and_energy(build: Any, name: str, part: str) -> None:

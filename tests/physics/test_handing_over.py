@@ -46,6 +46,7 @@ def test_a_rod_that_slides_over_the_middle_of_a_flank_keeps_the_spin() -> None:
     assert float(np.max(np.abs(spins - spins[0]))) < 1e-9 * size
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(PLAIN, reason="thousands of searches")
 @pytest.mark.parametrize(("seed", "end"), [(4, 0.75), (70, 0.6)])
 def test_a_body_that_rolls_from_an_edge_onto_a_face_does_not_collide_there(seed: int, end: float) -> None:

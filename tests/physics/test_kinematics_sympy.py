@@ -100,6 +100,7 @@ def _zero(matrix: Any) -> bool:
     return bool(sp.simplify(matrix) == sp.zeros(*matrix.shape))
 
 
+@pytest.mark.slow
 def test_rotation_is_equation_2_and_angular_velocity_equation_3(paper: Derivation) -> None:
     """The columns of Eq. (2), and omega = theta' k - beta' e2' + gamma' e1."""
     theta, beta, gamma = paper.q[3:]

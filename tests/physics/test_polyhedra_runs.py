@@ -148,6 +148,7 @@ def _apart(halves: Array, others: Array, q: Array) -> float:
     return float(max(abs(n @ q[:3]) - others @ np.abs(n) - halves @ np.abs(axes.T @ n) for n in units))
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("drop", [3, 21, 35, 37])
 def test_a_box_that_falls_on_a_box_does_not_sink_in(drop: int) -> None:
     """While some corners slide others come down: no closing is missed between two events."""

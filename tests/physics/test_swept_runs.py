@@ -21,6 +21,7 @@ def _laws(friction: float, restitution: float) -> dict[str, Any]:
     return {"normal": Unilateral(), "friction": law, "impact": EnergeticImpact(restitution=restitution)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [2, 5])
 def test_colliding_rounded_bodies_keep_momentum_and_energy(seed: int) -> None:
     """Without friction and with e = 1, over 1 s, to 1e-9: rounded hulls, boxes and capsules, sharing slots."""

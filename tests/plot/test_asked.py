@@ -42,6 +42,7 @@ def test_a_run_without_contacts_has_no_gaps() -> None:
         plot.gaps(solution)
 
 
+@pytest.mark.slow
 def test_matplotlib_is_asked_for_when_it_is_needed(bounces: ns.Solution, monkeypatch: pytest.MonkeyPatch) -> None:
     code = "import sys, nonsmooth.plot.overview; assert 'matplotlib' not in sys.modules"
     subprocess.run([sys.executable, "-c", code], check=True, timeout=60)

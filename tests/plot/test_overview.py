@@ -13,6 +13,7 @@ _ALWAYS = "Energies and losses, stacked"
 _STRUCK, _BORNE = "Impulses of impacts", "Normal forces between events"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "t_end", "more"),
     [

@@ -96,6 +96,7 @@ def test_the_path_of_a_throw() -> None:
     np.testing.assert_allclose(_drawn(plot.path(solution, ball, times=[0.1, 0.2]))[0], [0.3, 0.5], rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_forces_on_a_slope(build: Any) -> None:
     """A ball that slides bears its share of the weight, and friction to the coefficient."""
     ball = Ball(0.1)

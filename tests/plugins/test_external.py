@@ -58,6 +58,7 @@ def _report(environment: Environment, folder: Path, *words: str) -> Any:
     return json.loads(environment.nonsmooth("run", *words, "--json", folder=folder)[0])
 
 
+@pytest.mark.slow
 def test_it_is_listed_with_its_source_and_shown_with_units(environment: Environment, tmp_path: Path) -> None:
     listed, errors = environment.nonsmooth("list", folder=tmp_path)
     assert errors == ""
@@ -70,6 +71,7 @@ def test_it_is_listed_with_its_source_and_shown_with_units(environment: Environm
     assert "growth_speed  0.1      m/s   > 0      speed of half the growth" in shown
 
 
+@pytest.mark.slow
 def test_it_passes_the_checks(environment: Environment, tmp_path: Path) -> None:
     # one process for all: each would load the engine
     code = "import sys; from nonsmooth.cli.main import main; print(*(main(['check', n]) for n in sys.argv[1:]))"
@@ -79,6 +81,7 @@ def test_it_passes_the_checks(environment: Environment, tmp_path: Path) -> None:
     assert checked.splitlines()[-1] == "0 0 0 0"
 
 
+@pytest.mark.slow
 def test_the_dumbbell_runs_with_its_laws_as_with_those_of_the_file(environment: Environment, tmp_path: Path) -> None:
     words = ("dumbbell", "--set", "t_end=0.3", "--law", "impact=softening,restitution=0.7")
     installed = _report(environment, tmp_path, *words, "--law", "friction=rubber,slow=0.3")
@@ -92,6 +95,7 @@ def test_the_dumbbell_runs_with_its_laws_as_with_those_of_the_file(environment: 
     assert abs(installed["energy_residual"]) < 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("slope", [0.4, 0.6])
 def test_its_scenario_is_right_on_both_sides_of_the_threshold(
     environment: Environment, tmp_path: Path, slope: float
@@ -104,6 +108,7 @@ def test_its_scenario_is_right_on_both_sides_of_the_threshold(
     assert report["summary"]["acceleration"] == pytest.approx(expected, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_scenario_file_takes_its_body_and_laws(environment: Environment, tmp_path: Path) -> None:
     (tmp_path / "roll.toml").write_text(_ROLL)
     report = _report(environment, tmp_path, "roll.toml")

@@ -138,6 +138,7 @@ def filled(x, p):
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(PLAIN, reason="nothing is compiled")
 def test_another_process_finds_a_law_until_it_changes(tmp_path: Path) -> None:
     """Compiled once, then found, as is one that allocates; compiled again for a new constant or a damaged file."""

@@ -131,6 +131,7 @@ def test_without_standard_error_nothing_is_written(monkeypatch: pytest.MonkeyPat
     _shown(on_standard_error(), 30.0)
 
 
+@pytest.mark.slow
 def test_nobody_waits_for_the_bar_to_be_imported() -> None:
     code = "import sys, nonsmooth.cli.main; assert 'rich' not in sys.modules"
     subprocess.run([sys.executable, "-c", code], check=True, timeout=60)

@@ -58,6 +58,7 @@ def _turned(one: Pose, turn: Rotation, shift: np.ndarray) -> Pose:
     return turn.apply(one[0]) + shift, np.roll((turn * own).as_quat(), 1)
 
 
+@pytest.mark.fast_cases(12)
 @pytest.mark.parametrize(("one", "two"), PAIRS)
 def test_every_pair_has_an_answer(one: str, two: str) -> None:
     """Near, far and overlapping: it says how, lies between its bounds, and hangs on no order and no frame."""
@@ -86,6 +87,7 @@ CONVEX = [pair for pair in PAIRS if "mesh" not in pair and pair[0] not in UNBOUN
 SHARP = "point", "box", "hull", "cylinder", "cylinder on feet", "cone", "disc"
 
 
+@pytest.mark.fast_cases(12)
 @pytest.mark.parametrize(("one", "two"), CONVEX)
 def test_along_the_normal_the_gap_is_the_way(one: str, two: str) -> None:
     """Convex bodies moved along the normal come as near as they are moved, to either side of touching.
@@ -270,6 +272,7 @@ def test_a_missing_library_says_what_to_install(monkeypatch: pytest.MonkeyPatch)
         ns.distance(Sphere(0.1), Sphere(0.1), by="coal")
 
 
+@pytest.mark.fast_cases(6)
 @pytest.mark.parametrize("shape", [EllipsoidSum(), RoundedLens(), Egg(), MovedShape(Egg(), x=2e-3)], ids=repr)
 @pytest.mark.parametrize("other", ["plane", "point", "box", "cylinder", "ellipsoid", "mesh"])
 def test_shapes_of_users(shape: ConvexShape, other: str) -> None:
@@ -318,6 +321,7 @@ print(tally.asked, tally.wrong)
 """
 
 
+@pytest.mark.slow
 def test_the_process_survives_random_queries() -> None:
     """Every pair, every way, poses wrong and right, deep and far: answers between bounds or errors by name."""
     done = subprocess.run([sys.executable, "-c", _CODE], capture_output=True, text=True, timeout=200, check=False)

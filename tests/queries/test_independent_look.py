@@ -21,6 +21,7 @@ def test_every_pair_of_the_table_is_looked_at() -> None:
     assert frozenset(("mesh",)) in {frozenset(pair.split("-")) for pair in PAIRS}
 
 
+@pytest.mark.fast_cases(4)
 @pytest.mark.parametrize("kind", DRAWN)
 def test_no_gap_is_wrong(kind: str) -> None:
     """Ours are what planes prove; what libraries say is within the error that they state."""

@@ -62,6 +62,7 @@ def test_planes_meshes_and_bodies_of_several_frames() -> None:
     assert found[1, 4].state == "overlapping"
 
 
+@pytest.mark.slow
 def test_it_is_the_same_in_any_order_and_as_pairs_say() -> None:
     """Against all pairs, asked one by one, with thirty boxes in a heap."""
     rng = np.random.default_rng(3)

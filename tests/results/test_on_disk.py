@@ -39,6 +39,7 @@ def solution(folder: Path) -> ns.Solution:
     return ns.simulate(balls(), 0.2, output=ns.Output(folder, "two balls"))
 
 
+@pytest.mark.slow
 def test_the_dataset_has_samples_events_labels_and_units(solution: ns.Solution, folder: Path) -> None:
     import xarray
 

@@ -86,6 +86,7 @@ def _reached(folder: Path) -> float:
     return float(SolutionFolder.opened(Output(folder)).attributes["t_end"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("share", [0.0, 0.4])
 def test_a_run_that_was_killed_goes_on_to_the_same_bits(whole: ns.Solution, tmp_path: Path, share: float) -> None:
     import xarray

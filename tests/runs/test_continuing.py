@@ -25,6 +25,7 @@ CUTS = (("dumbbell", 1.0, 4), ("dice_throw", 0.12, 2), ("rolling_disc", 0.3, 3),
 """Scenario, end time [s] and at how many times it is stopped."""
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(("name", "t_end", "times"), CUTS, ids=[cut[0] for cut in CUTS])
 def test_nothing_is_lost_by_stopping(name: str, t_end: float, times: int) -> None:
     """At random times, on the same model, once by way of a file."""

@@ -62,6 +62,7 @@ def test_copies_run_at_once_in_threads() -> None:
     assert [differences(alone, found[i]) for i in range(3)] == [[], [], []]
 
 
+@pytest.mark.slow
 def test_copies_read_the_tables_of_the_first() -> None:
     """Also where the first is gone, and where a run goes on with features that a search has found."""
     model = ns.assemble(scene(20, 1, 1, 0, 7))

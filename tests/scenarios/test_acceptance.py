@@ -50,6 +50,7 @@ def test_all_are_there() -> None:
     assert set(OTHERS) == set(registry.names("scenarios"))
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.skipif(PLAIN, reason="full runs take minutes in plain mode")
 @pytest.mark.parametrize("name", OTHERS)
 def test_another_run_is_not_accepted_for_the_default_one(name: str) -> None:
@@ -58,6 +59,7 @@ def test_another_run_is_not_accepted_for_the_default_one(name: str) -> None:
     assert not all(one.fulfilled for one in judged)
 
 
+@pytest.mark.fast_cases(12)
 @pytest.mark.skipif(PLAIN, reason="full runs take minutes in plain mode")
 @pytest.mark.parametrize(
     ("name", "given", "count"),

@@ -31,6 +31,7 @@ def _by_fcl(one: Body, two: Body, q: np.ndarray) -> float:
         return 0.0
 
 
+@pytest.mark.fast_cases(12)
 @pytest.mark.parametrize("pair", list(itertools.combinations_with_replacement(KNOWN, 2)), ids="-".join)
 def test_no_kind_passes_another(build: Any, pair: tuple[str, str]) -> None:
     """From 5 cm off along any direction to a height: the distance is that, and was more on the way.

@@ -138,6 +138,7 @@ def _legend(graph: TransitionGraph) -> list[str]:
     return [text.get_text() for text in draw(graph).subfigs[0].legends[0].get_texts()]
 
 
+@pytest.mark.slow
 def test_the_drawing_names_modes_and_numbers(sliding: ns.Solution, driven: ns.Solution) -> None:
     """Each mode is written where it stands, or in the list beside; the title says how many are missing."""
     graph = sliding.transition_graph()
@@ -207,6 +208,7 @@ def test_a_mode_that_gets_other_features_right_away_is_in_the_group_of_its_kind(
     assert whole.counts == {(rests, struck, "impact"): 2, (struck, rests, "impact"): 2}
 
 
+@pytest.mark.slow
 def test_the_list_of_groups_has_the_commonest_first(shaken: ns.Solution) -> None:
     graph = shaken.transition_graph()
     rows = next(text for text in _labels(graph) if "\n" in text and " x " in text).splitlines()
@@ -225,6 +227,7 @@ def test_modes_stand_apart(sliding: ns.Solution, driven: ns.Solution) -> None:
             assert all((x - u) ** 2 + (y - v) ** 2 > 0.2**2 for u, v in places[:i])
 
 
+@pytest.mark.slow
 def test_every_cause_has_a_colour() -> None:
     """And nobody who does not draw needs matplotlib."""
     from nonsmooth.solution import draw_graph

@@ -19,6 +19,7 @@ def test_a_grid_has_all_combinations_the_last_fastest() -> None:
     assert points.dims == {"a": 2, "b": 3}
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize("draw", [studies.random, studies.sobol, studies.latin_hypercube])
 def test_draws_are_the_same_for_the_same_seed_and_within_their_ranges(draw: Callable[..., studies.Sampling]) -> None:
     one, same, other = (draw(16, seed, n=(1.0, 2.0), seed=(-3.0, -2.0)).points() for seed in (1, 1, 2))

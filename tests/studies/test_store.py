@@ -44,6 +44,7 @@ def _client(path: Path, executor: str = "threads") -> subprocess.Popen[str]:
     raise AssertionError("nothing was stored within a minute")
 
 
+@pytest.mark.slow
 def test_a_client_that_is_killed_goes_on_to_the_same_bits(tmp_path: Path, whole: str) -> None:
     path = tmp_path / "s.zarr"
     client = _client(path)
@@ -107,6 +108,7 @@ def test_a_program_that_was_changed_does_not_go_on_there(
         begin(*other)
 
 
+@pytest.mark.slow
 def test_a_study_that_was_cut_off_as_it_was_made_begins_anew(tmp_path: Path) -> None:
     path = tmp_path / "s.zarr"
     whole = ball.digest(ball.study(3).run(path, executor="serial"))
@@ -128,6 +130,7 @@ def test_damage_is_found(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> 
     assert str(part) in told.err
 
 
+@pytest.mark.slow
 def test_a_file_that_cannot_be_written_whole_commits_nothing(tmp_path: Path) -> None:
     limit = "import resource, runpy; resource.setrlimit(resource.RLIMIT_FSIZE, (9000, 9000));"
     code = (

@@ -43,6 +43,7 @@ def test_derivatives_by_numbers_of_a_system() -> None:
     assert found.family.units[RADIUS] == "m"
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(PLAIN, reason="hundreds of runs take minutes in plain mode")
 def test_a_fit_passes_over_starts_that_overlap() -> None:
     """Of the heights that are tried some are within the plate."""
@@ -81,6 +82,7 @@ studies.Study(drop, studies.grid(height=[0.1]), ["impacts"], t_end=0.1).run("s.z
 """
 
 
+@pytest.mark.slow
 def test_a_script_that_its_processes_would_run_again_is_told(tmp_path: Path) -> None:
     pytest.importorskip("distributed")
     (tmp_path / "script.py").write_text(_SCRIPT, encoding="utf-8")

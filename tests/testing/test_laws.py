@@ -35,6 +35,7 @@ def _cases(dummies: Sequence[tuple[str, Any]]) -> pytest.MarkDecorator:
     return pytest.mark.parametrize(("name", "law"), dummies, ids=titles)
 
 
+@pytest.mark.fast_cases(8)
 @_cases(friction_dummies.DUMMIES)
 def test_friction(name: str, law: FrictionLaw) -> None:
     if PLAIN and name in ("compiled equals plain", "static limit"):
@@ -42,6 +43,7 @@ def test_friction(name: str, law: FrictionLaw) -> None:
     assert_caught(check_friction_law(law), name)
 
 
+@pytest.mark.slow
 @_slow
 @_cases(impact_dummies.DUMMIES)
 def test_impact(name: str, law: ImpactLaw) -> None:
@@ -53,6 +55,7 @@ def test_normal(name: str, law: NormalLaw) -> None:
     assert_caught(check_normal_law(law), name)
 
 
+@pytest.mark.fast_cases(6)
 @_slow
 @_cases(compliant_dummies.DUMMIES)
 def test_compliant(name: str, law: NormalLaw) -> None:
@@ -71,6 +74,7 @@ def test_stateful(name: str, law: FrictionLaw) -> None:
     assert_caught(check_friction_law(law), name)
 
 
+@pytest.mark.fast_cases(3)
 @_slow
 @_cases(traction_dummies.DUMMIES)
 def test_traction(name: str, law: TractionLaw) -> None:
@@ -95,6 +99,7 @@ def test_every_property_has_a_dummy() -> None:
         assert {prop.name for prop in check(example)} <= broken
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize(
     "properties",
     [
@@ -127,6 +132,7 @@ def test_message_names_all() -> None:
     assert isinstance(failure, AssertionError)
 
 
+@pytest.mark.slow
 @_slow
 def test_smallest_input() -> None:
     """A fault above a threshold is shrunk to a round number next to it, other numbers to their simplest."""
@@ -157,6 +163,7 @@ def test_source_lines(function: Any, name: str, words: tuple[str, ...]) -> None:
         assert word in str(found[name])
 
 
+@pytest.mark.slow
 @_slow
 def test_a_departure_must_be_one() -> None:
     """A class that says it departs from a property that it has is told so."""

@@ -52,6 +52,7 @@ def _cases(dummies: Sequence[tuple[str, Any]]) -> pytest.MarkDecorator:
     return pytest.mark.parametrize(("name", "thing"), dummies, ids=[f"{n} {i}" for i, (n, _) in enumerate(dummies)])
 
 
+@pytest.mark.fast_cases(12)
 @_cases(body_dummies.DUMMIES)
 def test_body(name: str, thing: Body) -> None:
     assert_caught(check_body(thing), name)
@@ -76,6 +77,7 @@ def test_a_library_is_looked_at_if_it_is_there() -> None:
                 prop()
 
 
+@pytest.mark.fast_cases(3)
 @_cases(joint_dummies.DUMMIES)
 def test_joint(name: str, thing: Joint) -> None:
     assert_caught(check_joint(thing), name)
@@ -107,6 +109,7 @@ def test_guard(name: str, thing: Guard) -> None:
     assert_caught(check_guard(thing), name)
 
 
+@pytest.mark.slow
 def test_a_load_that_is_tied_to_space() -> None:
     """A weight turns with nobody; where that is said, of one or of its class, nothing fails."""
     weight = load_dummies.FAULTS["frame invariance"]

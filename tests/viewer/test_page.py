@@ -28,6 +28,7 @@ def run(request: pytest.FixtureRequest) -> ns.Solution:
     return _run(request.param)
 
 
+@pytest.mark.fast_cases(3)
 def test_events_are_those_of_the_run(run: ns.Solution) -> None:
     told, arrays = decoded(page(run, "", 4000))
     events = run.events
@@ -44,6 +45,7 @@ def test_events_are_those_of_the_run(run: ns.Solution) -> None:
         assert max(len(word) for word in told["words"]) < 120
 
 
+@pytest.mark.fast_cases(2)
 def test_bodies_are_where_they_were(run: ns.Solution) -> None:
     told, arrays = decoded(page(run, "", 4000))
     frame = 0
@@ -58,6 +60,7 @@ def test_bodies_are_where_they_were(run: ns.Solution) -> None:
         frame += len(body.frames)
 
 
+@pytest.mark.fast_cases(3)
 def test_energies_step_at_events_by_what_is_lost_there(run: ns.Solution) -> None:
     _, arrays = decoded(page(run, "", 4000))
     events = run.events
@@ -71,6 +74,7 @@ def test_energies_step_at_events_by_what_is_lost_there(run: ns.Solution) -> None
     np.testing.assert_array_equal(before[:, 1], after[:, 1])
 
 
+@pytest.mark.fast_cases(2)
 def test_impulses_are_those_that_moving_bodies_got(run: ns.Solution) -> None:
     _, arrays = decoded(page(run, "", 4000))
     found = np.linalg.norm(arrays["event_push"] + arrays["event_rub"], axis=1)

@@ -152,6 +152,7 @@ def test_many_triangles_are_warned_of(monkeypatch: pytest.MonkeyPatch, tmp_path:
         MeshFile(str(path), unit="m")
 
 
+@pytest.mark.slow
 def test_a_fine_surface_that_passes_through_itself_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of 204 800 triangles, a tip pushed through the far side; where there are too many near pairs, it is said."""
     from bodies.meshes import crossings

@@ -117,6 +117,7 @@ def test_surfaces_too_fine_for_a_body_are_refused_with_their_number(monkeypatch:
     assert patches_for_ball(features_of(*box()), 0.5).count == 1
 
 
+@pytest.mark.slow
 def test_much_memory_and_time_are_told_beforehand(capfd: pytest.CaptureFixture[str]) -> None:
     """From some 20 000 triangles on for a small ball, from fewer for a body that touches more at once."""
     fewer, more = (features_of(*hills(n)) for n in (55, 75))
@@ -138,6 +139,7 @@ def test_much_memory_and_time_are_told_beforehand(capfd: pytest.CaptureFixture[s
     assert told[2] in "1234"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("diameter", [0.05, 0.3])
 def test_pairs_are_told_by_a_part_of_the_faces(monkeypatch: pytest.MonkeyPatch, diameter: float) -> None:
     """Of surfaces whose parts differ in size."""

@@ -129,6 +129,7 @@ def test_a_mesh_of_a_block_rocks_as_the_block(direction: float) -> None:
     np.testing.assert_allclose(two.u_end, one.u_end, rtol=0, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_nothing_heavy_is_imported_at_the_start() -> None:
     code = "import sys, bodies; print(sorted({'trimesh', 'fcl', 'coal', 'vhacdx'} & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True)

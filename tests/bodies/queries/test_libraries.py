@@ -36,6 +36,7 @@ def ask(library: Library, first: Shape, one: Place, second: Shape, two: Place) -
     return library.separation(solids[0], one, solids[1], two)
 
 
+@pytest.mark.fast_cases(12)
 @each
 @pytest.mark.parametrize(("one", "two"), list(itertools.combinations_with_replacement(ALL, 2)))
 def test_pairs(library: Library, one: str, two: str) -> None:
@@ -232,6 +233,7 @@ print(count >= 1700, missed, library.separation(ball, HERE, ball, HERE).overlap)
 """
 
 
+@pytest.mark.slow
 @each
 def test_overlaps_do_not_end_the_process(library: Library) -> None:
     """Depths of 1e-9 to 1e-4 m, for which signed queries abort, and concentric spheres, which they hang on."""
@@ -272,6 +274,7 @@ print(all(a.distance == b.distance and np.array_equal(a.first, b.first) for a, b
 """
 
 
+@pytest.mark.slow
 def test_objects_live_as_long_as_they_are_needed() -> None:
     """Shapes and arrays that nobody else holds, and others made and forgotten between two queries."""
     done = subprocess.run([sys.executable, "-c", _LIVES], capture_output=True, text=True, timeout=120, check=False)

@@ -127,6 +127,7 @@ def test_wrong_input() -> None:
         BallBox(box_width=0.02)
 
 
+@pytest.mark.slow
 def test_figures(tmp_path: Path, runs: dict[float, tuple[BallBox, ns.Solution]]) -> None:
     """Every ball in every view, both histories with a line per run."""
     pytest.importorskip("matplotlib")

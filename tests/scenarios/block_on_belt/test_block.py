@@ -35,6 +35,7 @@ def _cycle(scenario: BlockOnBelt) -> tuple[float, float, float]:
     return float(done.t[-1]) + stick, stick / (float(done.t[-1]) + stick), float(done.y[0, -1])
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize("given", [{}, OTHER, {"damping": 0.3}])
 def test_limit_cycle(given: dict[str, float]) -> None:
     """Period, share of stick and place of the catch agree with scipy to 1e-8, and so do two cycles in a row."""
@@ -107,6 +108,7 @@ def test_wrong_input() -> None:
             BlockOnBelt(**wrong)
 
 
+@pytest.mark.slow
 def test_reports_and_figures(tmp_path: Path) -> None:
     """Coordinates and end agree; one figure of a run, one of the gallery, each with two panels."""
     pytest.importorskip("matplotlib")

@@ -75,6 +75,7 @@ def _by_map(scenario: BouncingBall, count: int) -> Any:
     return np.array(times)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("start", "count"),
     [
@@ -148,6 +149,7 @@ def test_wrong_input(wrong: dict[str, float], words: tuple[str, ...]) -> None:
         assert word in str(caught.value)
 
 
+@pytest.mark.slow
 def test_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The gallery, here over fewer runs, and the figures of two runs can be drawn, with words at all axes."""
     pytest.importorskip("matplotlib")

@@ -172,6 +172,7 @@ def test_wrong_input() -> None:
         assert word in str(caught.value)
 
 
+@pytest.mark.slow
 def test_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The gallery, here over fewer runs, can be drawn, and tells of its progress."""
     pytest.importorskip("matplotlib")

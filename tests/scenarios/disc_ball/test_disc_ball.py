@@ -73,6 +73,7 @@ CASES: list[dict[str, float]] = [
 ]
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("case", CASES, ids=str)
 def test_against_springs_in_real_time(case: dict[str, float]) -> None:
     """Without symmetry there is no closed form; the springs say the same to 1e-8."""
@@ -130,6 +131,7 @@ def test_wrong_input() -> None:
         assert word in str(caught.value)
 
 
+@pytest.mark.slow
 def test_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The gallery, here over fewer runs, can be drawn, and tells of its progress."""
     pytest.importorskip("matplotlib")

@@ -9,6 +9,7 @@ import nonsmooth as ns
 from scenarios.dominoes.scenario import Dominoes
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("spacing", "lean"), [(0.014, 0.03), (0.02, 0.05)])
 def test_the_first_strike_is_that_of_a_fall_about_the_edge(spacing: float, lean: float) -> None:
     """And the wave then runs faster and faster, from each to the next."""
@@ -40,6 +41,7 @@ def test_no_two_dominoes_overlap() -> None:
         assert np.max(along[beside]) <= -half[0] + 1e-8
 
 
+@pytest.mark.slow
 def test_the_account_of_the_impacts_closes() -> None:
     """In those of many contacts some stay at rest under load while others act: what they give back counts, too."""
     # every one strikes the next, whatever else collides

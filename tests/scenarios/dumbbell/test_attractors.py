@@ -23,6 +23,7 @@ REFERENCE = {
 Runner = Callable[..., Any]
 
 
+@pytest.mark.slow
 def test_reference_drift_has_the_velocity_of_the_compliant_limit(dumbbell: Runner) -> None:
     """That of an integration through every contact on stiff springs, without an impact law and without events."""
     on_springs, _ = drift(2e-5, 100, 4.0)

@@ -26,6 +26,7 @@ def gallery() -> dict[str, Any]:
     return dict(figures)
 
 
+@pytest.mark.slow
 def test_gallery_has_the_figures_of_the_paper(gallery: dict[str, Any]) -> None:
     assert {int(stem[3:5]) for stem in gallery} == EXPECTED
 

@@ -91,6 +91,7 @@ def _independent(scenario: EggOnTable, t_end: float) -> Array:
     return np.asarray(solve_ivp(rates, (0.0, t_end), start, "DOP853", rtol=1e-12, atol=1e-13).y[:, -1])
 
 
+@pytest.mark.slow
 def test_against_other_equations() -> None:
     """Normal, angular velocity and speed after 0.6 s of sliding, integrated by scipy from the support function."""
     scenario, solution = _run(ns.EventDriven(tolerance=1e-12), t_end=0.6)
@@ -102,6 +103,7 @@ def test_against_other_equations() -> None:
     assert np.linalg.norm(solution.u_end[:3]) == pytest.approx(np.linalg.norm(found[6:]), abs=1e-7)
 
 
+@pytest.mark.slow
 def test_figures(tmp_path: Path) -> None:
     scenario, solution = _run()
     figure = scenario.figures(solution)["history"]

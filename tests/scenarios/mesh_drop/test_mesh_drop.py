@@ -107,6 +107,7 @@ def test_wrong_input() -> None:
         MeshDrop(unit="miles")
 
 
+@pytest.mark.slow
 def test_figures(tmp_path: Path, run: tuple[MeshDrop, ns.Solution]) -> None:
     """Six poses with the part in each, and two curves over time."""
     pytest.importorskip("matplotlib")

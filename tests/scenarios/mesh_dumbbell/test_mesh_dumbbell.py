@@ -26,6 +26,7 @@ def test_half_triangles_are_refused() -> None:
         MeshDumbbell(subdivisions=1.5)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(PLAIN, reason="minutes in plain mode")
 def test_more_triangles_are_nearer(tmp_path: Path) -> None:
     """The second impact is late by less; what is drawn is what the summary says."""

@@ -48,6 +48,7 @@ CASES: list[dict[str, float]] = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", CASES, ids=str)
 def test_against_springs_in_real_time(case: dict[str, float]) -> None:
     """The multiple impact is the limit of springs, whatever their scale: the same velocities to 1e-8."""
@@ -80,6 +81,7 @@ def _with_losses(scenario: NewtonsCradle) -> Any:
     return y[n - 1 :]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("restitution", [0.5, 0.9])
 @pytest.mark.parametrize("exponent", [1.0, 1.5])
 @pytest.mark.parametrize(
@@ -138,6 +140,7 @@ def test_wrong_input(wrong: dict[str, float], words: tuple[str, ...]) -> None:
         assert word in str(caught.value)
 
 
+@pytest.mark.slow
 def test_figures(tmp_path: Path) -> None:
     """One figure of a run, two of the gallery, with title, axes and one line per row of balls."""
     pytest.importorskip("matplotlib")

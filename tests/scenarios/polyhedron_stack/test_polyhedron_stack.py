@@ -17,6 +17,7 @@ def test_it_stands() -> None:
     assert np.max(np.abs(solution.q - solution.q[0])) <= 1e-11
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("push", [0.1, 0.25])
 def test_the_uppermost_slides_as_far_as_friction_lets_it(push: float) -> None:
     tower = PolyhedronStack(push=push)
@@ -27,6 +28,7 @@ def test_the_uppermost_slides_as_far_as_friction_lets_it(push: float) -> None:
     assert all(one.fulfilled for one in criteria)
 
 
+@pytest.mark.slow
 def test_figures() -> None:
     pytest.importorskip("matplotlib")
     tower = PolyhedronStack(t_end=0.05)

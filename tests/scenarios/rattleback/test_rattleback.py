@@ -42,6 +42,7 @@ def test_without_skew_it_does_not_turn_round() -> None:
     assert np.ptp(scenario.spins(solution.q, solution.u)) < 0.01
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
 def test_rolling_keeps_the_energy_over_a_hundred_oscillations() -> None:
     """To 1e-9 of kinetic and potential energy, through the reversal; the spin is that of other equations."""
@@ -81,6 +82,7 @@ def test_slip_costs_spin() -> None:
     assert most[0] > most[1] + 1.0 > most[2] + 1.5
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
 def test_figures(tmp_path: Path) -> None:
     scenario, solution = _run(t_end=6.0)

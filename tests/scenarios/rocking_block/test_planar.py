@@ -186,6 +186,7 @@ def test_wrong_input() -> None:
             RockingBlock(**wrong)
 
 
+@pytest.mark.slow
 def test_reports_and_figures(tmp_path: Path) -> None:
     """Coordinates and end agree; one figure of a run, three of the gallery."""
     pytest.importorskip("matplotlib")

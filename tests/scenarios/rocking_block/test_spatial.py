@@ -73,6 +73,7 @@ def test_mirror_image() -> None:
     assert np.max(np.abs(one.lean(runs[0])[:, 1])) > 0.05
 
 
+@pytest.mark.slow
 def test_figures(tmp_path: Path) -> None:
     """One figure with two panels; coordinates and end agree."""
     pytest.importorskip("matplotlib")

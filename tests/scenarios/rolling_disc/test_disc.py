@@ -73,6 +73,7 @@ def test_another_rate_is_not_steady(pace: float) -> None:
     assert np.max(np.abs(solution.q[:, :2])) > 0.01 * scenario.radius
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("pace", "viscosity"), [(0.8, 0.0), (1.2, 0.0), (1.0, 0.05), (0.8, 0.05)])
 def test_rolling_by_scipy(pace: float, viscosity: float) -> None:
     """Tilt, precession and rolling velocity follow the equations of a disc that cannot slip."""
@@ -172,6 +173,7 @@ def test_wrong_input() -> None:
             RollingDisc(**{name: value})
 
 
+@pytest.mark.slow
 def test_reports_and_figures(tmp_path: Path) -> None:
     """Coordinates, summary and end agree; two figures of a run."""
     pytest.importorskip("matplotlib")

@@ -59,6 +59,7 @@ def _pinned(scenario: SliderCrank) -> Any:
     return solve_ivp(slope, (0.0, 0.02), start, method="DOP853", rtol=1e-13, atol=1e-15, events=room)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["newton", "energetic"])
 def test_first_impact(law: str) -> None:
     """Its time is that of the free motion to 1e-9 s, its rates too, and both upper corners hit at once."""
@@ -121,6 +122,7 @@ def test_wrong_input() -> None:
         SliderCrank(law="poisson")
 
 
+@pytest.mark.slow
 def test_figures(tmp_path: Path) -> None:
     """One panel per run."""
     pytest.importorskip("matplotlib")

@@ -43,6 +43,7 @@ def test_both_sides_of_the_threshold(tilt: float, end_radius: float) -> None:
         assert _struck(tilt=tilt, end_radius=end_radius, friction=critical * (1.0 + side)) == (side > 0.0)
 
 
+@pytest.mark.slow
 def test_threshold_of_a_sharp_rod() -> None:
     """With ever smaller ends the least critical friction goes to 4/3, at tan(angle) = 2, linearly in the radius."""
     exact = 4.0 / 3.0
@@ -148,6 +149,7 @@ def test_slip_to_stick_against_an_independent_integration() -> None:
     assert events.time[1] == pytest.approx(done.t[-1], abs=1e-8)
 
 
+@pytest.mark.slow
 def test_jamming_against_springs() -> None:
     """Where sliding runs into the paradox the end stops at once, as it does on ever stiffer springs."""
     scenario, solution = _run(friction=2.0, tilt=0.5, rate=5.0, speed=3.0, t_end=0.03)
@@ -189,6 +191,7 @@ def test_wrong_input(tilt: float) -> None:
         assert word in str(caught.value)
 
 
+@pytest.mark.slow
 def test_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The gallery, here over fewer runs, and the figure of a run can be drawn, and progress is told."""
     pytest.importorskip("matplotlib")

@@ -95,6 +95,7 @@ def _independent(scenario: TippeTop, t_end: float) -> Any:
     return solve_ivp(slope, (0.0, t_end), start, method="DOP853", events=stem, rtol=1e-10, atol=1e-13)
 
 
+@pytest.mark.slow
 def test_against_an_independent_integration() -> None:
     """Axis, momentum and time of the stem's first contact agree to 1e-6 with other coordinates and another solver."""
     scenario, solution = _run(EXACT, t_end=2.0)
@@ -192,6 +193,7 @@ def test_wrong_input() -> None:
         assert word in str(caught.value)
 
 
+@pytest.mark.slow
 def test_figures(tmp_path: Path) -> None:
     """The gallery and the figure of a run can be drawn, and progress is told."""
     pytest.importorskip("matplotlib")

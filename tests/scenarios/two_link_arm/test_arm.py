@@ -122,6 +122,7 @@ def test_wrong_input(wrong: dict[str, float], words: tuple[str, ...]) -> None:
         assert word in str(caught.value)
 
 
+@pytest.mark.slow
 def test_figures(tmp_path: Path) -> None:
     """Titles, labels, and as many lines as runs."""
     pytest.importorskip("matplotlib")

@@ -34,6 +34,7 @@ def test_published_limit_cycle(long: Any) -> None:
     assert descent == pytest.approx(19.5e-3, abs=1e-4)
 
 
+@pytest.mark.slow
 def test_against_time_stepping(long: Any) -> None:
     """Moreau's scheme, which sees no events, has the same cycle to the order of its step."""
     scenario, solution = long["newton"]
@@ -111,6 +112,7 @@ def test_a_short_run_has_no_cycle() -> None:
     assert np.isnan(summary["cycle_duration"])
 
 
+@pytest.mark.slow
 def test_figures(tmp_path: Path) -> None:
     """Of a run of any length, and of the gallery."""
     pytest.importorskip("matplotlib")

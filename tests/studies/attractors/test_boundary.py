@@ -29,6 +29,7 @@ def _escapes(x: Floats) -> Floats:
     return np.mod(steps, 2.0)
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize(
     ("inside", "tolerance"),
     [(_X < 0.5, 1e-12), (_X + 0.37 * _Y < 0.7, 1e-12), ((_X - 0.5) ** 2 + (_Y - 0.5) ** 2 < 0.1, 0.01)],

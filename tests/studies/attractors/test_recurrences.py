@@ -35,6 +35,7 @@ def _orbit(scenario: BouncingBall, n: int) -> Floats:
     return np.stack([height, rise - GRAVITY * tau], axis=1)
 
 
+@pytest.mark.slow
 @runs
 def test_the_ball_bounces_in_one_period_in_two_or_rests(tmp_path: Path) -> None:
     """Between the folds of n = 2 and n = 3 there are both orbits, and rest, as the table never pushes a ball off."""
@@ -64,6 +65,7 @@ def test_the_ball_bounces_in_one_period_in_two_or_rests(tmp_path: Path) -> None:
     assert [word.partition("_")[2] for word in shares].count("period_1") == 2
 
 
+@pytest.mark.slow
 @runs
 def test_below_its_fold_there_is_rest_alone_and_far_above_one_set_that_does_not_repeat(tmp_path: Path) -> None:
     draws = studies.random(8, 5, start_phase=(0.0, 6.28), speed=(0.1, 0.4))
@@ -76,6 +78,7 @@ def test_below_its_fold_there_is_rest_alone_and_far_above_one_set_that_does_not_
     assert (found.period == 0).all()
 
 
+@pytest.mark.slow
 @runs
 def test_they_agree_with_the_classifier_of_the_dumbbell(tmp_path: Path) -> None:
     """Runs to which it gives a name go to one attractor where they have the same one; "other" may be many."""

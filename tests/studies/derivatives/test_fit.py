@@ -34,6 +34,7 @@ def _measured(family: Family) -> Floats:
     return np.array(rows)
 
 
+@pytest.mark.slow
 def test_restitution_and_friction_of_a_drift() -> None:
     """From positions with 0.02 mm of noise, some of them missing, and a start that is far off."""
     family = Family.of(DumbbellScenario(mode="drift"), ns.EventDriven())
@@ -65,6 +66,7 @@ def test_bad_input() -> None:
         fit(scenario, {"friction": (0.1, 0.4)}, at=TIMES, measured=zeros, observe=lambda state: "far", starts=2)
 
 
+@pytest.mark.slow
 def test_what_changes_nothing_is_not_told() -> None:
     """A rod that slides and never strikes has no restitution: any value fits, none with an error of 0."""
     times = np.linspace(0.01, 0.1, 6)

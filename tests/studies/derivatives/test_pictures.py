@@ -47,6 +47,7 @@ def test_a_line_is_the_derivative_times_the_parameter_broken_at_events() -> None
         pictures.sensitivities(found, "ball.vzz")
 
 
+@pytest.mark.slow
 def test_the_ellipse_of_a_fit_is_as_wide_as_its_standard_errors() -> None:
     times = np.linspace(0.02, 0.3, 12)
     exact = FAMILY.model().run(0.3).at(times).q[:, 2]
@@ -65,6 +66,7 @@ def test_the_ellipse_of_a_fit_is_as_wide_as_its_standard_errors() -> None:
     assert np.sqrt(np.sum(rest**2) / (len(times) - 2)) == pytest.approx(found.deviation)
 
 
+@pytest.mark.slow
 def test_one_parameter_has_no_ellipse() -> None:
     times = np.linspace(0.02, 0.1, 5)
     falls = 0.11 - 9.81 * times**2 / 2.0

@@ -63,6 +63,7 @@ def test_what_has_no_effect_has_the_derivative_0_without_an_error() -> None:
     assert found.error.tolist() == [0.0]
 
 
+@pytest.mark.slow
 def test_a_ball_that_slides_in_space() -> None:
     """It slides from the start: friction takes mu g along the slip, and the spin makes it roll in the end."""
     family = Family(_ball, {"height": 0.0, "friction": 0.2, "speed": 1.0}, ns.EventDriven(tolerance=1e-12))
@@ -114,6 +115,7 @@ CASES: dict[str, tuple[dict[str, Any], tuple[str, ...], float]] = {
 }
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("name", CASES)
 def test_the_error_is_small_and_told(name: str) -> None:
     """Differences of eighth order with steps of their own agree to 1e-7 of the largest derivative."""

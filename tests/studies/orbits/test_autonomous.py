@@ -92,6 +92,7 @@ def _hops(period: float) -> Orbit:
     return orbit(family, section=TOP, within=("z", "z rate"))
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize("period", [0.5, 1.0, 1.7])
 def test_an_unstable_orbit_in_closed_form(period: float) -> None:
     """Period, height and the only multiplier there is within the section."""
@@ -105,6 +106,7 @@ def test_an_unstable_orbit_in_closed_form(period: float) -> None:
     assert "besides 1 along the motion, which the section of generalised.z rate takes away" in str(found)
 
 
+@pytest.mark.slow
 def test_it_is_followed() -> None:
     """The period grows as the impact takes more away."""
     branch = continuation(_hops(1.0), "restitution", (0.65, 0.8), most=4)
@@ -119,6 +121,7 @@ def _woodpecker() -> Orbit:
     return orbit(Woodpecker(), section=Crossing("phi_m"), settle=2.0, within=CYCLE)
 
 
+@pytest.mark.slow
 def test_the_woodpecker_pecks_its_way_down() -> None:
     """Glocker (1995): a limit cycle of about 0.146 s and 19.5 mm, here as it goes on when it has settled for long.
 
@@ -145,6 +148,7 @@ def test_parameters_keep_their_units() -> None:
     assert Crossing("phi_m").watched(Family.of(Woodpecker())).label("bird_arm") == "bird_arm [m]"
 
 
+@pytest.mark.slow
 def test_the_section_takes_the_multiplier_1_away() -> None:
     """After a fixed time the same perturbations have the same multipliers, and 1 along the motion."""
     found = _woodpecker()

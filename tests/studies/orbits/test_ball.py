@@ -47,6 +47,7 @@ def test_multipliers(gamma: float) -> None:
     assert "impact of 'plate - ball'" in str(found)
 
 
+@pytest.mark.slow
 def test_fold_and_period_doubling() -> None:
     """Followed both ways: down round the fold, where the orbit turns into the unstable one, and up."""
     below = continuation(_orbit(0.37), "gamma", (0.3, 0.38))
@@ -65,6 +66,7 @@ def test_fold_and_period_doubling() -> None:
     assert np.min(np.abs(doubling.orbit.multipliers + 1.0)) < 1e-8
 
 
+@pytest.mark.slow
 def test_a_period_that_the_system_has_not_is_refused() -> None:
     found = _orbit(0.8)
     with pytest.raises(ns.InvalidInput, match=r"period must be one of the system at frequency = 24, .*period=lambda"):
@@ -74,6 +76,7 @@ def test_a_period_that_the_system_has_not_is_refused() -> None:
     assert branch.orbits[0].period == pytest.approx(1.0 / branch.values[0], rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_branch_goes_where_the_start_of_its_system_would_not() -> None:
     """A ball that is placed on the table, and would be within a larger one."""
     radius = "bodies.ball.radius"
@@ -84,6 +87,7 @@ def test_a_branch_goes_where_the_start_of_its_system_would_not() -> None:
     np.testing.assert_allclose(trace, trace[0], atol=1e-8)
 
 
+@pytest.mark.slow
 def test_a_start_that_follows_the_parameter_ends_the_branch() -> None:
     """The phase of the table, by default that of the orbit, has no derivative at the fold; no event changes there."""
     found = orbit(BouncingBall(gamma=0.36, restitution=E), 0.04, within=("z", "vz"))
@@ -92,6 +96,7 @@ def test_a_start_that_follows_the_parameter_ends_the_branch() -> None:
     assert "sequence" not in [one.kind for one in branch.special]
 
 
+@pytest.mark.slow
 def test_lyapunov_exponents() -> None:
     """Of a spiralling orbit both are f ln e, in the mean over a turn; of chaos one is positive."""
     scenario = BouncingBall(gamma=0.8, restitution=E)
@@ -113,6 +118,7 @@ def _turning(x: float, y: float, z: float) -> ns.System:
     return system
 
 
+@pytest.mark.slow
 def test_lyapunov_exponents_of_a_ball_that_turns() -> None:
     """What it is turned by neither grows nor shrinks, in axes that turn with it."""
     found = lyapunov(Family(_turning, {"x": 0.1, "y": 0.3, "z": 0.0}), 0.04, 10, within=("z", "vz", "rx", "ry", "rz"))
@@ -120,6 +126,7 @@ def test_lyapunov_exponents_of_a_ball_that_turns() -> None:
     assert np.mean(found.exponents[3:]) == pytest.approx(25.0 * math.log(E), rel=1e-8)
 
 
+@pytest.mark.slow
 def test_a_whole_turn_leads_to_the_same_orientation() -> None:
     """Of whose two quaternions a period ends with the other one."""
     found = orbit(Family(_turning, {"x": 0.0, "y": 1.0, "z": 0.0}), 0.04, within=("z", "vz", "rx", "ry", "rz"))
@@ -129,6 +136,7 @@ def test_a_whole_turn_leads_to_the_same_orientation() -> None:
         orbit(Family(_turning, {"x": 0.0, "y": 0.9, "z": 0.0}), 0.04, within=("z", "vz", "rx", "ry", "rz"))
 
 
+@pytest.mark.slow
 def test_what_is_no_orbit() -> None:
     scenario = BouncingBall(gamma=0.8)
     with pytest.raises(ns.InvalidInput, match="period must be positive and finite, but it is 0"):

@@ -31,6 +31,7 @@ def circling() -> Orbit:
     return orbit(scenario, PERIOD, settle=4.0, within=ALL, symmetries=ROLLS)
 
 
+@pytest.mark.slow
 def test_the_dumbbell_circles(circling: Orbit) -> None:
     """A run that nobody turns back has the heading and the path that the orbit says."""
     assert circling.residual < 1e-12
@@ -49,6 +50,7 @@ def test_the_dumbbell_circles(circling: Orbit) -> None:
     assert spin == pytest.approx(0.417621407, abs=1e-7)
 
 
+@pytest.mark.slow
 def test_it_is_followed_along_a_parameter(circling: Orbit) -> None:
     """More friction turns it faster, either way from where it was found."""
     branch = continuation(circling, "friction", (0.199, 0.201), most=2)
@@ -59,6 +61,7 @@ def test_it_is_followed_along_a_parameter(circling: Orbit) -> None:
         assert one.residual < 1e-11
 
 
+@pytest.mark.slow
 def test_a_plane_motion_has_its_multipliers_in_space_as_well() -> None:
     """Besides those of motions out of the plane."""
     scenario = DumbbellScenario(mode="drift")
@@ -77,6 +80,7 @@ def _spinning(turns: float) -> ns.System:
     return system
 
 
+@pytest.mark.slow
 def test_a_ball_that_spins_about_the_vertical() -> None:
     """What it is tilted by turns on, seen from a frame that turns with it."""
     family = Family(_spinning, {"turns": 0.3})

@@ -47,6 +47,7 @@ def _plate(ratio: float, time: float) -> float:
     return ratio * SLOWS / RATE * math.cos(RATE * time)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ratio", [2.0, 3.0])
 def test_a_ball_that_slips_to_and_fro(ratio: float) -> None:
     """The other multiplier is 1: nothing changes the angular momentum about the contact."""
@@ -77,6 +78,7 @@ def test_a_ball_that_rolls() -> None:
     assert end.u[0] - found.state.u[0] == pytest.approx(2.0 / 7.0 * change, abs=1e-11)
 
 
+@pytest.mark.slow
 def test_the_dumbbell_drifts_alike_whatever_the_section() -> None:
     """Where a ball is on the plate tilt, its rate and the drift are left; in flight two multipliers are 0."""
     scenario = DumbbellScenario(mode="drift")
@@ -87,6 +89,7 @@ def test_the_dumbbell_drifts_alike_whatever_the_section() -> None:
     np.testing.assert_allclose(closed.multipliers, free.multipliers[:3], atol=1e-7)
 
 
+@pytest.mark.slow
 def test_drift_is_followed_with_a_ball_on_the_plate() -> None:
     """The plate's height differs with its amplitude, and what lies on it goes with it."""
     scenario = DumbbellScenario(mode="drift")

@@ -99,6 +99,7 @@ def test_a_value_without_a_system_is_told_and_the_rest_goes_on() -> None:
         bifurcation(_dropped(0.5), place, [0.005, 0.006], 0.05, "z", **asked)
 
 
+@pytest.mark.slow
 def test_it_persists_where_a_fresh_start_rests() -> None:
     """The orbit of one period ends at the fold, pi / 9; below it, and on the way up from there, the ball rests.
 

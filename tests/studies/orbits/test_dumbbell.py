@@ -41,6 +41,7 @@ def test_flutter_loses_energy_in_impacts_only() -> None:
     assert np.prod(found.multipliers) == pytest.approx(0.8**4, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_flutter_ends_where_the_plate_moves_fastest() -> None:
     """cos(theta) = (pi / Gamma) S (1 - e) / (1 + e) must not be more than 1, S = 1 + (a / k)^2 cos^2(beta).
 
@@ -60,6 +61,7 @@ def test_flutter_ends_where_the_plate_moves_fastest() -> None:
     assert round(bound, 6) == 0.757368
 
 
+@pytest.mark.slow
 def test_the_level_jump_is_a_corner() -> None:
     """Both balls strike at once: a tilt decides which one is first, so there are two maps and no derivative."""
     scenario = DumbbellScenario(mode="jump")

@@ -78,6 +78,7 @@ def _striking(speed: float) -> Orbit:
     return orbit(family, PERIOD, start=start, within=WITHIN)
 
 
+@pytest.mark.slow
 def test_a_missed_contact_is_grazed() -> None:
     grazes = CLEARANCE / abs(GAIN)
     found = orbit(Family(_on_a_spring, {"amplitude": 0.99 * grazes}), PERIOD, within=WITHIN)
@@ -89,6 +90,7 @@ def test_a_missed_contact_is_grazed() -> None:
         assert left.gap == pytest.approx(CLEARANCE - value * abs(GAIN), abs=1e-12)
 
 
+@pytest.mark.slow
 def test_an_impact_ends_by_grazing() -> None:
     """Its speed is that of the closed form all along, and 0 where the branch ends."""
     grazes = CLEARANCE / abs(GAIN)
@@ -121,6 +123,7 @@ def _two_balls(restitution: float) -> ns.System:
     return system
 
 
+@pytest.mark.slow
 def test_two_impacts_at_once_are_a_corner() -> None:
     found = orbit(Family(_two_balls, {"restitution": 0.79}), 0.04, within=WITHIN)
     branch = continuation(found, "restitution", (0.78, 0.82))

@@ -1,0 +1,1 @@
+"""Planted faults: what a tier of the tests finds."""
