@@ -40,6 +40,14 @@ class Trial:
     seconds: float
 
 
+def _cache(folder: Path) -> Path:
+    """Copy what is compiled already: its names are hashes of sources, so that a fault in them is compiled anew."""
+    compiled = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache"), "nonsmooth")
+    if compiled.is_dir():
+        shutil.copytree(compiled, folder / "nonsmooth")
+    return folder
+
+
 def run(tree: Path, faults: list[Fault], words: list[str]) -> Trial:
     """Plant the faults in a copy of a tree and run pytest there.
 
@@ -62,7 +70,7 @@ def run(tree: Path, faults: list[Fault], words: list[str]) -> Trial:
         # a later piece of a line first: an earlier one may change the length of the line
         for fault in sorted(faults, key=lambda f: (f.file, f.line, f.column), reverse=True):
             fault.plant(copy)
-        environment = os.environ | {"PYTHONPATH": str(copy), "XDG_CACHE_HOME": str(Path(folder, "cache"))}
+        environment = os.environ | {"PYTHONPATH": str(copy), "XDG_CACHE_HOME": str(_cache(Path(folder, "cache")))}
         command = [sys.executable, "-m", "pytest", "-q", "-rfE", "--tb=no", "-p", "no:cacheprovider", *_HANGS, *words]
         began = time.monotonic()
         try:
