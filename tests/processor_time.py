@@ -40,9 +40,9 @@ class ProcessorTimes:
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         """Keep the time at which the fixtures of a long test were taken down."""
-        seconds = max((float(value) for name, value in report.user_properties if name == _NAME), default=0.0)
-        if report.when == "teardown" and seconds > LONG:
-            self._long[report.nodeid] = seconds
+        for name, seconds in report.user_properties if report.when == "teardown" else ():
+            if name == _NAME and isinstance(seconds, float) and seconds > LONG:
+                self._long[report.nodeid] = seconds
 
     def pytest_terminal_summary(self, terminalreporter: pytest.TerminalReporter) -> None:
         """Print the long tests, the longest first."""
