@@ -75,9 +75,7 @@ def _place_in_engine(value: Any) -> str:
 def _shape(code: CodeType) -> tuple[Any, ...]:
     """Return what makes two codes equal, constants apart."""
     arguments = (code.co_argcount, code.co_posonlyargcount, code.co_kwonlyargcount, code.co_flags)
-    # a table of its own since Python 3.11
-    handlers = getattr(code, "co_exceptiontable", b"")
-    return *arguments, code.co_code, handlers, code.co_names, code.co_varnames
+    return *arguments, code.co_code, code.co_exceptiontable, code.co_names, code.co_varnames
 
 
 def _place_in_modules(value: Any) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import sys
+import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,13 +10,6 @@ from typing import Any, final
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files import text, yaml_text
-
-if sys.version_info >= (3, 11):
-    from tomllib import loads as toml
-else:
-    from nonsmooth.files.toml import loads as toml
-
-__all__ = ["SUFFIXES", "Format", "of", "toml"]
 
 
 @final
@@ -39,7 +32,7 @@ class Format:
     write: Callable[[dict[str, Any]], str]
 
 
-_TOML, _YAML = Format("TOML", toml, text.text_of), Format("YAML", yaml_text.tables_of, yaml_text.text_of)
+_TOML, _YAML = Format("TOML", tomllib.loads, text.text_of), Format("YAML", yaml_text.tables_of, yaml_text.text_of)
 _FORMATS = {".toml": _TOML, ".yaml": _YAML, ".yml": _YAML}
 SUFFIXES = tuple(_FORMATS)
 """What the name of a scenario file ends in."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -67,6 +68,6 @@ def _inside(place: Any, step: str, key: str, path: Path) -> Any:
 def value(text: str) -> Any:
     """Return what a text means as a TOML value, itself where it means none."""
     try:
-        return formats.toml(f"value = {text}")["value"]
+        return tomllib.loads(f"value = {text}")["value"]
     except ValueError:
         return text

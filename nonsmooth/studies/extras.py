@@ -37,6 +37,4 @@ def require_store() -> None:
     found = version("zarr")
     if tuple(int(part) for part in found.split(".")[:3] if part.isdigit()) < _OLDEST:
         oldest = ".".join(map(str, _OLDEST))
-        raise MissingPackagesError(
-            f"a study needs zarr {oldest} or newer, which needs Python 3.11, not {found}: {_REMEDY}"
-        )
+        raise MissingPackagesError(f"a study needs zarr {oldest} or newer, not {found}: {_REMEDY}")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 import math
+import tomllib
 import warnings
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -12,7 +13,6 @@ from typing import Any
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files import components as files
-from nonsmooth.files import formats
 from nonsmooth.files.text import text_of as toml_text
 from nonsmooth.parameters import Rule, UnusualValue, from_words, rules
 from nonsmooth.testing.property import Broken, NotChecked, Row
@@ -193,7 +193,7 @@ def _through_file(component: Any) -> Any:
         table = files.table_of(component, owner.__name__, owner)
     except InvalidInput:
         return component
-    return files.component(owner.__name__, formats.toml(toml_text({"it": table}))["it"], owner, Path())
+    return files.component(owner.__name__, tomllib.loads(toml_text({"it": table}))["it"], owner, Path())
 
 
 def _check_immutable(component: Any) -> None:
