@@ -1,4 +1,4 @@
-"""The dumbbell's drift on stiff springs in real time, against the impact laws; run it with ``python``.
+"""The dumbbell's drift on stiff springs, against the impact laws: ``python -m tests.benchmarks.compliant``.
 
 Nothing here is an impact law: each ball has a Hertz spring with the energetic restitution (LZB, Eq. (28)) and Coulomb
 friction, and the motion in the plane is integrated through every contact with fixed steps.  The shorter the contact

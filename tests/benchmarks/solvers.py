@@ -1,5 +1,6 @@
-"""Time of one contact problem by solver and size, on random problems and on feet of one block.
+"""Time of one contact problem by solver and size: ``python -m tests.benchmarks.solvers [--problems N]``.
 
+The problems are random, or feet of one block.
 Every solver starts without a past, on the same problems, in one process; times are of the engine alone.
 """
 

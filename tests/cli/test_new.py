@@ -32,7 +32,7 @@ def test_its_own_tests_are_green_and_find_a_mistake(call: Call, tmp_path: Path) 
     assert done.returncode == 0, done.stdout
     law = folder / "wet_sand" / "friction.py"
     law.write_text(law.read_text().replace("return kinetic +", "return -kinetic +"))
-    done = subprocess.run(words, cwd=folder, capture_output=True, text=True)
+    done = subprocess.run([*words, "tests/test_friction.py"], cwd=folder, capture_output=True, text=True)
     assert done.returncode == 1
     assert "not negative" in done.stdout
 

@@ -74,6 +74,14 @@ def test_a_ball_that_falls_past_another_one_onto_a_plate_misses_it_iff_it_does(h
     assert met > 20
 
 
+def test_a_ball_that_falls_past_a_held_one_touches_it_first() -> None:
+    """They overlap by 1.7 micrometres across the way down, so that the gap closes between two looks at it."""
+    height, overlap, speed, z = 0.0663117, 1.652e-6, 0.0681, 0.0382595
+    way = height - z - math.sqrt(4.0 * R * R - (2.0 * R - overlap) ** 2)
+    events = ns.simulate(drop(height, overlap, speed, z, True), 0.2, sample_interval=0.2).events
+    assert events.time[1] == pytest.approx(2.0 * way / (speed + math.sqrt(speed**2 + 2.0 * G * way)), abs=1e-10)
+
+
 def test_the_first_of_many_collisions_within_one_step_is_found() -> None:
     """Balls fly freely in the longest of steps, and the first collision is that of the quadratic equations of all."""
     rng = np.random.default_rng(5)

@@ -51,7 +51,8 @@ def test_a_symmetric_top_flies_in_one_step(body: FreeBody, spin: Any) -> None:
     system = ns.System([body], GRAVITY)
     system.place(body, orientation=TURNED, velocity=(1.0, 2.0, 3.0), angular_velocity=spin)
     solution = ns.simulate(system, 1.0, engine=ns.EventDriven(largest_step=10.0), sample_interval=0.25)
-    assert solution.counters.steps <= 3
+    # a closed form; an integration takes hundreds of steps
+    assert solution.counters.steps < 10
     for t, q, u in zip(solution.t, solution.q, solution.u, strict=True):
         g = np.array([0.0, 0.0, -GRAVITY])
         np.testing.assert_allclose(q[:3], t * np.array([1.0, 2.0, 3.0]) + 0.5 * t * t * g, rtol=0, atol=1e-13)
@@ -86,7 +87,6 @@ def test_what_is_held_is_integrated() -> None:
     arm = solution.q_end[:3] - [0.0, 0.0, 1.0]
     assert np.linalg.norm(arm) == pytest.approx(0.2, abs=1e-9)
     assert solution.energy.residual < 1e-7
-    assert solution.counters.limits["error"] > 3
 
 
 @pytest.mark.parametrize("spin", [0.0, 150.0])

@@ -1,13 +1,8 @@
-"""Impacts that follow one another faster than the tolerances tell are one, and forces that lead nowhere are let be."""
+"""Impacts that follow one another faster than the tolerances tell are one."""
 
 from __future__ import annotations
 
 import itertools
-import math
-import os
-from types import SimpleNamespace
-from typing import Any
-from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -16,12 +11,9 @@ from numpy.typing import NDArray
 import nonsmooth as ns
 from bodies import Ball, Plate
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
-from nonsmooth.engine.events import averaging
-from nonsmooth.engine.memory.modes import IMPACT, OPEN
+from nonsmooth.engine.memory.modes import IMPACT
 
 RADIUS, SPEED, TOLERANCE = 0.01, 0.1, 1e-12
-_UNREAD: Any = None
-"""A heap that a kernel by itself does not read."""
 
 
 def _struck(gap: float, duration: float = 2e-5) -> tuple[int, NDArray[np.float64]]:
@@ -78,34 +70,3 @@ def test_a_body_that_goes_on_by_itself_takes_part_as_well() -> None:
     assert impacts == touching[0] == 1
     assert velocities == pytest.approx(touching[1], abs=1e-7)
     assert velocities[2] > 0.5 * SPEED
-
-
-@pytest.mark.skipif("NONSMOOTH_PLAIN" not in os.environ, reason="calls kernels by themselves")
-def test_forces_that_lead_nowhere_are_asked_for_ever_more_rarely() -> None:
-    """Of a second of averaging by steps of the contact time few begin with a look for other forces."""
-    time, nowhere = 1e-3, 1.0
-    S: Any = SimpleNamespace(n_active=2, t=-nowhere)
-    contact = SimpleNamespace(averaged=OPEN, mean_asked=-math.inf, mean_wait=0.0, mean_span=0.0, mean_force=[0.0] * 3)
-    looks = []
-    with patch.multiple(
-        averaging,
-        active_at=lambda *_: SimpleNamespace(slot=0),
-        contact_at=lambda *_: contact,
-        averaging_time=lambda *_: time,
-        is_averaged=lambda *_: int(contact.averaged != OPEN),
-        is_settled=lambda *_: 1,
-    ):
-        assert averaging.average_active(S, _UNREAD, _UNREAD) == 1
-        assert contact.mean_wait == 0.0
-        while S.t < 0.0:
-            if averaging.keeps_averaging(S, _UNREAD, _UNREAD, 1) == 0:
-                looks.append(S.t)
-                contact.mean_asked, contact.averaged = S.t, OPEN
-                assert averaging.average_active(S, _UNREAD, _UNREAD) == 1
-            S.t += time
-        assert 3 < len(looks) <= 2 + np.log2(nowhere / time)
-        # forces of the instant that went on for longer than they had been waited for are asked for at once
-        contact.mean_asked, contact.averaged = S.t, OPEN
-        S.t += 2.0 * contact.mean_wait
-        assert averaging.average_active(S, _UNREAD, _UNREAD) == 1
-        assert averaging.keeps_averaging(S, _UNREAD, _UNREAD, 1) == 0

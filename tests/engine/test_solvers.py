@@ -40,7 +40,7 @@ class Problem:
         )
 
 
-def _assert_lawful(problem: Problem, result: ns.ContactResult) -> None:
+def assert_lawful(problem: Problem, result: ns.ContactResult) -> None:
     """Hold the answer against equation of motion, complementarity and cone, all by itself."""
     forces = np.column_stack([result.normal_force, result.tangential_force])
     pushed = np.einsum("ncu,nc->u", problem.jacobian, forces)
@@ -123,7 +123,7 @@ def test_all_solvers_agree(problem: Problem) -> None:
     names = [name for name in SOLVERS if name != "enumeration" or len(problem.friction) <= 5]
     results = [result for name in names if (result := _attempt(problem, name)) is not None]
     for result in results:
-        _assert_lawful(problem, result)
+        assert_lawful(problem, result)
     if not results or not results[0].proved_unique:
         return
     assert len(results) == len(names)
@@ -173,7 +173,7 @@ def test_a_block_breaks_away_at_its_friction_angle(solver: str, side: float) -> 
     friction, static = 0.3, 0.4
     problem = _block(FEET, math.atan(static) + side, friction, static)
     result = problem.solve(solver)
-    _assert_lawful(problem, result)
+    assert_lawful(problem, result)
     angle = math.atan(static) + side
     downhill = 0.0 if side < 0.0 else GRAVITY * (math.sin(angle) - friction * math.cos(angle))
     np.testing.assert_allclose(result.acceleration, (downhill, 0.0, 0.0, 0.0, 0.0, 0.0), atol=1e-12)
@@ -191,7 +191,7 @@ def test_a_moment_turns_a_block(solver: str, side: float) -> None:
     hold = 0.3 * GRAVITY * arm
     problem = _block(FEET, 0.0, 0.3, yaw=hold * (1.0 + side))
     result = problem.solve(solver)
-    _assert_lawful(problem, result)
+    assert_lawful(problem, result)
     assert result.acceleration[5] == pytest.approx(0.0 if side < 0.0 else hold * side / 0.5, abs=1e-12)
 
 
@@ -270,7 +270,7 @@ def test_many_contacts(solver: str) -> None:
     force = random.normal(size=3 * n + 5) - jacobian[:, 0].sum(axis=0)
     problem = Problem(np.eye(3 * n + 5), jacobian, force, [Coulomb(0.2)] * n)
     result = problem.solve(solver)
-    _assert_lawful(problem, result)
+    assert_lawful(problem, result)
     assert len(set(result.modes)) == 3
 
 

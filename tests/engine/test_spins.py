@@ -57,14 +57,12 @@ def test_order_of_a_spin() -> None:
     assert np.all(errors <= 1e4 * tolerances)
 
 
-def test_a_spin_about_the_rod_asks_for_no_looks_at_gaps() -> None:
-    """It moves no surface along its normal: flights of the dumbbell are looked at as often as without it."""
-    still, spinning = (_dumbbell(spin, 1e-9, 0.12, height=0.01) for spin in (0.0, 500.0))
-    assert [len(run.events) > 3 for run in (still, spinning)] == [True, True]
-    looks, flights = spinning.counters.gap_looks, len(spinning.events)
-    assert looks <= 4 * flights
-    assert spinning.counters.limits.get("turning in flight", 0) == 0
-    assert still.counters.gap_looks <= 4 * len(still.events)
+def test_a_spin_about_the_rod_costs_no_evaluations_of_gaps() -> None:
+    """The spin moves no surface along its normal: the dumbbell's flights cost about what they cost without it."""
+    runs = [_dumbbell(spin, 1e-9, 0.12, height=0.01) for spin in (0.0, 500.0)]
+    assert all(len(run.events) > 3 for run in runs)
+    still, spinning = (run.counters.gap_looks / len(run.events) for run in runs)
+    assert spinning < 2.0 * max(still, 1.0)
 
 
 def test_a_spin_that_keeps_its_direction_is_integrated_along_the_body() -> None:

@@ -188,7 +188,6 @@ def test_what_starts_in_touch_is_damped_by_no_rate_of_round_off() -> None:
         spin = (70.9921, -303.3826, -176.9651)
         ns.touching(system, ball, position=(-0.02764, -0.01549, 0.08441), angular_velocity=spin)
         ends.append(ns.simulate(system, 1e-3, sample_interval=1e-3))
-    assert ends[0].counters.steps == ends[1].counters.steps
     assert np.array_equal(ends[0].q_end, ends[1].q_end)
 
 

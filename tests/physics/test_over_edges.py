@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import nonsmooth as ns
-from bodies import Ball, BoxBody, DrivenBody, Rest
+from bodies import Ball, BoxBody, DrivenBody, Plate, Rest
 from bodies.shapes.box import Box
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 
@@ -92,3 +92,15 @@ def test_a_box_slides_past_an_edge_as_if_there_were_none(size: float, friction: 
     assert solution.counters.impacts == 0
     left = np.array([speed - friction * GRAVITY * seconds, 0.0, 0.0, 0.0, 0.0, 0.0])
     np.testing.assert_allclose(solution.u_end * [1.0, 1.0, 1.0, size, size, size], left, rtol=0, atol=1e-7 * speed)
+
+
+def test_a_ball_slides_over_the_line_where_two_plates_meet() -> None:
+    """The plates are nearly one: neither stops the ball, though it touches both for a while."""
+    lean, speed, radius = 1e-5, 5e-4, 0.01
+    plates = [Plate(), Plate(Rest(orientation=(math.cos(0.5 * lean), 0.0, -math.sin(0.5 * lean), 0.0)))]
+    ball = Ball(radius)
+    system = ns.System([*plates, ball], GRAVITY)
+    for plate in plates:
+        system.contact(plate, ball, normal=Unilateral(), friction=Frictionless(), impact=EnergeticImpact(0.5))
+    system.place(ball, position=(0.0, 0.0, radius), velocity=(speed, 0.0, 0.0))
+    assert ns.simulate(system, 1e-3).u_end[0] == pytest.approx(speed, rel=0.02)

@@ -107,6 +107,16 @@ def test_a_guard_above_the_path_never_fires_and_one_at_the_start_waits() -> None
     np.testing.assert_allclose(events.time[fired], [4.0 / GRAVITY], atol=1e-12)
 
 
+def test_a_level_just_below_the_top_is_passed_within_a_step() -> None:
+    """The ball is below the level at both ends of the only step, 1 mm of 12 mm below the top in its middle."""
+    ball, speed, below = Ball(0.01), 0.05 * GRAVITY, 1e-3
+    system = ns.System([ball], gravity=GRAVITY)
+    system.place(ball, velocity=(0.0, 0.0, speed))
+    system.guard(Level(0.5 * speed**2 / GRAVITY - below, -1.0))
+    events = ns.simulate(system, 0.1, sample_interval=0.1).events
+    np.testing.assert_allclose(events.time[1:], [0.05 - math.sqrt(2.0 * below / GRAVITY)], rtol=0, atol=1e-11)
+
+
 def test_a_clock_fires_once_per_period() -> None:
     """Many zeros of one guard, none missed, none twice."""
     system = _thrown()

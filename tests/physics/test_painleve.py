@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from typing import Any
 
@@ -12,6 +13,7 @@ from scipy.integrate import solve_ivp
 import nonsmooth as ns
 from bodies import Dumbbell
 from nonsmooth.engine.memory.modes import IMPACT, JAM, PAINLEVE
+from tests.engine.plain_cases import jamming
 
 BODY = Dumbbell(rod_mass_fraction=0.9)
 GRAVITY = 9.81
@@ -111,6 +113,14 @@ def test_sliding_into_the_singularity_jams(build: Any) -> None:
     errors = [np.hypot(*(events.u_after[event, 1:3] - _stopped_by_springs(friction, k))) for k in stiffnesses]
     assert errors[0] > 3.0 * errors[1] > 9.0 * errors[2]
     assert errors[2] < 1e-4
+
+
+def test_a_slip_jams_however_late_it_begins() -> None:
+    """Three years after time zero, where doubles are 15 ns apart, the slip jams as it does at the start."""
+    model, late = ns.assemble(jamming(0.999)), 1e8
+    early, later = (model.run(t + 5e-4, start=dataclasses.replace(model.start, time=t)) for t in (0.0, late))
+    times = [run.events.time[run.events.cause == JAM][0] for run in (early, later)]
+    assert times[1] - late == pytest.approx(times[0], abs=1e-7)
 
 
 def test_the_other_way_there_is_no_paradox(build: Any) -> None:

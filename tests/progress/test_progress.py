@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import io
-import subprocess
-import sys
 
 import pytest
 
@@ -129,9 +127,3 @@ def test_a_stream_that_takes_nothing_does_not_stop_the_run() -> None:
 def test_without_standard_error_nothing_is_written(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("sys.stderr", None)
     _shown(on_standard_error(), 30.0)
-
-
-@pytest.mark.slow
-def test_nobody_waits_for_the_bar_to_be_imported() -> None:
-    code = "import sys, nonsmooth.cli.main; assert 'rich' not in sys.modules"
-    subprocess.run([sys.executable, "-c", code], check=True, timeout=60)

@@ -6,6 +6,7 @@ That ``nonsmooth check`` finds and runs them by their names is looked at in test
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -151,51 +152,56 @@ LAWS: list[tuple[Callable[[Any], list[Property]], Any]] = [
     (check_impact_law, PoissonImpact(0.5)),
     (check_impact_law, StrongeImpact(0.6)),
 ]
-BODIES: list[Body] = [
-    Ball(0.02),
-    BoxBody(0.01, 0.02, 0.035),
-    BoxBody(0.01, 0.02, 0.035, rounding=0.002),
-    CapsuleBody(0.01, 0.03, density=900.0),
-    Compound((Part(BoxBody(0.01, 0.02, 0.03), (0.02, 0.0, -0.01)), Part(CylinderBody(0.01, 0.04)))),
-    ConeBody(0.02, 0.05, mass=0.2),
-    CylinderBody(0.02, 0.03, mass=0.2),
-    DiscBody(0.05, mass=0.1),
-    DrivenBody(Harmonic(1e-3, 25.0), (Sphere(0.1),)),
-    Dumbbell(),
-    EllipsoidBody(0.01, 0.02, 0.03),
-    HullBody(WEDGE, mass=0.2),
-    HullBody(WEDGE, rounding=0.005),
-    SuperellipsoidBody(0.02, 0.03, 0.04, 0.5, 0.6),
-    SupportBody(Egg()),
-    SuperellipsoidBody(0.02, 0.03, 0.04, 1.4, 1.2, 0.01),
-    OpenBox(0.1, 0.2, (0.0, 0.1, 0.2), (0.5, 0.5, -0.5, 0.5)),
-    planar((TurningFrame(carried=(Sphere(0.1),), **PART),), 2.0, 0.5),
-    LineBody(1.0, carried=(Sphere(0.1),)),
-    MeshBody(Triangles(*parts.bracket())),
-    PlanarBody(2.0, 1.0, (Point(),)),
-    Plate(),
-    Plate(ConstantVelocity((0.3, 0.1, -0.2), 0.7, centre=(0.2, 0.1, 0.0))),
-    RigidBody(2.0, TENSOR, (Sphere(0.05, x=0.1), Sphere(0.04, y=-0.1))),
-    Rod(0.2, 0.005),
-    Wall((0.6, 0.0, -0.8), (0.1, 0.2, 0.3)),
-]
-"""One of every kind that is installed, and some more."""
-LOADS: list[Load] = [
-    AirFilm(2e-5, 0.1),
-    Bushing(50.0, 1.0, second=(0.0, 0.08, 0.0)),
-    make(FunctionLoad, "function_load", {}),
-    Spring(stiffness=50.0, length=0.2, damping=1.0, first=(0.05, 0.0, 0.0)),
-    TorsionSpring(2.0, 0.3, 0.5, axis=(0.6, 0.0, 0.8)),
-]
-MOTIONS: list[Motion] = [
-    ConstantVelocity((0.3, 0.1, -0.2)),
-    ConstantVelocity((0.3, 0.1, -0.2), 0.7, (0.6, 0.0, 0.8), (0.1, 0.2, 0.3), (0.5, 0.5, 0.5, 0.5), (0.2, 0.1, 0.0)),
-    make(FunctionMotion, "function_motion", {}),
-    Harmonic(1e-3, 25.0, 0.3, 0.6, 0.0, 0.8),
-    Rest(0.3, (1.0, 2.0, 3.0), (0.5, 0.5, 0.5, 0.5)),
-    Table((0.0, 0.1, 0.3), ((0.0, 0.0, 0.0), (0.1, 0.0, 0.0), (0.0, 0.0, 0.1)), orientation=(0.5, 0.5, 0.5, 0.5)),
-    make(Table, "table", {}),
-]
+BODIES: dict[str, Callable[[], Body]] = {
+    "ball": lambda: Ball(0.02),
+    "box": lambda: BoxBody(0.01, 0.02, 0.035),
+    "rounded box": lambda: BoxBody(0.01, 0.02, 0.035, rounding=0.002),
+    "capsule": lambda: CapsuleBody(0.01, 0.03, density=900.0),
+    "compound": lambda: Compound((Part(BoxBody(0.01, 0.02, 0.03), (0.02, 0.0, -0.01)), Part(CylinderBody(0.01, 0.04)))),
+    "cone": lambda: ConeBody(0.02, 0.05, mass=0.2),
+    "cylinder": lambda: CylinderBody(0.02, 0.03, mass=0.2),
+    "disc": lambda: DiscBody(0.05, mass=0.1),
+    "driven body": lambda: DrivenBody(Harmonic(1e-3, 25.0), (Sphere(0.1),)),
+    "dumbbell": Dumbbell,
+    "ellipsoid": lambda: EllipsoidBody(0.01, 0.02, 0.03),
+    "hull": lambda: HullBody(WEDGE, mass=0.2),
+    "rounded hull": lambda: HullBody(WEDGE, rounding=0.005),
+    "superellipsoid": lambda: SuperellipsoidBody(0.02, 0.03, 0.04, 0.5, 0.6),
+    "rounded superellipsoid": lambda: SuperellipsoidBody(0.02, 0.03, 0.04, 1.4, 1.2, 0.01),
+    "support body": lambda: SupportBody(Egg()),
+    "open box": lambda: OpenBox(0.1, 0.2, (0.0, 0.1, 0.2), (0.5, 0.5, -0.5, 0.5)),
+    "generalised body": lambda: planar((TurningFrame(carried=(Sphere(0.1),), **PART),), 2.0, 0.5),
+    "line body": lambda: LineBody(1.0, carried=(Sphere(0.1),)),
+    "mesh body": lambda: MeshBody(Triangles(*parts.bracket())),
+    "planar body": lambda: PlanarBody(2.0, 1.0, (Point(),)),
+    "plate": Plate,
+    "moving plate": lambda: Plate(ConstantVelocity((0.3, 0.1, -0.2), 0.7, centre=(0.2, 0.1, 0.0))),
+    "rigid body": lambda: RigidBody(2.0, TENSOR, (Sphere(0.05, x=0.1), Sphere(0.04, y=-0.1))),
+    "rod": lambda: Rod(0.2, 0.005),
+    "wall": lambda: Wall((0.6, 0.0, -0.8), (0.1, 0.2, 0.3)),
+}
+"""One body of every installed kind, and some more."""
+LOADS: dict[str, Callable[[], Load]] = {
+    "air film": lambda: AirFilm(2e-5, 0.1),
+    "bushing": lambda: Bushing(50.0, 1.0, second=(0.0, 0.08, 0.0)),
+    "function load": lambda: make(FunctionLoad, "function_load", {}),
+    "spring": lambda: Spring(stiffness=50.0, length=0.2, damping=1.0, first=(0.05, 0.0, 0.0)),
+    "torsion spring": lambda: TorsionSpring(2.0, 0.3, 0.5, axis=(0.6, 0.0, 0.8)),
+}
+QUARTER_TURN = (0.5, 0.5, 0.5, 0.5)
+MOTIONS: dict[str, Callable[[], Motion]] = {
+    "constant velocity": lambda: ConstantVelocity((0.3, 0.1, -0.2)),
+    "constant turning": lambda: ConstantVelocity(
+        (0.3, 0.1, -0.2), 0.7, (0.6, 0.0, 0.8), (0.1, 0.2, 0.3), QUARTER_TURN, (0.2, 0.1, 0.0)
+    ),
+    "function motion": lambda: make(FunctionMotion, "function_motion", {}),
+    "harmonic": lambda: Harmonic(1e-3, 25.0, 0.3, 0.6, 0.0, 0.8),
+    "rest": lambda: Rest(0.3, (1.0, 2.0, 3.0), QUARTER_TURN),
+    "table": lambda: Table(
+        (0.0, 0.1, 0.3), ((0.0, 0.0, 0.0), (0.1, 0.0, 0.0), (0.0, 0.0, 0.1)), orientation=QUARTER_TURN
+    ),
+    "table of the example": lambda: make(Table, "table", {}),
+}
 CUBOID = TriangleMesh(Triangles(*parts.box(0.6, 0.4, 0.8)), 0.1, -0.05, 0.07, 0.8, 0.36, -0.48)
 TETRAHEDRON = TriangleMesh(
     Triangles(0.3 * (np.eye(4, 3) - 0.25), ((0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2))), 0.01, 0.02
@@ -229,17 +235,16 @@ SHAPES: list[tuple[Shape, Shape]] = [
 ]
 
 
-def _of_pairs() -> Iterator[Property]:
-    for first, second in SHAPES:
-        owner = _owner(first, second)
-        contacts = [contact for contact in owner.between(first, second) if type(contact) is owner]
-        # of a class that departs from what depends on the pose, a contact may well have it
-        kept = {"gap rate", "second-order terms"} - set(owner.departures)
-        for prop in check_contact_kinematics(contacts[-1], first, second):
-            if prop.name not in owner.departures:
-                yield prop
-        for contact in contacts[:-1] if kept else ():
-            yield from (p for p in check_contact_kinematics(contact, first, second) if p.name in kept)
+def _of_pair(first: Shape, second: Shape) -> list[Property]:
+    """Return the properties of the contacts of a pair of shapes."""
+    owner = _owner(first, second)
+    contacts = [contact for contact in owner.between(first, second) if type(contact) is owner]
+    found = [p for p in check_contact_kinematics(contacts[-1], first, second) if p.name not in owner.departures]
+    # of a class that departs from what depends on the pose, a contact may well have it
+    kept = {"gap rate", "second-order terms"} - set(owner.departures)
+    for contact in contacts[:-1] if kept else ():
+        found += [p for p in check_contact_kinematics(contact, first, second) if p.name in kept]
+    return found
 
 
 def _owner(first: Shape, second: Shape) -> type[ContactKinematics]:
@@ -249,47 +254,69 @@ def _owner(first: Shape, second: Shape) -> type[ContactKinematics]:
     return found[0]
 
 
-def _all() -> Iterator[Property]:
+def _components() -> Iterator[tuple[str, Callable[[], list[Property]]]]:
+    """Yield the name of each component, and a function that makes it and returns its properties."""
     for check, law in LAWS:
-        yield from check(law)
-    for body in BODIES:
-        yield from check_body(body)
+        yield type(law).__name__, partial(check, law)
+    makers: tuple[tuple[Callable[[Any], list[Property]], dict[str, Callable[[], Any]]], ...] = (
+        (check_body, BODIES),
+        (check_load, LOADS),
+        (check_motion, MOTIONS),
+    )
+    for check, named in makers:
+        for name, made in named.items():
+            yield name, partial(_of_made, check, made)
     for joint in JOINTS:
-        yield from check_joint(joint)
-    for load in LOADS:
-        yield from check_load(load)
-    for motion in MOTIONS:
-        yield from check_motion(motion)
-    yield from _of_pairs()
+        yield type(joint).__name__, partial(check_joint, joint)
+    for first, second in SHAPES:
+        yield f"{type(first).__name__} and {type(second).__name__}", partial(_of_pair, first, second)
+    for shape in {type(one): one for pair in SHAPES for one in pair}.values():
+        yield type(shape).__name__, partial(check_shape, shape)
     for group in ("distances", "guards", "scenarios"):
         for name in registry.names(group):
-            yield from check_class(registry.load(group, name), name, {})
-    for shape in {type(one): one for pair in SHAPES for one in pair}.values():
-        yield from check_shape(shape)
+            yield name, partial(_of_name, group, name)
+
+
+def _of_made(check: Callable[[Any], list[Property]], make_one: Callable[[], Any]) -> list[Property]:
+    return check(make_one())
+
+
+def _of_name(group: str, name: str) -> list[Property]:
+    return check_class(registry.load(group, name), name, {})
 
 
 @pytest.mark.skipif(PLAIN, reason="some minutes in plain mode")
-@pytest.mark.parametrize("prop", list(_all()), ids=str)
-def test_built_in(prop: Property) -> None:
-    """What the kit asks of a plug-in holds of ours."""
-    prop()
+@pytest.mark.parametrize("find", [pytest.param(find, id=name) for name, find in _components()])
+def test_built_in(find: Callable[[], list[Property]], subtests: pytest.Subtests) -> None:
+    """The kit's properties hold of a component, each a subtest."""
+    found = find()
+    assert found
+    for prop in found:
+        with subtests.test(str(prop)):
+            prop()
 
 
-@pytest.mark.parametrize(("group", "name"), [(g, n) for g in registry.GROUPS for n in registry.names(g)])
-def test_every_built_in_can_be_checked(group: str, name: str) -> None:
+@pytest.mark.parametrize("group", registry.GROUPS)
+def test_every_built_in_can_be_checked(group: str, subtests: pytest.Subtests) -> None:
     """There are properties of it by its name alone: what numbers cannot give is in the example of its class."""
-    assert len(check_class(registry.load(group, name), name, {})) > 3
+    for name in registry.names(group):
+        with subtests.test(name):
+            assert len(_of_name(group, name)) > 3
 
 
 def test_all_are_there() -> None:
     """One of every class that is installed."""
-    given = {type(law) for _, law in LAWS} | {type(body) for body in BODIES}
+    given = {type(law) for _, law in LAWS} | {type(make_body()) for make_body in BODIES.values()}
     for group, base in (("laws", (FrictionLaw, ImpactLaw, NormalLaw, TractionLaw)), ("bodies", (Body,))):
         installed = set(registry.load_all(group).values())
         assert all(issubclass(owner, base) for owner in installed)
         assert installed <= given
-    others: list[tuple[str, list[Any]]] = [("joints", JOINTS), ("loads", LOADS), ("motions", MOTIONS)]
-    for group, objects in others:
+    others: dict[str, list[Any]] = {
+        "joints": JOINTS,
+        "loads": [made() for made in LOADS.values()],
+        "motions": [made() for made in MOTIONS.values()],
+    }
+    for group, objects in others.items():
         assert {type(one) for one in objects} == set(registry.load_all(group).values())
     assert {type(one) for pair in SHAPES for one in pair} == set(registry.load_all("shapes").values())
     assert {_owner(first, second) for first, second in SHAPES} == set(registry.load_all("kinematics").values())

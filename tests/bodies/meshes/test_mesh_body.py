@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import subprocess
 import sys
 import warnings
 from pathlib import Path
@@ -127,13 +126,6 @@ def test_a_mesh_of_a_block_rocks_as_the_block(direction: float) -> None:
     np.testing.assert_allclose(two.events.time, one.events.time, rtol=0, atol=1e-9)
     np.testing.assert_allclose(two.q_end, one.q_end, rtol=0, atol=1e-9)
     np.testing.assert_allclose(two.u_end, one.u_end, rtol=0, atol=1e-9)
-
-
-@pytest.mark.slow
-def test_nothing_heavy_is_imported_at_the_start() -> None:
-    code = "import sys, bodies; print(sorted({'trimesh', 'fcl', 'coal', 'vhacdx'} & set(sys.modules)))"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True)
-    assert done.stdout.strip() == "[]"
 
 
 def test_a_mesh_that_is_not_convex_meets_a_plane_with_its_hull(build: Any) -> None:
