@@ -37,7 +37,7 @@ pytestmark = pytest.mark.skipif(PLAIN, reason="nothing is compiled")
 @pytest.mark.slow
 @pytest.mark.timeout(390)
 def test_compiled_and_plain_agree(tmp_path: Path) -> None:
-    """Events and words alike, numbers to 1e-12 of the largest of their kind; and the cases enter nearly the whole engine.
+    """Events and words alike, numbers to 1e-12 of the largest of their kind; the cases enter most of the engine.
 
     One test, as the plain cases take an interpreter of their own and some two minutes, more where others work, too.
     """
