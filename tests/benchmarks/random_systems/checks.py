@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 import nonsmooth as ns
-from bodies import BallJoint, Distance, Fixed, Hinge, Rest, Slider
+from bodies import BallJoint, Distance, Fixed, Hinge, Slider
 from laws import (
     Bristle,
     CoulombContensou,
@@ -23,7 +23,7 @@ from laws import (
 from nonsmooth.interfaces.body import Vector
 from tests.benchmarks.random_systems.case import Case
 from tests.benchmarks.random_systems.gaps import overlaps
-from tests.benchmarks.random_systems.pieces import poses_of, rotations
+from tests.benchmarks.random_systems.pieces import is_still, poses_of, rotations
 
 DEPTH = 1e-6
 """Depth [m] from which bodies count as inside of each other."""
@@ -244,7 +244,7 @@ def _energy(case: Case, solution: ns.Solution) -> Iterator[str]:
     said = account.kinetic_end + account.potential_end
     if abs(energies[-1] - said) > _OPEN * scale + 1e-12:
         yield f"energy-end: {energies[-1]:.9g} J by the masses, {said:.9g} J by the account"
-    still = all(body.n_q or isinstance(body.motion, Rest) for body in case.bodies)  # type: ignore[attr-defined]
+    still = all(body.n_q or is_still(body) for body in case.bodies)
     rigid = all(type(laws.normal) is Unilateral for _, _, laws in case.contacts)
     stores = any(isinstance(laws.friction, Bristle | CoulombContensou) for _, _, laws in case.contacts)
     loses = all(isinstance(laws.impact, _NEVER_GAIN) for _, _, laws in case.contacts)

@@ -18,7 +18,7 @@ from nonsmooth import ContactLaws
 from nonsmooth.interfaces import Body
 from tests.benchmarks.random_systems.campaign import main
 from tests.benchmarks.random_systems.case import Case, Start
-from tests.benchmarks.random_systems.generate import turn
+from tests.benchmarks.random_systems.families.tumbling import turn
 from tests.benchmarks.random_systems.pieces import pieces_of, rotations
 from tests.benchmarks.random_systems.solids import KINDS, free_body, held_shape, number
 
