@@ -35,7 +35,8 @@ class Overlap:
     allowed: float
 
 
-def _placed(piece: Piece, poses: Poses) -> Poses:
+def placed(piece: Piece, poses: Poses) -> Poses:
+    """Return places [m] and axes of a piece by those of its body."""
     places, axes = poses
     return places + axes @ piece.place, axes @ piece.axes
 
@@ -45,7 +46,7 @@ def _arguments(one: Piece, two: Piece) -> tuple[Vector, Vector, Vector, Vector]:
 
 
 def _of_pieces(one: Piece, two: Piece, poses: tuple[Poses, Poses]) -> Iterator[Overlap]:
-    (first, first_axes), (second, second_axes) = _placed(one, poses[0]), _placed(two, poses[1])
+    (first, first_axes), (second, second_axes) = placed(one, poses[0]), placed(two, poses[1])
     first_axes, second_axes = np.ascontiguousarray(first_axes), np.ascontiguousarray(second_axes)
     between, sweep = second - first, one.sweep + two.sweep
     kinds, numbers, corners, others = _arguments(one, two)
@@ -61,7 +62,7 @@ def _of_pieces(one: Piece, two: Piece, poses: tuple[Poses, Poses]) -> Iterator[O
 
 
 def _below(piece: Piece, poses: Poses, points: Vector, normals: Vector) -> Iterator[Overlap]:
-    places, axes = _placed(piece, poses)
+    places, axes = placed(piece, poses)
     down = -np.einsum("nji,nj->ni", axes, normals)
     heights = np.einsum("ni,ni->n", places - points, normals) - piece.sweep
     for k in np.flatnonzero(heights < piece.reach):
@@ -101,7 +102,7 @@ def distance(one: Body, two: Body, poses: tuple[Poses, Poses]) -> float:
         height = float((poses[1][0][0] - poses[0][0][0] - first_axes @ point) @ outer)
         least = min(least, height - farthest(piece, -poses[1][1][0].T @ outer))
     for first, second in itertools.product(pieces_of(one), pieces_of(two)):
-        (at, axes), (other, other_axes) = _placed(first, poses[0]), _placed(second, poses[1])
+        (at, axes), (other, other_axes) = placed(first, poses[0]), placed(second, poses[1])
         both = np.stack([axes[0], other_axes[0]])
         way = np.array([0.0, 0.0, 1.0])
         found = convex.bounds(*_arguments(first, second), both, other[0] - at[0], 0.0, np.inf, way)
