@@ -172,7 +172,9 @@ def campaign(draws: Draws, given: argparse.Namespace) -> None:
     seeds = range(given.first, given.first + given.count)
     outcomes = collect(draws, seeds, given.workers, given.seconds, given.out)
     scripts = {seed: given.out / f"system_{seed}.py" for seed in _worth(outcomes, given.minimise)}
-    tasks = [("minimise", draws.case_of, seed, given.seconds, path) for seed, path in scripts.items() if not path.exists()]
+    tasks = [
+        ("minimise", draws.case_of, seed, given.seconds, path) for seed, path in scripts.items() if not path.exists()
+    ]
     for (_, _, seed, *_), word, _ in spread(work, tasks, given.workers, 25.0 * given.seconds + 60.0):
         print(f"{seed}: {scripts[seed]} {'' if word == 'back' else word}", file=sys.stderr, flush=True)
     lines = "\n".join(table(outcomes, draws.family_of))

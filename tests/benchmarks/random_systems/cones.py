@@ -143,7 +143,7 @@ def cones(case: Case, solution: ns.Solution, weight: float, momentum: float) -> 
                 k = int(np.argmax(excess))
                 name = solution.system.contacts[int(rows.contact[k])].name
                 yield (
-                    f"{what}-{kind}: {name}, {rows.normal[k]:.3g} normal and {rows.friction[k]:.3g} across with a "
-                    f"coefficient of {rows.bound[k]:.3g}, {rows.largest[k]:.3g} the largest, at t = {rows.time[k]:.6g} s; "
-                    f"{np.count_nonzero(excess > 0.0)} entries"
+                    f"{what}-{kind}: {name}, {rows.normal[k]:.4g} normal and {rows.friction[k]:.4g} across with a "
+                    f"coefficient of {rows.bound[k]:.4g}, at t = {rows.time[k]:.6g} s, where the largest is "
+                    f"{rows.largest[k]:.3g}; {np.count_nonzero(excess > 0.0)} of {len(excess)}"
                 )

@@ -7,8 +7,8 @@ of the other to the other side where its chord in that plane meets the other dis
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
-from nonsmooth.interfaces.body import Vector
 from tests.benchmarks.random_systems.gaps import Poses, placed
 from tests.benchmarks.random_systems.pieces import Piece
 
@@ -20,10 +20,10 @@ _APART = 1e-6
 """Distance from the plane [m] from which a centre counts as on one side of it."""
 
 
-def passed(one: Piece, two: Piece, poses: tuple[Poses, Poses]) -> Vector:
+def passed(one: Piece, two: Piece, poses: tuple[Poses, Poses]) -> NDArray[np.intp]:
     """Return the numbers of the poses before which two pieces passed through each other; none unless both are discs."""
     if not (one.flat and two.flat) or one.sweep + two.sweep > 0.0:
-        return np.zeros(0, dtype=int)
+        return np.zeros(0, dtype=np.intp)
     (first, axes), (second, others) = placed(one, poses[0]), placed(two, poses[1])
     centre = np.einsum("nji,nj->ni", axes, second - first)
     normal = np.einsum("nji,nj->ni", axes, others[:, :, 2])

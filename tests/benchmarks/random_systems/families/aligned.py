@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from bodies import Disc
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth import ContactLaws
 from nonsmooth.interfaces import Body
@@ -50,12 +49,12 @@ def product(one: Turn, two: Turn) -> Turn:
     """Return the unit quaternion of two rotations, the second one first."""
     w, v, other = one[0], np.array(one[1:]), np.array(two[1:])
     q = np.array([w * two[0] - v @ other, *(w * other + two[0] * v + np.cross(v, other))])
-    return tuple((q / np.linalg.norm(q)).tolist())  # type: ignore[return-value]
+    return tuple((q / np.linalg.norm(q)).tolist())
 
 
 def about(axis: Vector, angle: float) -> Turn:
     """Return the quaternion of a rotation by an angle [rad]."""
-    return (math.cos(0.5 * angle), *(math.sin(0.5 * angle) * axis).tolist())  # type: ignore[return-value]
+    return (math.cos(0.5 * angle), *(math.sin(0.5 * angle) * axis).tolist())
 
 
 def small_turn(random: Random, axis: Vector) -> Turn:
@@ -82,22 +81,20 @@ class Laid:
     turn: Turn
 
     def reach(self, way: Vector) -> float:
-        """How far it reaches from its origin along a unit vector [m], with the feet of a disc."""
+        """Return how far it reaches from its origin along a unit vector [m], with the feet of a disc."""
         local = rotations(np.array([self.turn]))[0].T @ way
         ends = (farthest(piece, local) + (piece.slack if piece.flat else 0.0) for piece in pieces_of(self.body))
         return max(ends)
 
     def width(self, way: Vector) -> float:
-        """The least width of its pieces along a unit vector [m]."""
+        """Return the least width of its pieces along a unit vector [m]."""
         local = rotations(np.array([self.turn]))[0].T @ way
         return min(farthest(piece, local) + farthest(piece, -local) for piece in pieces_of(self.body))
 
 
 def lay(random: Random, bodies: list[Body], turn: Turn, axis: Vector) -> list[Laid]:
     """Lay bodies with the same faces along an axis, all but the first turned by small angles."""
-    return [
-        Laid(body, product(small_turn(random, axis), turn) if k else turn) for k, body in enumerate(bodies)
-    ]
+    return [Laid(body, product(small_turn(random, axis), turn) if k else turn) for k, body in enumerate(bodies)]
 
 
 def next_to(random: Random, place: Vector, one: Laid, other: Laid, way: Vector, gap: float) -> Vector:

@@ -43,7 +43,7 @@ def draw(random: Random) -> Case:
     starts = [start(one, place, None if k else push) for k, (one, place) in enumerate(zip(laid, places, strict=True))]
     floor: list[Body] = [] if afloat else [Plate()]
     first: list[Start | None] = [] if afloat else [None]
-    made = tuple([*floor, *(one.body for one in laid)])
+    made = (*floor, *(one.body for one in laid))
     apart = interval(laid, way, max(speed, 0.2), size)
     contacts = all_pairs(len(made), laws(random))
-    return Case(made, tuple([*first, *starts]), contacts, (), 0.0 if afloat else 9.81, 0.04, apart)
+    return Case(made, (*first, *starts), contacts, (), 0.0 if afloat else 9.81, 0.04, apart)

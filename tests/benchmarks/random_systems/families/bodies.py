@@ -23,8 +23,8 @@ from bodies import (
 from nonsmooth.interfaces import Body
 from tests.benchmarks.random_systems.solids import Random, prism, upright
 
-_FACES = ((0, 2, 1), (0, 3, 2), (4, 5, 6), (4, 6, 7), (0, 1, 5), (0, 5, 4), (1, 2, 6), (1, 6, 5))
-_FACES += ((2, 3, 7), (2, 7, 6), (3, 0, 4), (3, 4, 7))
+_SIDES = ((0, 1, 5), (0, 5, 4), (1, 2, 6), (1, 6, 5), (2, 3, 7), (2, 7, 6), (3, 0, 4), (3, 4, 7))
+_FACES = ((0, 2, 1), (0, 3, 2), (4, 5, 6), (4, 6, 7), *_SIDES)
 Corners = tuple[tuple[float, float, float], ...]
 
 

@@ -45,4 +45,6 @@ def draw(random: Random) -> Case:
         starts.append(start(one, np.array([x + aside, y, z + above])))
     box = OpenBox(columns[0] * half[0], columns[1] * half[1])
     contacts = all_pairs(n + 1, laws(random))
-    return Case((box, *(one.body for one in laid)), (None, *starts), contacts, (), 9.81, 0.03, interval(laid, UP, 0.3, size))
+    return Case(
+        (box, *(one.body for one in laid)), (None, *starts), contacts, (), 9.81, 0.03, interval(laid, UP, 0.3, size)
+    )

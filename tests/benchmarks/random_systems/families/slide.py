@@ -46,7 +46,10 @@ def draw(random: Random) -> Case:
         ahead = gap if k == 1 else tiny(random, size)
         places.append(next_to(random, places[-1], laid[k - 1], laid[k], way, ahead))
     places = [np.array([*place[:2], one.reach(DOWN)]) for place, one in zip(places, laid, strict=True)]
-    starts = (None, *(start(one, p, None if k else speed * way) for k, (one, p) in enumerate(zip(laid, places, strict=True))))
+    starts = (
+        None,
+        *(start(one, p, None if k else speed * way) for k, (one, p) in enumerate(zip(laid, places, strict=True))),
+    )
     t_end = min((2.0 * gap + 0.5 * size) / speed, 0.08)
     contacts = all_pairs(n + 1, laws(random))
     made = (Plate(), *(one.body for one in laid))
