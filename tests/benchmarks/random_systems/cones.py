@@ -1,9 +1,9 @@
 """Whether the forces and impulses that a run reports are within the cones of their contacts' laws.
 
-Normal forces push, but for cohesive laws.  Friction is at most the coefficient of the law times the normal force.  Left
-out are laws whose bound is not told by the numbers of a run: ``RateAndState``, whose coefficient depends on an age, and
-``Bristle`` and ``CoulombContensou``, whose damping may exceed the bound.  Of ``Anisotropic`` and ``Directional`` the
-largest coefficient counts.
+Normal forces push, except those of ``Cohesive``.  Friction is at most the law's coefficient times the normal force; for
+``Anisotropic`` and ``Directional`` the largest coefficient counts.  Three laws have no bound here: the coefficient of
+``RateAndState`` depends on an age that a run does not report, and the damping of ``Bristle`` and ``CoulombContensou``
+may exceed mu N.
 """
 
 from __future__ import annotations
@@ -53,8 +53,8 @@ def strongest(law: Any) -> float:
 
 
 @dataclass(frozen=True)
-class Told:
-    """Forces or impulses that a run reports, in order of the instants.
+class Reported:
+    """Forces or impulses of a run, in order of the instants.
 
     Attributes
     ----------
@@ -95,7 +95,7 @@ def _largest(normal: Vector, first: NDArray[np.int64]) -> Vector:
     return np.repeat(most, counts[counts > 0])
 
 
-def told(case: Case, solution: ns.Solution) -> tuple[list[ContactLaws], dict[str, Told]]:
+def reported(case: Case, solution: ns.Solution) -> tuple[list[ContactLaws], dict[str, Reported]]:
     """Return the laws of each contact as the case has them, the forces at samples and the impulses of events."""
     numbers = {id(body): k for k, body in enumerate(solution.system.bodies)}
     given = {frozenset((i, j)): laws for i, j, laws in case.contacts}
@@ -103,7 +103,7 @@ def told(case: Case, solution: ns.Solution) -> tuple[list[ContactLaws], dict[str
     times = solution.t[np.unique(np.linspace(0, len(solution.t) - 1, _MOST).astype(int))]
     f, p, events = solution.contact_forces(times), solution.contact_impulses(), solution.events
     speeds = np.linalg.norm(f.slip_velocity, axis=1).tolist()
-    forces = Told(
+    forces = Reported(
         np.repeat(times, np.diff(f.first)),
         f.contact,
         f.normal_force,
@@ -111,7 +111,7 @@ def told(case: Case, solution: ns.Solution) -> tuple[list[ContactLaws], dict[str
         np.array([coefficient(laws[c].friction, v) for c, v in zip(f.contact.tolist(), speeds, strict=True)]),
         _largest(f.normal_force, f.first),
     )
-    impulses = Told(
+    impulses = Reported(
         events.time[p.event],
         p.contact,
         p.normal_impulse,
@@ -133,7 +133,7 @@ def cones(case: Case, solution: ns.Solution, weight: float, momentum: float) -> 
     weight, momentum : float
         Sum of all weights [N] and largest sum of the sizes of all momenta [kg m/s].
     """
-    laws, found = told(case, solution)
+    laws, found = reported(case, solution)
     pulling = np.array([type(own.normal) is Cohesive for own in laws], dtype=bool)
     for what, floor in (("force", weight + momentum / case.t_end), ("impulse", momentum)):
         rows = found[what]

@@ -105,18 +105,18 @@ def next_to(random: Random, place: Vector, one: Laid, other: Laid, way: Vector, 
     return np.asarray(place + (one.reach(way) + other.reach(-way) + gap) * way + across)
 
 
-def start(laid: Laid, place: Vector, velocity: Vector | None = None, **more: Any) -> Start:
+def start(laid: Laid, place: Vector, velocity: Vector | None = None) -> Start:
     """Return the start of a body at a place [m] with a velocity [m/s], at rest without."""
-    words = {"position": tuple(place.tolist()), "orientation": laid.turn}
+    words: dict[str, Any] = {"position": tuple(place.tolist()), "orientation": laid.turn}
     if velocity is not None:
         words["velocity"] = tuple(velocity.tolist())
-    return Start("place", tuple((words | more).items()))
+    return Start("place", tuple(words.items()))
 
 
 def interval(laid: list[Laid], way: Vector, speed: float, size: float) -> float:
     """Return the time between samples [s] in which bodies of a size [m] move by a part of their widths at a speed."""
     widths = sorted(max(one.width(way), _THINNEST * size) for one in laid)
-    return float(f"{min(_SAMPLES * (widths[0] + widths[min(1, len(widths) - 1)]) / speed, 1e-3):.3g}")
+    return float(f"{min(_SAMPLES * (widths[0] + widths[1]) / speed, 1e-3):.3g}")
 
 
 def laws(random: Random) -> Callable[[], ContactLaws]:
