@@ -9,6 +9,7 @@ import sys
 import time
 import warnings
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
 from bodies import Ball, DiscBody
@@ -21,6 +22,8 @@ from tests.benchmarks.random_systems.run import Outcome, run
 
 _REPEATED = 20
 """Every so many-th case is run twice."""
+_EXAMPLES = 8
+"""Numbers told of each cause."""
 _ENDS = ("refused", "done", "failed", "time-out", "hang", "crash", "exception")
 
 
@@ -50,30 +53,38 @@ def _load() -> None:
     run(Case(balls, starts, ((0, 1, laws), (1, 2, laws)), (), 9.81, 1e-3))
 
 
+@dataclass(frozen=True)
+class Draws:
+    """Which system belongs to a number, and of which family it is."""
+
+    case_of: Callable[[int], Case]
+    family_of: Callable[[int], str]
+
+
 def _kept(path: Path) -> dict[int, Outcome]:
     rows = {}
     if path.is_file():
         for line in path.read_text(encoding="utf-8").splitlines():
             row = json.loads(line)
             seed = row.pop("seed")
+            del row["family"]
             rows[seed] = Outcome(**{**row, "found": tuple(row["found"])})
     return rows
 
 
-def collect(
-    case_of: Callable[[int], Case], seeds: range, workers: int, seconds: float, folder: Path
-) -> dict[int, Outcome]:
+def collect(draws: Draws, seeds: range, workers: int, seconds: float, folder: Path) -> dict[int, Outcome]:
     """Run the seeds that the folder has no result of yet, and return all results of the range."""
     folder.mkdir(parents=True, exist_ok=True)
     _load()
     path = folder / "results.jsonl"
     kept = _kept(path)
-    tasks = (("run", case_of, seed, seconds, folder) for seed in seeds if seed not in kept)
+    tasks = (("run", draws.case_of, seed, seconds, folder) for seed in seeds if seed not in kept)
     last = time.monotonic()
     with path.open("a", encoding="utf-8") as file:
         for (_, _, seed, *_), word, value in spread(work, tasks, workers, 10.0 * seconds + 120.0):
             kept[seed] = value if word == "back" else Outcome(word, seconds=seconds)
-            print(json.dumps({"seed": seed, **kept[seed].row()}), file=file, flush=True)
+            row = {"seed": seed, "family": draws.family_of(seed), **kept[seed].row()}
+            print(json.dumps(row), file=file, flush=True)
             if time.monotonic() - last > 10.0:
                 last = time.monotonic()
                 counts = collections.Counter(o.end for o in kept.values())
@@ -82,27 +93,50 @@ def collect(
     return {seed: kept[seed] for seed in seeds if seed in kept}
 
 
-def table(outcomes: dict[int, Outcome]) -> Iterator[str]:
-    """Yield the lines of the table of ends by cause."""
-    total = len(outcomes)
-    yield f"| end | cause | of {total} | for example |"
-    yield "| --- | --- | --- | --- |"
-    ends = [*_ENDS, *sorted({o.end for o in outcomes.values()} - set(_ENDS))]
-    for end in ends:
-        rows = {seed: o for seed, o in outcomes.items() if o.end == end}
-        causes = collections.Counter(o.cause for o in rows.values())
-        for cause, count in causes.most_common():
-            some = ", ".join(str(s) for s, o in rows.items() if o.cause == cause and end != "done").split(", ")[:3]
-            yield f"| {end} | {cause} | {count} | {', '.join(some)} |"
-    for name, chosen in (("done, but wrong", True), ("not done, and wrong in what was computed", False)):
+def _some(seeds: list[int]) -> str:
+    return ", ".join(map(str, seeds[:_EXAMPLES]))
+
+
+def _counts(families: dict[str, dict[int, Outcome]]) -> Iterator[str]:
+    """Yield the lines of the table of ends by family."""
+    ends = [*_ENDS, *sorted({o.end for rows in families.values() for o in rows.values()} - set(_ENDS))]
+    yield f"| family | systems | {' | '.join(ends)} | **wrong in silence** | mean time [s] |"
+    yield f"|{' --- |' * (len(ends) + 4)}"
+    for family, rows in families.items():
+        counts = collections.Counter(o.end for o in rows.values())
+        silent, mean = sum(o.silent for o in rows.values()), sum(o.seconds for o in rows.values()) / len(rows)
+        numbers = " | ".join(str(counts[end]) for end in ends)
+        yield f"| {family} | {len(rows)} | {numbers} | **{silent}** | {mean:.2f} |"
+
+
+def _causes(rows: dict[int, Outcome]) -> Iterator[tuple[str, str, list[int]]]:
+    """Yield how systems end, why, and their numbers: those that are wrong first, then by end."""
+    for name, done in (("done, wrong in silence", True), ("not done, and wrong in what was computed", False)):
         kinds: dict[str, list[int]] = collections.defaultdict(list)
-        for seed, o in outcomes.items():
-            if o.found and (o.end == "done") == chosen:
+        for seed, o in rows.items():
+            if o.found and (o.end == "done") == done:
                 for kind in {text.split(":")[0] for text in o.found}:
                     kinds[kind].append(seed)
-        for kind, seeds in sorted(kinds.items()):
-            yield f"| {name} | {kind} | {len(seeds)} | {', '.join(map(str, seeds[:3]))} |"
-    yield f"| **silently wrong** | | **{sum(o.silent for o in outcomes.values())}** | |"
+        yield from ((name, kind, seeds) for kind, seeds in sorted(kinds.items(), key=lambda row: -len(row[1])))
+    causes: dict[tuple[str, str], list[int]] = collections.defaultdict(list)
+    for seed, o in rows.items():
+        if o.end != "done":
+            causes[o.end, o.cause].append(seed)
+    yield from ((end, cause, seeds) for (end, cause), seeds in sorted(causes.items(), key=lambda row: -len(row[1])))
+
+
+def table(outcomes: dict[int, Outcome], family_of: Callable[[int], str]) -> Iterator[str]:
+    """Yield the lines of two tables: ends by family, and causes by family with the first numbers of each."""
+    families: dict[str, dict[int, Outcome]] = collections.defaultdict(dict)
+    for seed, outcome in outcomes.items():
+        families[family_of(seed)][seed] = outcome
+    yield from _counts(families)
+    yield ""
+    yield "| family | end | cause | systems | for example |"
+    yield "| --- | --- | --- | --- | --- |"
+    for family, rows in families.items():
+        for end, cause, seeds in _causes(rows):
+            yield f"| {family} | {end} | {cause} | {len(seeds)} | {_some(seeds)} |"
 
 
 def _worth(outcomes: dict[int, Outcome], most: int) -> list[int]:
@@ -121,8 +155,8 @@ def _worth(outcomes: dict[int, Outcome], most: int) -> list[int]:
     return chosen
 
 
-def main(case_of: Callable[[int], Case], description: str | None, arguments: list[str]) -> None:
-    """Run a campaign as the command line says."""
+def parser_of(description: str | None) -> argparse.ArgumentParser:
+    """Return the parser of the arguments that all campaigns have."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("first", type=int, help="number of the first system")
     parser.add_argument("count", type=int, help="how many")
@@ -130,13 +164,19 @@ def main(case_of: Callable[[int], Case], description: str | None, arguments: lis
     parser.add_argument("--seconds", type=float, default=20.0, help="processor time of a system [s]")
     parser.add_argument("--out", type=Path, default=Path("random_systems"), help="folder of results and scripts")
     parser.add_argument("--minimise", type=int, default=2, help="scripts written of each way to end badly; 0 for none")
-    given = parser.parse_args(arguments)
+    return parser
+
+
+def campaign(draws: Draws, given: argparse.Namespace) -> None:
+    """Run the systems that the command line asks for, and print the tables."""
     seeds = range(given.first, given.first + given.count)
-    outcomes = collect(case_of, seeds, given.workers, given.seconds, given.out)
+    outcomes = collect(draws, seeds, given.workers, given.seconds, given.out)
     scripts = {seed: given.out / f"system_{seed}.py" for seed in _worth(outcomes, given.minimise)}
-    tasks = [("minimise", case_of, seed, given.seconds, path) for seed, path in scripts.items() if not path.exists()]
+    tasks = [
+        ("minimise", draws.case_of, seed, given.seconds, path) for seed, path in scripts.items() if not path.exists()
+    ]
     for (_, _, seed, *_), word, _ in spread(work, tasks, given.workers, 25.0 * given.seconds + 60.0):
         print(f"{seed}: {scripts[seed]} {'' if word == 'back' else word}", file=sys.stderr, flush=True)
-    lines = "\n".join(table(outcomes))
+    lines = "\n".join(table(outcomes, draws.family_of))
     (given.out / "table.md").write_text(lines + "\n", encoding="utf-8")
     print(lines)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -9,7 +10,7 @@ from typing import Any
 import numpy as np
 
 import nonsmooth as ns
-from bodies import BallJoint, Distance, Fixed, Hinge, Rest, Slider
+from bodies import BallJoint, Distance, Fixed, Hinge, Slider
 from laws import (
     Bristle,
     CoulombContensou,
@@ -22,8 +23,10 @@ from laws import (
 )
 from nonsmooth.interfaces.body import Vector
 from tests.benchmarks.random_systems.case import Case
+from tests.benchmarks.random_systems.cones import cones
 from tests.benchmarks.random_systems.gaps import overlaps
-from tests.benchmarks.random_systems.pieces import poses_of, rotations
+from tests.benchmarks.random_systems.pieces import is_still, pieces_of, poses_of, rotations
+from tests.benchmarks.random_systems.through import passed
 
 DEPTH = 1e-6
 """Depth [m] from which bodies count as inside of each other."""
@@ -63,7 +66,16 @@ def findings(case: Case, solution: ns.Solution) -> list[str]:
     stored = _stored(case, records)
     energy = sum(stored.values())
     found = [*_inside(case, records, energy), *_unfelt(case, records, stored), *_jumps(case, records)]
-    return [*found, *_joints(case, records), *_energy(case, solution), *_momentum(case, records, solution, energy)]
+    found += [*_joints(case, records), *_energy(case, solution), *_momentum(case, records, solution, energy)]
+    return [*found, *cones(case, solution, *_loads(case, records))]
+
+
+def _loads(case: Case, records: Records) -> tuple[float, float]:
+    """Return the sum of all weights [N] and the largest sum of the sizes of momenta [kg m/s]."""
+    masses = _masses(case)
+    speeds = [np.linalg.norm(v[:, :3], axis=1) for v in _velocities(case, records.after)]
+    moved = sum(mass * speed for mass, speed in zip(masses, speeds, strict=True) if mass > 0.0)
+    return sum(masses) * abs(case.gravity), float(np.max(moved))
 
 
 def _columns(case: Case, q: Vector) -> Iterator[tuple[int, Any, Vector]]:
@@ -164,6 +176,10 @@ def _inside(case: Case, records: Records, stored: float) -> Iterator[str]:
             names = f"{type(case.bodies[i]).__name__} b{i}, {type(case.bodies[j]).__name__} b{j}"
             first, worst = records.t[found[0].pose], records.t[deepest.pose]
             yield f"inside: {names} by {deepest.depth:.3g} m at t = {worst:.6g} s, first seen at {first:.6g} s"
+        pairs = itertools.product(pieces_of(case.bodies[i]), pieces_of(case.bodies[j]))
+        for one, two in pairs if type(laws.normal) is Unilateral else ():
+            for pose in passed(one, two, (poses[i], poses[j]))[:1]:
+                yield f"through: disc b{i} and disc b{j} pass each other before t = {records.t[pose]:.6g} s"
 
 
 def jumps(case: Case, solution: ns.Solution) -> list[str]:
@@ -244,7 +260,7 @@ def _energy(case: Case, solution: ns.Solution) -> Iterator[str]:
     said = account.kinetic_end + account.potential_end
     if abs(energies[-1] - said) > _OPEN * scale + 1e-12:
         yield f"energy-end: {energies[-1]:.9g} J by the masses, {said:.9g} J by the account"
-    still = all(body.n_q or isinstance(body.motion, Rest) for body in case.bodies)  # type: ignore[attr-defined]
+    still = all(body.n_q or is_still(body) for body in case.bodies)
     rigid = all(type(laws.normal) is Unilateral for _, _, laws in case.contacts)
     stores = any(isinstance(laws.friction, Bristle | CoulombContensou) for _, _, laws in case.contacts)
     loses = all(isinstance(laws.impact, _NEVER_GAIN) for _, _, laws in case.contacts)

@@ -8,17 +8,15 @@ by as little as a hundredth of a millimetre, or straight on, and both may touch 
 
 from __future__ import annotations
 
-import sys
-
 import numpy as np
 
 from bodies import DrivenBody, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth import ContactLaws
 from nonsmooth.interfaces import Body
-from tests.benchmarks.random_systems.campaign import main
+from tests.benchmarks.random_systems.campaign import Draws, campaign, parser_of
 from tests.benchmarks.random_systems.case import Case, Start
-from tests.benchmarks.random_systems.generate import turn
+from tests.benchmarks.random_systems.families.tumbling import turn
 from tests.benchmarks.random_systems.pieces import pieces_of, rotations
 from tests.benchmarks.random_systems.solids import KINDS, free_body, held_shape, number
 
@@ -83,4 +81,4 @@ def case_of(seed: int) -> Case:
 
 
 if __name__ == "__main__":
-    main(case_of, __doc__, sys.argv[1:])
+    campaign(Draws(case_of, lambda seed: "drop"), parser_of(__doc__).parse_args())

@@ -11,7 +11,7 @@ import numpy as np
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.body import Vector
 from tests.benchmarks.random_systems import convex
-from tests.benchmarks.random_systems.pieces import Piece, is_plate, pieces_of
+from tests.benchmarks.random_systems.pieces import Piece, half_spaces, pieces_of
 
 _LOOKED_AT = 12
 """Poses of a pair, of those that no plane proves apart, whose depth is measured: the first ones and some later."""
@@ -35,7 +35,8 @@ class Overlap:
     allowed: float
 
 
-def _placed(piece: Piece, poses: Poses) -> Poses:
+def placed(piece: Piece, poses: Poses) -> Poses:
+    """Return places [m] and axes of a piece by those of its body."""
     places, axes = poses
     return places + axes @ piece.place, axes @ piece.axes
 
@@ -45,7 +46,7 @@ def _arguments(one: Piece, two: Piece) -> tuple[Vector, Vector, Vector, Vector]:
 
 
 def _of_pieces(one: Piece, two: Piece, poses: tuple[Poses, Poses]) -> Iterator[Overlap]:
-    (first, first_axes), (second, second_axes) = _placed(one, poses[0]), _placed(two, poses[1])
+    (first, first_axes), (second, second_axes) = placed(one, poses[0]), placed(two, poses[1])
     first_axes, second_axes = np.ascontiguousarray(first_axes), np.ascontiguousarray(second_axes)
     between, sweep = second - first, one.sweep + two.sweep
     kinds, numbers, corners, others = _arguments(one, two)
@@ -60,11 +61,10 @@ def _of_pieces(one: Piece, two: Piece, poses: tuple[Poses, Poses]) -> Iterator[O
         yield Overlap(int(k), -gap, one.slack + two.slack)
 
 
-def _below(piece: Piece, poses: Poses, plate: Poses) -> Iterator[Overlap]:
-    places, axes = _placed(piece, poses)
-    normals = plate[1][:, :, 2]
+def _below(piece: Piece, poses: Poses, points: Vector, normals: Vector) -> Iterator[Overlap]:
+    places, axes = placed(piece, poses)
     down = -np.einsum("nji,nj->ni", axes, normals)
-    heights = np.einsum("ni,ni->n", places - plate[0], normals) - piece.sweep
+    heights = np.einsum("ni,ni->n", places - points, normals) - piece.sweep
     for k in np.flatnonzero(heights < piece.reach):
         point = np.empty(3)
         convex._core(piece.kind, piece.numbers, piece.corners, down[k], point)
@@ -79,29 +79,30 @@ def overlaps(one: Body, two: Body, poses: tuple[Poses, Poses]) -> list[Overlap]:
     Parameters
     ----------
     one, two : Body
-        The bodies; a plate comes first.
+        The bodies; a plate or an open box comes first.
     poses : tuple
         Places [m] and axes of either, shapes [n, 3] and [n, 3, 3].
     """
-    if is_plate(one):
-        return [found for piece in pieces_of(two) for found in _below(piece, poses[1], poses[0])]
+    if planes := half_spaces(one):
+        return [
+            found
+            for point, normal in planes
+            for piece in pieces_of(two)
+            for found in _below(piece, poses[1], poses[0][0] + poses[0][1] @ point, poses[0][1] @ normal)
+        ]
     pairs = itertools.product(pieces_of(one), pieces_of(two))
     return [found for first, second in pairs for found in _of_pieces(first, second, poses)]
 
 
 def distance(one: Body, two: Body, poses: tuple[Poses, Poses]) -> float:
     """Return the distance of two bodies at the first of the poses [m]; 0 where they overlap."""
-    least = np.inf
-    if is_plate(one):
-        normal, point = poses[0][1][0, :, 2], np.empty(3)
-        for piece in pieces_of(two):
-            places, axes = _placed(piece, poses[1])
-            down = -axes[0].T @ normal
-            convex._core(piece.kind, piece.numbers, piece.corners, down, point)
-            least = min(least, float((places[0] - poses[0][0][0]) @ normal - point @ down) - piece.sweep)
-        return max(least, 0.0)
+    least, first_axes = np.inf, poses[0][1][0]
+    for (point, normal), piece in itertools.product(half_spaces(one), pieces_of(two)):
+        outer = first_axes @ normal
+        height = float((poses[1][0][0] - poses[0][0][0] - first_axes @ point) @ outer)
+        least = min(least, height - farthest(piece, -poses[1][1][0].T @ outer))
     for first, second in itertools.product(pieces_of(one), pieces_of(two)):
-        (at, axes), (other, other_axes) = _placed(first, poses[0]), _placed(second, poses[1])
+        (at, axes), (other, other_axes) = placed(first, poses[0]), placed(second, poses[1])
         both = np.stack([axes[0], other_axes[0]])
         way = np.array([0.0, 0.0, 1.0])
         found = convex.bounds(*_arguments(first, second), both, other[0] - at[0], 0.0, np.inf, way)

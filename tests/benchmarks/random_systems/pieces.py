@@ -18,6 +18,7 @@ from bodies import (
     Disc,
     Ellipsoid,
     Harmonic,
+    OpenBox,
     Plane,
     Plate,
     Rest,
@@ -58,6 +59,11 @@ class Piece:
     place: Vector
     axes: Vector
     slack: float = 0.0
+
+    @property
+    def flat(self) -> bool:
+        """Whether the core is a disc."""
+        return self.kind == FRUSTUM and self.numbers[1] == self.numbers[3]
 
     @property
     def reach(self) -> float:
@@ -171,11 +177,22 @@ def driven_poses(motion: Any, t: Vector) -> tuple[Vector, Vector]:
 
 def poses_of(body: Body, t: Vector, q: Vector) -> tuple[Vector, Vector]:
     """Return places [m] and axes of a body at times [s] by its coordinates, shape [n, n_q]."""
+    if type(body) is OpenBox:
+        return np.tile(body.position, (len(t), 1)), np.tile(rotations(np.array([body.orientation]))[0], (len(t), 1, 1))
     if body.n_q == 0:
         return driven_poses(body.motion, t)  # type: ignore[attr-defined]
     return q[:, :3], rotations(q[:, 3:])
 
 
-def is_plate(body: Body) -> bool:
-    """Return whether a body is a half-space."""
-    return type(body) is Plate
+def half_spaces(body: Body) -> list[tuple[Vector, Vector]]:
+    """Return a point [m] and the outer normal of the planes of a body in its axes; none but of a plate or a box."""
+    if type(body) is OpenBox:
+        walls = ((-body.half_x, 0), (body.half_x, 0), (-body.half_y, 1), (body.half_y, 1))
+        sides = [(half * np.eye(3)[k], -np.sign(half) * np.eye(3)[k]) for half, k in walls]
+        return [(np.zeros(3), np.eye(3)[2]), *sides]
+    return [(np.zeros(3), np.eye(3)[2])] if type(body) is Plate else []
+
+
+def is_still(body: Body) -> bool:
+    """Return whether a body is held at rest."""
+    return type(body) is OpenBox or (body.n_q == 0 and isinstance(body.motion, Rest))  # type: ignore[attr-defined]

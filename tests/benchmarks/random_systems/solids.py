@@ -32,13 +32,25 @@ from bodies import (
     Triangles,
 )
 from nonsmooth.interfaces import Body, Shape
+from nonsmooth.interfaces.body import Vector
 
 Random: TypeAlias = np.random.Generator
-_OUTLINES = {
+PRISMS = {
     "L": ((0.0, 0.0), (1.0, 0.0), (1.0, 0.3), (0.3, 0.3), (0.3, 1.0), (0.0, 1.0)),
     "dart": ((0.0, 0.0), (1.0, -0.3), (0.35, 0.35), (-0.3, 1.0)),
+    "U": ((0.0, 0.0), (1.2, 0.0), (1.2, 0.8), (1.0, 0.8), (1.0, 0.2), (0.2, 0.2), (0.2, 0.8), (0.0, 0.8)),
 }
-PIECES = {"L": ((0, 1, 2, 3), (0, 3, 4, 5)), "dart": ((0, 1, 2), (0, 2, 3))}
+"""Outlines of the meshes that are not convex."""
+_CUTS = {
+    "L": ((0, 1, 3), (1, 2, 3), (0, 3, 5), (3, 4, 5)),
+    "dart": ((0, 1, 2), (0, 2, 3)),
+    "U": ((0, 1, 4), (0, 4, 5), (1, 2, 3), (1, 3, 4), (0, 5, 7), (5, 6, 7)),
+}
+PIECES = {
+    "L": ((0, 1, 2, 3), (0, 3, 4, 5)),
+    "dart": ((0, 1, 2), (0, 2, 3)),
+    "U": ((0, 1, 4, 5), (1, 2, 3, 4), (0, 5, 6, 7)),
+}
 """Corners of the outline of each convex piece of the meshes that are not convex, by their names."""
 KINDS = (
     *("ball", "dumbbell", "rod", "capsule", "cylinder", "cone", "disc"),
@@ -51,20 +63,28 @@ def number(random: Random, low: float, high: float) -> float:
     return float(f"{random.uniform(low, high):.4g}")
 
 
+def prism(name: str, corners: Vector) -> Triangles:
+    """Return the surface of a prism over a named outline by its corners [m]: those of the base, then of the top."""
+    n = len(PRISMS[name])
+    faces = [(a, c, b) for a, b, c in _CUTS[name]] + [(a + n, b + n, c + n) for a, b, c in _CUTS[name]]
+    faces += [face for i in range(n) for j in ((i + 1) % n,) for face in ((i, j, j + n), (i, j + n, i + n))]
+    return Triangles(corners.tolist(), faces, name)
+
+
+def upright(name: str, height: float) -> Vector:
+    """Return the corners of the prism of a height over a named outline, shape [2 n, 3]."""
+    outline = np.array(PRISMS[name])
+    flat = np.column_stack([outline, np.zeros(len(outline))])
+    return np.vstack([flat, flat + np.array([0.0, 0.0, height])])
+
+
 def triangles(random: Random, size: float) -> Triangles:
     """Return the surface of a prism over an outline that is not convex, stretched and sheared."""
     name = ("L", "dart")[int(random.integers(2))]
-    outline = np.array(_OUTLINES[name])
-    n, turns = len(outline), range(len(outline))
-    flat = np.column_stack([outline, np.zeros(n)])
-    solid = np.vstack([flat, flat + np.array([0.0, 0.0, number(random, 0.3, 1.0)])])
+    solid = upright(name, number(random, 0.3, 1.0))
     shear = np.diag(random.uniform(0.7, 1.3, 3)) + (random.random() < 0.5) * random.uniform(-0.2, 0.2, (3, 3))
     # not rounded: the faces stay flat, so that the convex pieces are the body
-    corners = 1.5 * size * solid @ np.round(shear, 2).T
-    cuts = {"L": ((0, 1, 3), (1, 2, 3), (0, 3, 5), (3, 4, 5)), "dart": ((0, 1, 2), (0, 2, 3))}[name]
-    faces = [(a, c, b) for a, b, c in cuts] + [(a + n, b + n, c + n) for a, b, c in cuts]
-    faces += [face for i in turns for j in ((i + 1) % n,) for face in ((i, j, j + n), (i, j + n, i + n))]
-    return Triangles(corners.tolist(), faces, name)
+    return prism(name, 1.5 * size * solid @ np.round(shear, 2).T)
 
 
 def _points(random: Random, size: float) -> list[list[float]]:
