@@ -69,6 +69,7 @@ def main() -> None:
     parser.add_argument("--tree", type=Path, default=Path(), help="folder of the project, of this or another commit")
     parser.add_argument("--seed", type=int, default=1, help="of the draw")
     parser.add_argument("--count", type=int, default=60, help="how many faults")
+    parser.add_argument("--area", default="", help="try only the faults of this folder, such as laws")
     parser.add_argument("--name", default="tests", help="name of the tier")
     parser.add_argument("--out", type=Path, required=True, help="file of results")
     parser.add_argument("--together", action="store_true", help="plant all that are left at once")
@@ -76,7 +77,7 @@ def main() -> None:
     given = parser.parse_args()
     faults = draw(given.tree, given.seed, given.count)
     done = {row["fault"] for row in _rows(given.out) if row["found"] or row["tier"] == given.name}
-    left = [fault for fault in faults if str(fault) not in done]
+    left = [fault for fault in faults if str(fault) not in done and fault.file.startswith(given.area)]
     (_together if given.together else _one_by_one)(given.tree, left, given.words, given.out, given.name)
     rows = _rows(given.out)
     found = {row["fault"]: row["tier"] for row in rows if row["found"]}
