@@ -88,7 +88,9 @@ def test_one_of_three_numbers_is_flush_and_its_family_can_be_named() -> None:
 def test_shifts_and_angles_are_zero_or_spread_over_their_decades() -> None:
     random = np.random.default_rng(1)
     shifts = np.abs([shift(random, 2.0) for _ in range(500)]) / 2.0
-    angles = np.array([2.0 * math.asin(min(1.0, np.linalg.norm(small_turn(random, AXIS)[1:]))) for _ in range(500)])
+    angles = np.array(
+        [2.0 * math.asin(min(1.0, float(np.linalg.norm(small_turn(random, AXIS)[1:])))) for _ in range(500)]
+    )
     for sizes, low, high in ((shifts, 1e-12, 1e-3), (angles, 1e-9, 1e-2)):
         some = sizes[sizes > 0.0]
         assert 0.3 < np.mean(sizes == 0.0) < 0.5
