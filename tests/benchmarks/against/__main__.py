@@ -31,7 +31,6 @@ not measure how long it takes to compile.
 from __future__ import annotations
 
 import argparse
-import sys
 
 from tests.benchmarks.against.compare import FULL, QUICK, compare
 

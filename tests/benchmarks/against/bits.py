@@ -9,7 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
-from tests.benchmarks.against.pipe import Worker
+from tests.benchmarks.against.pipe import NoAnswer, Worker
 from tests.benchmarks.against.sides import Side
 
 Tasks = dict[str, dict[str, Any]]
@@ -31,8 +31,10 @@ def of(side: Side, tasks: Tasks, seconds: float, told: Callable[[str], None]) ->
     found: Results = {}
     with Worker(side) as worker:
         for number, (name, task) in enumerate(tasks.items(), 1):
-            answered = worker.ask(what="bits", task=task, seconds=seconds)
-            found[name] = answered.get("answer") or lost(answered["error"])
+            try:
+                found[name] = worker.ask(what="bits", task=task, seconds=seconds)
+            except NoAnswer as error:
+                found[name] = lost(str(error))
             if number % 20 == 0:
                 told(f"bits, {side.name} side: {number} of {len(tasks)}")
     return found

@@ -11,7 +11,6 @@ import time
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
 
 from tests.benchmarks.against import bits, differences, scenarios, source, speed, start
 from tests.benchmarks.against.sides import commit, resolved, snapshot
@@ -29,20 +28,17 @@ class Extent:
         Processor time after which a system is cut off [s].
     rounds, starts : int
         Runs of every scene, and new processes of each kind, on either side.
-    part : float
-        Part of the scenes' time.
     """
 
     systems: int
     seconds: float
     rounds: int
     starts: int
-    part: float
 
 
-FULL = Extent(systems=200, seconds=4.0, rounds=15, starts=9, part=1.0)
+FULL = Extent(systems=200, seconds=4.0, rounds=15, starts=9)
 """For some ten minutes of two idle cores."""
-QUICK = Extent(systems=40, seconds=1.0, rounds=5, starts=3, part=0.4)
+QUICK = Extent(systems=40, seconds=1.0, rounds=5, starts=3)
 """For some two minutes."""
 
 
@@ -63,7 +59,7 @@ def compare(given: argparse.Namespace, extent: Extent) -> Iterator[str]:
         told(f"bits: {count} random systems and the scenarios")
         tasks = scenarios.tasks(sides) | bits.drawn(sides[0], given.first, count, folder / "drawn.jsonl")
         results = bits.of_both(sides, tasks, extent.seconds, told)
-        ratios, peaks = speed.measured(sides, extent.rounds, extent.part, told)
+        speeds = speed.measured(sides, extent.rounds, told)
         alone = scenarios.only_one(sides)
     yield f"# The working tree against {given.commit} ({revision[:8]})"
     yield from ("", f"## Bits: {len(tasks) - count} scenarios and {count} random systems from {given.first}", "")
@@ -71,21 +67,20 @@ def compare(given: argparse.Namespace, extent: Extent) -> Iterator[str]:
     if alone:
         yield from ("", f"Scenarios of one side only: {', '.join(alone)}")
     yield from ("", f"## Speed: {extent.rounds} ratios of single runs", "")
-    yield from speed.table(ratios)
+    yield from speed.table(speeds)
     yield from ("", "## Processes", "")
-    yield from start.table(starts, peaks)
+    yield from start.table(starts, speeds.peaks)
     yield from ("", "## Source", "")
     yield from source.table(*sizes)
     yield from ("", f"Numeric constants of the engine: {source.change(constants[1], constants[0])}")
     told("done")
     if given.json:
-        figures = {"commit": revision, "bits": results, "speed": _plain(ratios), "starts": asdict(starts)}
-        figures |= {"peaks": peaks, "sizes": [_plain(one) for one in sizes], "constants": constants}
+        figures = {"commit": revision, "bits": results, "speed": asdict(speeds), "starts": asdict(starts)}
+        figures |= {
+            "sizes": [{name: asdict(row) for name, row in one.items()} for one in sizes],
+            "constants": constants,
+        }
         Path(given.json).write_text(json.dumps(figures, indent=1), encoding="utf-8")
-
-
-def _plain(rows: dict[str, Any]) -> dict[str, Any]:
-    return {name: row if isinstance(row, str) else asdict(row) for name, row in rows.items()}
 
 
 @contextlib.contextmanager

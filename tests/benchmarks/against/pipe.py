@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import select
@@ -18,6 +19,10 @@ _SILENT = 300.0
 """Wall time after which a process without an answer counts as hanging [s]: compiling, and the slowest run."""
 
 
+class NoAnswer(RuntimeError):
+    """A request that a worker could not answer, and why."""
+
+
 class Worker:
     """A process of one side that runs what it is asked to run."""
 
@@ -30,43 +35,45 @@ class Worker:
     def __enter__(self) -> Worker:
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
         self.close()
 
-    def ask(self, **request: Any) -> dict[str, Any]:
-        """Return the answer, under the key ``answer``, or why there is none, under ``error``."""
-        request_line = json.dumps(request) + "\n"
+    def ask(self, **request: Any) -> Any:
+        """Return the answer to a request.
+
+        Raises
+        ------
+        NoAnswer
+            If the request failed, or the process ended or did not answer; another one has begun then.
+        """
         try:
-            self._process.stdin.write(request_line.encode())  # type: ignore[union-attr]
+            self._process.stdin.write((json.dumps(request) + "\n").encode())  # type: ignore[union-attr]
             self._process.stdin.flush()  # type: ignore[union-attr]
+            ready, _, _ = select.select([self._process.stdout], [], [], _SILENT)
+            line = self._process.stdout.readline() if ready else b""  # type: ignore[union-attr]
         except BrokenPipeError:
-            return self._lost()
-        ready, _, _ = select.select([self._process.stdout], [], [], _SILENT)
-        if not ready:
-            self._process.kill()
-            self._again()
-            return {"error": f"no answer in {_SILENT:g} s"}
-        line = self._process.stdout.readline()  # type: ignore[union-attr]
+            ready, line = [True], b""
         if not line:
-            return self._lost()
-        found: dict[str, Any] = json.loads(line)
-        return found
+            self._process.kill()
+            self.close()
+            status, self._process = self._process.returncode, self._started()
+            why = f"the process ended with status {status}" if ready else f"no answer in {_SILENT:g} s"
+            raise NoAnswer(f"{self._side.name} side: {why}")
+        found = json.loads(line)
+        if "error" in found:
+            raise NoAnswer(f"{self._side.name} side: {found['error']}")
+        return found["answer"]
 
     def close(self) -> None:
         """End the process, and note how much memory it had."""
-        self._process.stdin.close()  # type: ignore[union-attr]
+        with contextlib.suppress(BrokenPipeError):
+            self._process.stdin.close()  # type: ignore[union-attr]
         self._process.stdout.close()  # type: ignore[union-attr]
         _, status, used = os.wait4(self._process.pid, 0)
         self._process.returncode = os.waitstatus_to_exitcode(status)
         self.peak = max(self.peak, used.ru_maxrss / 1024.0)
-
-    def _lost(self) -> dict[str, Any]:
-        self._again()
-        return {"error": f"the process ended with status {self._process.returncode}"}
-
-    def _again(self) -> None:
-        self.close()
-        self._process = self._started()
 
     def _started(self) -> subprocess.Popen[bytes]:
         return subprocess.Popen(

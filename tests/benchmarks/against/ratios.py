@@ -21,7 +21,7 @@ class Ratios:
 
     @property
     def values(self) -> list[float]:
-        """This side over the other, in order of size."""
+        """Ratios of this side to the other, in order of size."""
         return sorted(a / b for a, b in zip(self.this, self.other, strict=True))
 
     @property

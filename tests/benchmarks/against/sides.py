@@ -7,10 +7,12 @@ import shutil
 import subprocess
 import sys
 import tarfile
-import tomllib
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
+from typing import Any
+
+import tomllib
 
 ROOT = Path(__file__).resolve().parents[3]
 """The working tree."""
@@ -44,6 +46,13 @@ class Side:
     def cache(self) -> Path:
         """Where its compiled code is kept."""
         return self.folder / "cache"
+
+    @property
+    def project(self) -> dict[str, Any]:
+        """What the tree's project file says of it."""
+        text = (self.tree / "pyproject.toml").read_text(encoding="utf-8")
+        project: dict[str, Any] = tomllib.loads(text)["project"]
+        return project
 
     @property
     def environment(self) -> dict[str, str]:
@@ -100,7 +109,7 @@ def _empty(name: str, folder: Path) -> Side:
 
 def _prepared(side: Side) -> Side:
     """Write what an installation would say of the tree: its name, version and entry points."""
-    project = tomllib.loads((side.tree / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    project = side.project
     described = side.folder / "installed" / f"{project['name']}-{project['version']}.dist-info"
     described.mkdir(parents=True, exist_ok=True)
     head = f"Metadata-Version: 2.1\nName: {project['name']}\nVersion: {project['version']}\n"

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from tests.benchmarks.against.pipe import Worker
+from tests.benchmarks.against.pipe import NoAnswer, Worker
 from tests.benchmarks.against.ratios import HEAD, Ratios
 from tests.benchmarks.against.sides import Side
 
@@ -21,46 +22,53 @@ def scenes() -> dict[str, dict[str, Any]]:
     return {row["name"]: row for row in rows}
 
 
-def measured(
-    sides: tuple[Side, Side], rounds: int, part: float, told: Callable[[str], None]
-) -> tuple[dict[str, Ratios | str], tuple[float, float]]:
-    """Return the times of the scenes [s], or why there are none, and the peak memory of the two processes [MB].
+@dataclass(frozen=True)
+class Speed:
+    """Figures of the scenes, and of the two processes that ran them.
 
-    The side that begins changes from round to round.  A first run on either side is not counted.
-
-    Parameters
+    Attributes
     ----------
-    sides : tuple of Side
-        This one and the other.
-    rounds : int
-        Runs of every scene on either side.
-    part : float
-        Part of the scenes' time that is run.
-    told : callable
-        Is given lines of progress.
+    scenes : dict
+        Processor times of single runs [s] by name; a sentence for a scene that failed.
+    preparing : Ratios
+        Processor time in which every scene was built and assembled [s].
+    peaks : tuple of float
+        Memory of the two processes [MB], this side's first.
     """
+
+    scenes: dict[str, Ratios | str]
+    preparing: Ratios
+    peaks: tuple[float, float]
+
+
+def measured(sides: tuple[Side, Side], rounds: int, told: Callable[[str], None]) -> Speed:
+    """Run every scene on both sides in turn; a first run on either side is not counted."""
     found: dict[str, Ratios | str] = {}
+    prepared: list[list[float]] = []
     with Worker(sides[0]) as this, Worker(sides[1]) as other:
         for name, scene in scenes().items():
-            found[name] = _ratios((this, other), name, scene | {"t_end": part * scene["t_end"]}, rounds)
+            try:
+                prepared.append([worker.ask(what="prepare", name=name, task=scene) for worker in (this, other)])
+                found[name] = _ratios((this, other), name, rounds)
+            except NoAnswer as error:
+                found[name] = str(error)
             told(f"speed: {name}")
-    return found, (this.peak, other.peak)
+    return Speed(found, Ratios(*zip(*prepared, strict=True)), (this.peak, other.peak))
 
 
-def _ratios(workers: tuple[Worker, Worker], name: str, task: dict[str, Any], rounds: int) -> Ratios | str:
+def _ratios(workers: tuple[Worker, Worker], name: str, rounds: int) -> Ratios:
     seconds: tuple[list[float], list[float]] = ([], [])
     for number in range(rounds + 1):
+        # the side that begins changes from round to round
         for k in (0, 1) if number % 2 else (1, 0):
-            answered = workers[k].ask(what="time", name=name, task=task)
-            if "error" in answered:
-                return f"{('this', 'other')[k]} side: {answered['error']}"
-            seconds[k].append(answered["answer"])
+            seconds[k].append(workers[k].ask(what="run", name=name))
     return Ratios(tuple(seconds[0][1:]), tuple(seconds[1][1:]))
 
 
-def table(found: dict[str, Ratios | str]) -> Iterator[str]:
+def table(found: Speed) -> Iterator[str]:
     """Yield the lines of the table in Markdown."""
-    yield f"| scene, processor ms of a run | {HEAD[0]} |"
+    yield f"| processor ms | {HEAD[0]} |"
     yield f"|---|{HEAD[1]}|"
-    for name, row in found.items():
+    for name, row in found.scenes.items():
         yield f"| {name} | {row} | | | | |" if isinstance(row, str) else f"| {name} | {row.cells(1e3, '.1f')} |"
+    yield f"| building and assembling, all scenes | {found.preparing.cells(1e3, '.1f')} |"

@@ -12,13 +12,14 @@ import os
 import sys
 import time
 import warnings
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tests.benchmarks.against.pipe import FIRST
-from tests.benchmarks.described.running import Observed, Task, observe
+from tests.benchmarks.described.running import Observed, observe, prepared
 
 
 def digest(array: NDArray[np.float64]) -> str:
@@ -37,21 +38,16 @@ def bits(run: Observed) -> dict[str, Any]:
     }
 
 
-def seconds(task: Task) -> float:
-    """Return the processor time of one run [s]."""
-    began = time.process_time()
-    task.simulate()
-    return time.process_time() - began
-
-
-def answer(request: dict[str, Any], tasks: dict[str, Task]) -> Any:
-    """Return the answer to a request: hashes of a run, or its processor time; tasks to be timed are built once."""
+def answer(request: dict[str, Any], models: dict[str, Callable[[], object]]) -> Any:
+    """Return the answer to a request: hashes of a run; the processor time [s] to prepare one, or to run it once."""
     if request["what"] == "bits":
         return bits(observe(request["task"], request["seconds"]))
-    name = request["name"]
-    if name not in tasks:
-        tasks[name] = Task.of(request["task"])
-    return seconds(tasks[name])
+    began, name = time.process_time(), request["name"]
+    if request["what"] == "prepare":
+        models[name] = prepared(request["task"])
+    else:
+        models[name]()
+    return time.process_time() - began
 
 
 def main() -> None:
@@ -61,12 +57,12 @@ def main() -> None:
     answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)
     if sys.argv[1:] == [FIRST]:
-        Task.of(json.loads(sys.stdin.readline())).simulate()
+        prepared(json.loads(sys.stdin.readline()))()
         return
-    tasks: dict[str, Task] = {}
+    models: dict[str, Callable[[], object]] = {}
     for line in sys.stdin:
         try:
-            found = {"answer": answer(json.loads(line), tasks)}
+            found = {"answer": answer(json.loads(line), models)}
         except Exception as error:
             found = {"error": f"{type(error).__name__}: {error}"}
         print(json.dumps(found), file=answers, flush=True)

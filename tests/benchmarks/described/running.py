@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time
 import warnings
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -40,9 +41,12 @@ class Task:
             return cls(scenario.build(), t_end, min(scenario.sample_interval, t_end))
         return cls(build(request), request["t_end"], request["sample_interval"])
 
-    def simulate(self) -> ns.Solution:
-        """Run it."""
-        return ns.simulate(self.system, self.t_end, sample_interval=self.sample_interval)
+
+def prepared(request: dict[str, Any]) -> Callable[[], object]:
+    """Return what runs the system of a request, which is built and assembled once."""
+    task = Task.of(request)
+    model = ns.assemble(task.system)
+    return lambda: model.run(task.t_end, sample_interval=task.sample_interval)
 
 
 @dataclass(frozen=True)
