@@ -51,3 +51,7 @@ def main() -> None:
     given = words.parse_args()
     for line in compare(given, QUICK if given.quick else FULL):
         print(line, flush=True)
+
+
+if __name__ == "__main__":
+    main()

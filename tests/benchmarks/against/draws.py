@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import sys
+import warnings
 from pathlib import Path
 
 from tests.benchmarks.described.cases import describe
@@ -15,6 +16,7 @@ from tests.benchmarks.random_systems.generate import case_of
 
 def main() -> None:
     """Write one system a line."""
+    warnings.simplefilter("ignore")
     first, count, file = int(sys.argv[1]), int(sys.argv[2]), Path(sys.argv[3])
     lines = (json.dumps(describe(case_of(seed))) for seed in range(first, first + count))
     file.write_text("\n".join(lines) + "\n", encoding="utf-8")

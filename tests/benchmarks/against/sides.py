@@ -59,7 +59,9 @@ class Side:
         """Variables with which Python imports this tree before anything that is installed."""
         path = os.pathsep.join(map(str, (self.folder / "installed", self.tree)))
         own = {"PYTHONPATH": path, "PYTHONSAFEPATH": "1", "XDG_CACHE_HOME": str(self.cache)}
-        return os.environ | own
+        # bytecode is kept as for an installed package, but in this folder
+        bytecode = {"PYTHONPYCACHEPREFIX": str(self.folder / "bytecode"), "PYTHONDONTWRITEBYTECODE": ""}
+        return os.environ | own | bytecode
 
     def command(self, *words: str) -> list[str]:
         """Return the command that runs a module on this side."""

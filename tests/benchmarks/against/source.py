@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import functools
 import io
 import tokenize
 from collections.abc import Iterator
@@ -62,8 +63,7 @@ def sizes(tree: Path) -> dict[str, Size]:
     """Return the sizes of the folders of a tree, and of the folders in the package, by their paths."""
     rows: dict[str, Size] = {}
     for path in _modules(tree, FOLDERS):
-        text = path.read_text(encoding="utf-8")
-        size = Size(1, lines_of_code(text), len(public_names(text)))
+        size = _size(path.read_text(encoding="utf-8"))
         for key in _keys(path.relative_to(tree)):
             rows[key] = rows.get(key, Size()) + size
     return rows
@@ -89,6 +89,12 @@ def table(this: dict[str, Size], other: dict[str, Size]) -> Iterator[str]:
 def change(other: int, this: int) -> str:
     """Return a count of both sides, once if it is the same."""
     return str(this) if this == other else f"{other} → {this} ({this - other:+d})"
+
+
+@functools.cache
+def _size(text: str) -> Size:
+    # most modules are the same on both sides
+    return Size(1, lines_of_code(text), len(public_names(text)))
 
 
 def _keys(path: Path) -> list[str]:

@@ -18,6 +18,7 @@ from tests.benchmarks.against.speed import scenes
 
 _SCENE, _T_END = "drift", 0.1
 """What a new process runs first, and for how long [s]."""
+_VERSION = ("nonsmooth", "--version")
 _COMMAND = ("nonsmooth", "run", "dumbbell", "--set", "t_end=0.1", "--json")
 
 
@@ -83,6 +84,10 @@ def measured(sides: tuple[Side, Side], repetitions: int, told: Callable[[str], N
     first: dict[str, Any] = scenes()[_SCENE] | {"t_end": _T_END}
     line = json.dumps(first) + "\n"
     is_cold = not any(any(side.cache.iterdir()) for side in sides)
+    # writes the bytecode, which is no part of compiling the engine
+    told("a first start of Python on both sides")
+    for side in sides:
+        cost(side, _VERSION, "")
     told("compiling the engine of both sides")
     filled = cost(this, (WORKER, FIRST), line), cost(other, (WORKER, FIRST), line)
     told("starts of new processes")

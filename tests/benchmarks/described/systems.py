@@ -15,7 +15,7 @@ _PLACES = {"touching": ns.touching, "resting": ns.resting, "at_height": ns.at_he
 def build(description: dict[str, Any]) -> ns.System:
     """Return the system of a description, every body placed."""
     bodies = component(description["bodies"])
-    laws = [ns.ContactLaws(**component_of_roles(one)) for one in description["laws"]]
+    laws = contact_laws(description)
     system = ns.System(list(bodies), gravity=description["gravity"])
     if "contact_all" in description:
         system.contact_all(laws[description["contact_all"]])
@@ -32,9 +32,9 @@ def build(description: dict[str, Any]) -> ns.System:
     return system
 
 
-def component_of_roles(laws: dict[str, Any]) -> dict[str, Any]:
-    """Return the laws of a contact by their roles."""
-    return {role: component(law) for role, law in laws.items()}
+def contact_laws(description: dict[str, Any]) -> list[ns.ContactLaws]:
+    """Return the laws of a description, by their numbers."""
+    return [ns.ContactLaws(**{role: component(law) for role, law in one.items()}) for one in description["laws"]]
 
 
 def _moves(starts: list[dict[str, Any] | None]) -> Iterator[tuple[int, str, dict[str, Any]]]:
