@@ -20,7 +20,7 @@ from tests.benchmarks.described.vocabulary import KINDS, WORDS
 from tests.benchmarks.random_systems.generate import case_of
 
 pytestmark = pytest.mark.filterwarnings("ignore")
-_DRAWS = 300
+_DRAWS = 30
 
 
 def _stored(description: Any) -> Any:
@@ -63,7 +63,7 @@ def test_floats_come_back_to_the_last_bit() -> None:
 
 
 def test_defaults_are_left_out_and_signs_of_zero_are_kept() -> None:
-    assert data_of(Plate()) == {"kind": "body.plate"}
+    assert data_of(Plate(Rest())) == {"kind": "body.plate", "motion": {"kind": "motion.rest"}}
     assert data_of(Coulomb(0.3)) == {"kind": "friction.coulomb", "friction": 0.3}
     held = data_of(DrivenBody(Rest(slope=-0.0), (Sphere(1.0),)))
     assert math.copysign(1.0, held["motion"]["slope"]) == -1.0
