@@ -15,7 +15,7 @@ from tests.benchmarks.against.sides import Side
 Tasks = dict[str, dict[str, Any]]
 Results = dict[str, dict[str, Any]]
 _PART = 0.4
-"""Part of a random system's time that is run: half of them touch by then, and the slowest end in seconds."""
+"""Part of a random system's time that is run, so that nearly all end within the limit."""
 
 
 def drawn(side: Side, first: int, count: int, file: Path) -> Tasks:

@@ -11,6 +11,7 @@ import time
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 from tests.benchmarks.against import bits, differences, scenarios, source, speed, start
 from tests.benchmarks.against.sides import commit, resolved, snapshot
@@ -51,7 +52,9 @@ def compare(given: argparse.Namespace, extent: Extent) -> Iterator[str]:
 
     revision = resolved(given.commit)
     with _folder(given.folder) as folder:
-        sides = snapshot(folder), commit(revision, folder)
+        told("copying and counting the source of both sides")
+        this = snapshot(folder)
+        sides = this, commit(revision, folder, this)
         sizes = tuple(source.sizes(side.tree) for side in sides)
         constants = [source.engine_constants(side.tree) for side in sides]
         starts = start.measured(sides, extent.starts, told)
@@ -75,7 +78,12 @@ def compare(given: argparse.Namespace, extent: Extent) -> Iterator[str]:
     yield from ("", f"Numeric constants of the engine: {source.change(constants[1], constants[0])}")
     told("done")
     if given.json:
-        figures = {"commit": revision, "bits": results, "speed": asdict(speeds), "starts": asdict(starts)}
+        figures: dict[str, Any] = {
+            "commit": revision,
+            "bits": results,
+            "speed": asdict(speeds),
+            "starts": asdict(starts),
+        }
         figures |= {
             "sizes": [{name: asdict(row) for name, row in one.items()} for one in sizes],
             "constants": constants,

@@ -7,13 +7,14 @@ from collections.abc import Iterator
 from typing import Any
 
 Results = dict[str, dict[str, Any]]
-CUT_OFF = "cut off"
+_CUT_OFF = "cut off"
+"""How a run ended, by the adapter, that took longer than its limit."""
 _HASHES = ("q", "times", "impulses")
 
 
 def unfinished(this: Results, other: Results) -> list[str]:
     """Return the names of the systems that the limit of time cut off on a side; they are not compared."""
-    return [name for name in this if CUT_OFF in (this[name]["end"], other[name]["end"])]
+    return [name for name in this if _CUT_OFF in (this[name]["end"], other[name]["end"])]
 
 
 def compared(this: Results, other: Results) -> list[str]:
@@ -66,7 +67,8 @@ def table(this: Results, other: Results) -> Iterator[str]:
 
 
 def _components(this: dict[str, Any], other: dict[str, Any]) -> list[str]:
-    return this["components"] or other["components"]
+    found: list[str] = this["components"] or other["components"]
+    return found
 
 
 def _short(text: str) -> str:

@@ -24,13 +24,13 @@ class NoAnswer(RuntimeError):
 
 
 class Worker:
-    """A process of one side that runs what it is asked to run."""
+    """A process of one side that answers requests; another one takes its place if it is lost."""
 
     def __init__(self, side: Side) -> None:
         self._side = side
-        self._process = self._started()
         self.peak = 0.0
         """Largest memory of the processes that have ended [MB]."""
+        self._start()
 
     def __enter__(self) -> Worker:
         return self
@@ -46,20 +46,20 @@ class Worker:
         Raises
         ------
         NoAnswer
-            If the request failed, or the process ended or did not answer; another one has begun then.
+            If the request failed, or the process ended or did not answer.
         """
-        try:
-            self._process.stdin.write((json.dumps(request) + "\n").encode())  # type: ignore[union-attr]
-            self._process.stdin.flush()  # type: ignore[union-attr]
-            ready, _, _ = select.select([self._process.stdout], [], [], _SILENT)
-            line = self._process.stdout.readline() if ready else b""  # type: ignore[union-attr]
-        except BrokenPipeError:
-            ready, line = [True], b""
+        line, is_ready = b"", True
+        with contextlib.suppress(BrokenPipeError):
+            self._requests.write((json.dumps(request) + "\n").encode())
+            self._requests.flush()
+            is_ready = bool(select.select([self._answers], [], [], _SILENT)[0])
+            line = self._answers.readline() if is_ready else b""
         if not line:
             self._process.kill()
             self.close()
-            status, self._process = self._process.returncode, self._started()
-            why = f"the process ended with status {status}" if ready else f"no answer in {_SILENT:g} s"
+            status = self._process.returncode
+            self._start()
+            why = f"the process ended with status {status}" if is_ready else f"no answer in {_SILENT:g} s"
             raise NoAnswer(f"{self._side.name} side: {why}")
         found = json.loads(line)
         if "error" in found:
@@ -69,14 +69,14 @@ class Worker:
     def close(self) -> None:
         """End the process, and note how much memory it had."""
         with contextlib.suppress(BrokenPipeError):
-            self._process.stdin.close()  # type: ignore[union-attr]
-        self._process.stdout.close()  # type: ignore[union-attr]
+            self._requests.close()
+        self._answers.close()
         _, status, used = os.wait4(self._process.pid, 0)
         self._process.returncode = os.waitstatus_to_exitcode(status)
         self.peak = max(self.peak, used.ru_maxrss / 1024.0)
 
-    def _started(self) -> subprocess.Popen[bytes]:
-        return subprocess.Popen(
+    def _start(self) -> None:
+        self._process = subprocess.Popen(
             self._side.command(WORKER),
             cwd=self._side.tree,
             env=self._side.environment,
@@ -84,3 +84,6 @@ class Worker:
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
         )
+        assert self._process.stdin is not None
+        assert self._process.stdout is not None
+        self._requests, self._answers = self._process.stdin, self._process.stdout

@@ -80,15 +80,15 @@ def snapshot(folder: Path) -> Side:
     return _prepared(side)
 
 
-def commit(revision: str, folder: Path) -> Side:
-    """Return a side with the tree of a commit, with this side's runner, and its adapter if it has none."""
+def commit(revision: str, folder: Path, this: Side) -> Side:
+    """Return a side with the tree of a commit, with this side's runner, and its adapter if the commit has none."""
     side = _empty("other", folder)
     with tarfile.open(fileobj=BytesIO(_git("archive", "--format=tar", revision, "--", *COMPARED))) as archive:
         archive.extractall(side.tree, filter="data")
     shutil.rmtree(side.tree / _RUNNER, ignore_errors=True)
-    shutil.copytree(ROOT / _RUNNER, side.tree / _RUNNER)
+    shutil.copytree(this.tree / _RUNNER, side.tree / _RUNNER)
     if not (side.tree / _ADAPTER).exists():
-        shutil.copytree(ROOT / _ADAPTER, side.tree / _ADAPTER)
+        shutil.copytree(this.tree / _ADAPTER, side.tree / _ADAPTER)
     return _prepared(side)
 
 

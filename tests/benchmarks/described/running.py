@@ -71,7 +71,7 @@ class Observed:
 
 
 _NOTHING = np.empty(0)
-CUT_OFF = "cut off"
+_CUT_OFF = "cut off"
 """How a run ends that takes longer than its limit."""
 
 
@@ -100,7 +100,7 @@ def observe(request: dict[str, Any], seconds: float) -> Observed:
         return _observed(part, _said(error), names)
     except Exception as error:
         return Observed(_said(error), _NOTHING, _NOTHING, _NOTHING, names)
-    return _observed(solution, CUT_OFF if solution.status == "interrupted" else solution.status, names)
+    return _observed(solution, _CUT_OFF if solution.status == "interrupted" else solution.status, names)
 
 
 def _said(error: Exception) -> str:

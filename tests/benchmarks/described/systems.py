@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import nonsmooth as ns
 from tests.benchmarks.described.components import component
 
-_PLACES = {"touching": ns.touching, "resting": ns.resting, "at_height": ns.at_height}
+_PLACES: dict[str, Callable[..., object]] = {"touching": ns.touching, "resting": ns.resting, "at_height": ns.at_height}
 """How a body is moved until it is near the others."""
 
 
