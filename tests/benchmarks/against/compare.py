@@ -37,7 +37,7 @@ class Extent:
     starts: int
 
 
-FULL = Extent(systems=200, seconds=6.0, rounds=15, starts=9)
+FULL = Extent(systems=300, seconds=6.0, rounds=15, starts=9)
 """For some ten minutes of two idle cores."""
 QUICK = Extent(systems=40, seconds=3.0, rounds=5, starts=3)
 """For some two minutes."""
