@@ -1,6 +1,6 @@
 """Compare the working tree with another commit: ``python -m tests.benchmarks.against COMMIT``.
 
-It prints one table in Markdown:
+It prints one report in Markdown:
 
 bits
     Hashes of coordinates, event times and impulses of all scenarios at reduced length and of random systems: which
@@ -23,9 +23,10 @@ Both sides run the same systems.  The working tree draws the random ones and wri
 ``scenes``.  Each side builds them with its own adapter, ``tests/benchmarks/described``; a commit that has none gets
 this side's.  The processes are started from this side's ``tests/benchmarks/against`` on either side.
 
-``--quick`` makes fewer repetitions, shorter runs and fewer random systems.  ``--folder`` names a folder that is kept:
-a second comparison finds the compiled engine of both sides there, as long as their engines are the same, and does
-not measure how long it takes to compile.
+``--quick`` makes fewer repetitions and fewer random systems.  ``--folder`` names a folder that is kept:
+a second comparison finds what was compiled for either side there, and does not measure how long it takes to compile.
+
+Other programs on the machine lengthen all times.  Ratios suffer least, as both sides run in turn.  It needs Linux.
 """
 
 from __future__ import annotations
