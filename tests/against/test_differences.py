@@ -42,7 +42,7 @@ def test_what_was_cut_off_on_either_side_is_named_and_not_compared() -> None:
     assert list(differences.table(this, _OTHER))[-1].endswith(": b, e")
 
 
-def test_the_component_whose_systems_differ_most_is_the_first() -> None:
+def test_the_component_whose_systems_are_those_that_differ_is_the_first() -> None:
     this = _OTHER | {name: _OTHER[name] | {"q": "9"} for name in ("a", "c")}
     assert differences.by_component(this, _OTHER) == [
         ("friction.stribeck", 2, 2),

@@ -9,7 +9,7 @@ from tests.benchmarks.described.running import observe
 
 
 def _dumbbell(**parameters: Any) -> dict[str, Any]:
-    return {"scenario": "dumbbell", "parameters": parameters, "part": 0.01}
+    return {"scenario": "dumbbell", "parameters": parameters, "part": 0.02}
 
 
 def test_a_run_is_reported_with_its_components_and_repeats_its_bits() -> None:

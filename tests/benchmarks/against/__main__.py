@@ -4,8 +4,9 @@ It prints one report in Markdown:
 
 bits
     Hashes of coordinates, event times and impulses of all scenarios at reduced length and of random systems: which
-    differ, in what, and what the differing ones consist of.  A run that fails on both sides with the same message is
-    equal if what it computed until then is.  A system that a side did not finish in time is named and not compared.
+    differ, in what, and which bodies, joints and laws of contacts that closed they have.  A run that fails on both
+    sides with the same message is equal if what it computed until then is.  A system that a side did not finish in
+    time is named and not compared.
 speed
     Processor time of some scenes in two processes that live on, run in turn: ratios of single runs.
 processes

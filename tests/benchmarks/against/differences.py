@@ -9,6 +9,8 @@ from typing import Any
 Results = dict[str, dict[str, Any]]
 _CUT_OFF = "cut off"
 """How a run ended, by the adapter, that took longer than its limit."""
+_ROWS = 8
+"""Components that the table names."""
 _HASHES = ("q", "times", "impulses")
 
 
@@ -40,13 +42,14 @@ def differing(this: Results, other: Results) -> dict[str, str]:
 def by_component(this: Results, other: Results) -> list[tuple[str, int, int]]:
     """Return of every component of a differing system how many systems have it and how many of them differ.
 
-    The component with the largest part of differing systems is the first.
+    The first is the component whose systems are most nearly those that differ, by the coefficient of Dice: twice the
+    number of systems in both sets over the sum of the numbers in either.
     """
     different = differing(this, other)
     used = Counter(one for name in compared(this, other) for one in _components(this[name], other[name]))
     met = Counter(one for name in different for one in _components(this[name], other[name]))
     rows = [(one, used[one], n) for one, n in met.items()]
-    return sorted(rows, key=lambda row: (-row[2] / row[1], -row[2], row[0]))
+    return sorted(rows, key=lambda row: (-row[2] / (row[1] + len(different)), row[0]))
 
 
 def table(this: Results, other: Results) -> Iterator[str]:
@@ -60,7 +63,7 @@ def table(this: Results, other: Results) -> Iterator[str]:
         for name, what in different.items():
             yield f"| {name} | {what} | {', '.join(_components(this[name], other[name]))} |"
         yield from ("", "| component of a system that differs | systems with it | of these differ |", "|---|---|---|")
-        for one, n, n_different in by_component(this, other):
+        for one, n, n_different in by_component(this, other)[:_ROWS]:
             yield f"| {one} | {n} | {n_different} |"
     if left_out := unfinished(this, other):
         yield from ("", f"Not compared, as they did not end in time: {', '.join(left_out)}")

@@ -60,7 +60,7 @@ class Observed:
     q, times, impulses : array
         Coordinates at the samples, times of the events [s], impulses of their contacts [N s].
     components : tuple of str
-        The kinds of bodies, joints and laws of the system.
+        The kinds of bodies and joints of the system, and of the laws of the contacts that closed.
     """
 
     end: str
@@ -70,7 +70,6 @@ class Observed:
     components: tuple[str, ...] = ()
 
 
-_NOTHING = np.empty(0)
 _CUT_OFF = "cut off"
 """How a run ends that takes longer than its limit."""
 
@@ -86,33 +85,36 @@ def observe(request: dict[str, Any], seconds: float) -> Observed:
         if time.process_time() > limit:
             raise KeyboardInterrupt
 
-    names: tuple[str, ...] = ()
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             task = Task.of(request)
-            names = components(task.system)
             solution = ns.simulate(task.system, task.t_end, sample_interval=task.sample_interval, progress=watch)
     except ns.RunFailed as error:
         part = error.solution
-        if not isinstance(part, ns.Solution):
-            return Observed(_said(error), _NOTHING, _NOTHING, _NOTHING, names)
-        return _observed(part, _said(error), names)
+        return _observed(part, _message(error)) if isinstance(part, ns.Solution) else _nothing(error)
     except Exception as error:
-        return Observed(_said(error), _NOTHING, _NOTHING, _NOTHING, names)
-    return _observed(solution, _CUT_OFF if solution.status == "interrupted" else solution.status, names)
+        return _nothing(error)
+    return _observed(solution, _CUT_OFF if solution.status == "interrupted" else solution.status)
 
 
-def _said(error: Exception) -> str:
+def _message(error: Exception) -> str:
     return f"{type(error).__name__}: {error}"
 
 
-def _observed(solution: ns.Solution, end: str, names: tuple[str, ...]) -> Observed:
-    return Observed(end, solution.q, solution.events.time, solution.events.listed_impulse, names)
+def _nothing(error: Exception) -> Observed:
+    return Observed(_message(error), np.empty(0), np.empty(0), np.empty(0))
 
 
-def components(system: ns.System) -> tuple[str, ...]:
-    """Return the kinds of bodies, joints and laws of a system, by the words of descriptions where they have one."""
-    laws = [law for contact in system.contacts for law in (contact.normal, contact.friction, contact.impact)]
+def _observed(solution: ns.Solution, end: str) -> Observed:
+    events = solution.events
+    return Observed(end, solution.q, events.time, events.listed_impulse, _components(solution))
+
+
+def _components(solution: ns.Solution) -> tuple[str, ...]:
+    """Return the kinds of bodies and joints, and of the laws of the contacts that closed, by their words."""
+    system = solution.system
+    closed = [system.contacts[i] for i in np.unique(solution.events.listed)]
+    laws = [law for contact in closed for law in (contact.normal, contact.friction, contact.impact)]
     used = [*system.bodies, *(tie.component for tie in system.joints), *(law for law in laws if law is not None)]
     return tuple(sorted({WORDS.get(type(one), type(one).__name__) for one in used}))
