@@ -1,0 +1,1 @@
+"""Comparison of the working tree with another commit."""
