@@ -16,9 +16,9 @@ source
 
 "This" is the working tree as it is when the command begins, uncommitted changes included.  "Other" is any revision
 that git knows.  Both are copied into a temporary folder, which is removed at the end; each has its own cache there.
-Both run with the interpreter and the installed dependencies of this command: the copy stands first on the path of
-its processes, with entry points made from its own ``pyproject.toml``.  So nothing is downloaded, and a commit that
-needs other versions of its dependencies has to be compared in an environment that has them.
+Both run with the interpreter and the installed dependencies of this command; the copy comes first on the path of its
+processes, with entry points made from its own ``pyproject.toml``.  A commit that names other dependencies gets an
+environment of its own, which pip fills.
 
 Both sides run the same systems.  The working tree draws the random ones and writes them as data; the scenes are data in
 ``scenes``.  Each side builds them with its own adapter, ``tests/benchmarks/described``; a commit that has none gets

@@ -7,19 +7,21 @@ import shutil
 import subprocess
 import sys
 import tarfile
-from dataclasses import dataclass
+import tomllib
+import venv
+from dataclasses import dataclass, replace
 from io import BytesIO
 from pathlib import Path
 from typing import Any
 
-import tomllib
-
 ROOT = Path(__file__).resolve().parents[3]
 """The working tree."""
-COMPARED = ("nonsmooth", "bodies", "laws", "scenarios", "tests", "pyproject.toml")
+COMPARED = ("nonsmooth", "bodies", "laws", "scenarios", "tests", "pyproject.toml", "README.md", "LICENSE")
 """What is copied of either side."""
 _RUNNER = Path("tests/benchmarks/against")
 _ADAPTER = Path("tests/benchmarks/described")
+_EXTRA = "full"
+"""The extra with which the runs are made."""
 
 
 @dataclass(frozen=True)
@@ -32,10 +34,13 @@ class Side:
         "this" or "other".
     folder : Path
         Holds the tree, what says which entry points it has, and its cache.
+    python : Path
+        The interpreter of its environment.
     """
 
     name: str
     folder: Path
+    python: Path = Path(sys.executable)
 
     @property
     def tree(self) -> Path:
@@ -65,7 +70,7 @@ class Side:
 
     def command(self, *words: str) -> list[str]:
         """Return the command that runs a module on this side."""
-        return [sys.executable, "-m", *words]
+        return [str(self.python), "-m", *words]
 
 
 def snapshot(folder: Path) -> Side:
@@ -89,7 +94,24 @@ def commit(revision: str, folder: Path, this: Side) -> Side:
     shutil.copytree(this.tree / _RUNNER, side.tree / _RUNNER)
     if not (side.tree / _ADAPTER).exists():
         shutil.copytree(this.tree / _ADAPTER, side.tree / _ADAPTER)
+    if _needs(side) != _needs(this):
+        side = replace(side, python=_installed(side))
     return _prepared(side)
+
+
+def _needs(side: Side) -> list[str]:
+    """Return the packages that a run needs, sorted."""
+    project = side.project
+    return sorted([*project["dependencies"], *project["optional-dependencies"][_EXTRA]])
+
+
+def _installed(side: Side) -> Path:
+    """Make an environment with the dependencies of a side, and return its interpreter."""
+    home = side.folder / "environment"
+    venv.create(home, with_pip=True, clear=True)
+    python = home / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+    subprocess.run([python, "-m", "pip", "install", "--quiet", "--no-compile", f"{side.tree}[{_EXTRA}]"], check=True)
+    return python
 
 
 def resolved(revision: str) -> str:
