@@ -152,6 +152,18 @@ LAWS: list[tuple[Callable[[Any], list[Property]], Any]] = [
     (check_impact_law, PoissonImpact(0.5)),
     (check_impact_law, StrongeImpact(0.6)),
 ]
+COSTLY = (
+    "Bristle",
+    "CoulombContensou",
+    "JohnsonImpact",
+    "LankaraniNikravesh",
+    "MonoStiffnessImpact",
+    "RateAndState",
+    "StrongeImpact",
+    "ViscoelasticImpact",
+    "generalised body",
+)
+"""Components whose properties take seconds, because their forces or impacts are integrated."""
 BODIES: dict[str, Callable[[], Body]] = {
     "ball": lambda: Ball(0.02),
     "box": lambda: BoxBody(0.01, 0.02, 0.035),
@@ -277,6 +289,13 @@ def _components() -> Iterator[tuple[str, Callable[[], list[Property]]]]:
             yield name, partial(_of_name, group, name)
 
 
+def _cases() -> Iterator[Any]:
+    """Yield the components as cases of a test, the costly ones as slow."""
+    slow = {*registry.names("scenarios"), *COSTLY} - {"dumbbell"}
+    for name, find in _components():
+        yield pytest.param(find, id=name, marks=[pytest.mark.slow] if name in slow else [])
+
+
 def _of_made(check: Callable[[Any], list[Property]], make_one: Callable[[], Any]) -> list[Property]:
     return check(make_one())
 
@@ -286,7 +305,7 @@ def _of_name(group: str, name: str) -> list[Property]:
 
 
 @pytest.mark.skipif(PLAIN, reason="some minutes in plain mode")
-@pytest.mark.parametrize("find", [pytest.param(find, id=name) for name, find in _components()])
+@pytest.mark.parametrize("find", _cases())
 def test_built_in(find: Callable[[], list[Property]], subtests: pytest.Subtests) -> None:
     """The kit's properties hold of a component, each a subtest."""
     found = find()
