@@ -27,6 +27,7 @@ def _stored(description: Any) -> Any:
     return json.loads(json.dumps(description))
 
 
+@pytest.mark.slow
 def test_components_of_random_systems_come_back_as_they_were() -> None:
     for seed in range(_DRAWS):
         case = case_of(seed)

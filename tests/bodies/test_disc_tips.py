@@ -60,6 +60,7 @@ def _nearest(one: Piece, two: Piece, turns: Any, way: Any) -> tuple[float, Any]:
     return distance, direction
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("radius", [0.012, 0.005])
 def test_a_blade_beside_the_rim_of_a_disc_does_not_overlap_it(build: Any, radius: float) -> None:
     rng = np.random.default_rng(6)

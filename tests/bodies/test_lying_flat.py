@@ -82,6 +82,7 @@ def test_landing_tilted_it_settles_flat(build: Any, body: Any, tilt: float, rest
     assert solution.energy.loss == pytest.approx(fallen, rel=1e-8)
 
 
+@pytest.mark.fast_cases(1)
 @FLAT
 def test_newtons_law_settles_it_too(build: Any, body: Any) -> None:
     """An impact map meets three feet and a rim as well."""

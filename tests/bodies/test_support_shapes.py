@@ -85,7 +85,7 @@ def _slab(shapes: Any, poses: Any, n: Any) -> float:
     return float(n @ (q + b @ shapes[1].support(-n @ b) - p - a @ shapes[0].support(n @ a)))
 
 
-@pytest.mark.fast_cases(10)
+@pytest.mark.fast_cases(3)
 @pytest.mark.parametrize("name", OTHERS)
 def test_an_ellipsoid_that_is_not_known_has_the_contacts_of_one_that_is(build: Any, name: str) -> None:
     """Apart, all but touching, and in each other by a little."""
@@ -300,7 +300,7 @@ class Wrong(SupportShape):
         raise RuntimeError("no idea")
 
 
-@pytest.mark.fast_cases(6)
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize(
     ("shape", "message"),
     [

@@ -215,6 +215,7 @@ def test_features_that_face_each_other_at_one_end_of_a_step_only_do_not_pass() -
     assert met > 3
 
 
+@pytest.mark.slow
 def test_a_disc_that_rocks_through_flat_over_a_falling_plate_strikes_it() -> None:
     """Its lowest point jumps from side to side as it comes level, and with it the rate of its gap."""
     rng, radius, rounding, turn = np.random.default_rng(3), 0.01, 0.001, 50.0 * math.pi

@@ -26,6 +26,7 @@ def _spin(bodies: tuple[Any, ...], q: Any, u: Any) -> Any:
     return total
 
 
+@pytest.mark.slow
 def test_a_rod_that_slides_over_the_middle_of_a_flank_keeps_the_spin() -> None:
     """The halves of the flank are contacts of their own; the velocities were put on the wrong one's constraint."""
     cone = ConeBody(radius=0.004643, height=0.007806, density=2700.0, rounding=0.0006163)

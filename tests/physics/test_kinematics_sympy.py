@@ -118,6 +118,7 @@ def test_rotation_is_equation_2_and_angular_velocity_equation_3(paper: Derivatio
     assert _zero(paper.axes * paper.omega - omega)
 
 
+@pytest.mark.slow
 def test_kinetic_energy_is_equation_5(paper: Derivation) -> None:
     """The long form of the kinetic energy as printed."""
     m, length, j1, j2 = paper.m, paper.length, paper.j1, paper.j2
@@ -132,6 +133,7 @@ def test_kinetic_energy_is_equation_5(paper: Derivation) -> None:
     assert sp.simplify(sp.expand(paper.kinetic - printed)) == 0
 
 
+@pytest.mark.slow
 def test_lost_appendix(paper: Derivation) -> None:
     """M, W, N, S_N and Q as they were re-derived for the notes."""
     m, length, r, j1, j2, g = paper.m, paper.length, paper.r, paper.j1, paper.j2, paper.g

@@ -73,6 +73,7 @@ def test_the_dataset_has_samples_events_labels_and_units(solution: ns.Solution, 
     assert saved.attrs["restitution_loss"] == solution.energy.restitution_loss
 
 
+@pytest.mark.slow
 def test_it_is_the_dataset_of_the_solution(solution: ns.Solution, folder: Path) -> None:
     import xarray
 

@@ -26,6 +26,8 @@ from nonsmooth.studies.store import Store
 from tests.studies import ball
 
 pytest.importorskip("zarr", "3.1.3")
+pytestmark = pytest.mark.slow
+"""Processes start, die and start again."""
 
 
 @pytest.fixture(scope="module")
@@ -45,20 +47,17 @@ def cluster() -> Iterator[Any]:
         yield made
 
 
-@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("chunk", [1, 10, 100])
 def test_two_threads_give_the_same_bits(serial: str, tmp_path: Path, chunk: int) -> None:
     assert ball.digest(ball.study().run(tmp_path / "s.zarr", executor=studies.Threads(2), chunk=chunk)) == serial
 
 
-@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("chunk", [1, 10, 100])
 def test_two_processes_give_the_same_bits(serial: str, tmp_path: Path, chunk: int, cluster: Any) -> None:
     executor = studies.Dask(cluster.scheduler_address)
     assert ball.digest(ball.study().run(tmp_path / "s.zarr", executor=executor, chunk=chunk)) == serial
 
 
-@pytest.mark.slow
 def test_a_worker_that_is_killed_costs_nothing(tmp_path: Path, cluster: Any) -> None:
     executor = studies.Dask(cluster.scheduler_address)
     path = tmp_path / "s.zarr"
@@ -76,7 +75,6 @@ def test_a_worker_that_is_killed_costs_nothing(tmp_path: Path, cluster: Any) -> 
     assert ball.digest(found) == ball.digest(whole)
 
 
-@pytest.mark.slow
 def test_the_run_that_kills_its_worker_is_found(tmp_path: Path, cluster: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cluster.scheduler, "allowed_failures", 1)
     # one is not enough: a task can come to a worker whose end is not known yet; each one more costs seconds
@@ -147,7 +145,6 @@ def test_workers_without_the_module_are_refused(tmp_path: Path, cluster: Any, mo
     assert (studies.open_study(tmp_path / "s.zarr").status == status.NOT_RUN).all()
 
 
-@pytest.mark.slow
 def test_a_scheduler_that_ends_is_told_and_the_study_goes_on(tmp_path: Path) -> None:
     distributed = pytest.importorskip("distributed")
     path = tmp_path / "s.zarr"
@@ -175,7 +172,6 @@ def test_no_scheduler_is_told_within_seconds(tmp_path: Path) -> None:
     assert time.monotonic() - began < 20.0
 
 
-@pytest.mark.fast_cases(3)
 @pytest.mark.parametrize(
     ("make", "words"),
     [

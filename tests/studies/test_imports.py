@@ -5,6 +5,8 @@ from __future__ import annotations
 import subprocess
 import sys
 
+import pytest
+
 _LIGHT = (
     "bodies",
     "nonsmooth.cli.main",
@@ -25,6 +27,7 @@ for name in {_LIGHT!r}:
 """
 
 
+@pytest.mark.slow
 def test_slow_packages_are_imported_where_they_are_used() -> None:
     """A process of its own, because this one has imported them already."""
     done = subprocess.run([sys.executable, "-c", _PROGRAM], capture_output=True, text=True, check=True)

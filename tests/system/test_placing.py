@@ -129,6 +129,7 @@ def test_resting_rides_along(build: Any, motion: Any) -> None:
     np.testing.assert_allclose(model.memory.array("rate", 6), 0.0, rtol=0, atol=1e-14)
 
 
+@pytest.mark.slow
 def test_rounded_boxes_rest_on_balls(build: Any) -> None:
     """Solids tell their distance roughly, how roughly depends on last digits: the gap is zero all the same."""
     box, ball = BoxBody(0.004011, 0.005135, 0.005642, rounding=0.0003204), Ball(0.003524)

@@ -27,7 +27,7 @@ from tests.testing import (
 )
 from tests.testing.caught import assert_caught, failures
 
-_slow = pytest.mark.skipif(PLAIN, reason="impacts take minutes in plain mode")
+_compiled = pytest.mark.skipif(PLAIN, reason="impacts take minutes in plain mode")
 
 
 def _cases(dummies: Sequence[tuple[str, Any]]) -> pytest.MarkDecorator:
@@ -35,7 +35,7 @@ def _cases(dummies: Sequence[tuple[str, Any]]) -> pytest.MarkDecorator:
     return pytest.mark.parametrize(("name", "law"), dummies, ids=titles)
 
 
-@pytest.mark.fast_cases(8)
+@pytest.mark.fast_cases(3)
 @_cases(friction_dummies.DUMMIES)
 def test_friction(name: str, law: FrictionLaw) -> None:
     if PLAIN and name in ("compiled equals plain", "static limit"):
@@ -44,7 +44,7 @@ def test_friction(name: str, law: FrictionLaw) -> None:
 
 
 @pytest.mark.slow
-@_slow
+@_compiled
 @_cases(impact_dummies.DUMMIES)
 def test_impact(name: str, law: ImpactLaw) -> None:
     assert_caught(check_impact_law(law), name)
@@ -55,27 +55,29 @@ def test_normal(name: str, law: NormalLaw) -> None:
     assert_caught(check_normal_law(law), name)
 
 
-@pytest.mark.fast_cases(6)
-@_slow
+@pytest.mark.fast_cases(4)
+@_compiled
 @_cases(compliant_dummies.DUMMIES)
 def test_compliant(name: str, law: NormalLaw) -> None:
     assert_caught(check_normal_law(law), name)
 
 
-@_slow
+@pytest.mark.fast_cases(2)
+@_compiled
 @_cases(anisotropic_dummies.DUMMIES)
 def test_anisotropic(name: str, law: FrictionLaw) -> None:
     assert_caught(check_friction_law(law), name)
 
 
-@_slow
+@pytest.mark.fast_cases(2)
+@_compiled
 @_cases(stateful_dummies.DUMMIES)
 def test_stateful(name: str, law: FrictionLaw) -> None:
     assert_caught(check_friction_law(law), name)
 
 
 @pytest.mark.fast_cases(3)
-@_slow
+@_compiled
 @_cases(traction_dummies.DUMMIES)
 def test_traction(name: str, law: TractionLaw) -> None:
     assert_caught(check_traction_law(law), name)
@@ -133,7 +135,7 @@ def test_message_names_all() -> None:
 
 
 @pytest.mark.slow
-@_slow
+@_compiled
 def test_smallest_input() -> None:
     """A fault above a threshold is shrunk to a round number next to it, other numbers to their simplest."""
     law = impact_dummies.Map(function=impact_dummies.fast)
@@ -164,7 +166,7 @@ def test_source_lines(function: Any, name: str, words: tuple[str, ...]) -> None:
 
 
 @pytest.mark.slow
-@_slow
+@_compiled
 def test_a_departure_must_be_one() -> None:
     """A class that says it departs from a property that it has is told so."""
     prop = next(p for p in check_impact_law(impact_dummies.Modest()) if p.name == "cone")

@@ -31,6 +31,7 @@ def test_gallery_has_the_figures_of_the_paper(gallery: dict[str, Any]) -> None:
     assert {int(stem[3:5]) for stem in gallery} == EXPECTED
 
 
+@pytest.mark.slow
 def test_every_figure_says_what_it_shows(gallery: dict[str, Any]) -> None:
     for stem, figure in gallery.items():
         body, foot = figure.subfigs
@@ -89,6 +90,7 @@ def test_titles_do_not_promise_what_did_not_happen(dumbbell: Runner) -> None:
     assert "rest" in figure.subfigs[0].get_suptitle()
 
 
+@pytest.mark.slow
 def test_figures_of_the_shortest_run_can_be_drawn(dumbbell: Runner, tmp_path: Any) -> None:
     run = dumbbell(mode="jump", t_end=2e-3)
     for stem, figure in run.scenario.figures(run.solution).items():

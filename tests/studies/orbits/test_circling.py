@@ -94,6 +94,7 @@ def test_a_ball_that_spins_about_the_vertical() -> None:
         orbit(family, PERIOD, within=("z", "vz", "rx", "ry", "rz"))
 
 
+@pytest.mark.slow
 def test_what_is_refused(circling: Orbit) -> None:
     scenario = circling.family
     with pytest.raises(ns.InvalidInput, match=r"Spin\.axis.*'w'"):
