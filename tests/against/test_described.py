@@ -20,7 +20,7 @@ from tests.benchmarks.described.vocabulary import KINDS, WORDS
 from tests.benchmarks.random_systems.generate import case_of
 
 pytestmark = pytest.mark.filterwarnings("ignore")
-_DRAWS = 30
+_DRAWS = 12
 
 
 def _stored(description: Any) -> Any:

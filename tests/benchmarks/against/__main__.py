@@ -24,8 +24,11 @@ Both sides run the same systems.  The working tree draws the random ones and wri
 ``scenes``.  Each side builds them with its own adapter, ``tests/benchmarks/described``; a commit that has none gets
 this side's.  The processes are started from this side's ``tests/benchmarks/against`` on either side.
 
-``--quick`` makes fewer repetitions and fewer random systems.  ``--folder`` names a folder that is kept:
-a second comparison finds what was compiled for either side there, and does not measure how long it takes to compile.
+``--quick`` makes fewer repetitions and runs fewer random systems.  It begins with copies of the user's cache: what is
+compiled there of either side is not compiled again, nor is the time of compiling measured.
+
+``--folder`` names a folder that is kept.  A second comparison finds what was compiled for either side there, and does
+not measure how long it takes to compile.
 
 Other programs on the machine lengthen all times.  Ratios suffer least, as both sides run in turn.  It needs Linux.
 """

@@ -27,19 +27,22 @@ class Extent:
         Random systems.
     seconds : float
         Processor time after which a system is cut off [s].
+    is_cold : bool
+        Whether both sides compile the engine anew, and how long it takes is measured.
     rounds, starts : int
         Runs of every scene, and new processes of each kind, on either side.
     """
 
     systems: int
     seconds: float
+    is_cold: bool
     rounds: int
     starts: int
 
 
-FULL = Extent(systems=300, seconds=6.0, rounds=15, starts=9)
+FULL = Extent(systems=300, seconds=6.0, is_cold=True, rounds=15, starts=9)
 """For some ten minutes of two idle cores."""
-QUICK = Extent(systems=40, seconds=3.0, rounds=5, starts=3)
+QUICK = Extent(systems=40, seconds=3.0, is_cold=False, rounds=5, starts=3)
 """For some two minutes."""
 
 
@@ -55,6 +58,9 @@ def compare(given: argparse.Namespace, extent: Extent) -> Iterator[str]:
         told("copying and counting the source of both sides")
         this = snapshot(folder)
         sides = this, commit(revision, folder, this)
+        if not extent.is_cold:
+            for side in sides:
+                side.fill_cache()
         sizes = tuple(source.sizes(side.tree) for side in sides)
         constants = [source.engine_constants(side.tree) for side in sides]
         starts = start.measured(sides, extent.starts, told)

@@ -68,6 +68,13 @@ class Side:
         bytecode = {"PYTHONPYCACHEPREFIX": str(self.folder / "bytecode"), "PYTHONDONTWRITEBYTECODE": ""}
         return os.environ | own | bytecode
 
+    def fill_cache(self) -> None:
+        """Take over what the user's cache has; its files are named after the source that was compiled."""
+        home = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "nonsmooth"
+        target = self.cache / "nonsmooth"
+        if home.is_dir() and not target.exists():
+            shutil.copytree(home, target)
+
     def command(self, *words: str) -> list[str]:
         """Return the command that runs a module on this side."""
         return [str(self.python), "-m", *words]
