@@ -48,6 +48,7 @@ def test_dumbbell_shapes() -> None:
     assert [shape.parameters()["x"] for shape in body.shapes] == [-half, half]
 
 
+@pytest.mark.slow
 @given(t=st.floats(0.0, 1.0), phase=st.floats(0.1, 6.0))
 def test_harmonic_motion_is_its_own_derivative(t: float, phase: float) -> None:
     """Position, velocity and acceleration belong together, along the axis, Eq. (1)."""

@@ -97,6 +97,7 @@ OTHERS = {
 }
 
 
+@pytest.mark.fast_cases(4)
 @pytest.mark.parametrize("on_faces", [False, True], ids=["any normal", "any point"])
 @pytest.mark.parametrize("other", OTHERS)
 @pytest.mark.parametrize("low", [0.2, 0.6])
@@ -144,6 +145,7 @@ def _on_cylinder(cylinder: Cylinder, body: Any, friction: Any, t_end: float, **s
     return ns.simulate(system, t_end)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
 @pytest.mark.parametrize("exponent", [0.5, 0.8])
 def test_it_slides_down_the_side_of_a_cylinder(exponent: float) -> None:

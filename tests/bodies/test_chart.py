@@ -50,6 +50,7 @@ def test_point_and_normal_move_as_the_chart_says(along: float, across: float, wa
         np.testing.assert_allclose(length * turns, length * s[:, i], rtol=0, atol=1e-6)
 
 
+@pytest.mark.fast_cases(3)
 @pytest.mark.parametrize("exponents", BOTH_WAYS)
 @pytest.mark.parametrize("other", [(0.4, 1.2), (1.3, 0.6), (0.3, 0.7), (1.2, 1.4), (1.0, 1.0)])
 def test_gaps_of_known_poses(exponents: Any, other: Any) -> None:

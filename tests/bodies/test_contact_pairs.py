@@ -151,7 +151,7 @@ def _rig(build: Any, name: str) -> Rig:
     return _rigs[name]
 
 
-@pytest.mark.fast_cases(4)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("name", PAIRS)
 def test_gap_is_the_widest_empty_slab(build: Any, name: str) -> None:
     """The witness points lie on the surfaces, the gap apart, and a slab that wide is empty: there is no other gap."""
@@ -281,6 +281,7 @@ def test_nearly_parallel_capsules_lose_no_digits(build: Any) -> None:
         assert rig.geometry[0, 0] == pytest.approx(0.35, abs=1e-15)
 
 
+@pytest.mark.slow
 def test_tangents_follow_the_normal_without_a_jump(build: Any) -> None:
     """A small ball led round a box, over all faces but the lowest, sees its first tangent turn with the normal."""
     rig = Rig((Box(0.3, 0.3, 0.3), Sphere(0.1)), build.laws())

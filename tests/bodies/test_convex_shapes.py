@@ -65,7 +65,7 @@ def _directions(n: int) -> np.ndarray:
     return np.asarray(directions / np.linalg.norm(directions, axis=1)[:, None])
 
 
-@pytest.mark.fast_cases(3)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("name", SHAPES)
 def test_support_is_that_of_a_dense_drawing(name: str) -> None:
     """No vertex of the mesh, which are on the surface, is farther; the mesh comes as near as its edges are short."""
@@ -88,6 +88,7 @@ def test_bounds_hold_the_drawing_tightly(name: str) -> None:
     assert np.all(vertices <= high + 1e-15)
 
 
+@pytest.mark.fast_cases(6)
 @pytest.mark.parametrize("name", SHAPES)
 def test_mass_properties_are_those_of_the_drawing(name: str) -> None:
     """Errors of the mesh fall with the square of its fineness, so two meshes give the limit to its fourth power."""
@@ -102,6 +103,7 @@ def test_mass_properties_are_those_of_the_drawing(name: str) -> None:
     np.testing.assert_allclose(limits[2], shape.inertia, rtol=0, atol=tolerance * np.trace(shape.inertia))
 
 
+@pytest.mark.fast_cases(56)
 @pytest.mark.parametrize("name", SHAPES)
 @pytest.mark.parametrize("fineness", [3, 4, 25])
 def test_drawing_is_closed_and_looks_outward(name: str, fineness: int) -> None:

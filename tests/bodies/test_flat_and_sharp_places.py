@@ -381,7 +381,7 @@ def _frames(place: list[float], quaternion: list[float], rng: np.random.Generato
     return (origin, turns), (origin + turns @ np.array(place), np.ascontiguousarray(turns @ second))
 
 
-@pytest.mark.fast_cases(3)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("name", POSES)
 def test_the_gap_is_right_in_any_frame_and_does_not_jump(name: str) -> None:
     first, second, place, quaternion = POSES[name]

@@ -79,6 +79,7 @@ def _block(body: FreeBody, q: Any, u: Any, gravity: Any) -> dict[str, Any]:
     return parts
 
 
+@pytest.mark.fast_cases(6)
 @each_body
 @settings(max_examples=10)
 @given(place=vectors, turn=turns, velocity=vectors, spin=vectors, gravity=vectors)
@@ -112,6 +113,7 @@ def test_output_block_is_newton_and_euler(
     np.testing.assert_allclose(parts["rates"][3:], (one - other) / (2.0 * h), rtol=0, atol=1e-8)
 
 
+@pytest.mark.fast_cases(10)
 @each_body
 @settings(max_examples=5)
 @given(turn=turns, about=turns, velocity=vectors, spin=vectors, gravity=vectors)
@@ -257,6 +259,7 @@ def test_mesh_of_a_box() -> None:
     np.testing.assert_allclose(_tensor(body), mesh.moment_inertia, rtol=1e-12, atol=1e-16)
 
 
+@pytest.mark.slow
 @given(place=vectors, turn=turns, other=vectors)
 def test_compound_is_the_integral_over_its_parts(place: Any, turn: Any, other: Any) -> None:
     """Mass, mass centre, tensor; and the shapes stand where the parts do."""

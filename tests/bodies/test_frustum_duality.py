@@ -62,7 +62,7 @@ def _slab(shapes: Any, poses: Any, n: Any) -> float:
     return float(n @ (other - own))
 
 
-@pytest.mark.fast_cases(12)
+@pytest.mark.fast_cases(3)
 @pytest.mark.parametrize("name", PAIRS)
 def test_the_least_gap_is_that_of_the_bodies(build: Any, name: str) -> None:
     """Anywhere apart, from far to all but touching."""
@@ -128,7 +128,7 @@ def _paths(seed: int, first: int, count: int) -> list[Any]:
     return paths[first:]
 
 
-@pytest.mark.fast_cases(3)
+@pytest.mark.fast_cases(1)
 @pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
 @pytest.mark.parametrize("name", PASSING)
 def test_features_hand_over_without_a_hole(build: Any, name: str) -> None:

@@ -67,7 +67,7 @@ def _stays(rig: Rig, posed: PosedRound, u: Any, number: int) -> bool:
     return bool(max(past) <= 0.0)
 
 
-@pytest.mark.fast_cases(7)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("solid", POLYHEDRA)
 @pytest.mark.parametrize(("name", "part", "other"), KINDS)
 def test_gap_normal_and_witness_of_constructed_poses(build: Any, name: str, part: str, other: str, solid: str) -> None:
@@ -90,7 +90,7 @@ def test_gap_normal_and_witness_of_constructed_poses(build: Any, name: str, part
                 assert np.min(blocks[past, 0]) > 1e-10
 
 
-@pytest.mark.fast_cases(3)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(("name", "part", "other"), KINDS)
 def test_rates_are_derivatives(build: Any, name: str, part: str, other: str) -> None:
     """Gap rate against differences of the gap to 1e-8, second-order term against those of the rate to 1e-6."""
@@ -137,7 +137,7 @@ def _posed_capsule(rng: Generator, name: str, part: str, other: str, gap: float)
     return (first[0], second[0]), PosedRound(rng, first, second, tangents, gap)
 
 
-@pytest.mark.fast_cases(4)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(("name", "part", "other"), CAPSULE_KINDS)
 def test_capsules_at_constructed_poses(build: Any, name: str, part: str, other: str) -> None:
     """As above, also 0.1 mm deep; and rates are derivatives."""
@@ -180,7 +180,7 @@ BETWEEN = [
 ]
 
 
-@pytest.mark.fast_cases(4)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(("one", "part", "two", "other"), BETWEEN)
 def test_frustums_at_constructed_poses(build: Any, one: str, part: str, two: str, other: str) -> None:
     """As above; and rates are derivatives, of a crossing of rims at some of the poses at least."""

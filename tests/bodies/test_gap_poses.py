@@ -77,7 +77,7 @@ def test_a_rim_holds_where_its_normal_is_nearly_the_axis(
     assert found.gap[0] == pytest.approx(gap, abs=2.0 * abs(shift) + 5e-5)
 
 
-@pytest.mark.fast_cases(10)
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize("pair", SMOOTH_PAIRS)
 def test_gaps_of_smooth_bodies_are_right_and_do_not_jump(pair: str) -> None:
     """At some hundred poses, apart and overlapping by up to a micrometre."""

@@ -36,6 +36,7 @@ from tests.bodies.planar_functions import (
 GRAVITY = 9.81
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("tilt", "slip", "friction"), [(0.3, 0.4, 0.2), (-0.2, -1.0, 0.6)])
 def test_a_turning_frame_moves_as_the_free_body(build: Any, tilt: float, slip: float, friction: float) -> None:
     """A dumbbell in its three planar coordinates falls, hits, slides and sticks as the spatial one does."""
@@ -58,6 +59,7 @@ def test_a_turning_frame_moves_as_the_free_body(build: Any, tilt: float, slip: f
     assert second.energy.residual < 1e-8
 
 
+@pytest.mark.slow
 def test_a_vertex_slides_without_friction(build: Any) -> None:
     """A rod slips down on its tip: one equation for its angle, by scipy, through the second-order term of a vertex."""
     half, weight, inertia, tilt = 0.5, 2.0, 0.1, 1.2
@@ -100,6 +102,7 @@ def _damper_power(t: float, q: Floats, u: Floats, damper: float) -> float:
     return -damper * u[0] * u[0]
 
 
+@pytest.mark.slow
 def test_the_work_of_a_damper() -> None:
     """It is the last coordinate, comes off the potential energy and closes the account; the motion is known."""
     weight, spring, damper = 2.0, 50.0, 3.0
@@ -143,6 +146,7 @@ def _any(entries: Any) -> GeneralisedBody:
     return GeneralisedBody(coordinates, _given_mass, _no_force, _level, constants={"entries": tuple(entries)})
 
 
+@pytest.mark.slow
 @settings(max_examples=30)
 @given(st.lists(st.floats(-1.0, 1.0), min_size=16, max_size=16), st.floats(1e-3, 1e3))
 def test_mass_is_inverted(numbers: list[float], scale: float) -> None:

@@ -85,7 +85,7 @@ MISTAKES: list[tuple[dict[str, Any], tuple[str, ...]]] = [
 ]
 
 
-@pytest.mark.fast_cases(12)
+@pytest.mark.fast_cases(3)
 @pytest.mark.parametrize(("mistake", "words"), MISTAKES, ids=[f"{words[0]}, {words[1]}" for _, words in MISTAKES])
 def test_mistakes_are_named(mistake: dict[str, Any], words: tuple[str, ...]) -> None:
     """The message names the function, the rule, the value and the remedy, before anything runs."""

@@ -34,7 +34,7 @@ def _turn(q: Any, omega: Any, dt: float) -> Any:
     return np.roll(turned.as_quat(), 1)
 
 
-@pytest.mark.fast_cases(4)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("joint", JOINTS, ids=lambda j: type(j).__name__)
 @settings(max_examples=10)
 @given(places=st.tuples(vectors, vectors), turns=st.tuples(vectors, vectors), u=st.tuples(*[vectors] * 4))

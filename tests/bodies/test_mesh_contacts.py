@@ -46,6 +46,7 @@ PLACE = np.array([0.1, 0.2, 0.3])
 UNIT = np.array([1.0, 0.0, 0.0, 0.0])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "n"), [("bracket", 2), ("torus", None)])
 def test_the_nearest_patch_has_the_distance_of_the_surface(build: Any, name: str, n: int | None) -> None:
     """At random places outside; past the end of its features a patch is never nearer."""
@@ -95,6 +96,7 @@ def test_a_ball_whose_centre_is_inside_overlaps(build: Any) -> None:
     assert np.min(rig.geometry[:, 0]) == pytest.approx(2e-3, abs=1e-17)
 
 
+@pytest.mark.slow
 def test_contacts_with_points_and_balls_have_the_properties_of_the_kit() -> None:
     pairs: list[tuple[Any, Shape, Shape]] = [
         (contact, BRACKET, ball) for ball in [Sphere(4e-3)] for contact in MeshSphere.between(BRACKET, ball)[:1]
@@ -112,6 +114,7 @@ def test_contacts_with_points_and_balls_have_the_properties_of_the_kit() -> None
             check()
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("name", ["box-box", "box-hull", "tetrahedra"])
 def test_a_convex_mesh_has_the_contacts_of_its_hull(build: Any, name: str) -> None:
     """At random poses near contact: the gaps of what faces each other are those of the polyhedra."""
@@ -180,6 +183,7 @@ def test_a_smooth_body_has_the_gap_of_a_hull_or_of_a_ball(build: Any, kind: str)
         assert compared > 30
 
 
+@pytest.mark.slow
 def test_a_capsule_has_the_distance_of_its_axis(build: Any) -> None:
     """At random places outside: the nearest of what faces each other, against many points of the axis."""
     capsule, rng = Capsule(2e-3, 8e-3, 1e-3, 0.0, 0.0, 0.6, 0.0, 0.8), np.random.default_rng(11)
@@ -204,6 +208,7 @@ def test_a_capsule_has_the_distance_of_its_axis(build: Any) -> None:
     assert compared == {"face", "edge", "corner"}
 
 
+@pytest.mark.slow
 def test_a_rounded_box_has_the_distance_of_its_core(build: Any) -> None:
     """At random places: the nearest of what faces each other; cores that overlap do so by more than the radius."""
     box, rng = Box(6e-3, 4e-3, 5e-3, 1e-3, 0.0, 0.0, 0.8, 0.36, -0.48, rounding=1.5e-3), np.random.default_rng(3)

@@ -130,6 +130,7 @@ def _slope(f: Any, t: float, h: float) -> Any:
     return (f(t - 2 * h) - 8.0 * f(t - h) + 8.0 * f(t + h) - f(t + 2 * h)) / (12.0 * h)
 
 
+@pytest.mark.fast_cases(8)
 @pytest.mark.parametrize("name", MOTIONS)
 @settings(max_examples=15)
 @given(t=st.floats(0.0, 0.5))
@@ -186,6 +187,7 @@ def test_constant_velocity_turns_about_its_centre() -> None:
     assert MOTIONS["belt"].time_scale == math.inf
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["table", "periodic"])
 def test_a_table_passes_through_its_rows(name: str) -> None:
     """At the rows the positions given, and no step in position, velocity or acceleration, ends and repeats included."""

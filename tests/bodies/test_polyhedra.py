@@ -19,7 +19,7 @@ _POSES, _MOTIONS = (2, 1) if PLAIN else (20, 5)
 KINDS = ("edge-edge", "face-vertex", "vertex-face")
 
 
-@pytest.mark.fast_cases(7)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("name", NAMES)
 def test_gap_normal_and_witness_of_constructed_poses(build: Any, name: str, kind: str) -> None:
@@ -52,6 +52,7 @@ _WEIGHTS = {1: 3.0 / 4.0, 2: -3.0 / 20.0, 3: 1.0 / 60.0}
 """Central differences of sixth order."""
 
 
+@pytest.mark.fast_cases(6)
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("name", NAMES)
 def test_rates_are_derivatives(build: Any, name: str, kind: str) -> None:

@@ -28,7 +28,7 @@ _CLOSE = 1e-11
 """Gap at which bodies are moved past each other [m]."""
 
 
-@pytest.mark.fast_cases(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SHAPES)
 def test_gap_is_the_distance_of_the_core(build: Any, name: str) -> None:
     """At random places: the nearest of what faces each other; a core that overlaps does so by the radius and more."""
@@ -51,6 +51,7 @@ def test_gap_is_the_distance_of_the_core(build: Any, name: str) -> None:
     assert min(compared, deep) > 3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", [Disc(8e-3), Cone(6e-3, 0.012), Cylinder(2e-3, 0.012, rounding=5e-4)])
 def test_what_goes_right_through_overlaps(build: Any, shape: Frustum) -> None:
     """A sharp disc that edges pierce far from its rim, a slender body both of whose ends are outside."""
@@ -66,7 +67,7 @@ def test_what_goes_right_through_overlaps(build: Any, shape: Frustum) -> None:
     assert deep > 5
 
 
-@pytest.mark.fast_cases(1)
+@pytest.mark.slow
 @pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
 @pytest.mark.parametrize("name", SHAPES)
 def test_features_hand_over_without_a_hole_and_without_a_double(build: Any, name: str) -> None:

@@ -55,7 +55,7 @@ def _check(rig: Rig, pose: PosedRound, rng: np.random.Generator) -> None:
     assert rig.bias[found[0], 0] == pytest.approx(second_rate, rel=1e-6, abs=1e-7)
 
 
-@pytest.mark.fast_cases(4)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(("name", "part", "other", "kind"), KINDS)
 def test_polyhedra_at_constructed_poses(build: Any, name: str, part: str, other: str, kind: str) -> None:
     """Anywhere from 0.1 m apart to 0.1 mm deep."""
@@ -85,7 +85,7 @@ BETWEEN = [
 ]
 
 
-@pytest.mark.fast_cases(12)
+@pytest.mark.fast_cases(4)
 @pytest.mark.parametrize(("one", "part", "two", "other"), BETWEEN)
 def test_round_bodies_at_constructed_poses(build: Any, one: str, part: str, two: str, other: str) -> None:
     """The first is rounded, and where both are of one kind the second, too; rims may be parallel where they touch."""

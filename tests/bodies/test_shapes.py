@@ -30,7 +30,7 @@ def _farthest_on_ellipsoid(semi: Any, center: Any, axes: Any) -> float:
     return -min(float(minimize(nearness, start, tol=1e-12).fun) for start in starts)
 
 
-@pytest.mark.fast_cases(12)
+@pytest.mark.fast_cases(3)
 @pytest.mark.parametrize("center", CENTERS)
 @pytest.mark.parametrize("semi", [(0.1, 0.2, 0.4), (0.3, 0.3, 0.1), (0.2, 0.2, 0.2), (0.4, 0.3, 0.1)])
 @pytest.mark.parametrize("turned", [False, True])

@@ -73,6 +73,7 @@ def test_what_rolls_keeps_rolling(build: Any, shape: Shape) -> None:
     assert solution.energy.residual <= 1e-10
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", [Disc(0.05), Cylinder(0.05, 0.01, z=0.01)], ids=["disc", "rim of a cylinder"])
 @pytest.mark.parametrize(("tilt", "precession"), [(1.0, 8.0), (0.6, 20.0)])
 def test_steady_rolling_in_a_circle(build: Any, shape: Shape, tilt: float, precession: float) -> None:

@@ -111,7 +111,7 @@ def test_an_ellipsoid_that_is_not_known_has_the_contacts_of_one_that_is(build: A
 PAIRS = [(one, two) for one in GIVEN for two in (*OTHERS, *GIVEN)]
 
 
-@pytest.mark.fast_cases(4)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(("one", "two"), PAIRS, ids=["-".join(pair) for pair in PAIRS])
 def test_the_gap_is_that_of_the_bodies(build: Any, one: str, two: str) -> None:
     """No slab between them is wider than they are apart, and this one is as wide as the gap."""
@@ -148,6 +148,7 @@ def test_over_a_mesh_and_a_plane(build: Any, name: str) -> None:
         assert plane.geometry[0, 0] == pytest.approx(float(up @ (place + axes @ shape.support(-up @ axes))), abs=1e-15)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(PLAIN, reason="the checks call compiled functions")
 @pytest.mark.parametrize(("one", "two"), [("sum", "box"), ("egg", "ellipsoid")])
 def test_rates_and_second_order_terms_are_the_derivatives(one: str, two: str) -> None:
@@ -159,7 +160,7 @@ def test_rates_and_second_order_terms_are_the_derivatives(one: str, two: str) ->
         row.check()
 
 
-@pytest.mark.fast_cases(1)
+@pytest.mark.slow
 @pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
 @pytest.mark.parametrize(("name", "other"), [("sum", "plate"), ("lens", "box"), ("lens", "mesh"), ("egg", "ellipsoid")])
 def test_bouncing_keeps_the_energy(name: str, other: str) -> None:
@@ -245,6 +246,7 @@ def test_the_spiral_leaves_no_gap() -> None:
         assert np.min(np.max(others @ directions.T, axis=1)) >= math.cos(reach)
 
 
+@pytest.mark.slow
 def test_copies_and_pickles(build: Any) -> None:
     """What the engine knows of a shape is of one process, and is not kept."""
     egg = Egg()
@@ -255,6 +257,7 @@ def test_copies_and_pickles(build: Any) -> None:
         assert Rig((other, Sphere(5e-3)), build.laws()).contacts
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(PLAIN, reason="everything runs in Python")
 def test_what_numba_does_not_know_runs_in_python(build: Any) -> None:
     """With a warning that says why; the numbers are the same."""
@@ -300,7 +303,7 @@ class Wrong(SupportShape):
         raise RuntimeError("no idea")
 
 
-@pytest.mark.fast_cases(2)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(
     ("shape", "message"),
     [
@@ -339,7 +342,7 @@ class Blind(SupportShape):
 SOFT: dict[str, Any] = {"normal": HertzCompliant(1e6), "friction": Frictionless()}
 
 
-@pytest.mark.fast_cases(2)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("other", "laws", "number"),
     [
@@ -370,7 +373,7 @@ def test_what_is_wrong_along_one_direction_is_refused_at_the_start(
     assert isinstance(refused.value.__cause__, ValueError) is (number == 0.0)
 
 
-@pytest.mark.fast_cases(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(("longer", "pointed"), [(1.0, 0.0), (-0.5, 0.0), (0.2, 0.45), (0.2, -0.45)])
 def test_eggs_that_are_not_convex_are_refused(longer: float, pointed: float) -> None:
     """Just beyond the bound of the radii of curvature, all of which those within it have."""

@@ -99,7 +99,7 @@ def _least(rig: Rig, poses: Any) -> float:
     return float(np.min(block[block[:, 30] <= 0.0, 0], initial=np.inf))
 
 
-@pytest.mark.fast_cases(2)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("name", PAIRS)
 def test_what_is_near_is_found_until_it_is_looked_for_again(
     name: str, build: Any, monkeypatch: pytest.MonkeyPatch
@@ -135,7 +135,7 @@ def test_what_is_near_is_found_until_it_is_looked_for_again(
     assert compared >= 8
 
 
-@pytest.mark.fast_cases(5)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("seed", [1, 2, 3])
 @pytest.mark.parametrize("kind", BODIES)
 def test_a_run_is_that_of_all_features(kind: str, seed: int, build: Any, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -22,7 +22,7 @@ CASES = [
 ]
 
 
-@pytest.mark.fast_cases(5)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(("name", "kind"), CASES)
 def test_gap_normal_and_witness_of_constructed_poses(build: Any, name: str, kind: str) -> None:
     """The contact of the nearest features has the gap, normal and witness points they were made with.
@@ -53,7 +53,7 @@ _WEIGHTS = {1: 3.0 / 4.0, 2: -3.0 / 20.0, 3: 1.0 / 60.0}
 """Central differences of sixth order, in shorter steps where the radii are below the second number [m]."""
 
 
-@pytest.mark.fast_cases(12)
+@pytest.mark.fast_cases(3)
 @pytest.mark.parametrize(("name", "kind"), CASES)
 def test_rates_are_derivatives(build: Any, name: str, kind: str) -> None:
     """Gap rate against differences of the gap to 1e-8, second-order term against those of the rate to 1e-6."""
@@ -123,7 +123,7 @@ def _distance(shapes: Any, poses: Any) -> float:
     return found
 
 
-@pytest.mark.fast_cases(1)
+@pytest.mark.slow
 @pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
 @pytest.mark.parametrize("name", dict.fromkeys(name for name, _ in CASES))
 def test_features_hand_over_without_a_hole_and_without_a_double(build: Any, name: str) -> None:

@@ -25,6 +25,7 @@ def _thin(rng: np.random.Generator, ratio: float, low: float, high: float) -> An
     return np.array(Superellipsoid(*(0.01 * ratio**-share).tolist(), *exponents.tolist()).core)
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize(
     ("ratio", "low", "high"),
     [(1000.0, 1.0, 1.0), (1000.0, 1.05, 1.6), (10.0, 0.2, 0.95)],
@@ -45,6 +46,7 @@ def test_bodies_apart(ratio: float, low: float, high: float) -> None:
             np.testing.assert_allclose(found[4:7], n, rtol=0, atol=1e-7)
 
 
+@pytest.mark.slow
 def test_deep_in_each_other_no_guess_is_made() -> None:
     """An answer says that bodies overlap only if they do: the longest way out of random poses against a search."""
     rng = np.random.default_rng(12)

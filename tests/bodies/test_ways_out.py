@@ -57,7 +57,7 @@ def _pose(rng: np.random.Generator, kinds: Any, gap: float) -> tuple[Array, Arra
     return one, two, turn, p + gap * n - turn @ q, n
 
 
-@pytest.mark.fast_cases(12)
+@pytest.mark.fast_cases(4)
 @pytest.mark.parametrize("first", EXPONENTS)
 @pytest.mark.parametrize("second", EXPONENTS)
 def test_no_direction_is_a_shorter_way_out(first: str, second: str) -> None:
@@ -140,6 +140,7 @@ def test_uphill_the_gap_grows() -> None:
             assert max(gap_along(*given, *n) for n in nearby) <= top[0] + 1e-6
 
 
+@pytest.mark.fast_cases(10)
 @pytest.mark.parametrize("kind", EXPONENTS)
 @pytest.mark.parametrize(
     "frustum", [Cylinder(0.006, 0.005), Cone(0.007, 0.01), Disc(0.008)], ids=lambda f: type(f).__name__

@@ -135,6 +135,7 @@ def test_failures_are_told_and_status_is_1(call: Call) -> None:
     assert "ZeroDivisionError: a summary that fails" in failed["summary"]["message"]
 
 
+@pytest.mark.slow
 def test_a_law_that_is_no_number(call: Call) -> None:
     """The run stops, and what follows from it is not looked at."""
     status, output, _ = call("check", "tiny", "--set", "mode=nan law", "--set", "radius=1e-3")
@@ -144,6 +145,7 @@ def test_a_law_that_is_no_number(call: Call) -> None:
     assert "NotANumber: _nan in" in output
 
 
+@pytest.mark.slow
 def test_every_kind_of_that_name(call: Call) -> None:
     """A body and a scenario share a name."""
     status, output, _ = call("check", "dumbbell")
@@ -173,7 +175,7 @@ def test_there_is_one_of_every_kind() -> None:
     assert set(ONE_OF_A_KIND) == set(registry.GROUPS)
 
 
-@pytest.mark.fast_cases(2)
+@pytest.mark.fast_cases(1)
 @pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
 @pytest.mark.parametrize("name", ONE_OF_A_KIND.values())
 def test_a_built_in_of_every_kind_is_checked(call: Call, name: str) -> None:
@@ -185,6 +187,7 @@ def test_a_built_in_of_every_kind_is_checked(call: Call, name: str) -> None:
     assert failed == "0"
 
 
+@pytest.mark.slow
 def test_an_example_takes_parameters(call: Call) -> None:
     """Those that are set come before those of the example."""
     status, output, _ = call("check", "rod", "--set", "centre_distance=0.3", "--json")
@@ -193,7 +196,7 @@ def test_an_example_takes_parameters(call: Call) -> None:
     assert "no principal moment" in call("check", "rod", "--set", "radius=0.5")[2]
 
 
-@pytest.mark.fast_cases(3)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(
     ("words", "told"),
     [

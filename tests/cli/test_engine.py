@@ -17,6 +17,7 @@ def test_an_option_of_the_engine_is_that_of_the_run(call: Call) -> None:
     assert fine["n_steps"] >= 200 > plain["n_steps"]
 
 
+@pytest.mark.fast_cases(4)
 @pytest.mark.parametrize(
     ("word", "told"),
     [

@@ -95,6 +95,7 @@ def test_a_compliant_normal_law_takes_the_place_of_an_impact_law(call: Call) -> 
     assert not {"restitution", "contact_time", "impact"} & set(report["parameters"])
 
 
+@pytest.mark.fast_cases(12)
 @pytest.mark.parametrize(
     ("word", "told"),
     [

@@ -31,6 +31,7 @@ def test_all_groups_with_source_and_first_line(call: Call) -> None:
     assert ":class:" not in output
 
 
+@pytest.mark.fast_cases(6)
 @pytest.mark.parametrize("group", GROUPS)
 def test_one_group(call: Call, group: str) -> None:
     status, output, _ = call("list", group)

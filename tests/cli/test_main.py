@@ -37,6 +37,7 @@ def test_a_request_that_cannot_be_read_is_wrong(call: Call, words: tuple[str, ..
     assert "usage: nonsmooth" in errors
 
 
+@pytest.mark.fast_cases(8)
 @pytest.mark.parametrize(
     ("words", "told"),
     [
@@ -68,6 +69,7 @@ def test_a_wrong_request_is_one_line_with_the_remedy(call: Call, words: tuple[st
     assert errors.count("\n") == 1
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(
     ("words", "told"),
     [

@@ -18,6 +18,7 @@ STUCK = ("block_on_belt", "--section", "x=0.5", "--settle", "20", "--within", "x
 """Stuck to the belt where it passes the section, which holds its velocity."""
 
 
+@pytest.mark.slow
 def test_an_orbit(call: Call, tmp_path: Path) -> None:
     status, output, _ = call("orbit", *ASKED, "--out", str(tmp_path / "out"))
     assert status == 0
@@ -46,6 +47,7 @@ def test_a_bifurcation_diagram(call: Call, tmp_path: Path) -> None:
     assert len((tmp_path / "out" / "bifurcation.csv").read_text(encoding="utf-8").splitlines()) == 4
 
 
+@pytest.mark.slow
 def test_a_followed_diagram(call: Call, tmp_path: Path) -> None:
     words = ("--over", "gamma=0.3:0.8:2", "--period", "0.04", "--show", "vz", "--settle", "200", "--keep", "8")
     status, output, _ = call("bifurcation", *START, *words, "--at", "0.02", "--follow", "--out", str(tmp_path / "out"))
@@ -71,7 +73,7 @@ def test_an_orbit_without_a_period(call: Call) -> None:
     assert "besides 1 along the motion" in output
 
 
-@pytest.mark.fast_cases(7)
+@pytest.mark.fast_cases(3)
 @pytest.mark.parametrize(
     ("words", "said"),
     [

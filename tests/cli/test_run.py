@@ -76,6 +76,7 @@ def test_nothing_is_written_and_no_heavy_package_imported(tmp_path: Path) -> Non
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("extra", [(), ("--out", "results")])
 def test_a_failed_run_reports_what_was_computed(
     call: Call, extra: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch

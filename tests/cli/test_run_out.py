@@ -91,6 +91,7 @@ def test_results_are_not_overwritten_unasked(call: Call, tmp_path: Path) -> None
     assert json.loads((tmp_path / "summary.json").read_text())["t_end"] == 0.1
 
 
+@pytest.mark.slow
 def test_a_figure_that_fails_costs_nothing_else(call: Call, tmp_path: Path) -> None:
     status, output, errors = call("run", "tiny", "--json", "--set", "mode=bad figure", "--out", str(tmp_path))
     assert status == 1

@@ -28,6 +28,7 @@ def test_parameters_of_a_scenario(call: Call) -> None:
     assert "* assumed" in output
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize(
     ("name", "parameter", "row"),
     [
@@ -49,6 +50,7 @@ def test_parameters_of_bodies_and_laws(call: Call, name: str, parameter: str, ro
     assert row is None or found == row.split()
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize(
     ("word", "name", "line"),
     [

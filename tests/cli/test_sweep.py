@@ -46,6 +46,7 @@ def test_draws(tmp_path: Path) -> None:
     assert main(["study", "draw", str(tmp_path / "s.zarr"), "--out", str(tmp_path / "p.png")]) == 0
 
 
+@pytest.mark.fast_cases(7)
 @pytest.mark.parametrize(
     ("words", "told"),
     [
@@ -101,6 +102,7 @@ impact = { type = "energetic", restitution = 0.6 }
 """
 
 
+@pytest.mark.slow
 def test_a_file_is_swept_and_goes_on(call: Call, tmp_path: Path) -> None:
     file, path = tmp_path / "drop.toml", tmp_path / "s.zarr"
     file.write_text(_FILE, encoding="utf-8")

@@ -78,6 +78,7 @@ def test_a_folder_of_results_is_opened_as_it_ran(call: Call, opened: list[str], 
     np.testing.assert_array_equal(arrays["event_time"], ns.open_solution(folder).events.time)
 
 
+@pytest.mark.fast_cases(3)
 @pytest.mark.parametrize(
     ("words", "said"),
     [

@@ -58,6 +58,7 @@ def _addresses() -> set[str]:
     return {address.rstrip(".;:") for path in TEXTS for address in _ADDRESS.findall(path.read_text(encoding="utf-8"))}
 
 
+@pytest.mark.fast_cases(41)
 @pytest.mark.parametrize("path", TEXTS, ids=lambda path: path.relative_to(ROOT).as_posix())
 def test_links_inside_lead_to_a_file_and_a_heading(path: Path) -> None:
     assert _broken(path) == []

@@ -116,6 +116,7 @@ def _attempt(problem: Problem, solver: str) -> ns.ContactResult | None:
         return None
 
 
+@pytest.mark.slow
 @settings(max_examples=150)
 @given(problem=problems())
 def test_all_solvers_agree(problem: Problem) -> None:

@@ -82,6 +82,7 @@ def test_suffixes_may_be_large(drift: ns.Solution, tmp_path: Path) -> None:
     assert drift.export(str(tmp_path / "A.GLB")).read_bytes()[:4] == b"glTF"
 
 
+@pytest.mark.slow
 def test_the_command_writes_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "new" / "run.gif"
     words = ["--set", "t_end=0.1", "--speed", "0.5", "--size", "240", "--view", "front"]

@@ -89,6 +89,7 @@ def test_mp4_has_so_many_pictures(drift: ns.Solution, tmp_path: Path) -> None:
     assert data[4:8] == b"ftyp"
 
 
+@pytest.mark.slow
 def test_ffmpeg_gets_whole_pictures_and_its_trouble_is_told(
     drift: ns.Solution, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -64,6 +64,7 @@ def test_a_file_says_what_python_says(path: Path) -> None:
     assert np.array_equal(one.u, two.u)
 
 
+@pytest.mark.fast_cases(18)
 @pytest.mark.parametrize(
     ("before", "after", "told"),
     [

@@ -76,6 +76,7 @@ def same(one: ns.System, other: ns.System) -> bool:
     )
 
 
+@pytest.mark.fast_cases(9)
 @pytest.mark.parametrize("name", SCENARIOS)
 def test_every_scenario_comes_back(name: str, tmp_path: Path) -> None:
     system = registry.load("scenarios", name)().build()

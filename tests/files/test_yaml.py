@@ -51,7 +51,7 @@ def test_words_and_numbers() -> None:
     assert list(map(type, found[:8])) == list(map(type, numbers))
 
 
-@pytest.mark.fast_cases(12)
+@pytest.mark.fast_cases(6)
 @pytest.mark.parametrize("name", SCENARIOS)
 def test_every_scenario_comes_back(name: str, tmp_path: Path) -> None:
     system = registry.load("scenarios", name)().build()

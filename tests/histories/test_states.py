@@ -103,6 +103,7 @@ def _differences(system: ns.System, t_end: float) -> tuple[ns.Solution, ns.Solut
     return few, many, drawn
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "t_end"), [("dumbbell", 0.6), ("dice_throw", 0.12)])
 def test_states_are_those_of_a_run_with_samples_there(name: str, t_end: float) -> None:
     """Slips that turn round without an event, and changes of features, included; to what samples are exact to."""

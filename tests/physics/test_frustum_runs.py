@@ -190,7 +190,7 @@ def _momenta(bodies: Any, q: Any, u: Any) -> tuple[Any, Any]:
     return linear, angular
 
 
-@pytest.mark.fast_cases(10)
+@pytest.mark.fast_cases(7)
 @pytest.mark.parametrize("name", COLLIDING)
 def test_colliding_bodies_keep_momentum_and_energy(name: str) -> None:
     """Without friction and with e = 1, to 1e-9, in eight collisions at any orientation."""

@@ -49,7 +49,7 @@ CASES = {
 }
 
 
-@pytest.mark.fast_cases(6)
+@pytest.mark.fast_cases(5)
 @pytest.mark.parametrize("case", CASES)
 def test_compliant_model_in_real_time(chain: Any, compliant: Any, case: str) -> None:
     """The impact equals the springs integrated in time, to 1e-8, with as many phases."""

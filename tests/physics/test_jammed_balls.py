@@ -74,6 +74,7 @@ def test_what_tells_a_pile_at_rest(friction: float, balanced: bool) -> None:
     assert (left < 1e-9) == balanced
 
 
+@pytest.mark.slow
 def test_a_crowd_of_events_in_which_no_slip_is_slow_is_averaged() -> None:
     """Modes of eight wedged balls changed every 3 ns, too seldom for a stall, at 7 ms of processor time each."""
     model = ns.assemble(mixed_balls.build("52mm-8", 0))

@@ -151,7 +151,7 @@ def test_meshes_of_boxes_collide_like_boxes(build: Any, seed: int) -> None:
     _as_one(collision(build, (meshes[0], boxes[1]), seed)[0], plain, 1e-9)
 
 
-@pytest.mark.fast_cases(2)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(("restitution", "friction"), [(1.0, 0.0), (0.5, 0.3)])
 @pytest.mark.parametrize("seed", range(4))
 def test_brackets_collide_without_passing_into_each_other(

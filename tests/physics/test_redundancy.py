@@ -97,6 +97,7 @@ def test_the_motion_is_unique_and_the_forces_are_not(count: int, slip: tuple[flo
     np.testing.assert_allclose(other.acceleration, result.acceleration, rtol=0, atol=1e-11)
 
 
+@pytest.mark.fast_cases(8)
 @pytest.mark.parametrize("count", FEET)
 @pytest.mark.parametrize(("static", "heading"), [(0.3, 0.0), (0.3, 1.1), (0.7, -2.0)])
 def test_breakaway_at_the_static_coefficient(build: Any, count: int, static: float, heading: float) -> None:

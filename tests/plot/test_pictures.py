@@ -206,6 +206,7 @@ def test_they_are_composed(bounces: ns.Solution) -> None:
     assert plot.modes(bounces, ax=top) is top
 
 
+@pytest.mark.fast_cases(3)
 @pytest.mark.parametrize("draw", [plot.gaps, plot.energies, plot.modes])
 @pytest.mark.parametrize("layout", [None, "tight", "constrained"])
 def test_the_legend_is_whole_on_axes_of_any_figure(bounces: ns.Solution, draw: Any, layout: Any) -> None:

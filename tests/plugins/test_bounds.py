@@ -98,7 +98,7 @@ CASES: dict[Callable[[], ns.System], tuple[str, int, bool]] = {
 """Owner, length of the block, whether the start evaluates it, by what makes the system."""
 
 
-@pytest.mark.fast_cases(5)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("make", CASES, ids=lambda make: make.__name__[1:])
 def test_a_trial_names_who_writes_beyond(make: Callable[[], ns.System]) -> None:
     """Before anything compiled is called; again, and with the line."""

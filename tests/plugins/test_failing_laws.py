@@ -53,6 +53,7 @@ def _read(message: str, owner: str, function: Callable[..., Any], offset: int, w
     return float(found["x"])
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("function", FRICTION, ids=lambda f: f.__name__)
 def test_friction_in_the_middle_of_a_slide(function: Callable[..., float]) -> None:
     """The slip 0.5 - 7 mu g t / 2 reaches 0.31 m/s; up to there the motion is that of Coulomb's law."""
@@ -71,6 +72,7 @@ def test_friction_in_the_middle_of_a_slide(function: Callable[..., float]) -> No
     assert solution.events.causes() == ["start"]
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("function", SHARE, ids=lambda f: f.__name__)
 def test_efficiency_in_the_first_impact(function: Callable[..., float]) -> None:
     """On its way from rest the rate passes the interval without values."""
@@ -89,6 +91,7 @@ def test_force_that_is_no_number() -> None:
     assert len(solution.t) > 500
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("function", "offset", "what"),
     [
@@ -163,6 +166,7 @@ FORMS: dict[str, tuple[Callable[[], Any], str, Callable[..., Any], str]] = {
 }
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("form", FORMS)
 def test_other_forms_of_contact_laws(form: str) -> None:
     """Each names all of its input, inner states as well."""

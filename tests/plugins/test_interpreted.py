@@ -41,6 +41,7 @@ def _with_warnings(run: Callable[[], Any]) -> tuple[Any, list[str]]:
     return result, [str(one.message) for one in caught]
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(
     ("function", "line", "reason"),
     [
@@ -98,6 +99,7 @@ def _constant(speed: float, level: float) -> float:
     return TABLE["kinetic"] / 0.2 * level
 
 
+@pytest.mark.slow
 def test_impact_laws() -> None:
     """A process and a map, against their compiled twins."""
     for one, two in (
@@ -132,6 +134,7 @@ def _remembering(speed: float, level: float, state: Any) -> float:
     return float(TABLE["static"] / 0.3 * (level + 0.1 * state[0]))
 
 
+@pytest.mark.slow
 def test_compliant_laws_traction_and_states() -> None:
     """The other forms of contact laws, against their compiled twins."""
     compliance, drag = dummies.Compliance(_fresh(_push_back)), dummies.Traction(_fresh(_drag))
@@ -189,6 +192,7 @@ def _pendulum(tip: Callable[..., None]) -> ns.Solution:
     return ns.simulate(system, 0.5)
 
 
+@pytest.mark.slow
 def test_a_body_with_one_function_in_python() -> None:
     """All of the body runs in Python then, its helpers and their pointers, too; the line named is that of the one."""
     one = _pendulum(_tip)
@@ -236,6 +240,7 @@ def _carried(lift: Callable[[float], Any], push: Callable[..., None]) -> ns.Solu
     return ns.simulate(system, 0.2)
 
 
+@pytest.mark.slow
 def test_a_motion_and_a_load_in_python() -> None:
     """One warning each."""
     one = _carried(_lift, _push)

@@ -125,6 +125,7 @@ def _approaching(function: Callable[..., None], second: Shape | None = None, sta
     return system
 
 
+@pytest.mark.slow
 def test_a_sound_search_is_an_impact() -> None:
     """The balls meet, and part."""
     solution = ns.simulate(_approaching(finds), 1.5)
@@ -133,6 +134,7 @@ def test_a_sound_search_is_an_impact() -> None:
     assert solution.u_end[6] > solution.u_end[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("function", [without_number, raising, raising_in_python], ids=lambda f: f.__name__)
 @pytest.mark.filterwarnings("ignore::nonsmooth.RunsInPython")
 def test_a_search_that_fails_ends_the_run(function: Callable[..., None]) -> None:

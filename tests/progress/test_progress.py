@@ -47,6 +47,7 @@ def test_lines_are_few_and_whole() -> None:
     assert lines[0] == "t = 0.8 of 10 s (8%, 24 events, about 28 s to go)"
 
 
+@pytest.mark.slow
 def test_a_terminal_has_one_line_that_is_gone_in_the_end(monkeypatch: pytest.MonkeyPatch) -> None:
     """With all that the bar tells; what is printed meanwhile stands above it."""
     monkeypatch.setenv("TERM", "xterm")

@@ -116,6 +116,7 @@ lengths = st.floats(1e-3, 0.1)
 numbers = st.floats(-0.2, 0.2)
 
 
+@pytest.mark.slow
 @given(lengths, lengths, numbers, numbers, numbers)
 def test_two_spheres(r: float, s: float, x: float, y: float, z: float) -> None:
     """|x| - r - s, whatever overlaps, both in one place too."""
@@ -123,6 +124,7 @@ def test_two_spheres(r: float, s: float, x: float, y: float, z: float) -> None:
     assert found.gap == pytest.approx(math.hypot(x, y, z) - r - s, abs=1e-9 if math.hypot(x, y, z) < 1e-6 else 1e-15)
 
 
+@pytest.mark.slow
 @given(st.tuples(lengths, lengths, lengths), st.tuples(lengths, lengths, lengths), st.tuples(numbers, numbers, numbers))
 @settings(max_examples=60)
 def test_two_boxes_along_the_axes(one: Any, two: Any, place: Any) -> None:
@@ -133,6 +135,7 @@ def test_two_boxes_along_the_axes(one: Any, two: Any, place: Any) -> None:
     assert found.gap == pytest.approx(exact, abs=1e-13)
 
 
+@pytest.mark.slow
 @given(st.tuples(numbers, numbers, numbers), st.tuples(lengths, lengths, lengths))
 def test_a_point_and_a_box(place: Any, halves: Any) -> None:
     """A point has no contacts with spheres and cylinders; planes answer, here beside a closed form."""
@@ -224,6 +227,7 @@ def test_bodies_and_their_shapes() -> None:
     assert ns.distance(wall, held).shapes == (0, 1)
 
 
+@pytest.mark.slow
 def test_a_mesh_with_too_many_features_for_contacts() -> None:
     """A library answers, and says to what error."""
     import trimesh
@@ -272,7 +276,7 @@ def test_a_missing_library_says_what_to_install(monkeypatch: pytest.MonkeyPatch)
         ns.distance(Sphere(0.1), Sphere(0.1), by="coal")
 
 
-@pytest.mark.fast_cases(6)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("shape", [EllipsoidSum(), RoundedLens(), Egg(), MovedShape(Egg(), x=2e-3)], ids=repr)
 @pytest.mark.parametrize("other", ["plane", "point", "box", "cylinder", "ellipsoid", "mesh"])
 def test_shapes_of_users(shape: ConvexShape, other: str) -> None:

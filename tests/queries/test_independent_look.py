@@ -21,7 +21,7 @@ def test_every_pair_of_the_table_is_looked_at() -> None:
     assert frozenset(("mesh",)) in {frozenset(pair.split("-")) for pair in PAIRS}
 
 
-@pytest.mark.fast_cases(4)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("kind", DRAWN)
 def test_no_gap_is_wrong(kind: str) -> None:
     """Ours are what planes prove; what libraries say is within the error that they state."""
@@ -49,6 +49,7 @@ def test_a_wrong_gap_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
             assert len(look("ellipsoid-rounded box", 10).wrong) == 10
 
 
+@pytest.mark.slow
 def test_corners_without_a_contact_are_told_from_wrong_gaps() -> None:
     """Two cubes corner to corner have none; a corner over a face, crossed edges and balls have one."""
     cube, ball, here = Box(0.01, 0.01, 0.01), Sphere(0.01), (np.zeros(3), np.eye(3))

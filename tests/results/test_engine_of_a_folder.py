@@ -46,6 +46,7 @@ def test_an_engine_that_is_not_installed_costs_only_what_it_would_compute(tmp_pa
     assert ns.open_solution(tmp_path, engine=Midpoint(2e-3)).track.engine == Midpoint(2e-3)
 
 
+@pytest.mark.slow
 def test_a_run_that_was_cut_off_asks_for_its_engine(tmp_path: Path) -> None:
     """To go on with another one would be another run, and so would be one with other options."""
 

@@ -27,6 +27,7 @@ def hilly() -> ns.Model:
     return ns.assemble(on_hills())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("which", ["model", "hilly"])
 def test_a_state_with_random_changes_is_refused_or_runs(which: str, request: pytest.FixtureRequest) -> None:
     model = request.getfixturevalue(which)

@@ -123,6 +123,7 @@ def test_the_table_has_every_event_exactly(solution: ns.Solution, tmp_path: Path
         np.testing.assert_array_equal(modes, after)
 
 
+@pytest.mark.slow
 def test_results_take_a_tenth_of_what_dense_ones_would(tmp_path: Path) -> None:
     from scenarios.dice_throw.scenario import DiceThrow
 

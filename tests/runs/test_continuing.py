@@ -25,7 +25,7 @@ CUTS = (("dumbbell", 1.0, 4), ("dice_throw", 0.12, 2), ("rolling_disc", 0.3, 3),
 """Scenario, end time [s] and at how many times it is stopped."""
 
 
-@pytest.mark.fast_cases(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "t_end", "times"), CUTS, ids=[cut[0] for cut in CUTS])
 def test_nothing_is_lost_by_stopping(name: str, t_end: float, times: int) -> None:
     """At random times, on the same model, once by way of a file."""
@@ -41,6 +41,7 @@ def test_nothing_is_lost_by_stopping(name: str, t_end: float, times: int) -> Non
     assert lost_by_stopping(whole, early, run(t_end, start=early.state)) == []
 
 
+@pytest.mark.slow
 def test_a_run_may_be_stopped_often(build: Any) -> None:
     """A hundred pieces of a bouncing ball that comes to rest: within steps, at events, in accumulations."""
     system = build.over(Ball(0.01), restitution=0.6)
@@ -58,6 +59,7 @@ def test_a_run_may_be_stopped_often(build: Any) -> None:
     assert piece.energy == whole.energy
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("laws", ["compliant", "rate and state"])
 def test_inner_states_of_laws_go_on(laws: str) -> None:
     table, body = Plate(Rest()), Ball(0.02)

@@ -75,6 +75,7 @@ def test_driven_bodies_are_evaluated_at_the_start_for_every_engine() -> None:
     assert model._laid.gaps().tolist() == pytest.approx([0.08])
 
 
+@pytest.mark.slow
 def test_the_kit_finds_an_engine_that_knows_no_contacts() -> None:
     """It lets bodies fall through each other, and does not refuse them."""
     assert [*failures(check_engine(Blind()))] == ["contact"]

@@ -33,6 +33,7 @@ def _spoil(model: ns.Model) -> None:
     memory.integers[int(memory.scalars["event_codes"][0]) :] = -7
 
 
+@pytest.mark.fast_cases(3)
 @pytest.mark.parametrize(("name", "t_end"), SCENARIOS)
 def test_a_model_runs_twice_to_the_same_bits(name: str, t_end: float) -> None:
     """Also after a run of another kind, and whatever stands where runs write."""

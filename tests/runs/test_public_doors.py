@@ -111,6 +111,7 @@ DOORS: dict[str, Given] = {
 }
 
 
+@pytest.mark.fast_cases(47)
 @pytest.mark.parametrize("door", DOORS)
 def test_what_is_of_no_kind_is_refused_by_name(door: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Text, numbers and lists are of some kind somewhere, and else refused as well; an object is of none."""

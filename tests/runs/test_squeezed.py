@@ -27,6 +27,7 @@ def _system(normal: NormalLaw, impact: ImpactLaw | None, friction: float, aside:
     return system
 
 
+@pytest.mark.fast_cases(3)
 @pytest.mark.parametrize("impact", IMPACTS, ids=lambda law: type(law).__name__)
 @pytest.mark.parametrize(("friction", "aside"), [(0.5, 0.0), (0.5, 0.006)])
 def test_a_ball_between_a_plate_and_what_comes_down_on_it_is_squeezed(
@@ -47,6 +48,7 @@ def test_what_slips_out_is_not_squeezed() -> None:
     assert ns.simulate(_system(Unilateral(), PlasticImpact(), 0.1, 0.02), 0.35).status == "done"
 
 
+@pytest.mark.fast_cases(5)
 @pytest.mark.parametrize("impact", IMPACTS, ids=lambda law: type(law).__name__)
 @pytest.mark.parametrize(
     "joint", [BallJoint((0.0, 0.0, 0.0), (0.0, 0.0, 0.03)), Distance(length=0.05)], ids=["ball", "rod"]

@@ -59,7 +59,7 @@ def test_another_run_is_not_accepted_for_the_default_one(name: str) -> None:
     assert not all(one.fulfilled for one in judged)
 
 
-@pytest.mark.fast_cases(12)
+@pytest.mark.fast_cases(8)
 @pytest.mark.skipif(PLAIN, reason="full runs take minutes in plain mode")
 @pytest.mark.parametrize(
     ("name", "given", "count"),

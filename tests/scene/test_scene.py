@@ -20,6 +20,7 @@ def _volume(look: Look) -> float:
     return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)
 
 
+@pytest.mark.slow
 @given(st.integers(0, 2**32 - 1))
 def test_the_hull_of_points_is_closed_and_faces_outwards(seed: int) -> None:
     points = np.random.default_rng(seed).normal(size=(12, 3))

@@ -31,6 +31,7 @@ def _fall(*bodies: object, position: tuple[float, float, float] = (0.0, 0.0, 0.5
     return ns.simulate(system, 0.3)
 
 
+@pytest.mark.slow
 def test_walls_of_a_box_meet_at_its_edges_and_are_as_high_as_the_motion() -> None:
     _, (floor, *walls) = _drawn(_fall(OpenBox(0.1, 0.2), position=(0.03, 0.0, 0.5)))
     half = np.array([0.1, 0.2, 0.0])

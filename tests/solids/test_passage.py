@@ -31,7 +31,7 @@ def _by_fcl(one: Body, two: Body, q: np.ndarray) -> float:
         return 0.0
 
 
-@pytest.mark.fast_cases(12)
+@pytest.mark.fast_cases(4)
 @pytest.mark.parametrize("pair", list(itertools.combinations_with_replacement(KNOWN, 2)), ids="-".join)
 def test_no_kind_passes_another(build: Any, pair: tuple[str, str]) -> None:
     """From 5 cm off along any direction to a height: the distance is that, and was more on the way.
@@ -59,6 +59,7 @@ def test_no_kind_passes_another(build: Any, pair: tuple[str, str]) -> None:
         check_overlaps(probe.model)
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("start", [0.045, 0.06, 0.1])
 def test_a_box_lands_on_a_box(build: Any, start: float) -> None:
     """Not on the plate under it, from however far it comes; nor where there is no plate, nor with a height."""

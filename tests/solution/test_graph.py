@@ -217,6 +217,7 @@ def test_the_list_of_groups_has_the_commonest_first(shaken: ns.Solution) -> None
     assert "groups" in _title(graph)
 
 
+@pytest.mark.slow
 def test_modes_stand_apart(sliding: ns.Solution, driven: ns.Solution) -> None:
     """No two on one place, whatever the graph."""
     for graph in (sliding.transition_graph(), driven.transition_graph().most_visited(14)):

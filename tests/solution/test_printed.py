@@ -5,10 +5,13 @@ from __future__ import annotations
 import importlib.metadata
 from typing import Any
 
+import pytest
+
 import nonsmooth as ns
 from bodies import Ball, Plate
 
 
+@pytest.mark.slow
 def test_what_is_printed_is_short(build: Any) -> None:
     """With what one looks for first."""
     plate, ball = Plate(), Ball(0.01)

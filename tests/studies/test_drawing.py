@@ -20,6 +20,7 @@ CHARACTER = 6.0
 """Width of one that is drawn [pixels]."""
 
 
+@pytest.mark.slow
 def test_a_map_hatches_what_has_no_record(tmp_path: Path) -> None:
     axes = studies.grid(height=[-1.0, 0.01, 0.05], restitution=[0.5, 0.7])
     study = studies.Study(drop, axes, ["t_end", "impacts"], t_end=T_END)
@@ -35,6 +36,7 @@ def test_a_map_hatches_what_has_no_record(tmp_path: Path) -> None:
     assert [one.get_text() for one in figure.legends[0].get_texts()] == ["without records: 2 failed"]
 
 
+@pytest.mark.slow
 def test_classes_come_first_each_with_a_colour_of_its_own(tmp_path: Path) -> None:
     axes = studies.grid(beta0=[0.1, 0.2], phase=[0.0, 1.0])
     study = studies.Study(DumbbellScenario(mode="free", t_end=0.5), axes, ["impacts", "attractor"])
@@ -57,6 +59,7 @@ def test_where_all_numbers_are_the_same_they_are_drawn(tmp_path: Path) -> None:
     assert figure.get_suptitle() == "2 runs of BouncingBall"
 
 
+@pytest.mark.slow
 def test_numbers_along_an_axis_do_not_run_together(tmp_path: Path) -> None:
     draws = studies.listed([{"gamma": 0.3, "start_phase": -0.097}, {"gamma": 0.8, "start_phase": 0.097}])
     study = studies.Study(BouncingBall(t_end=0.1), draws, ["impacts"])

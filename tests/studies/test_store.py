@@ -62,6 +62,7 @@ def test_a_client_that_is_killed_goes_on_to_the_same_bits(tmp_path: Path, whole:
     assert main(["study", "verify", str(path)]) == 0
 
 
+@pytest.mark.slow
 def test_a_study_goes_on_where_it_began_only(tmp_path: Path) -> None:
     path = tmp_path / "s.zarr"
     ball.study(6).run(path, executor="serial", chunk=2)
@@ -80,6 +81,7 @@ def test_a_study_goes_on_where_it_began_only(tmp_path: Path) -> None:
     assert (other / "thesis.tex").read_text() == "words"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("changed", ["runs", "record"])
 def test_a_program_that_was_changed_does_not_go_on_there(
     changed: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -116,6 +118,7 @@ def test_a_study_that_was_cut_off_as_it_was_made_begins_anew(tmp_path: Path) -> 
     assert ball.digest(ball.study(3).run(path, executor="serial")) == whole
 
 
+@pytest.mark.slow
 def test_damage_is_found(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "s.zarr"
     ball.study(6).run(path, executor="serial", chunk=2)

@@ -54,6 +54,7 @@ class _Telling(SimpleScenario):
         return ()
 
 
+@pytest.mark.slow
 def test_a_study_of_a_scenario_has_what_single_runs_have(tmp_path: Path) -> None:
     scenario = BouncingBall(t_end=0.2)
     record: list[Asked] = ["impacts", "last_flight", "q_end", _double, studies.Trajectory("q", (0.0, 0.1)), "reason"]
@@ -128,6 +129,7 @@ def test_counts_are_whole_and_a_seed_is_a_parameter(tmp_path: Path) -> None:
     assert {found[name].dtype.str for name in ("seed", "impacts", "steps")} == {"<i8"}
 
 
+@pytest.mark.slow
 def test_a_budget_ends_a_run_by_its_steps(tmp_path: Path) -> None:
     study = studies.Study(drop, studies.grid(restitution=[0.2, 0.9], height=[0.05]), RECORD, t_end=2.0, budget=60)
     found = study.run(tmp_path / "s.zarr", executor="serial")

@@ -31,6 +31,7 @@ def _dropped(restitution: float = E, radius: float = 0.01) -> ns.System:
     return system
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(PLAIN, reason="compares derivatives with closed forms, at length in plain mode")
 def test_derivatives_by_numbers_of_a_system() -> None:
     """A ball that is larger strikes sooner, by as much as one that begins lower; gravity changes both its flights."""

@@ -419,6 +419,7 @@ FAILING: dict[str, tuple[Callable[[], Any], float, tuple[str, ...]]] = {
 }
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize("case", FAILING)
 def test_what_fails_in_a_run_is_named(case: str) -> None:
     """RunFailed says when, which function, what it gave, what to do; what was computed until then is kept."""

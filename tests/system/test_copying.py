@@ -82,6 +82,7 @@ def test_the_system_of_a_pickled_solution_runs_on(system: ns.System) -> None:
     assert ns.simulate(back.system, 0.05).status == "done"
 
 
+@pytest.mark.fast_cases(16)
 @pytest.mark.parametrize("name", registry.names("scenarios"))
 def test_every_scenario_can_be_sent_to_another_process(name: str) -> None:
     """Its system comes out of the pickle with the same starts, and lies in the engine with the same gaps."""

@@ -62,6 +62,7 @@ def _system(build: Any, one: Body, two: Body, place: Any, turn: Any, **laws: Any
     return system
 
 
+@pytest.mark.fast_cases(11)
 @pytest.mark.parametrize("name", INSIDE)
 def test_bodies_in_one_another_are_refused(build: Any, name: str) -> None:
     """Before anything runs, with the names of both, the overlap and what to do."""
@@ -91,6 +92,7 @@ def test_compliant_bodies_may_overlap(build: Any) -> None:
         assemble(_system(build, Ball(0.01), Ball(0.01), place, None, **laws), EventDriven())
 
 
+@pytest.mark.fast_cases(5)
 @pytest.mark.parametrize("name", INSIDE)
 def test_compliant_bodies_that_do_not_feel_their_overlap_are_refused(build: Any, name: str) -> None:
     """A start in which a force comes from no gap would run as if nothing were there."""
@@ -106,6 +108,7 @@ def test_compliant_bodies_that_do_not_feel_their_overlap_are_refused(build: Any,
             assemble(system, EventDriven())
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(("gap", "starts"), [(0.0, True), (-0.9e-8, True), (-1.1e-7, False)])
 def test_bodies_that_touch_start(build: Any, gap: float, starts: bool) -> None:
     """On faces, edges and rims, up to a millionth of their size and the height of feet."""

@@ -37,6 +37,7 @@ def _gaps(system: ns.System) -> Any:
     return assemble(system, EventDriven()).gaps()
 
 
+@pytest.mark.fast_cases(2)
 @settings(max_examples=10)
 @given(turn=turns, slope=st.floats(-1.0, 1.0), height=st.floats(-0.5, 0.5))
 @pytest.mark.parametrize("body", [Dumbbell(), BoxBody(0.01, 0.02, 0.03), EllipsoidBody(0.01, 0.02, 0.03)])

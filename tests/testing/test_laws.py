@@ -35,7 +35,7 @@ def _cases(dummies: Sequence[tuple[str, Any]]) -> pytest.MarkDecorator:
     return pytest.mark.parametrize(("name", "law"), dummies, ids=titles)
 
 
-@pytest.mark.fast_cases(3)
+@pytest.mark.fast_cases(1)
 @_cases(friction_dummies.DUMMIES)
 def test_friction(name: str, law: FrictionLaw) -> None:
     if PLAIN and name in ("compiled equals plain", "static limit"):
@@ -55,7 +55,7 @@ def test_normal(name: str, law: NormalLaw) -> None:
     assert_caught(check_normal_law(law), name)
 
 
-@pytest.mark.fast_cases(4)
+@pytest.mark.fast_cases(1)
 @_compiled
 @_cases(compliant_dummies.DUMMIES)
 def test_compliant(name: str, law: NormalLaw) -> None:
@@ -76,7 +76,7 @@ def test_stateful(name: str, law: FrictionLaw) -> None:
     assert_caught(check_friction_law(law), name)
 
 
-@pytest.mark.fast_cases(3)
+@pytest.mark.slow
 @_compiled
 @_cases(traction_dummies.DUMMIES)
 def test_traction(name: str, law: TractionLaw) -> None:
@@ -101,7 +101,7 @@ def test_every_property_has_a_dummy() -> None:
         assert {prop.name for prop in check(example)} <= broken
 
 
-@pytest.mark.fast_cases(2)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "properties",
     [
@@ -122,6 +122,7 @@ def test_without_a_fault_nothing_is_caught(properties: Any) -> None:
     assert failures(properties) == {}
 
 
+@pytest.mark.slow
 def test_message_names_all() -> None:
     """Law, property, parameter, value and the smallest failing input."""
     failure = failures(check_friction_law(friction_dummies.Friction(function=friction_dummies.negative)))[
@@ -144,6 +145,7 @@ def test_smallest_input() -> None:
     assert moved <= {"factor"}
 
 
+@pytest.mark.fast_cases(3)
 @pytest.mark.parametrize(
     ("function", "name", "words"),
     [

@@ -71,6 +71,7 @@ def test_a_wrong_sign_is_called_one() -> None:
     assert "a negative force pulls: it has the wrong sign" in str(found["pulls within its reach"])
 
 
+@pytest.mark.slow
 def test_a_wrong_value_comes_with_the_place_of_the_class() -> None:
     law = friction_dummies.Friction(function=friction_dummies.negative)
     message = str(failures(check_friction_law(law))["not negative"])
@@ -231,6 +232,7 @@ def upwards(t: Any, q: Any, u: Any, out: Any, mass: Any, gravity_z: Any) -> None
     out[33], out[34] = 0.5 * mass * u[0] ** 2, -mass * gravity_z * q[0]
 
 
+@pytest.mark.slow
 def test_the_smallest_input_has_a_size_that_means_something() -> None:
     """A fault that is there at any speed is not told at 1e-46 m/s."""
     failure = failures(check_body(Upwards()))["energy in free flight"]

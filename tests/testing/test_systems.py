@@ -52,12 +52,13 @@ def _cases(dummies: Sequence[tuple[str, Any]]) -> pytest.MarkDecorator:
     return pytest.mark.parametrize(("name", "thing"), dummies, ids=[f"{n} {i}" for i, (n, _) in enumerate(dummies)])
 
 
-@pytest.mark.fast_cases(12)
+@pytest.mark.fast_cases(2)
 @_cases(body_dummies.DUMMIES)
 def test_body(name: str, thing: Body) -> None:
     assert_caught(check_body(thing), name)
 
 
+@pytest.mark.fast_cases(1)
 @_cases(pair_dummies.DUMMIES)
 def test_kinematics(name: str, thing: ContactKinematics) -> None:
     assert_caught(check_contact_kinematics(thing, FIRST, SECOND), name)
@@ -77,27 +78,31 @@ def test_a_library_is_looked_at_if_it_is_there() -> None:
                 prop()
 
 
-@pytest.mark.fast_cases(3)
+@pytest.mark.slow
 @_cases(joint_dummies.DUMMIES)
 def test_joint(name: str, thing: Joint) -> None:
     assert_caught(check_joint(thing), name)
 
 
+@pytest.mark.fast_cases(1)
 @_cases(load_dummies.DUMMIES)
 def test_load(name: str, thing: Load) -> None:
     assert_caught(check_load(thing), name)
 
 
+@pytest.mark.fast_cases(1)
 @_cases(motion_dummies.MOTIONS)
 def test_motion(name: str, thing: Motion) -> None:
     assert_caught(check_motion(thing), name)
 
 
+@pytest.mark.fast_cases(12)
 @_cases(motion_dummies.SHAPES)
 def test_shape(name: str, thing: Shape) -> None:
     assert_caught(check_shape(thing), name)
 
 
+@pytest.mark.fast_cases(4)
 @pytest.mark.skipif(PLAIN, reason="runs take long in plain mode")
 @_cases(engine_dummies.DUMMIES)
 def test_engine(name: str, thing: Engine) -> None:
@@ -126,12 +131,14 @@ def test_a_load_that_is_tied_to_space() -> None:
     assert departed == ["frame invariance"]
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.skipif(PLAIN, reason="runs take minutes in plain mode")
 @_cases(scenario_dummies.DUMMIES)
 def test_scenario(name: str, thing: Scenario) -> None:
     assert_caught(scenario_dummies.checked(thing), name)
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(
     ("properties", "dummies"),
     [
@@ -155,6 +162,7 @@ def test_sound_ones(properties: Any, dummies: Any) -> None:
     assert failures(properties) == {}
 
 
+@pytest.mark.slow
 def test_the_failing_state_is_small() -> None:
     """A velocity that is too high in one direction is shown by that direction alone."""
     failure = failures(check_body(body_dummies.Ball(body_dummies.FAULTS["velocity"])))["velocity"]

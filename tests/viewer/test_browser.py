@@ -18,6 +18,7 @@ from tests.viewer.seen import READY, Seen, wait_until
 pytestmark = pytest.mark.xdist_group("browser")  # one browser for all
 
 
+@pytest.mark.slow
 def test_it_asks_for_one_file_and_complains_of_nothing(browser: Any, drift: tuple[ns.Solution, Path]) -> None:
     seen = Seen(browser, drift[1])
     seen("view.play(true)")

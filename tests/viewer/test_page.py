@@ -28,7 +28,7 @@ def run(request: pytest.FixtureRequest) -> ns.Solution:
     return _run(request.param)
 
 
-@pytest.mark.fast_cases(3)
+@pytest.mark.fast_cases(1)
 def test_events_are_those_of_the_run(run: ns.Solution) -> None:
     told, arrays = decoded(page(run, "", 4000))
     events = run.events
@@ -45,7 +45,7 @@ def test_events_are_those_of_the_run(run: ns.Solution) -> None:
         assert max(len(word) for word in told["words"]) < 120
 
 
-@pytest.mark.fast_cases(2)
+@pytest.mark.fast_cases(1)
 def test_bodies_are_where_they_were(run: ns.Solution) -> None:
     told, arrays = decoded(page(run, "", 4000))
     frame = 0
@@ -60,7 +60,7 @@ def test_bodies_are_where_they_were(run: ns.Solution) -> None:
         frame += len(body.frames)
 
 
-@pytest.mark.fast_cases(3)
+@pytest.mark.fast_cases(1)
 def test_energies_step_at_events_by_what_is_lost_there(run: ns.Solution) -> None:
     _, arrays = decoded(page(run, "", 4000))
     events = run.events
@@ -74,7 +74,7 @@ def test_energies_step_at_events_by_what_is_lost_there(run: ns.Solution) -> None
     np.testing.assert_array_equal(before[:, 1], after[:, 1])
 
 
-@pytest.mark.fast_cases(2)
+@pytest.mark.fast_cases(1)
 def test_impulses_are_those_that_moving_bodies_got(run: ns.Solution) -> None:
     _, arrays = decoded(page(run, "", 4000))
     found = np.linalg.norm(arrays["event_push"] + arrays["event_rub"], axis=1)
@@ -99,6 +99,7 @@ def test_momentum_is_changed_by_the_impulses_that_are_drawn() -> None:
     np.testing.assert_allclose(arrays["event_point"][entry][2], 0.0, atol=1e-7)
 
 
+@pytest.mark.slow
 def test_the_same_run_gives_the_same_page() -> None:
     assert page(_run("dumbbell"), "a", 4000) == page(_run("dumbbell"), "a", 4000)
 
@@ -109,6 +110,7 @@ def test_a_title_cannot_break_out_of_the_page() -> None:
     assert "</script><b>" not in text
 
 
+@pytest.mark.slow
 def test_a_page_without_a_title_names_the_bodies() -> None:
     balls = [Ball(0.01) for _ in range(3)]
     system = ns.System([Plate(), *balls])
@@ -119,6 +121,7 @@ def test_a_page_without_a_title_names_the_bodies() -> None:
     assert decoded(page(run, "Fall", 4000))[0]["title"] == "Fall"
 
 
+@pytest.mark.slow
 def test_of_many_kinds_of_bodies_a_title_names_some() -> None:
     balls = [Ball(0.01) for _ in range(5)]
     system = ns.System(balls)
@@ -136,6 +139,7 @@ def test_a_run_without_contacts_or_events_has_a_page() -> None:
     assert np.all(np.diff(arrays["time"]) > 0.0)
 
 
+@pytest.mark.slow
 def test_a_page_is_written_where_it_is_told_and_refused_in_words(tmp_path: Path) -> None:
     run = _run("bouncing_ball")
     path = tmp_path / "new" / "run.html"

@@ -90,6 +90,7 @@ def test_larger_balls_touch_more_at_once() -> None:
     assert 2 <= few < more
 
 
+@pytest.mark.fast_cases(6)
 @pytest.mark.parametrize("mesh", [torus(12, 6), bracket(), hills(7)], ids=["torus", "bracket", "hills"])
 @pytest.mark.parametrize("radius", [1e-3, 1e-2, 0.3])
 def test_a_patch_has_no_two_faces_that_a_ball_touches_at_once(mesh: Any, radius: float) -> None:

@@ -249,6 +249,7 @@ def test_a_decomposition_covers_the_body_and_is_kept(cache: Path, monkeypatch: p
     assert np.min(assemble(system, ns.EventDriven()).gaps()) == pytest.approx(0.002, abs=3e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(PLAIN, reason="minutes in plain mode")
 def test_a_dumbbell_of_meshes_is_none_of_spheres() -> None:
     """Balls of 20 to 1280 triangles on the paper's plate: the time between two impacts is off, less with more of them.

@@ -68,6 +68,7 @@ def test_against_trimesh() -> None:
     np.testing.assert_allclose(inertia, other.moment_inertia, atol=1e-11 * np.max(inertia))
 
 
+@pytest.mark.slow
 def test_a_refined_sphere_tends_to_a_sphere() -> None:
     """Volume and inertia of an icosphere with the square of the length of its edges: a mesh is a polyhedron."""
     trimesh = pytest.importorskip("trimesh")

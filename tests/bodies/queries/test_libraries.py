@@ -36,7 +36,7 @@ def ask(library: Library, first: Shape, one: Place, second: Shape, two: Place) -
     return library.separation(solids[0], one, solids[1], two)
 
 
-@pytest.mark.fast_cases(12)
+@pytest.mark.fast_cases(8)
 @each
 @pytest.mark.parametrize(("one", "two"), list(itertools.combinations_with_replacement(ALL, 2)))
 def test_pairs(library: Library, one: str, two: str) -> None:
@@ -106,6 +106,7 @@ def test_aligned_boxes_are_right(library: Library) -> None:
             assert found.distance == pytest.approx(exact, abs=1e-15)
 
 
+@pytest.mark.fast_cases(6)
 @each
 @pytest.mark.parametrize(
     "other", [Capsule(0.2, 0.5), Cylinder(0.3, 0.5), Box(0.3, 0.4, 0.5)], ids=["cap", "cyl", "box"]

@@ -140,6 +140,7 @@ def test_figures(tmp_path: Path, runs: dict[float, tuple[BallBox, ns.Solution]])
         figure.savefig(tmp_path / f"{name}.png")
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize(("n_balls", "friction"), [(2, 0.3), (3, 0.3), (3, 0.0)])
 def test_wedged_balls_rest(n_balls: int, friction: float) -> None:
     """In a box of three radii the balls lie on each other and on walls: they rest, on forces that are not unique."""

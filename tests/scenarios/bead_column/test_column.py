@@ -28,7 +28,7 @@ def _on_springs(scenario: BeadColumn) -> Any:
     return done.y[n:, -1]
 
 
-@pytest.mark.fast_cases(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(("n", "exponent"), [(1.0, 1.0), (1.0, 1.5), (3.0, 1.0), (3.0, 1.5), (10.0, 1.5)])
 def test_against_springs_in_real_time(n: float, exponent: float) -> None:
     """The first impact is the limit of springs, whatever their scale: the same velocities to 1e-8.

@@ -30,6 +30,7 @@ def _near(gamma: float, e: float, n: int, flights: int = 400, error: float = 1e-
     return scenario.flights(solution)
 
 
+@pytest.mark.fast_cases(3)
 @pytest.mark.parametrize(("e", "n"), [(0.5, 1), (0.8, 1), (0.8, 2), (0.9, 3)])
 def test_orbits_between_their_bounds(e: float, n: int) -> None:
     """Inside, close to either bound and halfway, a disturbance dies out and flights take n periods."""
@@ -40,6 +41,7 @@ def test_orbits_between_their_bounds(e: float, n: int) -> None:
         assert np.max(np.abs(flights[-20:] - n)) < 3e-4 * n
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize(("e", "n"), [(0.5, 1), (0.8, 1), (0.8, 2), (0.9, 3)])
 def test_orbits_end_at_their_bounds(e: float, n: int) -> None:
     """A little above the upper bound two flights repeat, a little below the lower one the orbit is lost."""

@@ -39,6 +39,7 @@ def test_mass_and_inertia() -> None:
     np.testing.assert_allclose(body.products, 0.0, atol=1e-15 * along)
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize("gamma", [0.0, 0.7, 1.1])
 def test_level_trimer_is_a_ball(gamma: float) -> None:
     """Dropped level, three equal impacts at once do what one ball does: the same impact times to 1e-9 s."""

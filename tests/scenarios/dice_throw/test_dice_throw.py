@@ -24,7 +24,7 @@ def test_dice_come_to_rest_on_a_face(throw: float, rounding: float) -> None:
     assert again.q_end.tolist() == solution.q_end.tolist()
 
 
-@pytest.mark.fast_cases(1)
+@pytest.mark.slow
 @pytest.mark.skipif(PLAIN, reason="some minutes in plain mode")
 @pytest.mark.parametrize("throw", [1.0, 4.0, 5.0, 6.0, 9.0, 10.0, 11.0, 12.0, 28.0, 31.0, 32.0, 39.0])
 def test_every_throw_of_rounded_dice_ends(throw: float) -> None:
@@ -51,7 +51,7 @@ def test_edges_that_face_each_other_for_an_instant_are_not_passed(throw: float, 
     assert solution.events.time[-1] > t_end - 5e-3
 
 
-@pytest.mark.fast_cases(1)
+@pytest.mark.slow
 @pytest.mark.skipif(PLAIN, reason="some minutes in plain mode")
 @pytest.mark.parametrize(
     ("throw", "t_end"), [(6.0, 1.0), (20.0, 1.0), (59.0, 1.0), (84.0, 0.14), (102.0, 1.0), (114.0, 1.0)]
@@ -68,6 +68,7 @@ def test_sharp_dice_slide_off_each_other(throw: float, t_end: float) -> None:
     assert all(one.fulfilled for one in dice.acceptance(solution))
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(PLAIN, reason="some minutes in plain mode")
 def test_guards_that_crowd_in_a_step_are_not_looked_for_one_by_one() -> None:
     """Looked at after every step throw 68 meets one in which hundreds fire, each before the one found last."""

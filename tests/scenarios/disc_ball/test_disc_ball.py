@@ -73,7 +73,7 @@ CASES: list[dict[str, float]] = [
 ]
 
 
-@pytest.mark.fast_cases(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("case", CASES, ids=str)
 def test_against_springs_in_real_time(case: dict[str, float]) -> None:
     """Without symmetry there is no closed form; the springs say the same to 1e-8."""

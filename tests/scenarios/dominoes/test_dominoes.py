@@ -24,6 +24,7 @@ def test_the_first_strike_is_that_of_a_fall_about_the_edge(spacing: float, lean:
     assert start - end == pytest.approx(account.loss, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_no_two_dominoes_overlap() -> None:
     """The upper edge of each stays on this side of the next one's face."""
     row = Dominoes(number=4.0, t_end=0.36)
@@ -57,6 +58,7 @@ def test_too_wide_a_distance_is_refused() -> None:
         Dominoes(spacing=0.05)
 
 
+@pytest.mark.slow
 def test_figures() -> None:
     pytest.importorskip("matplotlib")
     row = Dominoes(number=4.0, t_end=0.3)

@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -27,6 +28,7 @@ def _back(state: dict[str, Any]) -> tuple[Any, Any]:
     return found_q[0], found_u[0]
 
 
+@pytest.mark.slow
 @given(_places, _rates)
 def test_round_trip(q: tuple[float, ...], u: tuple[float, ...]) -> None:
     found_q, found_u = _back(coordinates.to_state(np.array(q), np.array(u), DISTANCE))

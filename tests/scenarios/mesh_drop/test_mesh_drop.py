@@ -63,6 +63,7 @@ def test_in_the_air_it_keeps_its_angular_momentum(run: tuple[MeshDrop, ns.Soluti
     assert np.max(np.abs(np.diff(solution.q[flight, 3:7], axis=0))) > 1e-4
 
 
+@pytest.mark.fast_cases(4)
 @pytest.mark.parametrize("form", ["stl", "obj", "ply", "off", "glb"])
 def test_files_of_every_format_fall_alike(form: str, tmp_path: Path) -> None:
     """The same part in single precision or with the digits of a text, and in double."""

@@ -9,6 +9,7 @@ import nonsmooth as ns
 from scenarios.polyhedron_stack.scenario import PolyhedronStack
 
 
+@pytest.mark.slow
 def test_it_stands() -> None:
     """Nothing happens, and nothing moves."""
     tower = PolyhedronStack(push=0.0, t_end=1.0)

@@ -69,6 +69,7 @@ def test_the_equations_of_rolling_keep_their_energy() -> None:
     np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1.0, rtol=0, atol=1e-10)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
 def test_slip_costs_spin() -> None:
     """With less friction it slips while it rattles, and what it loses is missing in the spin that comes back."""

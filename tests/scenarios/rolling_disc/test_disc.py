@@ -50,6 +50,7 @@ def _roll(scenario: RollingDisc, times: Floats) -> tuple[Floats, Floats]:
     return done.y[:3].T, done.y[3:].T
 
 
+@pytest.mark.fast_cases(7)
 @pytest.mark.parametrize("tilt", [0.03, 0.3, 0.8, 1.3])
 @pytest.mark.parametrize("friction", [0.3, 0.0])
 def test_steady_rolling(tilt: float, friction: float) -> None:

@@ -127,6 +127,7 @@ def test_friction_at_a_point_does_not_turn_it() -> None:
     assert np.ptp(energy) <= 1e-9 * energy[0]
 
 
+@pytest.mark.slow
 def test_a_smaller_disc_takes_longer() -> None:
     """Towards friction at a point the time to turn over grows without bound, as one over the radius."""
     times = []

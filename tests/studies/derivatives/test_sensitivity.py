@@ -115,7 +115,7 @@ CASES: dict[str, tuple[dict[str, Any], tuple[str, ...], float]] = {
 }
 
 
-@pytest.mark.fast_cases(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_the_error_is_small_and_told(name: str) -> None:
     """Differences of eighth order with steps of their own agree to 1e-7 of the largest derivative."""

@@ -92,7 +92,7 @@ def _hops(period: float) -> Orbit:
     return orbit(family, section=TOP, within=("z", "z rate"))
 
 
-@pytest.mark.fast_cases(2)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("period", [0.5, 1.0, 1.7])
 def test_an_unstable_orbit_in_closed_form(period: float) -> None:
     """Period, height and the only multiplier there is within the section."""

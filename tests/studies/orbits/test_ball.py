@@ -35,6 +35,7 @@ def _orbit(gamma: float, **given: float) -> Orbit:
     return orbit(scenario, scenario.period, within=("z", "vz"))
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("gamma", [0.4, 0.8, 1.05, 1.1])
 def test_multipliers(gamma: float) -> None:
     """From a start that is off by some millimetres a second; beyond the period doubling the orbit is unstable."""

@@ -24,6 +24,7 @@ def _flutter(restitution: float) -> Orbit:
     return orbit(scenario, 2.0 / scenario.frequency, settle=2.0, within=PLANE)
 
 
+@pytest.mark.slow
 def test_drift_repeats_but_for_where_it_is() -> None:
     """With a contact that closes in each period two multipliers are 0; the others were found by other differences."""
     scenario = DumbbellScenario(mode="drift")
