@@ -305,7 +305,7 @@ def _of_name(group: str, name: str) -> list[Property]:
 
 
 @pytest.mark.skipif(PLAIN, reason="some minutes in plain mode")
-@pytest.mark.parametrize("find", _cases())
+@pytest.mark.parametrize("find", list(_cases()))
 def test_built_in(find: Callable[[], list[Property]], subtests: pytest.Subtests) -> None:
     """The kit's properties hold of a component, each a subtest."""
     found = find()
