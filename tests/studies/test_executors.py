@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import os
 import re
@@ -36,14 +37,27 @@ def serial(tmp_path_factory: pytest.TempPathFactory) -> str:
     return ball.digest(ball.study().run(tmp_path_factory.mktemp("serial") / "s.zarr", executor="serial"))
 
 
-@pytest.fixture(scope="module")
-def cluster() -> Iterator[Any]:
-    """Return a cluster of two processes."""
+@contextlib.contextmanager
+def _two_processes() -> Iterator[Any]:
     dask, distributed = pytest.importorskip("dask"), pytest.importorskip("distributed")
     with (
         dask.config.set({"distributed.scheduler.allowed-failures": 2}),
         distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0", silence_logs=50) as made,
     ):
+        yield made
+
+
+@pytest.fixture(scope="module")
+def cluster() -> Iterator[Any]:
+    """Return a cluster of two processes that all live."""
+    with _two_processes() as made:
+        yield made
+
+
+@pytest.fixture
+def mortal_cluster() -> Iterator[Any]:
+    """Return a cluster whose processes a test may kill: dask replaces them at some later time, or not at all."""
+    with _two_processes() as made:
         yield made
 
 
@@ -58,14 +72,14 @@ def test_two_processes_give_the_same_bits(serial: str, tmp_path: Path, chunk: in
     assert ball.digest(ball.study().run(tmp_path / "s.zarr", executor=executor, chunk=chunk)) == serial
 
 
-def test_a_worker_that_is_killed_costs_nothing(tmp_path: Path, cluster: Any) -> None:
-    executor = studies.Dask(cluster.scheduler_address)
+def test_a_worker_that_is_killed_costs_nothing(tmp_path: Path, mortal_cluster: Any) -> None:
+    executor = studies.Dask(mortal_cluster.scheduler_address)
     path = tmp_path / "s.zarr"
 
     def kill() -> None:
         while len(list(path.glob("status/c/*"))) < 2:
             time.sleep(0.02)
-        os.kill(next(iter(cluster.workers.values())).pid, signal.SIGKILL)
+        os.kill(next(iter(mortal_cluster.workers.values())).pid, signal.SIGKILL)
 
     killer = threading.Thread(target=kill)
     killer.start()
@@ -75,12 +89,14 @@ def test_a_worker_that_is_killed_costs_nothing(tmp_path: Path, cluster: Any) -> 
     assert ball.digest(found) == ball.digest(whole)
 
 
-def test_the_run_that_kills_its_worker_is_found(tmp_path: Path, cluster: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cluster.scheduler, "allowed_failures", 1)
+def test_the_run_that_kills_its_worker_is_found(
+    tmp_path: Path, mortal_cluster: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(mortal_cluster.scheduler, "allowed_failures", 1)
     # one is not enough: a task can come to a worker whose end is not known yet; each one more costs seconds
     heights = [0.01, 0.02, 0.03, 0.05, 0.06]
     study = studies.Study(ball.deadly, studies.grid(height=heights), ball.RECORD, t_end=ball.T_END)
-    found = study.run(tmp_path / "s.zarr", executor=studies.Dask(cluster.scheduler_address), chunk=4)
+    found = study.run(tmp_path / "s.zarr", executor=studies.Dask(mortal_cluster.scheduler_address), chunk=4)
     ends = [status.CRASHED if height == 0.05 else status.DONE for height in heights]
     assert found.status.values.tolist() == ends
     assert found.reason.values[3] == status.WORKER_DIED
