@@ -280,8 +280,6 @@ def _components() -> Iterator[tuple[str, Callable[[], list[Property]]]]:
             yield name, partial(_of_made, check, made)
     for joint in JOINTS:
         yield type(joint).__name__, partial(check_joint, joint)
-    for first, second in SHAPES:
-        yield f"{type(first).__name__} and {type(second).__name__}", partial(_of_pair, first, second)
     for shape in {type(one): one for pair in SHAPES for one in pair}.values():
         yield type(shape).__name__, partial(check_shape, shape)
     for group in ("distances", "guards", "scenarios"):
@@ -290,10 +288,16 @@ def _components() -> Iterator[tuple[str, Callable[[], list[Property]]]]:
 
 
 def _cases() -> Iterator[Any]:
-    """Yield the components as cases of a test, the costly ones as slow."""
-    slow = {*registry.names("scenarios"), *COSTLY} - {"dumbbell"}
+    """Yield the components as cases of a test: slow are the costly ones, and all pairs of a kind but the first."""
+    costly = {*registry.names("scenarios"), *COSTLY} - {"dumbbell"}
     for name, find in _components():
-        yield pytest.param(find, id=name, marks=[pytest.mark.slow] if name in slow else [])
+        yield pytest.param(find, id=name, marks=[pytest.mark.slow] if name in costly else [])
+    kinds: set[type[ContactKinematics]] = set()
+    for first, second in SHAPES:
+        kind, name = _owner(first, second), f"{type(first).__name__} and {type(second).__name__}"
+        marks = [pytest.mark.slow] if kind in kinds else []
+        yield pytest.param(partial(_of_pair, first, second), id=name, marks=marks)
+        kinds.add(kind)
 
 
 def _of_made(check: Callable[[Any], list[Property]], make_one: Callable[[], Any]) -> list[Property]:
