@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 FAST = "not slow"
-"""The choice of pyproject.toml."""
+"""Expression of marks by which pyproject.toml chooses the fast tier."""
 
 
 def choose(config: pytest.Config) -> None:
@@ -18,7 +18,7 @@ def choose(config: pytest.Config) -> None:
 
 
 def mark_cases(items: list[pytest.Item]) -> None:
-    """Mark as slow all cases of a test but those that ``fast_cases(n)`` leaves in the fast tier.
+    """Mark the cases of a test with ``fast_cases(n)`` as slow, except for n of them.
 
     The n cases are spread evenly over the list, so that each of several parameters takes several values.
     """

@@ -35,7 +35,7 @@ def lines_of_code(text: str) -> int:
 
 
 def public_names(text: str) -> set[str]:
-    """Return the names of classes, functions and values that a module defines, without those that begin with _."""
+    """Return the public names of classes, functions and values that a module defines."""
     found: set[str] = set()
     for node in ast.parse(text).body:
         if isinstance(node, (ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)):
