@@ -46,6 +46,7 @@ def test_components_of_random_systems_come_back_as_they_were() -> None:
         assert repr(again) == repr(starts)
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("seed", [0, 5, 8])
 def test_a_run_of_the_described_system_has_the_same_bits(seed: int) -> None:
     case = case_of(seed)

@@ -125,6 +125,7 @@ def test_a_body_on_its_face_is_found_at_its_middle() -> None:
     np.testing.assert_allclose(found, [0.001, 0.0, 0.0, 0.011, 0.0, 0.0, 1.0], rtol=0, atol=1e-16)
 
 
+@pytest.mark.slow
 def test_it_finds_a_surface_that_is_not_convex(build: Any) -> None:
     """In the inner corner of a bracket it has a contact with either wall, in the middle of a face."""
     mesh, boxy = TriangleMesh(Triangles(*parts.bracket(), "bracket")), Superellipsoid(3e-3, 2e-3, 4e-3, 0.3, 0.5)
@@ -160,6 +161,7 @@ def test_it_slides_down_the_side_of_a_cylinder(exponent: float) -> None:
     np.testing.assert_allclose(solution.q_end[:3], end, rtol=0, atol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
 def test_it_rolls_and_slides_off_a_log() -> None:
     """It falls on the side of a lying cylinder, stays in contact, rolls and slides off; the books balance."""

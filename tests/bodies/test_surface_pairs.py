@@ -99,7 +99,7 @@ def _least(rig: Rig, poses: Any) -> float:
     return float(np.min(block[block[:, 30] <= 0.0, 0], initial=np.inf))
 
 
-@pytest.mark.fast_cases(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PAIRS)
 def test_what_is_near_is_found_until_it_is_looked_for_again(
     name: str, build: Any, monkeypatch: pytest.MonkeyPatch
@@ -197,6 +197,7 @@ def test_a_rim_rolls_over_borders_of_faces(
     assert solution.energy.residual < 1e-8
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in PAIRS if "hills" in name])
 def test_python_finds_the_same(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Searches and evaluators, called as they stand and compiled."""

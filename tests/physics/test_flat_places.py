@@ -20,6 +20,7 @@ def _on_a_plate(body: SuperellipsoidBody | CylinderBody, friction: FrictionLaw, 
     return system
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("exponent", "tilt"), [(0.4, 0.0), (0.85, 0.0), (0.85, -0.02)])
 def test_a_boxy_body_rolls_over_the_middle_of_its_face(exponent: float, tilt: float) -> None:
     """Without friction it keeps (m h'^2 + I) omega^2 / 2 + m g h, h(angle) being its support function.

@@ -71,7 +71,7 @@ def _deepest(mesh: TriangleMesh, shape: Frustum, q: Array) -> float:
     return float(max(deepest, -min(heights)))
 
 
-@pytest.mark.fast_cases(2)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("part", PARTS)
 @pytest.mark.parametrize("name", SHAPES)
 def test_collisions_keep_momentum_and_energy(build: Any, name: str, part: str) -> None:

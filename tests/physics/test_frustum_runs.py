@@ -106,6 +106,7 @@ RESTS: dict[str, tuple[Shape, FreeBody, float, tuple[float, float, float, float]
 """Shape of the support, body, height of its origin over the support, orientation, contacts that hold it."""
 
 
+@pytest.mark.fast_cases(12)
 @pytest.mark.parametrize("name", RESTS)
 def test_it_rests(name: str) -> None:
     """On as many contacts as belong to line or face; nothing moves and nothing happens."""

@@ -171,6 +171,7 @@ states = st.tuples(
 )
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(state=states)
 def test_engine_equals_the_derivation(build: Any, numbers: Any, state: Any) -> None:

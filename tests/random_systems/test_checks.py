@@ -57,7 +57,7 @@ def _rotation(seed: int) -> Vector:
     return np.asarray(axes * np.linalg.det(axes))
 
 
-@pytest.mark.fast_cases(2)
+@pytest.mark.slow
 @pytest.mark.parametrize(("one", "two", "reach"), PAIRS)
 def test_depth_and_distance_along_the_axis_in_any_orientation(one: Body, two: Body, reach: float) -> None:
     for seed in range(3):

@@ -43,6 +43,7 @@ def test_every_figure_says_what_it_shows(gallery: dict[str, Any]) -> None:
         assert re.search(r"\[.+\]", body.axes[0].get_ylabel()), stem
 
 
+@pytest.mark.slow
 def test_lines_differ_without_colour(gallery: dict[str, Any]) -> None:
     for stem, figure in gallery.items():
         for axis in figure.subfigs[0].axes:
