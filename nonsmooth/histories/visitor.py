@@ -113,6 +113,9 @@ class Visitor:
             If what was computed of a run leads nowhere.
         """
         rows, here = self._row(times), -1
+        if forces and self._system.contacts:
+            # also where no contact is closed, as far as events tell: such an engine may record none
+            self._check_solves("with its forces")
         if len(times) == 0:
             return
         between = bool(np.any(self._time[rows] < times))

@@ -15,10 +15,11 @@ from nonsmooth.model.image import Image
 from nonsmooth.model.laid_out import LaidOut
 
 _STATUSES = tuple(status for status in REASONS if status != CONDITION_MET)
-_WATCH = places("work", "patience")
+_WATCH = places("work", "patience", "calls")
 """What changes although nothing is done."""
+(_CALLS,) = places("calls").tolist()
 _IDLE = 2
-"""The first of two calls in a row may find full buffers."""
+"""So many calls in a row that do nothing end a run: the first may only have set up what the next one needs."""
 
 
 @final
@@ -48,6 +49,8 @@ class Advancing:
             If it breaks its contract; the message names it and the rule.
         """
         thing = f"{type(self._engine).__name__}.advance"
+        # what is recorded is taken out of the buffers once for each call
+        self._memory.cells[1][_CALLS] += 1
         try:
             status = self._engine.advance(self._call, self._memory, most_steps, wary)
         except UnknownName as error:

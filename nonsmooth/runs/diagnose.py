@@ -13,6 +13,7 @@ from nonsmooth.binding.law_failure import REMEDY, Finding, first_without_value, 
 from nonsmooth.binding.source import described, raised
 from nonsmooth.engine.memory.layout import CATALOGUE, N_ACCOUNTS
 from nonsmooth.engine.memory.modes import (
+    GAP_UNDECIDED,
     GAP_UNEXPLAINED,
     MOTION_UNEXPLAINED,
     NOT_FINITE,
@@ -41,7 +42,7 @@ def culprit(model: LaidOut, status: int) -> str:
 
 
 def _culprit(model: LaidOut, status: int) -> str:
-    if status in (GAP_UNEXPLAINED, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED):
+    if status in (GAP_UNDECIDED, GAP_UNEXPLAINED, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED):
         return unexplained(model, status)
     if found := squeezed(model, status):
         return found

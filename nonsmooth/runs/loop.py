@@ -91,6 +91,8 @@ def run_engine(
                     image, before = Image.of(memory), records.n_passed
                     keeper.keep(image)
                 if near:
+                    # with full buffers it would do nothing
+                    records.drain()
                     most = max(_STEPS_NEAR_END, image.size // _IMAGE_PER_STEP)
                     status = engine_at.get_on(most if until is None else 1, image)
                 if status != DONE:
@@ -110,6 +112,8 @@ def run_engine(
     except FileError as error:
         records.drain()
         status, trouble = PAUSED, str(error)
+    if status == DONE:
+        records.check_end(engine)
     records.end()
     if status in (STOPPED, CONDITION_MET):
         image, before = Image.of(memory), records.n_passed

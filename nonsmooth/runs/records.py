@@ -18,6 +18,7 @@ from nonsmooth.engine.events.record import (
 from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.engine.memory.modes import AFTER, BEFORE, DURING, OPEN, SLIDE, START
 from nonsmooth.engine.memory.tables import places
+from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.solution.events import Events
@@ -102,6 +103,24 @@ class Records:
         listed = np.column_stack([closed, codes]).ravel()
         integers = np.concatenate([[START, -1, 0, 0, len(closed)], listed]).astype(np.int64)
         self._parts[_BEFORE_THE_FIRST] = floats, integers, np.zeros((0, self._width))
+
+    def check_end(self, engine: Engine) -> None:
+        """Look whether an engine that is at the end time has appended all samples that were due.
+
+        Raises
+        ------
+        InvalidInput
+            If one is missing.
+        """
+        floats, _ = self.model.memory.cells
+        due = floats.item(_NEXT)
+        if due < floats.item(_T) - _ROUND_OFF * floats.item(_INTERVAL):
+            raise InvalidInput(
+                f"{type(engine).__name__}.advance",
+                "must append all samples up to the time reached",
+                f"none for t = {due:.9g} s",
+                "Call begin_sample while S.next_sample is not past the time reached.",
+            )
 
     def end(self) -> None:
         """Add a sample of where the run ends, unless there is one."""

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 from nonsmooth.binding.source import described
-from nonsmooth.engine.memory.modes import GAP_UNEXPLAINED, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED
+from nonsmooth.engine.memory.modes import (
+    GAP_UNEXPLAINED,
+    MOTION_UNEXPLAINED,
+    QUATERNION_UNEXPLAINED,
+)
 from nonsmooth.model.laid_out import LaidOut
 
 _REMEDY = "`nonsmooth check` looks at it by itself; if it comes with nonsmooth, the poses before are a bug to report."
@@ -19,6 +23,13 @@ def unexplained(model: LaidOut, status: int) -> str:
         return (
             f"The {contact}: the gap is {found:.3g} m, of which tolerances explain {allowed:.3g} m.  It jumps in "
             f"{described(contact.kinematics.evaluator)}, or contacts that contradict each other are closed. {_REMEDY}"
+        )
+    if status == GAP_UNDECIDED:
+        n = int(scalars["n_contacts"])
+        contact = model.system.contacts[int(model.memory.array("identity", n)[number])]
+        return (
+            f"The {contact}: its gap is {found:.3g} m and hardly changes within a step of {float(scalars['h']):.3g} s. "
+            "Place the bodies apart by more, or in contact, or take EventDriven(tolerance=...) with a smaller tolerance."
         )
     if status not in (MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED):
         return ""

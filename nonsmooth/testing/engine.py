@@ -19,6 +19,8 @@ from nonsmooth.testing.puck import Puck, over_slab
 from nonsmooth.testing.reference import Constant, Rigid, Spring
 
 _GRAVITY, _END, _SAMPLES = 9.81, 0.3, 6
+_MANY_SAMPLES = 5000
+"""More than the buffers of samples hold at once."""
 _START = np.array([0.3, -0.2, 1.0, 2.0, -1.0, 0.5])
 _EXACT = 1e-6
 _THROUGH = 0.1
@@ -32,6 +34,7 @@ def check_engine(engine: Engine) -> list[Property]:
         ("names", "`layers`, `own`, `counts` and `settings` name what the memory has, and is to have", look.names),
         ("free fall", "a free body moves as gravity has it", look.falls),
         ("samples", "the samples are at the times asked for, from the start to the end", look.samples),
+        ("many samples", "no sample is lost where they fill the buffers many times", look.many_samples),
         ("energy", "the account of energy closes", look.energy),
         ("repeatable", "a second run of one model is the same to the last bit", look.repeats),
         ("contact", "a body does not fall through a slab, or `check` refuses it and names the engine", look.lands),
@@ -76,9 +79,13 @@ class _Look:
 
     def samples(self) -> None:
         """Compare the times."""
-        assert_allclose(self._solution.t, np.linspace(0.0, _END, _SAMPLES + 1), rtol=0.0, atol=1e-12)
+        self._compare_times(self._solution, _SAMPLES)
         if self._solution.t_end != _END:
             raise Broken("the run must end there", "t_end", self._solution.t_end)
+
+    def many_samples(self) -> None:
+        """Compare the times of many."""
+        self._compare_times(self._model.run(_END, sample_interval=_END / _MANY_SAMPLES), _MANY_SAMPLES)
 
     def energy(self) -> None:
         """Look at the residual."""
@@ -108,6 +115,12 @@ class _Look:
         """Stop between two samples, and go on."""
         half = self._model.run(0.55 * _END)
         self._compare(self._model.run(_END, start=half.state))
+
+    def _compare_times(self, solution: Solution, n: int) -> None:
+        """Compare the times of so many samples after the first with those asked for."""
+        if len(solution.t) != n + 1:
+            raise Broken(f"must be {n + 1}", "number of samples", len(solution.t))
+        assert_allclose(solution.t, np.linspace(0.0, _END, n + 1), rtol=0.0, atol=1e-12)
 
     def _compare(self, other: Solution) -> None:
         for name in ("q_end", "u_end"):

@@ -106,6 +106,12 @@ class DoneAtOnce(Blind):
         return DONE
 
 
+class WithoutSamples(Blind):
+    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
+        memory.record["t"] = memory.record["t_end"]
+        return DONE
+
+
 class Idle(Blind):
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
         call("evaluate_at")
@@ -126,5 +132,6 @@ FAULTS: tuple[tuple[type[Engine], str], ...] = (
     (NoStatus, "advance: its status must be DONE.*but it is None"),
     (WrongEntry, "advance: entry point must be a known one, but it is 'nonsense'"),
     (DoneAtOnce, "advance: S.t must be at the end time 0.1 s where it is DONE, but it is 0"),
+    (WithoutSamples, "advance must append all samples.*but it is 'none for t = 0 s'"),
     (Idle, "advance must do a step.*but it is 'nothing done at t = 0 s'"),
 )

@@ -10,7 +10,7 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
-REACH = 1e-9
+REACH = 1e-7
 """A feature counts as longer by this part of the size of the bodies, so that round-off does not end aligned ones."""
 
 BESIDE = 1e-2
@@ -113,7 +113,7 @@ def nearest_face(
         height = plane_height(faces, FACE * i, x, y, z)
         if height > deepest:
             deepest, inner = height, i
-    beside = -DEEP * size <= deepest <= BESIDE * size
+    beside = REACH * size < deepest <= BESIDE * size
     found, gap, past = -1, deepest, 1e300
     for i in range(int(n_faces)):
         height = plane_height(faces, FACE * i, x, y, z)

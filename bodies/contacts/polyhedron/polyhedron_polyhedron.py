@@ -24,7 +24,7 @@ from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-_PARALLEL = 0.01
+_PARALLEL = 1e-7
 """Sine of the angle between two edges below which they do not cross; then the faces' vertices hold all the same."""
 _ASTRAY = 0.25
 """Sine of the angle by which the normal may leave the normals that an edge has: what may soon close is followed."""

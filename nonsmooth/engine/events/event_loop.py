@@ -421,7 +421,6 @@ def advance(S: Scalars, w: Floats, k: Integers, most_steps: int, wary: int) -> i
     if S.end_of_valid != S.t_end:
         # what had no value behind another end time may have one now
         S.end_of_valid, S.h_valid = S.t_end, 1e300
-    S.calls += 1
     for _index in range(most_steps):
         # late in a run doubles are farther apart than the tolerance
         S.time_tolerance = max(S.time_resolution, _SPACINGS * abs(S.t))

@@ -1,9 +1,9 @@
-"""Proof that open gaps stay open within a step, or a place where one has closed.
+"""Bounds on open gaps within a step: which of them speeds alone keep open.
 
 What is known of a gap are its values and rates at both ends of a part of a step, how fast it can change at most, from
 the relative velocity and turning of the bodies and the levers of their shapes, and how fast its rate can fall, from
-their relative accelerations.  Where these do not show that the gap stays open, the part is halved, until they do,
-or the gap has closed at one of the ends, or no dip deeper than the gap tolerance has room.
+their relative accelerations.  Where these do not show that a gap stays open, it is looked at within the step
+(:mod:`nonsmooth.engine.flow.dips`).
 
 The bounds hold if within a step no speed exceeds the sum of those at its ends, as the error control of the step sees
 to.  Features that do not face each other have no rate: theirs are sampled (:mod:`nonsmooth.engine.flow.location`).
@@ -15,13 +15,12 @@ import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_body, evaluate_driven_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
-from nonsmooth.engine.flow.flight import body_within, fly
-from nonsmooth.engine.flow.flow import slip_guard
-from nonsmooth.engine.flow.guard_numbers import friction_guard, normal_guard
-from nonsmooth.engine.flow.guards import UNKNOWN_FALL, grown, has_fired
-from nonsmooth.engine.flow.self_check import NEAR, NOUGHT
+from nonsmooth.engine.flow.flight import fly
+from nonsmooth.engine.flow.guard_numbers import normal_guard
+from nonsmooth.engine.flow.guards import UNKNOWN_FALL
+from nonsmooth.engine.flow.self_check import NOUGHT
 from nonsmooth.engine.memory.blocks import FRAME
-from nonsmooth.engine.memory.layout import LAST_STAGE, PARTS
+from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.memory.modes import OPEN
 from nonsmooth.engine.native.kernel import (
     Floats,
@@ -33,20 +32,15 @@ from nonsmooth.engine.native.kernel import (
     frame_at,
     guard_at,
     kernel,
-    part_end,
 )
-from nonsmooth.engine.numerics.vectors import Vector, cross, distance, dot, minus, scaled
+from nonsmooth.engine.numerics.vectors import Vector, cross, dot, minus, scaled
 
 _CURVED = 4.0
 """By so much a curved surface or an edge may turn the normal faster than its body turns."""
-WAY = 0.02
-"""Part of the size of the smaller body that features may move unseen where they do not face each other."""
 _CLOSINGS = 8
 """Steps of Newton's method to where a gap between bodies that fly is closed,"""
 ABOUT = 1.1
 """and of gaps that are due within this factor of the first one: so well is known when."""
-_COARSE = 0.125
-"""Part of a step to which the gap of neighbours at rest is looked at."""
 
 
 @kernel("f8(F, i8, i8)")
@@ -111,11 +105,11 @@ def bound_speeds(S: Scalars, w: Floats, k: Integers) -> None:
             if flies:
                 S.fastest_turn = max(S.fastest_turn, turning)
             contact.speed_end = speed + turning * lever
-            contact.arm_end = _arm(S, w, k, c)
+            contact.arm_end = arm_of(S, w, k, c)
 
 
 @kernel("v3(S, F, I, i8)")
-def _arm(S: Scalars, w: Floats, k: Integers, c: int) -> Vector:
+def arm_of(S: Scalars, w: Floats, k: Integers, c: int) -> Vector:
     """Return where the witness point of the body with the smaller lever is from its origin; its geometry is known."""
     contact = contact_at(S, w, k, c)
     if contact.lever_b <= contact.lever_a:
@@ -140,7 +134,7 @@ def _acceleration(S: Scalars, w: Floats, k: Integers, c: int, side: int, angular
 
 
 @kernel("v3(S, F, I, i8, i8)")
-def _fall(S: Scalars, w: Floats, k: Integers, c: int, du: int) -> Vector:
+def fall_of(S: Scalars, w: Floats, k: Integers, c: int, du: int) -> Vector:
     """Return how fast the rate of the gap of ``c`` can fall, where the bodies stand and ``du`` are their accelerations.
 
     The second number is by how much more for every second of a step, the third how fast the bodies turn; what spins
@@ -280,11 +274,11 @@ def keep_falls(S: Scalars, w: Floats, k: Integers, h: float) -> None:
     """
     for c in range(S.n_contacts):
         if _will_be_doubtful(S, w, k, c, h) == 1:
-            contact_at(S, w, k, c).fall_first = _fall(S, w, k, c, S.slopes + S.n_q)
+            contact_at(S, w, k, c).fall_first = fall_of(S, w, k, c, S.slopes + S.n_q)
 
 
 @kernel("i8(f8, f8, f8, f8, f8)")
-def _too_far(g0: float, past0: float, g1: float, past1: float, way: float) -> int:
+def too_far(g0: float, past0: float, g1: float, past1: float, way: float) -> int:
     """Return 1 if a gap does not close by speed alone, the surfaces moving by ``way`` at most between its two ends.
 
     Only what faces each other says how far it is apart; of what does so at neither end the smaller number stands in.
@@ -309,190 +303,12 @@ def find_doubtful(S: Scalars, w: Floats, k: Integers, h: float) -> None:
             continue
         start = 0.0 if guard_at(S, w, k, normal_guard(c)).deflated == 1 else guard_at(S, w, k, normal_guard(c)).first
         way = h * (contact.speed_first + contact.speed_end)
-        if _too_far(start, contact.past_first, contact.gap_end, contact.past_end, way) == 1:
+        if too_far(start, contact.past_first, contact.gap_end, contact.past_end, way) == 1:
             continue
         if contact.past_first > 0.0 or contact.past_end > 0.0:
             k[S.astray + S.n_astray] = c
             S.n_astray += 1
             continue
-        contact.fall_end = _fall(S, w, k, c, S.slopes + LAST_STAGE * S.n_y + S.n_q)
+        contact.fall_end = fall_of(S, w, k, c, S.slopes + LAST_STAGE * S.n_y + S.n_q)
         k[S.doubtful + S.n_doubtful] = c
         S.n_doubtful += 1
-
-
-@kernel("void(S, F, I, f8, f8, i8)")
-def _put(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int) -> None:
-    """Put the two bodies of a contact where they are at a fraction of the step, and evaluate its geometry."""
-    contact = contact_at(S, w, k, c)
-    S.looked = 1
-    for side in range(2):
-        number = contact.body_a if side == 0 else contact.body_b
-        body = body_at(S, w, k, number)
-        if body.nu == 0:
-            evaluate_driven_bodies(S, w, k, S.t + theta * h, S.y)
-            continue
-        state = S.y if theta == 0.0 else S.y_new
-        if 0.0 < theta < 1.0:
-            state = S.y_stage
-            body_within(S, w, k, h, theta, number, state)
-        evaluate_body(S, w, k, S.t + theta * h, state, number)
-    evaluate_geometry(S, w, k, c)
-
-
-@kernel("f8(S, F, I, f8, i8)")
-def _largest_fall(S: Scalars, w: Floats, k: Integers, h: float, c: int) -> float:
-    """Return how fast the rate of the gap of ``c`` can fall within the step, from how fast it can at its ends."""
-    contact = contact_at(S, w, k, c)
-    if contact.fall_first[0] < 0.0:
-        _put(S, w, k, h, 0.0, c)
-        contact.fall_first = _fall(S, w, k, c, S.slopes + S.n_q)
-    (first, grows_first, _), (last, grows_last, _) = contact.fall_first, contact.fall_end
-    start, end = first + h * grows_first, last + h * grows_last
-    return float(max(start, end) + abs(end - start))
-
-
-@kernel("f8(S, F, I, i8, f8)")
-def _above_start(S: Scalars, w: Floats, k: Integers, c: int, gap: float) -> float:
-    """Return the gap, less what it started from if that was zero."""
-    guard = guard_at(S, w, k, normal_guard(c))
-    return float(gap - guard.start) if guard.deflated == 1 else gap
-
-
-@kernel("void(S, F, I, i8, f8)")
-def _write_gap_guard(S: Scalars, w: Floats, k: Integers, c: int, elapsed: float) -> None:
-    """Write the guard of the gap of ``c``, which has been evaluated when this time of the step had elapsed."""
-    contact, guard = contact_at(S, w, k, c), guard_at(S, w, k, normal_guard(c))
-    contact.gap_rate = contact.rate[0]
-    guard.value = grown(S, w, k, normal_guard(c), contact.gap, elapsed)
-
-
-@kernel("void(S, F, I, f8, f8, i8)")
-def look_at_gap(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int) -> None:
-    """Evaluate the gap of ``c`` alone at a fraction of the step, and write its guard."""
-    _put(S, w, k, h, theta, c)
-    evaluate_rates(S, w, k, c)
-    _write_gap_guard(S, w, k, c, theta * h)
-
-
-@kernel("void(S, F, I, f8, f8, i8)")
-def look_at_slip(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int) -> None:
-    """Evaluate the slip of the rigid contact ``c`` alone at a fraction of the step, and write its guard."""
-    _put(S, w, k, h, theta, c)
-    evaluate_rates(S, w, k, c)
-    i = friction_guard(S, c)
-    guard_at(S, w, k, i).value = grown(S, w, k, i, slip_guard(S, w, k, c), theta * h)
-
-
-@kernel("void(S, F, I, f8, f8, i8, i8)")
-def _keep(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int, n: int) -> None:
-    """Keep end ``n`` of the parts of the step, at whose fraction ``theta`` the gap of ``c`` has been evaluated."""
-    contact, guard, end = contact_at(S, w, k, c), guard_at(S, w, k, normal_guard(c)), part_end(w, S.part_ends, n)
-    _write_gap_guard(S, w, k, c, theta * h)
-    if guard.value > 0.0:
-        guard.armed = 1
-    end.theta, end.gap, end.rate = theta, _above_start(S, w, k, c, contact.gap), contact.gap_rate
-    end.past, end.arm = contact.beyond, _arm(S, w, k, c)
-
-
-@kernel("void(S, F, I, f8, f8, i8, i8)")
-def _look(S: Scalars, w: Floats, k: Integers, h: float, theta: float, c: int, n: int) -> None:
-    """Evaluate the gap of ``c`` at a fraction of the step and keep it as end ``n`` of the parts of it."""
-    look_at_gap(S, w, k, h, theta, c)
-    _keep(S, w, k, h, theta, c, n)
-
-
-@kernel("i8(F, i8, i8, f8, f8, f8, f8, f8, f8)")
-def stays_open(
-    w: Floats, ends: int, n: int, h: float, speed: float, fall: float, turning: float, lever: float, tolerance: float
-) -> int:
-    """Return 1 if a gap stays above minus the tolerance between ends 0 and ``n`` of a part of a step, by the bounds.
-
-    It is above both parabolas that fall away from its ends, and lowest where they cross.  A witness point that moves
-    farther on its body than the body turns, as on a rim next to flat, makes the rate fall by up to as much as two
-    points so far apart can differ in.
-    """
-    one, two = part_end(w, ends, 0), part_end(w, ends, n)
-    span = (two.theta - one.theta) * h
-    g0, r0, g1, r1 = one.gap, one.rate, two.gap, two.rate
-    if _too_far(g0, one.past, g1, two.past, span * speed) == 1:
-        return 1
-    if one.past > 0.0 or two.past > 0.0 or min(g0, g1) < -tolerance:
-        return 0
-    if turning > 0.0:
-        fall += 2.0 * turning * max(0.0, distance(two.arm, one.arm) / span - turning * lever)
-    closing = fall * span + r1 - r0
-    ahead = g0 - g1 + r1 * span + 0.5 * fall * span * span
-    back = g1 - g0 - r0 * span + 0.5 * fall * span * span
-    # the bound is not one if either parabola passes over the other end
-    if min(ahead, back) < -tolerance:
-        return 0
-    if closing <= 0.0 or min(ahead, back) <= 0.0:
-        return 1
-    s = min(ahead / closing, span)
-    return 1 if g0 + s * (r0 - 0.5 * fall * s) >= -tolerance else 0
-
-
-@kernel("f8(S, F, I, f8, i8, f8, i8)")
-def _first_dip(S: Scalars, w: Floats, k: Integers, h: float, c: int, high: float, stands: int) -> float:
-    """Return a fraction of the step, up to ``high``, at which the gap of ``c`` has closed, or 0 if it stays open.
-
-    It has been evaluated at ``high`` if the contact stands there (1).
-    """
-    contact = contact_at(S, w, k, c)
-    left, right, n = part_end(w, S.part_ends, 0), part_end(w, S.part_ends, 1), 1
-    left.theta, left.gap = 0.0, _above_start(S, w, k, c, contact.gap_first)
-    left.rate, left.past, left.arm = contact.gap_rate_first, contact.past_first, contact.arm_first
-    speed = contact.speed_first + contact.speed_end
-    if high < 1.0:
-        if stands == 1:
-            _keep(S, w, k, h, high, c, 1)
-        else:
-            _look(S, w, k, h, high, c, 1)
-        if _too_far(left.gap, left.past, right.gap, right.past, high * h * speed) == 1:
-            return 0.0
-    else:
-        right.theta, right.gap = 1.0, _above_start(S, w, k, c, contact.gap_end)
-        right.rate, right.past, right.arm = contact.gap_rate_end, contact.past_end, contact.arm_end
-    fall = _largest_fall(S, w, k, h, c)
-    lever = min(contact.lever_a, contact.lever_b)
-    turning = contact.turning_first + contact.turning_end if lever > 0.0 else 0.0
-    while n > 0:
-        right = part_end(w, S.part_ends, n)
-        span = right.theta - left.theta
-        if stays_open(w, S.part_ends, n, h, speed, fall, turning, lever, S.gap_tolerance) == 0 and n < PARTS:
-            gaps, rates = max(abs(left.gap), abs(right.gap)), max(abs(left.rate), abs(right.rate))
-            rests = gaps <= NEAR * S.gap_tolerance and rates <= NEAR * S.velocity_tolerance
-            astray = left.past > 0.0 or right.past > 0.0
-            enough = span <= _COARSE and (rests or (astray and span * h * speed <= WAY * contact.size))
-            if span * h > S.time_tolerance and not enough:
-                n += 1
-                S.gap_looks += 1
-                _look(S, w, k, h, left.theta + 0.5 * span, c, n)
-                if has_fired(S, w, k, normal_guard(c)) == 1:
-                    return float(part_end(w, S.part_ends, n).theta)
-                continue
-        left.theta, left.gap, left.rate, left.past, left.arm = right.theta, right.gap, right.rate, right.past, right.arm
-        n -= 1
-    return 0.0
-
-
-@entry_point("f8(S, F, I, f8, f8, i8)")
-def first_closing(S: Scalars, w: Floats, k: Integers, h: float, high: float, asked: int) -> float:
-    """Return a fraction of the step, up to ``high``, by which a doubtful gap has closed, or 0 if all stay open.
-
-    Contacts are to stand at ``high``, unless some are astray.  If none closes, those that were looked at stand at the
-    end of the step again, if that is ``high``, and the contact ``asked`` at ``high`` in any case; what others report is
-    not asked for at an event.
-    """
-    found = 0.0
-    stands = 1 if S.n_astray == 0 else 0
-    for i in range(S.n_doubtful):
-        c = k[S.doubtful + i]
-        S.looked = 0
-        theta = _first_dip(S, w, k, h, c, high, stands)
-        if theta > 0.0:
-            found = high = theta
-            stands = 0
-        elif S.looked == 1 and (high == 1.0 or c == asked):
-            _look(S, w, k, h, high, c, 0)
-    return found

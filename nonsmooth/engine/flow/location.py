@@ -10,7 +10,8 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.flow.choices import blend_choices, choose_at_end
-from nonsmooth.engine.flow.clearance import WAY, bound_speeds, find_doubtful, first_closing, look_at_gap, look_at_slip
+from nonsmooth.engine.flow.clearance import bound_speeds, find_doubtful
+from nonsmooth.engine.flow.dips import WAY, first_closing, look_at_gap, look_at_slip
 from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
