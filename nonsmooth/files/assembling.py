@@ -9,6 +9,7 @@ from typing import Any
 
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.files.components import Table, component, naming
+from nonsmooth.files.gate import Gate
 from nonsmooth.files.keys import check_keys, number, tables_in, words
 from nonsmooth.interfaces import Body, Guard, ImpactLaw, Joint, Load, NormalLaw, TangentialLaw
 from nonsmooth.placing import starts
@@ -20,15 +21,15 @@ _ROLES: dict[str, type] = {"normal": NormalLaw, "friction": TangentialLaw, "impa
 _PLACES = ("touching", "at_height", "resting")
 
 
-def system(tables: Table, path: Path) -> System:
-    """Return the system of the tables of a file.
+def system(tables: Table, path: Path, gate: Gate) -> System:
+    """Return the system of the tables of a file, whose names a gate lets pass.
 
     Raises
     ------
     InvalidInput
         If anything breaks a rule.
     """
-    reader = _Reader(path, tables.get("laws", {}), {})
+    reader = _Reader(path, gate, tables.get("laws", {}), {})
     starts = {}
     bodies = tables["bodies"]
     if not (isinstance(bodies, dict) and bodies and all(isinstance(one, dict) for one in bodies.values())):
@@ -38,7 +39,7 @@ def system(tables: Table, path: Path) -> System:
         own = dict(table)
         starts[name] = own.pop("start", {})
         material = own.pop("material", None)
-        made = reader.bodies[name] = component(f"{path}: bodies.{name}", own, Body, path.parent)
+        made = reader.bodies[name] = component(f"{path}: bodies.{name}", own, Body, gate)
         if material is not None:
             made_of.setdefault(material, []).append(made)
     with naming(f"{path}"):
@@ -64,7 +65,7 @@ def system(tables: Table, path: Path) -> System:
     for i, table in enumerate(tables_in(f"{path}: guards", tables.get("guards", []))):
         own = dict(table)
         name = own.pop("name", "")
-        made_guard = component(f"{path}: guards[{i}]", own, Guard, path.parent)
+        made_guard = component(f"{path}: guards[{i}]", own, Guard, gate)
         with naming(f"{path}: guards[{i}]"):
             made_system.guard(made_guard, name=name)
     for later in (False, True):  # what is put onto other bodies comes when those are in their places
@@ -98,6 +99,7 @@ def _start(made: System, body: Body, start: Table) -> None:
 @dataclass(frozen=True)
 class _Reader:
     path: Path
+    gate: Gate
     laws: Table
     bodies: dict[str, Body]
 
@@ -117,13 +119,11 @@ class _Reader:
         return [self.between({"between": pair}, thing) for pair in left_out]
 
     def law(self, value: Any, thing: str, base: type) -> Any:
-        if isinstance(value, str) and not file.is_file(value):
-            if value in self.laws:
-                where = f"{self.path}: laws.{value}"
-                return component(where, self.laws[value], base, self.path.parent)
-            if value not in registry.names("laws"):
-                raise UnknownName(f"{thing}: law", value, [*self.laws, *registry.names("laws")])
-        return component(thing, value, base, self.path.parent)
+        if isinstance(value, str) and value in self.laws:
+            return component(f"{self.path}: laws.{value}", self.laws[value], base, self.gate)
+        if isinstance(value, str) and value not in registry.names("laws") and not file.is_file(value):
+            raise UnknownName(f"{thing}: law", value, [*self.laws, *registry.names("laws")])
+        return component(thing, value, base, self.gate)
 
     def contact_laws(self, table: Table, thing: str) -> ContactLaws:
         for role in ("normal", "friction"):
@@ -141,7 +141,7 @@ class _Reader:
         del own["between"]
         if not (isinstance(frames, list) and len(frames) == 2):
             raise InvalidInput(f"{thing}.frames", "must be two numbers", frames, "For example [0, 1].")
-        made = component(thing, own, base, self.path.parent)
+        made = component(thing, own, base, self.gate)
         with naming(thing):
             add(made, first, second, frames=tuple(frames), name=name)
 

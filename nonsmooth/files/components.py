@@ -10,14 +10,14 @@ import inspect
 import types
 import typing
 from collections.abc import Iterator, Mapping
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.files import named
-from nonsmooth.plugins import file, registry
+from nonsmooth.files.gate import Gate
+from nonsmooth.plugins import registry
 
 _BASES = tuple(base for bases in registry.GROUPS.values() for base in bases)
 TYPE = "type"
@@ -99,7 +99,7 @@ def _plain(value: Any, thing: str, hint: Any) -> Any:
     )
 
 
-def component(thing: str, value: Any, base: type, folder: Path) -> Any:
+def component(thing: str, value: Any, base: type, gate: Gate) -> Any:
     """Return the component that a table, or the name of a class with defaults, describes.
 
     Parameters
@@ -110,8 +110,8 @@ def component(thing: str, value: Any, base: type, folder: Path) -> Any:
         The table, with the key ``type``; or what that key would say.
     base : type
         The interface that it must implement.
-    folder : Path
-        Where paths of Python files start.
+    gate : Gate
+        What its names may mean.
 
     Raises
     ------
@@ -124,9 +124,9 @@ def component(thing: str, value: Any, base: type, folder: Path) -> Any:
     if not isinstance(table, dict):
         raise InvalidInput(thing, "must be a table or a name", value, f'For example {{ {TYPE} = "..." }}.')
     if TYPE not in table and _concrete(base):
-        return _made(thing, base, table, folder)
+        return _made(thing, base, table, gate)
     if not issubclass(base, _BASES):
-        return _helper(thing, base, table, folder)
+        return _helper(thing, base, table, gate)
     group = next(group for group, bases in registry.GROUPS.items() if issubclass(base, bases))
     if not isinstance(table.get(TYPE), str):
         raise InvalidInput(
@@ -136,22 +136,22 @@ def component(thing: str, value: Any, base: type, folder: Path) -> Any:
             f"Known: {', '.join(registry.names(group))}; or FILE.py:CLASS.",
         )
     with naming(f"{thing}.{TYPE}"):
-        owner = file.find(registry.KINDS[group], group, base, table[TYPE], folder)
-    return _made(thing, owner, {key: one for key, one in table.items() if key != TYPE}, folder)
+        owner = gate.component(registry.KINDS[group], group, base, table[TYPE])
+    return _made(thing, owner, {key: one for key, one in table.items() if key != TYPE}, gate)
 
 
-def _helper(thing: str, base: type, table: Table, folder: Path) -> Any:
+def _helper(thing: str, base: type, table: Table, gate: Gate) -> Any:
     """Return an object of one of several classes that have no installed names: their names are those of Python."""
     word = table.get(TYPE)
     if not named.is_name(word):
         raise InvalidInput(f"{thing}.{TYPE}", "must be the name of a class", word, 'For example "bodies:PointFrame".')
-    owner = named.find(f"{thing}.{TYPE}", str(word))
+    owner = gate.helper(f"{thing}.{TYPE}", str(word))
     if not (isinstance(owner, type) and issubclass(owner, base) and _concrete(owner)):
         raise InvalidInput(f"{thing}.{TYPE}", f"must name a class of the kind {base.__name__}", word, "Take another.")
-    return _made(thing, owner, {key: one for key, one in table.items() if key != TYPE}, folder)
+    return _made(thing, owner, {key: one for key, one in table.items() if key != TYPE}, gate)
 
 
-def _made(thing: str, owner: Any, table: Table, folder: Path) -> Any:
+def _made(thing: str, owner: Any, table: Table, gate: Gate) -> Any:
     hints = hints_of(owner)
     fields = {field.name: field for field in dataclasses.fields(owner) if field.init}
     for key in table:
@@ -163,7 +163,7 @@ def _made(thing: str, owner: Any, table: Table, folder: Path) -> Any:
             raise InvalidInput(
                 f"{thing}.{name}", "must be given", None, f"It is the {rule.doc} [{rule.unit}]." if rule else "Add it."
             )
-    values = {key: _value(f"{thing}.{key}", one, hints[key], folder) for key, one in table.items()}
+    values = {key: _value(f"{thing}.{key}", one, hints[key], gate) for key, one in table.items()}
     with naming(thing):
         try:
             return owner(**values)
@@ -173,17 +173,17 @@ def _made(thing: str, owner: Any, table: Table, folder: Path) -> Any:
             ) from error
 
 
-def _value(thing: str, value: Any, hint: Any, folder: Path) -> Any:
+def _value(thing: str, value: Any, hint: Any, gate: Gate) -> Any:
     base = _component_class(hint)
     if isinstance(value, list):
         hints = _elements(hint, len(value))
-        return tuple(_value(f"{thing}[{i}]", one, hints[i], folder) for i, one in enumerate(value))
+        return tuple(_value(f"{thing}[{i}]", one, hints[i], gate) for i, one in enumerate(value))
     if base is not None and isinstance(value, (dict, str)):
-        return component(thing, value, base, folder)
+        return component(thing, value, base, gate)
     if isinstance(value, str) and any(typing.get_origin(one) is collections.abc.Callable for one in _options(hint)):
-        return named.function(thing, value)
+        return gate.function(thing, value)
     if isinstance(value, dict):
-        return {key: _value(f"{thing}.{key}", one, Any, folder) for key, one in value.items()}
+        return {key: _value(f"{thing}.{key}", one, Any, gate) for key, one in value.items()}
     return value
 
 

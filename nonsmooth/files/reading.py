@@ -12,6 +12,7 @@ from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files import assembling
 from nonsmooth.files.components import TYPE, Table, component
+from nonsmooth.files.gate import TRUSTED, Gate
 from nonsmooth.files.keys import check_keys, number
 from nonsmooth.files.parsing import changed, parse, value
 from nonsmooth.files.varying import numbers
@@ -67,15 +68,16 @@ class Setup:
     system: System = field(repr=False)
     changes: Mapping[str, Any]
     _tables: Table
+    _gate: Gate
 
     def build(self) -> System:
         """Return the system anew."""
-        return assembling.system(self._tables, self.path)
+        return assembling.system(self._tables, self.path, self._gate)
 
     @property
     def numbers(self) -> Mapping[str, tuple[float, Rule]]:
         """All numbers of the file by dotted key, and what is known of each."""
-        return numbers(self._tables, self.path.parent)
+        return numbers(self._tables, self._gate)
 
     def varied(self, changes: Mapping[str, Any]) -> Setup:
         """Return the same with some values changed, by dotted key.
@@ -85,16 +87,19 @@ class Setup:
         InvalidInput, PluginError
             As :func:`load_system`, or if a key leads nowhere.
         """
-        return _setup(self.path, self._tables, {**self.changes, **changes})
+        return _setup(self.path, self._tables, {**self.changes, **changes}, self._gate)
 
 
-def load_system(path: str | Path) -> Setup:
+def load_system(path: str | Path, *, trust: bool = False) -> Setup:
     """Read a system that :func:`save_system` or a user wrote.
 
     Parameters
     ----------
     path : str or Path
         The file.
+    trust : bool, optional
+        Whether the file may name code that is no installed plug-in: classes of Python files, functions and classes of
+        any module that can be imported.  They run with the rights of the user.
 
     Returns
     -------
@@ -109,10 +114,10 @@ def load_system(path: str | Path) -> Setup:
     PluginError
         If a class that it names cannot be loaded.
     """
-    return read(path_of("load_system: path", path))
+    return read(path_of("load_system: path", path), trust)
 
 
-def read(path: Path, changes: Mapping[str, str] = _NO_CHANGES) -> Setup:
+def read(path: Path, trust: bool, changes: Mapping[str, str] = _NO_CHANGES) -> Setup:
     """Return what a file says, with some of its values changed, by dotted key ("bodies.ball.radius"), as TOML text.
 
     Raises
@@ -120,7 +125,8 @@ def read(path: Path, changes: Mapping[str, str] = _NO_CHANGES) -> Setup:
     InvalidInput, PluginError
         As :func:`load_system`, or if a key to be changed leads nowhere.
     """
-    return _setup(path, parse(path), {key: value(text) for key, text in changes.items()})
+    gate = Gate(path.parent, trust)
+    return _setup(path, parse(path), {key: value(text) for key, text in changes.items()}, gate)
 
 
 def setup_of(system: System, t_end: float) -> Setup:
@@ -131,10 +137,10 @@ def setup_of(system: System, t_end: float) -> Setup:
     InvalidInput
         If a component cannot be written; it is named.
     """
-    return _setup(Path("system"), tables_of(system, t_end=t_end), {})
+    return _setup(Path("system"), tables_of(system, t_end=t_end), {}, TRUSTED)
 
 
-def _setup(path: Path, said: Table, changes: Mapping[str, Any]) -> Setup:
+def _setup(path: Path, said: Table, changes: Mapping[str, Any], gate: Gate) -> Setup:
     tables = changed(said, changes, path)
     check_keys(f"{path}", tables, _KEYS, required=("bodies",))
     title = tables.get("title", "")
@@ -144,13 +150,13 @@ def _setup(path: Path, said: Table, changes: Mapping[str, Any]) -> Setup:
         number(f"{path}: {key}", tables[key], "s", positive=True) if key in tables else None
         for key in ("t_end", "sample_interval")
     )
-    engine = engine_of(f"{path}: engine", tables.get("engine", {}), path.parent)
-    made = assembling.system(tables, path)
-    return Setup(path, title, t_end, interval, engine, made, dict(changes), tables)
+    engine = engine_of(f"{path}: engine", tables.get("engine", {}), gate)
+    made = assembling.system(tables, path, gate)
+    return Setup(path, title, t_end, interval, engine, made, dict(changes), tables, gate)
 
 
-def engine_of(thing: str, table: Any, folder: Path) -> Engine:
+def engine_of(thing: str, table: Any, gate: Gate) -> Engine:
     """Return the engine of a table, the event-driven one where it says none; errors as :func:`load_system`."""
     is_default = isinstance(table, dict) and TYPE not in table
-    made: Engine = component(thing, table, EventDriven if is_default else Engine, folder)
+    made: Engine = component(thing, table, EventDriven if is_default else Engine, gate)
     return made

@@ -6,6 +6,8 @@ import difflib
 import functools
 import importlib.util
 import inspect
+import site
+import sysconfig
 import warnings
 from collections.abc import Iterable
 from importlib.metadata import Distribution, EntryPoint, entry_points
@@ -79,7 +81,8 @@ class HiddenPackage(NonsmoothWarning):
 def _points(group: str) -> dict[str, EntryPoint]:
     found: dict[str, EntryPoint] = {}
     # built-ins first, so that nothing installed later takes their names
-    for point in sorted(entry_points(group=f"nonsmooth.{group}"), key=lambda p: (not _is_ours(p), p.name, p.value)):
+    points = [point for point in entry_points(group=f"nonsmooth.{group}") if _is_installed(point)]
+    for point in sorted(points, key=lambda p: (not _is_ours(p), p.name, p.value)):
         first = found.setdefault(point.name, point)
         if (first.value, _distribution(first)) != (point.value, _distribution(point)):
             warnings.warn(
@@ -89,6 +92,26 @@ def _points(group: str) -> dict[str, EntryPoint]:
                 stacklevel=3,
             )
     return dict(sorted(found.items()))
+
+
+def _is_installed(point: EntryPoint) -> bool:
+    """Return whether a point is of an installed package, and not of metadata that lie in the working folder."""
+    if point.dist is None:
+        return True
+    place = Path(str(point.dist.locate_file(""))).resolve()
+    installed = {Path(path).resolve() for path in (*sysconfig.get_paths().values(), *_user_sites())}
+    return place in installed or place != Path.cwd().resolve()
+
+
+def _user_sites() -> tuple[str, ...]:
+    return (*site.getsitepackages(), site.getusersitepackages())
+
+
+@functools.cache
+def packages() -> frozenset[str]:
+    """Return the packages and modules in which what is installed stands, importing nothing."""
+    modules = {point.module for group in GROUPS for point in _points(group).values()}
+    return frozenset(modules | {module.rpartition(".")[0] for module in modules if "." in module})
 
 
 @functools.cache

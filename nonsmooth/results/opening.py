@@ -9,11 +9,9 @@ from typing import Any
 
 from nonsmooth.engines.unavailable import Unavailable
 from nonsmooth.errors import InvalidInput
-from nonsmooth.files.components import TYPE
-from nonsmooth.files.parsing import parse
+from nonsmooth.files.gate import Gate
 from nonsmooth.files.reading import Setup, engine_of, load_system
 from nonsmooth.interfaces import Engine
-from nonsmooth.plugins import file
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder, named_elsewhere
 from nonsmooth.solution.recorded import Recorded
@@ -25,7 +23,11 @@ _NONE: dict[str, Any] = {"limits": {}}
 
 
 def open_solution(
-    output: Output | Path | str, *, system: System | None = None, engine: Engine | None = None
+    output: Output | Path | str,
+    *,
+    system: System | None = None,
+    engine: Engine | None = None,
+    trust: bool = False,
 ) -> Solution:
     """Return the solution in a folder of results, also one that is unfinished.
 
@@ -39,6 +41,8 @@ def open_solution(
     engine : Engine, optional
         What integrated it; by default that which the folder names.  Where that is not installed, the run is known at
         its samples and events only.
+    trust : bool, optional
+        Whether the folder may name code that is no installed plug-in, as for :func:`nonsmooth.load_system`.
 
     Returns
     -------
@@ -57,18 +61,18 @@ def open_solution(
     said = folder.said("counters") if "counters" in folder.attributes else {}
     counters = {field.name: said.get(field.name, _NONE.get(field.name, 0)) for field in fields(Counters)}
     end = End(folder.state(), Counters(**counters), folder.status, str(folder.attributes.get("message")))
-    made = system or stored_setup(where, folder).system
-    recorded = Recorded.of(folder.events(), folder.rows(), engine or _engine_or_its_name(where, folder))
+    made = system or stored_setup(where, folder, trust).system
+    recorded = Recorded.of(folder.events(), folder.rows(), engine or _engine_or_its_name(where, folder, trust))
     return Solution.known(made, recorded, end)
 
 
-def stored_setup(output: Output, folder: SolutionFolder) -> Setup:
+def stored_setup(output: Output, folder: SolutionFolder, trust: bool) -> Setup:
     """Return the system of a folder of results, built from what it says of it.
 
     Raises
     ------
     InvalidInput
-        If it does not say it, or would have a Python file run.
+        If it does not say it, or names code and is not trusted.
     PluginError
         If a class that it names cannot be loaded.
     """
@@ -85,42 +89,25 @@ def stored_setup(output: Output, folder: SolutionFolder) -> Setup:
     with tempfile.TemporaryDirectory() as place:
         path = Path(place) / "system.toml"
         path.write_text(text, encoding="utf-8")
-        _refuse_files(parse(path), str(output.solution))
-        return load_system(path)
+        return load_system(path, trust=trust)
 
 
-def _refuse_files(value: Any, thing: str) -> None:
-    """Refuse classes of Python files: what is written here names installed ones only."""
-    if isinstance(value, dict):
-        if isinstance(value.get(TYPE), str) and file.is_file(value[TYPE]):
-            raise InvalidInput(
-                f"{thing}: {TYPE}", "must name an installed class", value[TYPE], "Do not open such a folder."
-            )
-        for one in value.values():
-            _refuse_files(one, thing)
-    elif isinstance(value, list):
-        for one in value:
-            _refuse_files(one, thing)
-
-
-def _engine_or_its_name(output: Output, folder: SolutionFolder) -> Engine:
+def _engine_or_its_name(output: Output, folder: SolutionFolder, trust: bool) -> Engine:
     table = folder.said("engine")
-    _refuse_files(table, f"{output.solution}: engine")
-    return Unavailable(table) if named_elsewhere(table) else stored_engine(output, folder)
+    return Unavailable(table) if named_elsewhere(table) else stored_engine(output, folder, trust)
 
 
-def stored_engine(output: Output, folder: SolutionFolder) -> Engine:
+def stored_engine(output: Output, folder: SolutionFolder, trust: bool) -> Engine:
     """Return the engine that ran, as the folder says it.
 
     Raises
     ------
     InvalidInput
-        If it does not say it, or would have a Python file run.
+        If it does not say it, or names code and is not trusted.
     PluginError
         If its class cannot be loaded.
     """
     thing, table = f"{output.solution}: engine", folder.said("engine")
-    _refuse_files(table, thing)
     if named_elsewhere(table):
         raise InvalidInput(thing, "must be one that is installed", table, "Give it as engine=...")
-    return engine_of(thing, table, output.folder)
+    return engine_of(thing, table, Gate(output.folder, trust))

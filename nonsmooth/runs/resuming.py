@@ -28,6 +28,7 @@ def resume(
     engine: Engine | None = None,
     until: Until | None = None,
     progress: Progress | None = None,
+    trust: bool = False,
 ) -> Solution:
     """Go on with a run that was cut off, to the end that it would have had, to the last bit.
 
@@ -43,6 +44,8 @@ def resume(
         The condition that the run was given, which no file holds.
     progress : callable, optional
         As for :func:`nonsmooth.simulate`.
+    trust : bool, optional
+        Whether the folder may name code that is no installed plug-in, as for :func:`nonsmooth.load_system`.
 
     Returns
     -------
@@ -66,8 +69,8 @@ def resume(
     """
     where = Output.to(output)
     folder = check_resumable(where)
-    made = system or stored_setup(where, folder).system
-    return Model.of(made, engine or stored_engine(where, folder)).resume(where, until=until, progress=progress)
+    made = system or stored_setup(where, folder, trust).system
+    return Model.of(made, engine or stored_engine(where, folder, trust)).resume(where, until=until, progress=progress)
 
 
 def check_resumable(where: Output) -> SolutionFolder:

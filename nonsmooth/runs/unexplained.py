@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from nonsmooth.binding.source import described
 from nonsmooth.engine.memory.modes import (
+    GAP_UNDECIDED,
     GAP_UNEXPLAINED,
     MOTION_UNEXPLAINED,
     QUATERNION_UNEXPLAINED,
@@ -29,7 +30,7 @@ def unexplained(model: LaidOut, status: int) -> str:
         contact = model.system.contacts[int(model.memory.array("identity", n)[number])]
         return (
             f"The {contact}: its gap is {found:.3g} m and hardly changes within a step of {float(scalars['h']):.3g} s. "
-            "Place the bodies apart by more, or in contact, or take EventDriven(tolerance=...) with a smaller tolerance."
+            "Place the bodies farther apart or in contact, or take a smaller tolerance: EventDriven(tolerance=...)."
         )
     if status not in (MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED):
         return ""

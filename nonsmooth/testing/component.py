@@ -8,11 +8,11 @@ import math
 import tomllib
 import warnings
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import Any
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files import components as files
+from nonsmooth.files.gate import TRUSTED
 from nonsmooth.files.text import text_of as toml_text
 from nonsmooth.parameters import Rule, UnusualValue, from_words, rules
 from nonsmooth.testing.property import Broken, NotChecked, Row
@@ -193,7 +193,7 @@ def _through_file(component: Any) -> Any:
         table = files.table_of(component, owner.__name__, owner)
     except InvalidInput:
         return component
-    return files.component(owner.__name__, tomllib.loads(toml_text({"it": table}))["it"], owner, Path())
+    return files.component(owner.__name__, tomllib.loads(toml_text({"it": table}))["it"], owner, TRUSTED)
 
 
 def _check_immutable(component: Any) -> None:

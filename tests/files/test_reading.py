@@ -165,6 +165,7 @@ def test_a_missing_file_is_told(tmp_path: Path) -> None:
 def test_values_can_be_changed_by_key(path: Path) -> None:
     setup = read(
         path,
+        False,
         {"bodies.ball.radius": "0.02", "contacts.0.impact.restitution": "0.25", "laws.rubber": "{type='frictionless'}"},
     )
     contact = setup.system.contacts[0]
@@ -173,7 +174,7 @@ def test_values_can_be_changed_by_key(path: Path) -> None:
     assert contact.friction == Frictionless()
     for key in ("bodies.bal.radius", "contacts.1.impact", "t_end.x", "contacts.x.impact"):
         with pytest.raises(ns.InvalidInput, match=re.escape(f"{key} must be a key of {path}")):
-            read(path, {key: "1"})
+            read(path, False, {key: "1"})
 
 
 MATERIALS = """
@@ -254,6 +255,8 @@ def slippery(speed, friction):
 """
     (path.parent / "my_law.py").write_text(source)
     path.write_text(BALL.replace('type = "coulomb"\nfriction = 0.8', 'type = "my_law.py:Ice"\nfriction = 0.02'))
-    contact = ns.load_system(path).system.contacts[0]
+    with pytest.raises(ns.InvalidInput, match=r"but it is 'my_law\.py:Ice'.*say trust=True"):
+        ns.load_system(path)
+    contact = ns.load_system(path, trust=True).system.contacts[0]
     assert type(contact.friction).__name__ == "Ice"
     assert contact.friction.parameters() == {"friction": 0.02}

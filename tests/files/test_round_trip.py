@@ -186,7 +186,9 @@ def test_a_function_goes_by_its_name(tmp_path: Path) -> None:
     ns.save_system(system, path)
     said = path.read_text()
     assert 'function = "tests.files.test_round_trip:_nothing"' in said
-    found = ns.load_system(path).system.loads[0].component
+    with pytest.raises(ns.InvalidInput, match=r"as the file is not trusted.*_nothing.*say trust=True"):
+        ns.load_system(path)
+    found = ns.load_system(path, trust=True).system.loads[0].component
     assert isinstance(found, FunctionLoad)
     assert found.function is _nothing
     for wrong, told in (
@@ -196,13 +198,13 @@ def test_a_function_goes_by_its_name(tmp_path: Path) -> None:
     ):
         path.write_text(said.replace(":_nothing", f":{wrong}"))
         with pytest.raises(ns.InvalidInput, match=told):
-            ns.load_system(path)
+            ns.load_system(path, trust=True)
     path.write_text(said.replace("tests.files.test_round_trip:_nothing", "just a word"))
     with pytest.raises(ns.InvalidInput, match=r"loads\[0\].function must have the form module:name"):
-        ns.load_system(path)
+        ns.load_system(path, trust=True)
     path.write_text(said.replace("tests.files.test_round_trip", "no_such_module"))
     with pytest.raises(ns.PluginError, match="no_such_module:_nothing cannot be imported: ModuleNotFoundError"):
-        ns.load_system(path)
+        ns.load_system(path, trust=True)
 
 
 def test_laws_of_compliant_contacts_come_back(tmp_path: Path) -> None:

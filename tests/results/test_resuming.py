@@ -185,7 +185,7 @@ def test_a_foreign_folder_runs_no_file_and_no_pickle(tmp_path: Path) -> None:
     folder = SolutionFolder.opened(Output(tmp_path))
     folder._arrays.add(Variable("system", (), np.array(text), {}), grows=False)
     folder._arrays.commit()
-    with pytest.raises(ns.InvalidInput, match="must name an installed class"):
+    with pytest.raises(ns.InvalidInput, match="must name what an installed package has registered"):
         ns.resume(tmp_path)
 
 

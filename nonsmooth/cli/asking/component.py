@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from nonsmooth.errors import InvalidInput
+from nonsmooth.files.gate import Gate
 from nonsmooth.parameters import from_all_words
-from nonsmooth.plugins.file import find
 
 
-def made(option: str, group: str, base: type, word: str, form: str, example: str) -> Any:
+def made(option: str, group: str, base: type, word: str, form: str, example: str, gate: Gate) -> Any:
     """Return the component that a word means: an installed name or FILE.py:CLASS, and its parameters.
 
     Parameters
@@ -24,6 +24,8 @@ def made(option: str, group: str, base: type, word: str, form: str, example: str
         The word.
     form, example : str
         What a message says of the form.
+    gate : Gate
+        What the name may mean.
 
     Raises
     ------
@@ -35,7 +37,7 @@ def made(option: str, group: str, base: type, word: str, form: str, example: str
     name, *settings = (part.strip() for part in word.split(","))
     if not name:
         raise InvalidInput(option, form, word, example)
-    owner = find(option, group, base, name)
+    owner = gate.component(option, group, base, name)
     values: dict[str, str] = {}
     for setting in settings:
         parameter, _, value = (part.strip() for part in setting.partition("="))

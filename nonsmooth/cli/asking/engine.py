@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from nonsmooth.cli.asking import component
+from nonsmooth.files.gate import Gate
 from nonsmooth.interfaces import Engine
 from nonsmooth.parameters import rules
 
@@ -16,8 +17,8 @@ _FORM = "must have the form ENGINE or ENGINE,NAME=VALUE,..."
 _EXAMPLE = "For example --engine event_driven,tolerance=1e-10."
 
 
-def engine(word: str) -> Engine:
-    """Return the engine asked for.
+def engine(word: str, gate: Gate) -> Engine:
+    """Return the engine asked for, if a gate lets its name pass.
 
     Raises
     ------
@@ -26,7 +27,7 @@ def engine(word: str) -> Engine:
     PluginError
         If it cannot be loaded.
     """
-    made: Engine = component.made("--engine", "engines", Engine, word, _FORM, _EXAMPLE)
+    made: Engine = component.made("--engine", "engines", Engine, word, _FORM, _EXAMPLE, gate)
     return made
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from nonsmooth.cli.asking import component
 from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.files.gate import Gate
 from nonsmooth.interfaces import CompliantNormalLaw, ImpactLaw, NormalLaw, TangentialLaw
 from nonsmooth.parameters import rules
 
@@ -21,8 +22,8 @@ _FORM = "must have the form ROLE=LAW or ROLE=LAW,NAME=VALUE,..."
 _EXAMPLE = "For example --law friction=./my_law.py:MyLaw,coefficient=0.2."
 
 
-def laws(words: Iterable[str]) -> dict[str, Any]:
-    """Return the laws asked for, by role.
+def laws(words: Iterable[str], gate: Gate) -> dict[str, Any]:
+    """Return the laws asked for, by role, whose names a gate lets pass.
 
     Raises
     ------
@@ -40,7 +41,7 @@ def laws(words: Iterable[str]) -> dict[str, Any]:
             raise UnknownName("--law role", role, ROLES)
         if role in made:
             raise InvalidInput(f"--law {role}", "must come once", word, "Leave one out.")
-        made[role] = component.made(f"--law {role}", "laws", ROLES[role], rest, _FORM, _EXAMPLE)
+        made[role] = component.made(f"--law {role}", "laws", ROLES[role], rest, _FORM, _EXAMPLE, gate)
     return made
 
 

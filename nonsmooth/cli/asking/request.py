@@ -10,6 +10,7 @@ from typing import Any
 from nonsmooth.cli.asking import engine, law
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput
+from nonsmooth.files.gate import Gate
 from nonsmooth.files.reading import read
 from nonsmooth.files.scenario import FileScenario
 from nonsmooth.interfaces import Engine, Scenario
@@ -73,10 +74,19 @@ class Job:
         return {"parameters": resolved, "laws": laws, "engine": engine.described(self.engine)}
 
 
-def job(name: str, words: Iterable[str], laws: Iterable[str] = (), asked: str | None = None) -> Job:
+def job(
+    name: str,
+    words: Iterable[str],
+    laws: Iterable[str] = (),
+    asked: str | None = None,
+    *,
+    trust: bool,
+    typed: bool = True,
+) -> Job:
     """Return what is to be run, with parameters and laws set: a scenario by its name, of a Python file, or a file.
 
-    ``asked`` is the word for another engine than the event-driven one or that of the file.
+    ``asked`` is the word for another engine than the event-driven one or that of the file.  What the user has typed may
+    name Python files; what a file says, and words that are not typed but stored, only if they are trusted.
 
     Raises
     ------
@@ -86,13 +96,14 @@ def job(name: str, words: Iterable[str], laws: Iterable[str] = (), asked: str | 
         If the scenario or a law cannot be loaded.
     """
     values = assignments(words)
-    replaced = law.laws(laws)
-    other = None if asked is None else engine.engine(asked)
-    if file.is_file(name) or name.endswith(".py"):
+    gate = Gate(trusted=typed or trust)
+    replaced = law.laws(laws, gate)
+    other = None if asked is None else engine.engine(asked, gate)
+    if gate.trusted and (file.is_file(name) or name.endswith(".py")):
         owner = file.load("scenario", (Scenario,), name)
     # what looks like a file is one, of a known format or not
     elif Path(name).suffix and name not in registry.names("scenarios"):
-        setup = read(Path(name), values)
+        setup = read(Path(name), trust, values)
         return Job(FileScenario(setup), other or setup.engine, replaced)
     else:
         owner = registry.load("scenarios", name)

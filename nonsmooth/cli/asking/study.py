@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from nonsmooth.cli.asking import engine, over, request
+from nonsmooth.cli.asking.trust import add_to as add_trust_to
 from nonsmooth.errors import InvalidInput
 from nonsmooth.studies.executors import Dask
 from nonsmooth.studies.executors.executor import Executor
@@ -40,6 +41,7 @@ def add_to(command: argparse.ArgumentParser) -> None:
     command.add_argument("--budget", type=int, metavar="STEPS", help="give up a run after so many steps")
     command.add_argument("--chunk", type=int, metavar="N", help="store so many runs as one")
     add_executor_to(command)
+    add_trust_to(command)
     command.add_argument(
         "--out", required=True, metavar="STUDY.zarr", help="save it there; it goes on if it was cut off"
     )
@@ -69,8 +71,8 @@ def executor_asked(arguments: argparse.Namespace) -> Executor:
     return Dask(arguments.scheduler) if arguments.scheduler else executor_of(arguments.executor)
 
 
-def study_of(words: Mapping[str, Any]) -> Study:
-    """Return the study that was asked for in words.
+def study_of(words: Mapping[str, Any], *, trust: bool, typed: bool = True) -> Study:
+    """Return the study that was asked for in words, which are typed or stored; the stored ones may be trusted.
 
     Raises
     ------
@@ -78,7 +80,7 @@ def study_of(words: Mapping[str, Any]) -> Study:
         If it is not valid.
     """
     with contextlib.redirect_stdout(sys.stderr):  # whatever a plug-in prints
-        job = request.job(words["scenario"], words["set"], (), words["engine"])
+        job = request.job(words["scenario"], words["set"], (), words["engine"], trust=trust, typed=typed)
         sampling = over.sampling(words["over"], words["sample"], words["seed"])
         classes = [name for name in job.scenario.words if name == "attractor"]
         usual = [name for name in (*RECORD, *classes) if name not in sampling.points().columns]

@@ -62,7 +62,7 @@ def execute(arguments: argparse.Namespace) -> bool:
     tolerances = _features(arguments.features)
     parameter, along = _along(arguments.along, followed=bool(tolerances) or arguments.period is not None)
     words, path = study.asked(arguments, list(tolerances)), Path(arguments.out)
-    job = study.study_of(words)
+    job = study.study_of(words, trust=arguments.trust)
     _check(job, tolerances, arguments, parameter)
     folder = arguments.figures or path.with_suffix("" if path.suffix else ".figures")
     outputs.prepare_folder(folder, arguments.overwrite)

@@ -7,7 +7,7 @@ from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from nonsmooth.cli.asking import outputs, over, request
+from nonsmooth.cli.asking import outputs, over, request, trust
 from nonsmooth.cli.commands.orbit import prepare, save
 from nonsmooth.cli.telling.messages import say, tell
 
@@ -22,6 +22,7 @@ def add_to(commands: Any) -> None:
     )
     command.add_argument("scenario", metavar="SCENARIO", help="as for `run`")
     command.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="as for `run`")
+    trust.add_to(command)
     command.add_argument("--over", required=True, metavar="NAME=LOW:HIGH:N", help="the parameter and its values")
     command.add_argument("--period", type=float, required=True, metavar="SECONDS", help="after which it is looked at")
     command.add_argument("--show", required=True, metavar="NAME", help="which coordinate or velocity, as vz")
@@ -43,7 +44,7 @@ def execute(arguments: argparse.Namespace) -> bool:
     over.check_not_set([arguments.over], arguments.set)
     name, values = over.axis(arguments.over)
     prepare(arguments)
-    job = request.job(arguments.scenario, arguments.set)
+    job = request.job(arguments.scenario, arguments.set, trust=arguments.trust)
     # imported when asked for: the other commands start faster without it
     from nonsmooth.studies.orbits import bifurcation, hysteresis
 

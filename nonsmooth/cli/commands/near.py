@@ -13,15 +13,15 @@ from nonsmooth.queries.proximity import NearPair, proximity
 _HEAD = ("gap [m]", "", "bodies", "found by", "contact")
 
 
-def table(name: str) -> str:
-    """Return the table of a scenario file, or of a scenario with its defaults.
+def table(name: str, trust: bool) -> str:
+    """Return the table of a scenario file, which may be trusted, or of a scenario with its defaults.
 
     Raises
     ------
     InvalidInput
         If there is no such file or scenario, or it is not valid.
     """
-    system = read(Path(name)).system if name.endswith(SUFFIXES) else request.job(name, ()).build()
+    system = read(Path(name), trust).system if name.endswith(SUFFIXES) else request.job(name, (), trust=trust).build()
     pairs, names = proximity(system), system.names.bodies
     if not pairs:
         return f"{name}: no two bodies are near each other at the start."

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from nonsmooth.cli.asking import extras, outputs, over, request
+from nonsmooth.cli.asking import extras, outputs, over, request, trust
 from nonsmooth.cli.running import results
 from nonsmooth.cli.telling.messages import say
 from nonsmooth.errors import InvalidInput
@@ -26,6 +26,7 @@ def add_to(commands: Any) -> None:
         command = commands.add_parser(name, help=text, allow_abbrev=False)
         command.add_argument("scenario", metavar="SCENARIO", help="as for `run`")
         command.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="as for `run`")
+        trust.add_to(command)
         command.add_argument("--period", type=float, metavar="SECONDS", help="after which what drives it repeats")
         command.add_argument(
             "--section",
@@ -107,7 +108,7 @@ def prepare(arguments: argparse.Namespace) -> None:
 
 def _found(arguments: argparse.Namespace) -> Orbit:
     prepare(arguments)
-    job = request.job(arguments.scenario, arguments.set)
+    job = request.job(arguments.scenario, arguments.set, trust=arguments.trust)
     # imported when asked for: the other commands start faster without it
     from nonsmooth.studies.orbits import Turn, orbit
 

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from nonsmooth.cli.asking import extras
+from nonsmooth.cli.asking import extras, trust
 from nonsmooth.cli.running import obtain
 from nonsmooth.cli.running.perform import Told, perform
 from nonsmooth.cli.telling import report
@@ -26,11 +26,7 @@ def add_to(commands: Any) -> None:
         "resume", help="go on with a run that was cut off, to the same end", allow_abbrev=False
     )
     command.add_argument("folder", type=Path, metavar="DIR", help="what `run --out` was given")
-    command.add_argument(
-        "--trust",
-        action="store_true",
-        help="load the Python files that the run was asked with, for the scenario's own figures and summary",
-    )
+    trust.add_to(command)
     command.add_argument("--json", action="store_true", help="print one JSON object and nothing else")
     command.set_defaults(execute=execute)
 
@@ -44,10 +40,10 @@ def execute(arguments: argparse.Namespace) -> bool:
     return outcome["status"] == "done" and not troubles
 
 
-def _perform(output: Output, trust: bool, troubles: list[str]) -> report.Report:
+def _perform(output: Output, is_trusted: bool, troubles: list[str]) -> report.Report:
     extras.require(extras.PICTURES)
     folder = SolutionFolder.opened(output)
-    name, job = obtain.job_of(output, folder, trust)
+    name, job = obtain.job_of(output, folder, is_trusted)
     system = job.build()
     check_resumable(output)
 

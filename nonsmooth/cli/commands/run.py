@@ -8,7 +8,7 @@ import json
 import sys
 from typing import Any
 
-from nonsmooth.cli.asking import engine, extras, law, outputs, request
+from nonsmooth.cli.asking import engine, extras, law, outputs, request, trust
 from nonsmooth.cli.commands import view
 from nonsmooth.cli.running import acceptance, obtain
 from nonsmooth.cli.running.perform import Told, perform
@@ -37,6 +37,7 @@ def add_to(commands: Any) -> None:
     )
     command.add_argument("--law", action="append", default=[], metavar="ROLE=LAW", help=law.HELP)
     command.add_argument("--engine", metavar="ENGINE", help=engine.HELP)
+    trust.add_to(command)
     command.add_argument("--out", metavar="DIR", help="save results and figures there, an empty or new folder")
     outputs.add_to(command)
     command.add_argument(
@@ -58,7 +59,7 @@ def execute(arguments: argparse.Namespace) -> bool:
 
 
 def _perform(arguments: argparse.Namespace, troubles: list[str]) -> report.Report:
-    job = request.job(arguments.scenario, arguments.set, arguments.law, arguments.engine)
+    job = request.job(arguments.scenario, arguments.set, arguments.law, arguments.engine, trust=arguments.trust)
     scenario = job.scenario
     if arguments.accept:
         acceptance.check_request(job)

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from nonsmooth.cli.asking import engine, law, outputs, request
+from nonsmooth.cli.asking import engine, law, outputs, request, trust
 from nonsmooth.cli.running import obtain
 from nonsmooth.cli.telling.messages import tell
 from nonsmooth.files import formats
@@ -21,13 +21,14 @@ def add_to(commands: Any) -> None:
     command.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="as for `run`")
     command.add_argument("--law", action="append", default=[], metavar="ROLE=LAW", help=law.HELP)
     command.add_argument("--engine", metavar="ENGINE", help=engine.HELP)
+    trust.add_to(command)
     outputs.add_to(command)
     command.set_defaults(execute=execute)
 
 
 def execute(arguments: argparse.Namespace) -> bool:
     """Write the file; tell where it is."""
-    job = request.job(arguments.scenario, arguments.set, arguments.law, arguments.engine)
+    job = request.job(arguments.scenario, arguments.set, arguments.law, arguments.engine, trust=arguments.trust)
     scenario = job.scenario
     formats.of(arguments.file)
     outputs.prepare_file(arguments.file, arguments.overwrite)

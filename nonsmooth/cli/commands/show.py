@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
+from nonsmooth.cli.asking import trust
 from nonsmooth.cli.commands.list import GROUPS
 from nonsmooth.cli.telling.messages import say
 from nonsmooth.cli.telling.parameter_rows import ASSUMED, HEAD, parameter_rows
@@ -27,6 +28,7 @@ def add_to(commands: Any) -> None:
         action="store_true",
         help="of a scenario or a file: which bodies are near each other at the start, and what is said of them",
     )
+    trust.add_to(command)
     command.set_defaults(execute=execute)
 
 
@@ -36,7 +38,7 @@ def execute(arguments: argparse.Namespace) -> bool:
         # imported when asked for: the other commands start faster without it
         from nonsmooth.cli.commands import near
 
-        say(near.table(arguments.name))
+        say(near.table(arguments.name, arguments.trust))
         return True
     if file.is_file(arguments.name):
         owner = file.load("show", registry.INTERFACES, arguments.name)

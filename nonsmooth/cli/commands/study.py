@@ -9,6 +9,7 @@ from typing import Any
 
 from nonsmooth.cli.asking import outputs
 from nonsmooth.cli.asking.study import add_executor_to, executor_asked, study_of
+from nonsmooth.cli.asking.trust import add_to as add_trust_to
 from nonsmooth.cli.running.study import perform
 from nonsmooth.cli.telling.messages import complain, say, tell
 from nonsmooth.errors import InvalidInput
@@ -36,6 +37,7 @@ def add_to(commands: Any) -> None:
         part.add_argument("study", type=Path, metavar="STUDY.zarr", help="what `--out` was given")
         part.set_defaults(execute=execute)
     add_executor_to(parts.choices["resume"])
+    add_trust_to(parts.choices["resume"])
     parts.choices["draw"].add_argument("--out", type=Path, metavar="FILE", help="STUDY.png by default")
     outputs.add_to(parts.choices["draw"])
 
@@ -69,7 +71,7 @@ def resume(arguments: argparse.Namespace) -> bool:
     if not words:
         remedy = "Run the Python program again that began it: it goes on."
         raise InvalidInput(str(path), "must have been begun on the command line", "a study of a program", remedy)
-    perform(study_of(words), words, path, executor_asked(arguments))
+    perform(study_of(words, trust=arguments.trust, typed=False), words, path, executor_asked(arguments))
     return True
 
 

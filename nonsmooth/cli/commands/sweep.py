@@ -29,5 +29,11 @@ def execute(arguments: argparse.Namespace) -> bool:
     """Run the study; tell what came of it."""
     record = [name for word in arguments.record for name in word.split(",")]
     words = study.asked(arguments, record)
-    perform(study.study_of(words), words, Path(arguments.out), study.executor_asked(arguments), arguments.chunk)
+    perform(
+        study.study_of(words, trust=arguments.trust),
+        words,
+        Path(arguments.out),
+        study.executor_asked(arguments),
+        arguments.chunk,
+    )
     return True

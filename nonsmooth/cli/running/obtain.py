@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import final
 
-from nonsmooth.cli.asking import engine, law, request
+from nonsmooth.cli.asking import engine, law, request, trust
 from nonsmooth.cli.running.perform import computed
 from nonsmooth.cli.telling.messages import tell
 from nonsmooth.errors import InvalidInput
@@ -49,9 +49,7 @@ def add_to(command: argparse.ArgumentParser) -> None:
     command.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="as for `run`")
     command.add_argument("--law", action="append", default=[], metavar="ROLE=LAW", help=law.HELP)
     command.add_argument("--engine", metavar="ENGINE", help=engine.HELP)
-    command.add_argument(
-        "--trust", action="store_true", help="of a folder: load the Python files that the run was asked with"
-    )
+    trust.add_to(command)
 
 
 def obtain(command: str, arguments: argparse.Namespace) -> Obtained:
@@ -64,20 +62,23 @@ def title_of(scenario: Scenario) -> str:
     return str(scenario.resolved().get("title", type(scenario).title))
 
 
-def job_of(output: Output, folder: SolutionFolder, trust: bool) -> tuple[str, request.Job]:
+def job_of(output: Output, folder: SolutionFolder, is_trusted: bool) -> tuple[str, request.Job]:
     """Return what ran: a scenario by its name, all else by what the folder says of its system.
 
-    No Python file is executed because the folder names it, unless the user trusts it.
+    Nothing but installed plug-ins is loaded because the folder names it, unless the user trusts it.
     """
     asked = folder.said("request")
     name = str(asked.get("scenario", output.folder))
-    words = [name, *(word.partition("=")[2] for word in asked.get("law", ())), asked.get("engine") or ""]
-    files = [word for one in words if file.is_file(word := one.partition(",")[0])]
-    if (name in registry.names("scenarios") or file.is_file(name)) and (trust or not files):
-        return name, request.job(name, asked["set"], asked["law"], asked.get("engine"))
-    if files:
-        tell(f"without {', '.join(files)}, and so without what only they can say: see --trust")
-    setup = stored_setup(output, folder)
+    words = [("laws", str(word).partition("=")[2]) for word in asked.get("law", ())]
+    words += [("engines", str(asked["engine"]))] if asked.get("engine") else []
+    code = [first for group, word in words if (first := word.partition(",")[0].strip()) not in registry.names(group)]
+    code += [name] if file.is_file(name) else []
+    if (name in registry.names("scenarios") or file.is_file(name)) and (is_trusted or not code):
+        again = request.job(name, asked["set"], asked["law"], asked.get("engine"), trust=is_trusted, typed=False)
+        return name, again
+    if code:
+        tell(f"without {', '.join(map(repr, code))}, and so without what only they can say: see --trust")
+    setup = stored_setup(output, folder, is_trusted)
     return name, request.Job(FileScenario(setup), setup.engine, {})
 
 
@@ -89,11 +90,12 @@ def _stored(command: str, arguments: argparse.Namespace) -> Obtained:
     output = Output(Path(arguments.run))
     folder = SolutionFolder.opened(output)
     name, job = job_of(output, folder, arguments.trust)
-    return Obtained(str(folder.attributes.get("title") or name), open_solution(output, system=job.build()), True)
+    solution = open_solution(output, system=job.build(), trust=arguments.trust)
+    return Obtained(str(folder.attributes.get("title") or name), solution, True)
 
 
 def _computed(arguments: argparse.Namespace) -> Obtained:
-    job = request.job(arguments.run, arguments.set, arguments.law, arguments.engine)
+    job = request.job(arguments.run, arguments.set, arguments.law, arguments.engine, trust=arguments.trust)
     model, scenario = assemble(job.build(), job.engine), job.scenario
     solution, status, _ = computed(
         lambda told: model.run(
