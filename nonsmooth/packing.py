@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zlib
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,8 @@ from numpy.typing import DTypeLike, NDArray
 
 CODEC = {"id": "blosc", "cname": "lz4", "clevel": 5, "shuffle": 1, "blocksize": 0}
 """What packs them, in the words of Zarr."""
+_CHECKSUM = 4
+"""Bytes of a CRC-32."""
 
 
 def packed(values: NDArray[Any]) -> bytes:
@@ -18,6 +21,25 @@ def packed(values: NDArray[Any]) -> bytes:
 
     codec = Blosc(CODEC["cname"], CODEC["clevel"], CODEC["shuffle"], CODEC["blocksize"])
     return bytes(codec.encode(np.ascontiguousarray(values)))
+
+
+def with_checksum(content: bytes) -> bytes:
+    """Return bytes behind their CRC-32, as the filter crc32 of Zarr writes them."""
+    return zlib.crc32(content).to_bytes(_CHECKSUM, "little") + content
+
+
+def without_checksum(content: bytes) -> bytes:
+    """Return bytes that :func:`with_checksum` was given.
+
+    Raises
+    ------
+    ValueError
+        If they are no longer the same.
+    """
+    found = content[_CHECKSUM:]
+    if int.from_bytes(content[:_CHECKSUM], "little") != zlib.crc32(found):
+        raise ValueError("the checksum is not that of what was written")
+    return found
 
 
 def unpacked(content: bytes, dtype: DTypeLike) -> NDArray[Any]:

@@ -14,6 +14,9 @@ from nonsmooth.solution.files import FileError
 if sys.platform != "win32":
     import fcntl
 
+LOCK = ".lock"
+"""Name of the file by which a folder is held; it stays there."""
+
 
 @final
 class Lock:
@@ -37,7 +40,7 @@ class Lock:
     def __init__(self, folder: Path) -> None:
         try:
             folder.mkdir(parents=True, exist_ok=True)
-            file = os.open(folder / ".lock", os.O_RDWR | os.O_CREAT)
+            file = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT)
         except OSError as error:
             raise FileError(folder, error) from error
         self._close = weakref.finalize(self, os.close, file)

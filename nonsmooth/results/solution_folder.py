@@ -6,6 +6,7 @@ import json
 import math
 import shutil
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any, final
 
 import numpy as np
@@ -17,7 +18,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.files.components import TYPE, Table, table_of
 from nonsmooth.files.writing import text_of_system
 from nonsmooth.interfaces import Engine
-from nonsmooth.results.lock import Lock
+from nonsmooth.results.lock import LOCK, Lock
 from nonsmooth.results.output import Output, versions
 from nonsmooth.results.state_file import state_bytes, state_from
 from nonsmooth.results.zarr_folder import ZarrFolder
@@ -79,18 +80,21 @@ class SolutionFolder:
         Raises
         ------
         InvalidInput
-            If a run was cut off there, or writes there.
+            If a run was cut off there, or writes there, or the folder is none of a run.
         FileError
             If it cannot be written.
         """
         path = output.solution
-        if path.exists():
+        check_ours(path)
+        # from here on nobody else writes there: what another run has begun meanwhile is not removed
+        lock = Lock(path)
+        try:
             check_free(output)
-            try:
-                shutil.rmtree(path)
-            except OSError as error:
-                raise FileError(path, error) from error
-        made, lock = ZarrFolder(path, _attributes(output, engine, t_end, conditional)), Lock(path)
+            _empty(path)
+        except BaseException:
+            lock.close()
+            raise
+        made = ZarrFolder(path, _attributes(output, engine, t_end, conditional))
         found = cls(made, sum(body.n_q for body in system.bodies), sum(body.n_u for body in system.bodies), lock)
         for variable in (*of_system(system), *of_memory(), _text(system, output, engine, t_end, made.attributes)):
             made.add(variable, grows=False)
@@ -337,6 +341,49 @@ def check_free(output: Output) -> None:
             UNFINISHED,
             f"`nonsmooth resume {output.folder}` goes on with it; remove {output.solution} to give it up.",
         )
+
+
+def check_ours(path: Path) -> None:
+    """Look whether a folder of arrays is new, empty or one that a run has made, so that it may be emptied.
+
+    Raises
+    ------
+    InvalidInput
+        If it holds anything else.
+    """
+    if path.is_symlink() or (path.exists() and not path.is_dir()):
+        what = "a link" if path.is_symlink() else "a file"
+        raise InvalidInput(str(path), "must be a folder that a run has made", what, "Name another folder.")
+    names = sorted(one.name for one in path.iterdir()) if path.exists() else []
+    if names and LOCK not in names and not _is_solution(path):
+        raise InvalidInput(
+            str(path),
+            "must be a folder that a run has made, as it would be emptied",
+            f"a folder with {', '.join(map(repr, names[:3]))}",
+            "Name another folder.",
+        )
+
+
+def _is_solution(path: Path) -> bool:
+    """Return whether a folder holds the solution of a run, also one that was copied without its lock."""
+    try:
+        return "versions" in ZarrFolder.opened(path).attributes
+    except InvalidInput:
+        return False
+
+
+def _empty(path: Path) -> None:
+    """Remove all but the lock, by which the folder is held."""
+    try:
+        for one in path.iterdir():
+            if one.name == LOCK:
+                continue
+            if one.is_dir() and not one.is_symlink():
+                shutil.rmtree(one)
+            else:
+                one.unlink()
+    except OSError as error:
+        raise FileError(path, error) from error
 
 
 def _attributes(output: Output, engine: Engine, t_end: float, conditional: bool) -> dict[str, Any]:

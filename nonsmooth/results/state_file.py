@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import io
 import zipfile
+import zlib
 from typing import Any
 
 import numpy as np
@@ -30,6 +31,20 @@ def state_bytes(state: State) -> bytes:
     return content.getvalue()
 
 
+_DAMAGES = (
+    OSError,
+    ValueError,
+    OverflowError,
+    KeyError,
+    IndexError,
+    TypeError,
+    EOFError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
+"""What reading a file of another content raises."""
+
+
 def state_from(content: bytes, thing: str) -> State:
     """Return the state out of the content of a file, which messages call ``thing``.
 
@@ -47,6 +62,6 @@ def state_from(content: bytes, thing: str) -> State:
         if "model" in arrays:
             difference = Difference.unpacked(arrays["difference"].tobytes())
             state = state.with_continuation(Continuation(str(arrays["model"]), difference, int(arrays["told"])))
-    except (OSError, ValueError, OverflowError, KeyError, IndexError, TypeError, EOFError, zipfile.BadZipFile) as error:
+    except _DAMAGES as error:
         raise InvalidInput(thing, "must hold a state", f"{type(error).__name__}: {error}", "It is damaged.") from error
     return state

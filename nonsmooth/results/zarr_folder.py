@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.errors import InvalidInput
-from nonsmooth.packing import CODEC, packed, unpacked
+from nonsmooth.packing import CODEC, packed, unpacked, with_checksum, without_checksum
 from nonsmooth.solution.files import FileError
 from nonsmooth.solution.variable import Variable
 
@@ -32,6 +32,8 @@ _ENTRIES = 2**14
 """Entries of a chunk of an array that grows: the last one is written anew with every commit."""
 _AT_ONCE = 16
 """Files for which the disk is waited for at once."""
+_FILTERS = [CODEC, {"id": "crc32"}]
+"""What a chunk goes through, in the words of Zarr: a bit that turns on the disk is noticed when it is read."""
 _NAME = re.compile(r"\w+")
 _KINDS = "fiuU"
 
@@ -94,7 +96,7 @@ class ZarrFolder:
     def _describe(self, name: str, entry: dict[str, Any], attributes: dict[str, Any]) -> None:
         dimensions, dtype = tuple(map(str, attributes.pop("_ARRAY_DIMENSIONS"))), np.dtype(str(entry["dtype"]))
         shape, chunks = [int(n) for n in entry["shape"]] or [1], [int(n) for n in entry["chunks"]] or [1]
-        is_known = dtype.kind in _KINDS and entry["compressor"] == CODEC
+        is_known = dtype.kind in _KINDS and entry["filters"] == _FILTERS
         if not _NAME.fullmatch(name) or not is_known or min(shape) < 0 or min(chunks) < 1:
             raise ValueError(f"the array {name!r} has a form that is not written here")
         self._arrays[name] = _Array(dimensions, dtype.str, tuple(shape[1:]), chunks[0], attributes)
@@ -143,7 +145,7 @@ class ZarrFolder:
                 tail = self._chunk(name, number)
                 tail[low - first : high - first] = content
                 self._tails[name], content = (number, tail), tail
-            self._put(self._place(name, number), packed(content))
+            self._put(self._place(name, number), with_checksum(packed(content)))
         self._lengths[name] = end
 
     def read(self, name: str) -> NDArray[Any]:
@@ -254,10 +256,10 @@ class ZarrFolder:
             "shape": shape if array.dimensions else [],
             "chunks": chunks if array.dimensions else [],
             "dtype": array.dtype,
-            "compressor": CODEC,
+            "compressor": None,
             "fill_value": None,
             "order": "C",
-            "filters": None,
+            "filters": _FILTERS,
         }
         return {".zarray": entry, ".zattrs": {"_ARRAY_DIMENSIONS": list(array.dimensions), **array.attributes}}
 
@@ -273,7 +275,7 @@ class ZarrFolder:
     def _stored(self, name: str, number: int) -> NDArray[Any]:
         array, path = self._arrays[name], self._place(name, number)
         try:
-            return unpacked(path.read_bytes(), array.dtype).reshape((array.chunk, *array.inner))
+            return unpacked(without_checksum(path.read_bytes()), array.dtype).reshape((array.chunk, *array.inner))
         except (OSError, ValueError) as error:
             raise InvalidInput(str(path), "must be a whole chunk", f"{error}", "Results are damaged there.") from error
 
