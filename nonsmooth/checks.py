@@ -31,7 +31,9 @@ def check_callable(thing: str, value: object, call: str) -> None:
 
 
 def is_finite(value: Any) -> bool:
-    """Tell whether something is a finite number, of Python or numpy."""
+    """Tell whether something is a finite number, of Python or numpy; True and False are none."""
+    if isinstance(value, (bool, np.bool_)):
+        return False
     try:
         return math.isfinite(value)
     except (TypeError, OverflowError):
@@ -39,8 +41,10 @@ def is_finite(value: Any) -> bool:
 
 
 def floats(thing: str, value: Any) -> NDArray[np.float64]:
-    """Return an array of numbers of its own; InvalidInput if they are none."""
+    """Return an array of numbers of its own; InvalidInput if they are none, as texts and truth values are."""
     try:
+        if np.asarray(value).dtype.kind in "USb":
+            raise TypeError("texts and truth values are no numbers")
         return np.array(value, dtype=float)
     except (TypeError, ValueError) as error:
         raise InvalidInput(

@@ -24,8 +24,8 @@ def vector(thing: str, value: Sequence[float], size: int, unit: str) -> tuple[fl
         Unless it has ``size`` finite components.
     """
     try:
-        numbers = tuple(float(x) for x in value)
-    except (TypeError, ValueError):
+        numbers = tuple(math.nan if isinstance(x, (str, bool)) else float(x) for x in value)
+    except (TypeError, ValueError, OverflowError):
         numbers = ()
     if len(numbers) != size or not all(math.isfinite(x) for x in numbers):
         raise InvalidInput(thing, f"must be {size} finite numbers", value, f"Give them in [{unit}].")

@@ -13,7 +13,7 @@ from nonsmooth.interfaces.guard import guard_value
 from nonsmooth.model.articulations import articulations
 from nonsmooth.model.blocks import written_past
 from nonsmooth.model.image import Guards
-from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.model.laid_out import LaidOut, energies
 from nonsmooth.model.overlaps import check_overlaps, frames_of, overlap_allowed
 from nonsmooth.system.contact import Tie
 from nonsmooth.system.system import System
@@ -35,6 +35,7 @@ def check_start(model: LaidOut, guards: Guards) -> None:
     past = written_past(model, guards)
     if past:
         raise PluginError(past[0].upper() + past[1:])
+    _check_energy(model)
     contacts = model.system.contacts
     for number in np.flatnonzero(~(gaps >= 0.0)).tolist():
         contact, gap = contacts[number], float(gaps[number])
@@ -52,6 +53,16 @@ def check_start(model: LaidOut, guards: Guards) -> None:
     _check_joints(model)
     t, y = float(model.memory.scalars["t"][0]), model.memory.array("y", model.n_q + model.n_u)
     check_guards(model.system, t, y[: model.n_q], y[model.n_q :])
+
+
+def _check_energy(model: LaidOut) -> None:
+    """Raise InvalidInput if numbers of a start are so large that an energy has no finite value."""
+    bodies = model.system.bodies
+    found = energies(bodies, model.memory.array("body_tail", len(bodies)), model.memory.floats)
+    for what, value in zip(("kinetic", "potential"), found, strict=True):
+        if not math.isfinite(value):
+            thing, rule = f"start: the {what} energy", "must be finite [J]"
+            raise InvalidInput(thing, rule, value, "Place the bodies nearer to the origin, or let them move slower.")
 
 
 def _ask_shapes(model: LaidOut, number: int) -> None:

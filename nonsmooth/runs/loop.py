@@ -91,8 +91,9 @@ def run_engine(
                     image, before = Image.of(memory), records.n_passed
                     keeper.keep(image)
                 if near:
-                    # with full buffers it would do nothing
-                    records.drain()
+                    if records.half_full:
+                        # an engine would do nothing
+                        records.drain()
                     most = max(_STEPS_NEAR_END, image.size // _IMAGE_PER_STEP)
                     status = engine_at.get_on(most if until is None else 1, image)
                 if status != DONE:

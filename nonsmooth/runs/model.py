@@ -43,6 +43,8 @@ _T_END, _INTERVAL, _FIRST, _NEXT, _SPAN, _INDEX, _CAPACITY = places(
     "t_end", "sample_interval", "sample_start", "next_sample", "sample_span", "sample_index", "sample_capacity"
 ).tolist()
 _DEFAULT_SAMPLES = 2000
+_MOST_SAMPLES = 10**8
+"""Samples of the smallest body alone then take more memory than most machines have."""
 _SAMPLES_AT_ONCE = 0.5
 _HELD = 1 << 20
 """Memory that a solution may hold until somebody looks at it [bytes]."""
@@ -453,4 +455,7 @@ def check_times(what: str, t_end: float, sample_interval: float | None, start: f
     interval = (t_end - start) / _DEFAULT_SAMPLES if sample_interval is None else sample_interval
     if not (is_finite(interval) and interval > 0.0):
         raise InvalidInput(f"{what}: sample_interval", "must be positive and finite", interval, "Give it in [s].")
+    if not t_end - start <= _MOST_SAMPLES * interval:
+        rule = f"must give at most {_MOST_SAMPLES:.0e} samples within {t_end - start:.6g} s"
+        raise InvalidInput(f"{what}: sample_interval", rule, interval, "Take a longer one, in [s].")
     return interval

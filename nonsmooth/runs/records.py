@@ -33,7 +33,7 @@ _BOOKED = places("driven_work", "restitution_loss", "friction_loss", "closing_lo
 _CODES = 1 << BEFORE | 1 << DURING | 1 << AFTER
 _FILLED = places("n_events", "n_samples", "floats_used", "integers_used", "last_floats").tolist()
 _EVENTS, _SAMPLES, _FLOATS, _INTEGERS, _ = _FILLED
-_CALLS, _TOLD, _INDEX = places("calls", "told", "sample_index").tolist()
+_CALLS, _TOLD, _INDEX, _CAPACITY = places("calls", "told", "sample_index", "sample_capacity").tolist()
 _T, _INTERVAL, _NEXT = places("t", "sample_interval", "next_sample").tolist()
 
 
@@ -68,6 +68,12 @@ class Records:
         _, integers = self.model.memory.cells
         earlier = 0 if self.earlier is None else len(self.earlier[0])
         return earlier + self._events + int(integers.item(_EVENTS) - integers.item(_TOLD))
+
+    @property
+    def half_full(self) -> bool:
+        """Whether the buffer of samples is half full, where engines pause."""
+        _, integers = self.model.memory.cells
+        return bool(2 * integers.item(_SAMPLES) > integers.item(_CAPACITY))
 
     def drain(self) -> None:
         """Empty the engine's buffers.

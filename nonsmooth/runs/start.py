@@ -15,6 +15,7 @@ from nonsmooth.model.given import check_candidates, check_parameters
 from nonsmooth.model.image import Booleans, Image
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.solution.state import Continuation, Integers, State
+from nonsmooth.system.given import check_quaternion
 
 _MODE, _PLACE = CATALOGUE.index("mode"), CATALOGUE.index("candidate")
 _COUNTERS = ("steps", "rejected", "impacts", "impact_steps", "gap_looks", "listings")
@@ -23,7 +24,6 @@ _OUTPUT = ("n_events", "n_samples", "floats_used", "integers_used", "last_floats
 _WHOLE = ("modes", "guards_spent")
 _NUMBERS = ("q", "u", "slip_directions", "closing_rates", "features", "law_states")
 _REMEDY = "Take a state of this system: solution.state of a run of it, or State.at(system, ...)."
-_UNIT = 1e-9
 """By how much a quaternion may be off unit length."""
 _NOT_CLOSED = 1e3
 """A contact that is closed may have a gap of so many gap tolerances."""
@@ -80,12 +80,7 @@ def check_start_numbers(model: LaidOut, state: State) -> None:
         raise InvalidInput(f"State.{name}", "must be finite numbers", float(value[number]), remedy)
     first = 0
     for body in model.system.bodies:
-        if body.quaternion >= 0:
-            start = first + body.quaternion
-            length = float(np.linalg.norm(state.q[start : start + 4]))
-            if not abs(length - 1.0) <= _UNIT:
-                thing = f"State.q[{start}:{start + 4}], the quaternion of {model.system.name_of(body)!r},"
-                raise InvalidInput(thing, "must have unit length", length, "Divide it by its norm.")
+        check_quaternion(f"State.q of {model.system.name_of(body)!r}", body, state.q[first : first + body.n_q])
         first += body.n_q
 
 

@@ -1,14 +1,20 @@
-"""What is given as a body, and what to do where it is none."""
+"""What is given as a body and as its start, and what to do where it is none."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from typing import Any
 
-from nonsmooth.checks import check_kind
+import numpy as np
+
+from nonsmooth.checks import check_kind, floats
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body, Shape
+from nonsmooth.interfaces.body import Vector
 from nonsmooth.plugins import registry
+
+_UNIT = 1e-9
+"""By so much the length of a quaternion may be off 1, which it is brought to by dividing once."""
 
 
 def check_bodies(bodies: Sequence[Body]) -> None:
@@ -46,3 +52,32 @@ def _instead(given: Any) -> str:
         known = [registry.load("bodies", name).__name__] if name in registry.names("bodies") else []
         return f"That is a shape; take a body that has it: {' or '.join([*known, 'one of `nonsmooth list bodies`'])}."
     return "Give the object of a body."
+
+
+def start_of(body: Body, name: str, q: Vector, u: Vector) -> tuple[Vector, Vector]:
+    """Return coordinates and velocities of a body as arrays of their own.
+
+    Raises
+    ------
+    InvalidInput
+        If they are not as many finite numbers as the body has, or a quaternion is not unit.
+    """
+    given = []
+    for letter, value, size in (("q", q, body.n_q), ("u", u, body.n_u)):
+        numbers = floats(f"System.set_start: {letter}", value)
+        if numbers.shape != (size,) or not np.all(np.isfinite(numbers)):
+            rule = f"must be {size} finite numbers"
+            raise InvalidInput(f"System.set_start: {letter}", rule, value, "See Body.state.")
+        given.append(numbers)
+    check_quaternion(f"System.set_start: q of {name!r}", body, given[0])
+    return given[0], given[1]
+
+
+def check_quaternion(thing: str, body: Body, q: Vector) -> None:
+    """Raise InvalidInput unless the quaternion among the coordinates of a body, if it has one, is unit."""
+    if body.quaternion < 0:
+        return
+    length = float(np.linalg.norm(q[body.quaternion : body.quaternion + 4]))
+    if not abs(length - 1.0) <= _UNIT:
+        which = f"{thing}: the quaternion q[{body.quaternion}:{body.quaternion + 4}]"
+        raise InvalidInput(which, "must have unit length", length, "Divide it by its norm.")

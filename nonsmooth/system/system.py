@@ -25,7 +25,7 @@ from nonsmooth.interfaces import (
 )
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.system.contact import Contact, Declaration, Tie, Watched
-from nonsmooth.system.given import check_bodies, stranger
+from nonsmooth.system.given import check_bodies, start_of, stranger
 from nonsmooth.system.gravity import gravity_of
 from nonsmooth.system.materials import ContactLaws, Materials, check_laws
 from nonsmooth.system.names import Names, Naming, between, kind_word
@@ -258,15 +258,11 @@ class System:
         Raises
         ------
         InvalidInput
-            If the body is not of this system, or a shape is wrong, or a number is not finite.
+            If the body is not of this system, or a shape is wrong, or a number is not finite, or a quaternion is not
+            unit.
         """
         self._require(body, "System.set_start")
-        for letter, value, size in (("q", q, body.n_q), ("u", u, body.n_u)):
-            if np.shape(value) != (size,) or not np.all(np.isfinite(value)):
-                raise InvalidInput(
-                    f"System.set_start: {letter}", f"must be {size} finite numbers", value, "See Body.state."
-                )
-        self._starts[self._numbers[id(body)]] = np.array(q, dtype=float), np.array(u, dtype=float)
+        self._starts[self._numbers[id(body)]] = start_of(body, self.name_of(body), q, u)
 
     def contact(
         self,

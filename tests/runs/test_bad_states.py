@@ -43,7 +43,7 @@ def test_numbers_that_are_none(model: ns.Model) -> None:
 
 def test_a_quaternion_off_unit_length(model: ns.Model) -> None:
     q = np.array([0.0, 0.0, 0.01, 1.0, 0.1, 0.0, 0.0])
-    _refused(model, "quaternion of 'ball'", "unit length", "1.00498", "Divide it", q=q)
+    _refused(model, "State.q of 'ball': the quaternion q[3:7]", "unit length", "1.00498", "Divide it", q=q)
 
 
 def test_a_mode_that_is_none_or_does_not_hold(model: ns.Model) -> None:

@@ -52,6 +52,20 @@ def _overlap() -> None:
     ns.simulate(system, 0.1)
 
 
+def _starts(q: Any = (0.0, 0.0, 0.1, 1.0, 0.0, 0.0, 0.0), u: Any = (0.0,) * 6, **times: Any) -> None:
+    ball = Ball(0.01)
+    system = ns.System([ball])
+    system.set_start(ball, q, u)
+    ns.simulate(system, times.pop("t_end", 0.1), **times)
+
+
+def _placed(**start: Any) -> None:
+    ball = Ball(0.01)
+    system = ns.System([ball])
+    system.place(ball, **start)
+    ns.simulate(system, 0.1)
+
+
 def _twice() -> None:
     plate, ball = Plate(), Ball(0.01)
     system = ns.System([plate, ball])
@@ -163,6 +177,43 @@ BAD: dict[str, tuple[Callable[[], Any], tuple[str, str, str, str]]] = {
     "a rod too long": (
         lambda: _tied(Distance(length=1.0), position=(0.0, 0.0, 0.9)),
         ("start of the joint 'distance plate - ball'", "must have the residual 0", "-0.09999", "Place the bodies"),
+    ),
+    "a long quaternion": (
+        lambda: _starts(q=(0.0, 0.0, 0.1, 2.0, 0.0, 0.0, 0.0)),
+        ("System.set_start: q of 'ball': the quaternion q[3:7]", "unit length", "2", "Divide"),
+    ),
+    "no quaternion": (
+        lambda: _starts(q=(0.0,) * 7),
+        ("System.set_start: q of 'ball': the quaternion q[3:7]", "unit length", "0", "Divide"),
+    ),
+    "a start of texts": (
+        lambda: _starts(u=("0",) * 6),
+        ("System.set_start: u", "must be an array of numbers", "'0'", "help"),
+    ),
+    "a place of texts": (lambda: _placed(position=("0", "0", "0.1")), ("position", "3 finite numbers", "'0.1'", "[m]")),
+    "a place of truth values": (
+        lambda: _placed(position=(True, False, True)),
+        ("position", "3 finite numbers", "True", "[m]"),
+    ),
+    "a spin without an energy": (
+        lambda: _placed(angular_velocity=(0.0, 0.0, 1e200)),
+        ("start: the kinetic energy", "must be finite [J]", "inf", "slower"),
+    ),
+    "a speed without an energy": (
+        lambda: _starts(u=(0.0, 0.0, 1e300, 0.0, 0.0, 0.0)),
+        ("start: the kinetic energy", "must be finite [J]", "inf", "slower"),
+    ),
+    "a truth value for a time": (
+        lambda: _starts(t_end=True),
+        ("simulate: t_end", "positive and finite", "True", "[s]"),
+    ),
+    "more samples than memory": (
+        lambda: _starts(sample_interval=1e-12),
+        ("simulate: sample_interval", "at most 1e+08 samples within 0.1 s", "1e-12", "longer"),
+    ),
+    "samples without end": (
+        lambda: _starts(sample_interval=1e-300),
+        ("simulate: sample_interval", "at most 1e+08 samples", "1e-300", "longer"),
     ),
     "a slanting axis": (lambda: Hinge(axis=(1.0, 1.0, 0.0)), ("Hinge.axis", "unit length", "1.0, 1.0", "Divide")),
     "shapes nobody knows": (
