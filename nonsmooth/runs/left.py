@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -12,6 +13,7 @@ from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CLOSING_
 from nonsmooth.engine.memory.limits import LIMITS
 from nonsmooth.model.image import Difference, Image
 from nonsmooth.model.laid_out import energies
+from nonsmooth.queries.near import size_of
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.solution import Counters, End
 from nonsmooth.solution.state import Continuation, Floats, State
@@ -66,10 +68,21 @@ class Left(NamedTuple):
             bodies = dict(zip(self.system.names.bodies, self.system.bodies, strict=True))
             moved = samples[:, 0], samples[:, 1 : 1 + int(record["n_q"])]
             scale = float(record["scale_energy"])
-            found = suspicions(worst, state.energy, bodies, moved, tolerances, counters.steps, scale)
+            found = suspicions(worst, state.energy, bodies, moved, tolerances, counters.steps, scale, self._floor())
             if found:
                 status, message = "suspect", f"{message}, but {found}"
         return End(state, counters, status, message)
+
+    def _floor(self) -> float:
+        """Return the work of the forces on all bodies, as they are now, on a way as long as the bodies [J]."""
+        now, total = self.now, 0.0
+        tails = now.array("body_tail", len(self.system.bodies)) - now.first
+        for body, tail in zip(self.system.bodies, tails.tolist(), strict=True):
+            size = size_of(body)
+            if body.n_u > 0 and math.isfinite(size):
+                force = now.blocks[tail + body.n_q : tail + body.n_q + body.n_u]
+                total += float(np.linalg.norm(force)) * size
+        return total
 
     def state(self) -> State:
         """Return the state in which the model is now."""

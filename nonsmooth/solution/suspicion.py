@@ -13,6 +13,9 @@ from nonsmooth.solution.energy import EnergyAccount
 
 _EXPLAINED = 1e3
 """What steps and impacts within their tolerances leave adds up to no more than so many of them, or one a step."""
+_MOST = 1e-3
+"""Part of the energy exchanged by which no account may be open, however many steps there were."""
+_REMEDY = "Smaller tolerances tell whether the run can be relied on: EventDriven(tolerance=..., impact_tolerance=...)"
 _OF_IMPACTS = 0.1
 """Part of the tolerance of impacts that adds up like that of steps."""
 _ROUND_OFF = 1e-12
@@ -27,19 +30,22 @@ def suspicions(
     tolerances: tuple[float, float],
     steps: int,
     scale: float,
+    floor: float,
 ) -> str:
     """Return what is wrong with a run, "" for nothing.
 
     ``worst_event`` has time [s], energy [J] and share of what is explained; ``bodies`` are those of the system by name;
     ``samples`` t and q; ``tolerances`` are those of a step and of an impact, ``steps`` their number; ``scale`` is
-    the kinetic energy of velocities as large as their scales [J].
+    the kinetic energy of velocities as large as their scales [J], ``floor`` an energy of which the bodies exchange a
+    part where they hardly move, as weight times size [J].
     """
     found = (
         open_event(*worst_event),
-        open_run(energy, max(tolerances[0], _OF_IMPACTS * tolerances[1]), steps, scale),
+        open_run(energy, max(tolerances[0], _OF_IMPACTS * tolerances[1]), steps, scale, floor),
         long_quaternion(bodies, *samples, tolerances[0]),
     )
-    return "; ".join(filter(None, found))
+    said = "; ".join(filter(None, found))
+    return f"{said}. {_REMEDY}" if said else ""
 
 
 def open_event(time: float, energy: float, share: float) -> str:
@@ -52,20 +58,23 @@ def open_event(time: float, energy: float, share: float) -> str:
     )
 
 
-def open_run(energy: EnergyAccount, tolerance: float, steps: int, scale: float = 0.0) -> str:
+def open_run(energy: EnergyAccount, tolerance: float, steps: int, scale: float = 0.0, floor: float = 0.0) -> str:
     """Return what is wrong with the energy account of a run of so many steps of a relative tolerance, or "".
 
-    Of slow motion the tolerance is a part of the scale of velocities, which have the kinetic energy ``scale`` [J].
+    Of slow motion the tolerance is a part of the scale of velocities, which have the kinetic energy ``scale`` [J].  In
+    all no more is explained than a thousandth of what is exchanged, or of ``floor`` [J] where that is more; an engine
+    with larger tolerances promises less, a thousand of them.
     """
     slow = steps * tolerance * math.sqrt(energy.scale * scale)
     potential = max(abs(energy.potential_start), abs(energy.potential_end))
-    explained = max(_EXPLAINED, steps) * tolerance * energy.scale + slow + _ROUND_OFF * potential
+    most = max(_MOST, _EXPLAINED * tolerance) * max(energy.scale, floor)
+    explained = min(max(_EXPLAINED, steps) * tolerance * energy.scale + slow, most) + _ROUND_OFF * potential
     if energy.unexplained <= explained:
         return ""
-    most = explained / energy.scale if energy.scale > 0.0 else explained
+    part = explained / energy.scale if energy.scale > 0.0 else explained
     return (
         f"the energy account of the run is open by {energy.unexplained:.3g} J, {energy.residual:.3g} of what was "
-        f"exchanged, of which the tolerances explain {most:.3g}"
+        f"exchanged, of which the tolerances explain {part:.3g}"
     )
 
 

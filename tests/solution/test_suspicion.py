@@ -38,11 +38,21 @@ def test_round_off_of_a_large_potential_energy_is_none() -> None:
 
 
 def test_slow_motion_is_known_to_a_part_of_the_scale_of_velocities() -> None:
-    """Ten steps, each to 1e-9 of velocities of a Joule, explain 1.4e-14 J of 2e-12 J."""
+    """Ten steps, each to 1e-9 of velocities of a Joule, explain 1.4e-14 J of 2e-12 J, of bodies of weight and size."""
     slow = EnergyAccount(0.0, 1e-12, 0.0, 0.0, 0.0, 0.0, 1e-12 - 1e-14, 0.0, 1e-12, 0.0)
     assert "open by 1e-14 J" in open_run(slow, 1e-9, 10)
-    assert open_run(slow, 1e-9, 10, 1.0) == ""
-    assert "open by 1e-14 J" in open_run(slow, 1e-9, 5, 1.0)
+    assert open_run(slow, 1e-9, 10, 1.0, 1e-10) == ""
+    assert "open by 1e-14 J" in open_run(slow, 1e-9, 5, 1.0, 1e-10)
+
+
+def test_no_number_of_steps_explains_a_thousandth() -> None:
+    """Of what is exchanged, 2 J, or of a floor; an engine with larger tolerances promises less."""
+    assert open_run(_account(1.9e-3), 1e-9, 10**9) == ""
+    assert "open by 0.0021 J" in open_run(_account(2.1e-3), 1e-9, 10**9)
+    assert "open by 0.0021 J" in open_run(_account(2.1e-3), 1e-9, 10, 1e12)
+    assert open_run(_account(2.1e-3), 1e-9, 10**9, 0.0, 3.0) == ""
+    assert open_run(_account(2.1e-3), 1e-5, 10) == ""
+    assert "open by 0.021 J" in open_run(_account(2.1e-2), 1e-5, 10)
 
 
 def test_an_event_is_named_with_time_and_energy() -> None:
@@ -70,7 +80,8 @@ def test_all_that_is_found_is_said() -> None:
     """Nothing for nothing."""
     t: Any = np.zeros(0)
     samples = t, np.zeros((0, 0))
-    assert suspicions((0.0, 0.0, 0.0), _account(0.0), {}, samples, (1e-9, 1e-8), 10, 0.0) == ""
-    both = suspicions((0.5, 1e-3, 2.0), _account(1e-3), {}, samples, (1e-9, 1e-8), 10, 0.0)
+    assert suspicions((0.0, 0.0, 0.0), _account(0.0), {}, samples, (1e-9, 1e-8), 10, 0.0, 0.0) == ""
+    both = suspicions((0.5, 1e-3, 2.0), _account(1e-3), {}, samples, (1e-9, 1e-8), 10, 0.0, 0.0)
     assert "at the event" in both
     assert "; the energy account" in both
+    assert "EventDriven(tolerance=" in both
