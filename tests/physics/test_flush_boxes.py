@@ -1,0 +1,50 @@
+"""Equal bodies that meet face to face: each other's corners lie in the planes of their sides."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+
+import nonsmooth as ns
+from bodies import BoxBody, HullBody
+from laws import Coulomb, EnergeticImpact, Unilateral
+from nonsmooth.interfaces import Body
+
+E = 0.5
+SIZES = ((0.05, 0.05, 0.05), (0.05, 0.03, 0.02))
+SHIFTS = ((0.0, 0.0), (1e-12, 0.0), (1e-9, 0.0), (1e-6, 0.0), (1e-6, 1e-6), (1e-3, 0.0), (5e-3, 3e-3))
+ANGLES = (0.0, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-3, 9.9e-3, 1.1e-2, 0.1, 0.25 * math.pi, 0.5 * math.pi)
+"""About the line of centres [rad]."""
+
+
+def _bodies(kind: str, size: tuple[float, float, float]) -> tuple[Body, Body]:
+    if kind == "box":
+        return BoxBody(*size), BoxBody(*size)
+    corners = [tuple(np.multiply(signs, size)) for signs in itertools.product((-1.0, 1.0), repeat=3)]
+    return HullBody(corners, 1000.0), HullBody(corners, 1000.0)
+
+
+@pytest.mark.fast_cases(24)
+@pytest.mark.parametrize("kind", ["box", "hull"])
+@pytest.mark.parametrize("size", SIZES, ids=["cube", "brick"])
+@pytest.mark.parametrize("shift", SHIFTS, ids=str)
+@pytest.mark.parametrize("angle", ANGLES)
+def test_they_collide_head_on(
+    angle: float, shift: tuple[float, float], size: tuple[float, float, float], kind: str
+) -> None:
+    """The second one leaves with (1 + e) / 2 of the speed where the line of centres is central; never inside."""
+    one, two = _bodies(kind, size)
+    system = ns.System([one, two], gravity=0.0)
+    system.contact(one, two, normal=Unilateral(), friction=Coulomb(0.0), impact=EnergeticImpact(E))
+    system.place(one, velocity=(1.0, 0.0, 0.0))
+    system.place(two, position=(2.0 * size[0] + 0.03, *shift), orientation=ns.turned_about((1.0, 0.0, 0.0), angle))
+    solution = ns.simulate(system, 0.06)
+    speed = float(solution.of(two)[1][-1, 0])
+    if max(shift) < 1e-5:
+        assert speed == pytest.approx(0.5 * (1.0 + E), abs=1e-5)
+    assert speed > 0.1
+    apart = float(solution.of(two)[0][-1, 0] - solution.of(one)[0][-1, 0]) - 2.0 * size[0]
+    assert apart > -1e-9
