@@ -34,7 +34,7 @@ _CODES = 1 << BEFORE | 1 << DURING | 1 << AFTER
 _FILLED = places("n_events", "n_samples", "floats_used", "integers_used", "last_floats").tolist()
 _EVENTS, _SAMPLES, _FLOATS, _INTEGERS, _ = _FILLED
 _CALLS, _TOLD, _INDEX, _CAPACITY = places("calls", "told", "sample_index", "sample_capacity").tolist()
-_T, _INTERVAL, _NEXT = places("t", "sample_interval", "next_sample").tolist()
+_T, _INTERVAL, _NEXT, _RESOLUTION = places("t", "sample_interval", "next_sample", "time_tolerance").tolist()
 
 
 @final
@@ -120,7 +120,8 @@ class Records:
         """
         floats, _ = self.model.memory.cells
         due = floats.item(_NEXT)
-        if due < floats.item(_T) - _ROUND_OFF * floats.item(_INTERVAL):
+        # a run that is shorter than the accuracy of its times has no step
+        if due < floats.item(_T) - max(_ROUND_OFF * floats.item(_INTERVAL), floats.item(_RESOLUTION)):
             raise InvalidInput(
                 f"{type(engine).__name__}.advance",
                 "must append all samples up to the time reached",

@@ -10,8 +10,11 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
-REACH = 1e-7
+REACH = 1e-9
 """A feature counts as longer by this part of the size of the bodies, so that round-off does not end aligned ones."""
+CLOSED = 1e-7
+"""So far, in parts of the size, a corner may reach out over the border of a face, and so small, as a sine, is the angle
+at which two edges do not cross: with one number for both, of faces turned by a smaller angle the corners hold."""
 
 BESIDE = 1e-2
 """A vertex is next to a face up to this part of the size of the bodies."""
@@ -106,14 +109,15 @@ def nearest_face(
     v = 3 * int(vertex)
     px, py, pz = point_in_world(other, vertices[v], vertices[v + 1], vertices[v + 2])
     x, y, z = vector_in_body(frame, px - frame[POSITION], py - frame[POSITION + 1], pz - frame[POSITION + 2])
-    margin = REACH * size
+    margin = CLOSED * size
     best, deepest, inner = -1e300, -1e300, 0
     for i in range(int(n_faces)):
         best = max(best, _least(frame, other, faces, FACE * i, n_vertices, vertices, best))
         height = plane_height(faces, FACE * i, x, y, z)
         if height > deepest:
             deepest, inner = height, i
-    beside = REACH * size < deepest <= BESIDE * size
+    # a corner in the plane of a side does not touch that side
+    beside = margin < deepest <= BESIDE * size
     found, gap, past = -1, deepest, 1e300
     for i in range(int(n_faces)):
         height = plane_height(faces, FACE * i, x, y, z)

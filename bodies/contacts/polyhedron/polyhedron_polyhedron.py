@@ -13,7 +13,7 @@ from bodies.contacts.features.curvature import write_principal
 from bodies.contacts.features.frames import point_in_world, vector_in_world
 from bodies.contacts.features.polytope_tables import FACE, INTO_FIRST, INTO_SECOND, Numbers, edge_rows, face_table
 from bodies.contacts.features.tangents import tangent_of
-from bodies.contacts.features.vertex_face import DEEP, REACH, height_over
+from bodies.contacts.features.vertex_face import CLOSED, DEEP, height_over
 from bodies.contacts.polyhedron.polyhedron_point import PointPolyhedron, PolyhedronPoint
 from bodies.contacts.polyhedron.swept_swept import MOST_CONTACTS, SweptSwept
 from bodies.contacts.surface.surface_pairs import SurfacePairs, features_of_core
@@ -24,8 +24,6 @@ from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
-_PARALLEL = 1e-7
-"""Sine of the angle between two edges below which they do not cross; then the faces' vertices hold all the same."""
 _ASTRAY = 0.25
 """Sine of the angle by which the normal may leave the normals that an edge has: what may soon close is followed."""
 
@@ -64,14 +62,14 @@ def _evaluate(
     wx, wy, wz = bx - ax, by - ay, bz - az
     nx, ny, nz = ey * fz - ez * fy, ez * fx - ex * fz, ex * fy - ey * fx
     sine = math.sqrt(nx * nx + ny * ny + nz * nz)
-    margin = REACH * size
-    if sine > 1e-3 * _PARALLEL:
+    margin = CLOSED * size
+    if sine > 1e-3 * CLOSED:
         nx, ny, nz = nx / sine, ny / sine, nz / sine
         # where the lines are nearest: (w x f) . n / sine along the first, (w x e) . n / sine along the second
         s = (nx * (wy * fz - wz * fy) + ny * (wz * fx - wx * fz) + nz * (wx * fy - wy * fx)) / sine
         t = (nx * (wy * ez - wz * ey) + ny * (wz * ex - wx * ez) + nz * (wx * ey - wy * ex)) / sine
         over = max(max(-s, s - edge_a[6]), max(-t, t - edge_b[6]))
-        past = max(over - margin, size * (_PARALLEL - sine))
+        past = max(over - margin, size * (CLOSED - sine))
     else:
         along = wx * ex + wy * ey + wz * ez
         nx, ny, nz = wx - along * ex, wy - along * ey, wz - along * ez
@@ -80,7 +78,7 @@ def _evaluate(
             nx, ny, nz = nx / apart, ny / apart, nz / apart
         else:
             nx, ny, nz = tangent_of(ex, ey, ez)
-        s, over, past = 0.0, 0.0, size * _PARALLEL
+        s, t, over, past = 0.0, 0.0, 0.0, 2.0 * margin
     gap = wx * nx + wy * ny + wz * nz
     overlap = 0.0
     # a contact may close up to the gap tolerance past its end: there the normal must be that of the edges, too
