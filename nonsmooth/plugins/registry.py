@@ -96,15 +96,17 @@ def _points(group: str) -> dict[str, EntryPoint]:
 
 def _is_installed(point: EntryPoint) -> bool:
     """Return whether a point is of an installed package, and not of metadata that lie in the working folder."""
-    if point.dist is None:
+    return point.dist is None or _is_installed_in(str(point.dist.locate_file("")))
+
+
+@functools.cache
+def _is_installed_in(place: str) -> bool:
+    try:
+        here = Path.cwd()
+    except FileNotFoundError:  # somebody has removed it
         return True
-    place = Path(str(point.dist.locate_file(""))).resolve()
-    installed = {Path(path).resolve() for path in (*sysconfig.get_paths().values(), *_user_sites())}
-    return place in installed or place != Path.cwd().resolve()
-
-
-def _user_sites() -> tuple[str, ...]:
-    return (*site.getsitepackages(), site.getusersitepackages())
+    sites = (*sysconfig.get_paths().values(), *site.getsitepackages(), site.getusersitepackages())
+    return Path(place).resolve() != here or Path(place).resolve() in {Path(one).resolve() for one in sites}
 
 
 @functools.cache

@@ -232,7 +232,7 @@ def test_a_run_with_a_law_of_a_file_is_looked_at_with_trust(call: Call, law: str
     status, _, errors = call("view", "results", "--html", "page.html")
     assert status == 2
     assert "results: the system that ran must be given, but it is None." in errors
-    assert "without ./my_law.py:Flat" in errors
+    assert "without './my_law.py:Flat'" in errors
     assert "see --trust" in errors
     assert call("view", "results", "--html", "page.html", "--trust")[0] == 0
     assert call("export", "results", "run.csv", "--trust")[0] == 0

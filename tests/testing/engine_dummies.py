@@ -28,6 +28,12 @@ def _late(memory: Memory, call: int) -> None:
         memory.scalars["next_sample"] += 0.01
 
 
+def _skip(memory: Memory, call: int) -> None:
+    if memory.scalars["sample_index"][0] > 1000:
+        memory.scalars["sample_index"] += 1
+        memory.scalars["next_sample"] += memory.scalars["sample_interval"]
+
+
 def _gain(memory: Memory, call: int) -> None:
     memory.scalars["driven_work"] += 0.01
 
@@ -79,6 +85,7 @@ DUMMIES: list[tuple[str, Engine]] = [
     ("names", Dummy(attic=("attic",))),
     ("free fall", Dummy(_push)),
     ("samples", Dummy(_late)),
+    ("many samples", Dummy(_skip)),
     ("energy", Dummy(_gain)),
     ("repeatable", Dummy(_age)),
     ("contact", Dummy(_overlook)),

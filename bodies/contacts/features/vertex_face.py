@@ -109,7 +109,8 @@ def nearest_face(
     v = 3 * int(vertex)
     px, py, pz = point_in_world(other, vertices[v], vertices[v + 1], vertices[v + 2])
     x, y, z = vector_in_body(frame, px - frame[POSITION], py - frame[POSITION + 1], pz - frame[POSITION + 2])
-    margin = CLOSED * size
+    # a point by itself has no edges beside it
+    margin = (CLOSED if n_vertices > 1.0 else REACH) * size
     best, deepest, inner = -1e300, -1e300, 0
     for i in range(int(n_faces)):
         best = max(best, _least(frame, other, faces, FACE * i, n_vertices, vertices, best))
