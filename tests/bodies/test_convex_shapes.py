@@ -88,7 +88,6 @@ def test_bounds_hold_the_drawing_tightly(name: str) -> None:
     assert np.all(vertices <= high + 1e-15)
 
 
-@pytest.mark.fast_cases(6)
 @pytest.mark.parametrize("name", SHAPES)
 def test_mass_properties_are_those_of_the_drawing(name: str) -> None:
     """Errors of the mesh fall with the square of its fineness, so two meshes give the limit to its fourth power."""

@@ -373,7 +373,6 @@ def test_what_is_wrong_along_one_direction_is_refused_at_the_start(
     assert isinstance(refused.value.__cause__, ValueError) is (number == 0.0)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("longer", "pointed"), [(1.0, 0.0), (-0.5, 0.0), (0.2, 0.45), (0.2, -0.45)])
 def test_eggs_that_are_not_convex_are_refused(longer: float, pointed: float) -> None:
     """Just beyond the bound of the radii of curvature, all of which those within it have."""
