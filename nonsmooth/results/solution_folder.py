@@ -350,11 +350,16 @@ def check_ours(path: Path) -> None:
     ------
     InvalidInput
         If it holds anything else.
+    FileError
+        If it cannot be read.
     """
     if path.is_symlink() or (path.exists() and not path.is_dir()):
         what = "a link" if path.is_symlink() else "a file"
         raise InvalidInput(str(path), "must be a folder that a run has made", what, "Name another folder.")
-    names = sorted(one.name for one in path.iterdir()) if path.exists() else []
+    try:
+        names = sorted(one.name for one in path.iterdir()) if path.exists() else []
+    except OSError as error:
+        raise FileError(path, error) from error
     if names and LOCK not in names and not _is_solution(path):
         raise InvalidInput(
             str(path),

@@ -18,8 +18,6 @@ _STATUSES = tuple(status for status in REASONS if status != CONDITION_MET)
 _WATCH = places("work", "patience", "calls")
 """What changes although nothing is done."""
 (_CALLS,) = places("calls").tolist()
-_IDLE = 2
-"""So many calls in a row that do nothing end a run: the first may only have set up what the next one needs."""
 
 
 @final
@@ -38,7 +36,6 @@ class Advancing:
 
     def __init__(self, engine: Engine, model: LaidOut, call: Callable[..., Any]) -> None:
         self._engine, self._memory, self._call = engine, model.memory, call
-        self._idle = 0
 
     def advance(self, most_steps: int, wary: bool) -> int:
         """Let the engine go on; return the status.
@@ -65,10 +62,12 @@ class Advancing:
         return int(status)
 
     def get_on(self, most_steps: int, before: Image) -> int:
-        """Let the engine go on that need not be wary, from an image that the memory has; as :meth:`advance`."""
+        """Let the engine go on that need not be wary, with empty buffers, from an image that the memory has.
+
+        Errors are those of :meth:`advance`.
+        """
         status = self.advance(most_steps, False)
-        self._idle = self._idle + 1 if status == PAUSED and self._is_as(before) else 0
-        if self._idle == _IDLE:
+        if status == PAUSED and self._is_as(before):
             raise InvalidInput(
                 f"{type(self._engine).__name__}.advance",
                 "must do a step where it need not be wary and the buffers are empty",

@@ -91,8 +91,10 @@ def run_engine(
                     image, before = Image.of(memory), records.n_passed
                     keeper.keep(image)
                 if near:
-                    if records.half_full:
-                        # an engine would do nothing
+                    if records.waiting:
+                        # with full buffers an engine would do nothing
+                        pace = pace or Pace(model, begun)
+                        pace.look(status)
                         records.drain()
                     most = max(_STEPS_NEAR_END, image.size // _IMAGE_PER_STEP)
                     status = engine_at.get_on(most if until is None else 1, image)

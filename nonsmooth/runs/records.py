@@ -33,7 +33,7 @@ _BOOKED = places("driven_work", "restitution_loss", "friction_loss", "closing_lo
 _CODES = 1 << BEFORE | 1 << DURING | 1 << AFTER
 _FILLED = places("n_events", "n_samples", "floats_used", "integers_used", "last_floats").tolist()
 _EVENTS, _SAMPLES, _FLOATS, _INTEGERS, _ = _FILLED
-_CALLS, _TOLD, _INDEX, _CAPACITY = places("calls", "told", "sample_index", "sample_capacity").tolist()
+_CALLS, _TOLD, _INDEX = places("calls", "told", "sample_index").tolist()
 _T, _INTERVAL, _NEXT, _RESOLUTION = places("t", "sample_interval", "next_sample", "time_tolerance").tolist()
 
 
@@ -70,10 +70,10 @@ class Records:
         return earlier + self._events + int(integers.item(_EVENTS) - integers.item(_TOLD))
 
     @property
-    def half_full(self) -> bool:
-        """Whether the buffer of samples is half full, where engines pause."""
+    def waiting(self) -> bool:
+        """Whether the engine's buffers hold anything."""
         _, integers = self.model.memory.cells
-        return bool(2 * integers.item(_SAMPLES) > integers.item(_CAPACITY))
+        return bool(integers.item(_SAMPLES) > 0 or integers.item(_EVENTS) > 0)
 
     def drain(self) -> None:
         """Empty the engine's buffers.

@@ -99,7 +99,9 @@ def job(
     gate = Gate(trusted=typed or trust)
     replaced = law.laws(laws, gate)
     other = None if asked is None else engine.engine(asked, gate)
-    if gate.trusted and (file.is_file(name) or name.endswith(".py")):
+    if file.is_file(name) or name.endswith(".py"):
+        if not gate.trusted:
+            gate.component("scenario", "scenarios", Scenario, name)
         owner = file.load("scenario", (Scenario,), name)
     # what looks like a file is one, of a known format or not
     elif Path(name).suffix and name not in registry.names("scenarios"):
