@@ -13,8 +13,11 @@ from nonsmooth.types import Floats
 REACH = 1e-9
 """A feature counts as longer by this part of the size of the bodies, so that round-off does not end aligned ones."""
 CLOSED = 1e-7
-"""So far, in parts of the size, a corner may reach out over the border of a face, and so small, as a sine, is the angle
-at which two edges do not cross: with one number for both, of faces turned by a smaller angle the corners hold."""
+"""A corner counts as over a face up to this part of the size past its border.
+
+Two edges whose angle has a smaller sine do not cross.  It is one number, so that one of the two always holds: of equal
+faces turned by a smaller angle the corners reach out by less.
+"""
 
 BESIDE = 1e-2
 """A vertex is next to a face up to this part of the size of the bodies."""
