@@ -10,7 +10,7 @@ from typing import final
 import numpy as np
 
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import ConvexShape
+from nonsmooth.interfaces import ConvexPart, ConvexShape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.vectors import perpendiculars
 
@@ -53,6 +53,17 @@ class Frustum(ConvexShape):
         numbers = self.frustum
         height = numbers[HIGH] - numbers[LOW]
         return numbers[FEET] * (numbers[SIDE] / height if height > 0.0 else 1.0)
+
+    @property
+    @final
+    def parts(self) -> tuple[ConvexPart, ...]:
+        """The hull of the rims that are set back, and the feet."""
+        numbers = self.frustum
+        place, sweep = np.array(numbers[CENTER : CENTER + 3]), numbers[SWEEP]
+        axes = np.array(numbers[AXIS - 2 : AXIS + 7]).reshape(3, 3)
+        rings = np.array([(*((np.array(c) - place) @ axes), r) for r, c in self.standing_rims])
+        feet = (ConvexPart.of_points(np.array([foot]), sweep) for foot in self.feet)
+        return ConvexPart(rings, ball=sweep, place=place, axes=axes), *feet
 
     @final
     def _rounded(self, direction: Vector) -> Vector:

@@ -8,7 +8,7 @@ from typing import final
 
 import numpy as np
 
-from nonsmooth.interfaces import Shape
+from nonsmooth.interfaces import ConvexPart, Shape
 from nonsmooth.interfaces.look import Look
 
 
@@ -37,6 +37,12 @@ class Ground(Shape):
     def ceiling(self) -> float:
         """The height [m]."""
         return self.height
+
+    @property
+    @final
+    def parts(self) -> tuple[ConvexPart, ...]:
+        """The half-space below."""
+        return (ConvexPart.below(self.height),)
 
     @property
     @final

@@ -8,7 +8,7 @@ from typing import final
 
 import numpy as np
 
-from nonsmooth.interfaces import Shape
+from nonsmooth.interfaces import ConvexPart, Shape
 from nonsmooth.interfaces.convex_solid import ConvexSolid
 from nonsmooth.interfaces.look import Look
 from nonsmooth.parameters import parameter
@@ -33,6 +33,11 @@ class Point(Shape):
         """The point."""
         place = np.array([self.x, self.y, self.z])
         return ConvexSolid(lambda direction: place)
+
+    @property
+    def parts(self) -> tuple[ConvexPart, ...]:
+        """The point."""
+        return (ConvexPart.of_points(np.array([[self.x, self.y, self.z]])),)
 
     @property
     def look(self) -> Look:

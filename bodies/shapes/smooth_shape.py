@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from abc import abstractmethod
 
-from nonsmooth.interfaces import ConvexShape
+import numpy as np
+
+from bodies.shapes.support_function import FUNCTION, OF_FUNCTION
+from nonsmooth.interfaces import ConvexPart, ConvexShape
 
 
 class SmoothShape(ConvexShape):
@@ -27,3 +30,14 @@ class SmoothShape(ConvexShape):
     def mixed(self) -> bool:
         """Whether it is flat along one of two ways and sharp along the other."""
         return self.core[0] > 0.0 and (self.core[3] - 2.0) * (self.core[4] - 2.0) < 0.0
+
+    @property
+    def parts(self) -> tuple[ConvexPart, ...]:
+        """The core with its radius."""
+        core = self.core
+        a, b, c, p, q, radius = core[:6]
+        place, axes = np.array(core[6:9]), np.array(core[9:18]).reshape(3, 3)
+        if p == OF_FUNCTION:
+            reach = self.length + float(np.linalg.norm(place))
+            return (ConvexPart(ball=radius, place=place, axes=axes, function=core[FUNCTION:], reach=reach),)
+        return (ConvexPart(semi=(a, b, c), powers=(p, q), ball=radius, place=place, axes=axes),)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from abc import abstractmethod
 
+import numpy as np
+
 from bodies.shapes.polytope import Polytope
-from nonsmooth.interfaces import ConvexShape
+from nonsmooth.interfaces import ConvexPart, ConvexShape
 
 
 class SweptPolytope(ConvexShape):
@@ -20,3 +22,8 @@ class SweptPolytope(ConvexShape):
     @abstractmethod
     def sweep(self) -> float:
         """Radius of the sphere that sweeps the core [m]."""
+
+    @property
+    def parts(self) -> tuple[ConvexPart, ...]:
+        """The hull of the vertices, swept."""
+        return (ConvexPart.of_points(np.array(self.core.vertices), self.sweep),)

@@ -17,7 +17,7 @@ from bodies.meshes.triangles import Triangles
 from bodies.shapes.placement import with_axes
 from bodies.shapes.polytope import MOST_VERTICES
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Shape
+from nonsmooth.interfaces import ConvexPart, Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.interfaces.look import Look
 from nonsmooth.parameters import parameter
@@ -84,6 +84,11 @@ class TriangleMesh(Shape):
         """What its surface encloses, in the body frame."""
         mesh = self.surface.mesh
         return MeshSolid(self._placed(mesh.vertices), mesh.faces)
+
+    @property
+    def parts(self) -> tuple[ConvexPart, ...]:
+        """The hull of its corners if it is convex."""
+        return (ConvexPart.of_points(self.corners),) if self.surface.mesh.is_convex else ()
 
     @property
     def length(self) -> float:

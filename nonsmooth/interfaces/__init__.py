@@ -2,6 +2,7 @@
 
 from nonsmooth.interfaces.body import Body
 from nonsmooth.interfaces.contact_kinematics import CandidateSearch, ContactKinematics
+from nonsmooth.interfaces.convex_part import ConvexPart
 from nonsmooth.interfaces.convex_shape import ConvexShape
 from nonsmooth.interfaces.criterion import Criterion
 from nonsmooth.interfaces.distance_backend import DistanceBackend
@@ -25,6 +26,7 @@ __all__ = [
     "CandidateSearch",
     "CompliantNormalLaw",
     "ContactKinematics",
+    "ConvexPart",
     "ConvexShape",
     "Criterion",
     "DistanceBackend",

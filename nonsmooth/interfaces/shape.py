@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 
+from nonsmooth.interfaces.convex_part import ConvexPart
 from nonsmooth.interfaces.look import Look
 from nonsmooth.interfaces.solid import Solid
 from nonsmooth.parameters import Component
@@ -20,7 +21,9 @@ class Shape(Component, ABC):
     3. may say by ``advice`` what to do where no kinematics is known for a pair with it;
     4. should give the ``solid`` that it bounds, where it has one: without it, what overlaps and what is met on a way is
        told by the gaps of contacts alone;
-    5. may say by ``look`` how it is drawn.
+    5. may say by ``parts`` of which convex parts it consists: a run looks at those of bodies whose contact is declared
+       where its steps begin, and ends if they have passed into each other;
+    6. may say by ``look`` how it is drawn.
     """
 
     def parameters(self) -> dict[str, float]:
@@ -70,6 +73,11 @@ class Shape(Component, ABC):
     def solid(self) -> Solid | None:
         """What it encloses; None, if it is not bounded or not known, by default."""
         return None
+
+    @property
+    def parts(self) -> tuple[ConvexPart, ...]:
+        """Convex parts that lie within what contacts see of it; none, by default, and it is not looked at in a run."""
+        return ()
 
     @property
     def look(self) -> Look:

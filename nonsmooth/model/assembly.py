@@ -18,6 +18,7 @@ from nonsmooth.model.image import Guards
 from nonsmooth.model.laid_out import LaidOut, map_width
 from nonsmooth.model.laying import lay_bodies, lay_guards, lay_joints, lay_loads
 from nonsmooth.model.laying_contacts import by_kind, initial_state, lay_contacts
+from nonsmooth.model.part_pairs import find_part_pairs, lay_part_pairs
 from nonsmooth.model.pools import lay_pools
 from nonsmooth.model.units import find_units, lay_units
 from nonsmooth.system.system import System
@@ -80,6 +81,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
     groups = articulations(system)
     table = ContactTable.of(bodies, contacts)
     units = find_units(contacts, table, bodies)
+    pairs = find_part_pairs(contacts, table)
     n_y = n_q + n_u + N_ACCOUNTS + n_states
     head = EVENT_HEAD + n_u + n_y + BOOKED
     counts = {
@@ -91,6 +93,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
         "n_paired": len(units.contacts),
         "n_walls": len(units.walls) if len(units.radii) > 0 else 0,
         "n_pools": len(units.pools),
+        "n_pairs": len(pairs),
         "n_own_guards": len(system.guards),
         "n_loads": len(system.loads),
         "n_joints": len(system.joints),
@@ -117,6 +120,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
     lay_loads(system, memory, heap, places)
     lay_contacts(memory, heap, contacts, table, kinds, places)
     lay_units(memory, units, {(p.number, f): at for p in places.values() for f, at in enumerate(p.frames)})
+    lay_part_pairs(memory, heap, pairs, places)
     lay_pools(memory, heap, units.pools, table, units.frames)
     lay_guards(system, memory, heap)
     model = LaidOut(system, heap.close(), n_q, n_u, n_states)

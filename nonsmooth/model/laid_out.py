@@ -17,6 +17,7 @@ from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.errors import InvalidInput, PluginError
 from nonsmooth.interfaces import Body, ImpactMap
 from nonsmooth.interfaces.distance_backend import Place
+from nonsmooth.model.part_pairs import unwatched
 from nonsmooth.model.pools import failed_search
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
@@ -57,6 +58,11 @@ class LaidOut:
     def watch(self) -> Watch:
         """What calls of the engine on its memory are made through that may take long."""
         return Watch(self.memory)
+
+    @functools.cached_property
+    def unwatched(self) -> list[int]:
+        """Numbers of the contacts at whose pairs of bodies the engine cannot look."""
+        return unwatched(self.system.contacts)
 
     def list_contacts(self) -> None:
         """List the contacts that are near each other at the present state.

@@ -31,34 +31,52 @@ def overlap_allowed(contact: Contact) -> float:
 def check_overlaps(model: LaidOut) -> None:
     """Look at the solids of all contacts near each other, whose bodies have been evaluated.
 
-    Compliant bodies may overlap where that is felt: where they have a gap that is negative.
-
     Raises
     ------
     InvalidInput
         If two overlap.
     """
+    found = deepest_overlap(model, model.memory.array("identity", int(model.memory.scalars["n_contacts"][0])).tolist())
+    if found is not None:
+        contact, depth = found
+        kinds = " and ".join(type(shape).__name__ for shape in contact.shapes)
+        raise InvalidInput(
+            f"start of the {contact}",
+            "must not overlap: its gap must be >= 0 [m]",
+            -depth,
+            f"The solids of {kinds} reach at least so far into each other. Place the bodies apart or touching, "
+            "or declare no contact between them.",
+        )
+
+
+def deepest_overlap(model: LaidOut, numbers: Sequence[int]) -> tuple[Contact, float] | None:
+    """Return a contact whose solids overlap, and by how much at least [m]; None if no tolerance is exceeded.
+
+    Compliant bodies may overlap where that is felt: where they have a gap that is negative.
+
+    Parameters
+    ----------
+    model : LaidOut
+        Laid out, its bodies and the contacts near each other evaluated.
+    numbers : sequence of int
+        Contacts of the system that are looked at.
+    """
     contacts, memory = model.system.contacts, model.memory
     n = int(memory.scalars["n_contacts"][0])
     blocks = memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)
     slots = {number: slot for slot, number in enumerate(memory.array("identity", n).tolist())}
-    for numbers, one, two in solid_pairs(model, list(slots), within=0.0):
-        contact = contacts[numbers[0]]
-        least = min(float(blocks[slots[number], 0]) for number in numbers)
+    for same, one, two in solid_pairs(model, numbers, within=0.0):
+        contact, near = contacts[same[0]], [slots[number] for number in same if number in slots]
+        least = min((float(blocks[slot, 0]) for slot in near), default=0.0)
         if least < 0.0 and isinstance(contact.normal, CompliantNormalLaw):
             continue
         allowed = overlap_allowed(contact) + one.solid.set_back + two.solid.set_back
-        nearest = min((slots[number] for number in numbers), key=lambda slot: abs(float(blocks[slot, 0])))
-        found = overlap(one, two, allowed, blocks[nearest, 1:4])
+        nearest = min(near, key=lambda slot: abs(float(blocks[slot, 0])), default=None)
+        normal = np.array([0.0, 0.0, 1.0]) if nearest is None else blocks[nearest, 1:4]
+        found = overlap(one, two, allowed, normal)
         if found > 0.0:
-            kinds = " and ".join(type(shape).__name__ for shape in contact.shapes)
-            raise InvalidInput(
-                f"start of the {contact}",
-                "must not overlap: its gap must be >= 0 [m]",
-                -found,
-                f"The solids of {kinds} reach at least so far into each other. Place the bodies apart or touching, "
-                "or declare no contact between them.",
-            )
+            return contact, found
+    return None
 
 
 def solid_pairs(

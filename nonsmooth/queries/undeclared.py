@@ -31,6 +31,10 @@ class UndeclaredOverlap(NonsmoothWarning):
     """Bodies without a contact that overlap: where a run starts, or where it ended, having passed into each other."""
 
 
+class UndeclaredContact(NonsmoothWarning):
+    """A body that moves by itself and has no contact with any other, though there are some that it could meet."""
+
+
 @final
 @dataclass(frozen=True)
 class Undeclared:
@@ -67,6 +71,28 @@ class Undeclared:
         moves = self.system.bodies[i].n_u + self.system.bodies[j].n_u > 0
         said = (i, j) in self.ties.declared or (i, j) in self.ties.excluded
         return moves and not said and not self.ties.same_mechanism(i, j)
+
+    def warn_of_lone(self) -> None:
+        """Warn of bodies that move and have no contact at all, where another one is there that they could meet.
+
+        Bodies that a joint or a load ties to another one are held by that.
+        """
+        bodies, names = self.system.bodies, self.system.names.bodies
+        known = {i for pair in self.ties.declared for i in pair}
+        tied = {id(body) for tie in (*self.system.joints, *self.system.loads) for body in (tie.first, tie.second)}
+        shaped = [i for i, body in enumerate(bodies) if any(body.frames)]
+        lone = [i for i in shaped if i not in known and bodies[i].n_u > 0 and id(bodies[i]) not in tied]
+        met = [(i, j) for i in lone for j in shaped if i != j and self._is_one(min(i, j), max(i, j))]
+        if not met:
+            return
+        named = [f"{names[i]!r} through {names[j]!r}" for i, j in dict(reversed(met)).items()][::-1]
+        more = f", and {len(named) - _NAMED} more bodies" if len(named) > _NAMED else ""
+        warnings.warn(
+            f"Bodies without any contact pass through others: {', '.join(named[:_NAMED])}{more}. Declare a contact by "
+            "system.contact(...), or say by system.exclude(first, second) that they do not touch.",
+            UndeclaredContact,
+            stacklevel=4,
+        )
 
     def near(self, places: Places) -> list[tuple[int, int]]:
         """Return those whose boxes meet where the frames have these places."""

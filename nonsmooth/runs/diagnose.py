@@ -17,6 +17,7 @@ from nonsmooth.engine.memory.modes import (
     GAP_UNEXPLAINED,
     MOTION_UNEXPLAINED,
     NOT_FINITE,
+    PASSED,
     QUATERNION_UNEXPLAINED,
     STEP_TOO_SMALL,
 )
@@ -42,7 +43,7 @@ def culprit(model: LaidOut, status: int) -> str:
 
 
 def _culprit(model: LaidOut, status: int) -> str:
-    if status in (GAP_UNDECIDED, GAP_UNEXPLAINED, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED):
+    if status in (GAP_UNDECIDED, GAP_UNEXPLAINED, PASSED, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED):
         return unexplained(model, status)
     if found := squeezed(model, status):
         return found

@@ -30,6 +30,7 @@ from nonsmooth.runs.keeper import Keeper, KeepsNothing
 from nonsmooth.runs.left import Left
 from nonsmooth.runs.loop import Progress, run_engine
 from nonsmooth.runs.outcome import reason
+from nonsmooth.runs.passed import passed
 from nonsmooth.runs.records import Records
 from nonsmooth.runs.so_far import Until
 from nonsmooth.runs.start import begin, check_arrays, check_closed, check_start_numbers, go_on, restore
@@ -78,6 +79,8 @@ class Model:
         -----
         UndeclaredOverlap
             If bodies overlap at the start that have no contact, are not joined and not excluded.
+        UndeclaredContact
+            If a body that nothing ties to another one has no contact at all, and is not excluded from meeting others.
 
         Raises
         ------
@@ -88,6 +91,7 @@ class Model:
         check_kind("engine", engine, Engine, "Give nonsmooth.EventDriven(), or another one with its options.")
         made = cls.anywhere(system, engine)
         made._check_start()
+        made._undeclared.warn_of_lone()
         made._undeclared.warn_of_start(made._laid.places())
         return made
 
@@ -416,6 +420,8 @@ class Model:
             said = reason(laid, self._guards, ending)
             wall += time.perf_counter() - began
             left, recorded = self._left(energy, ending.image, ending.told), records.joined(self._engine)
+            if said[0] == "done" and (found := passed(laid, recorded.rows)):
+                said = "failed", found
             solution = Solution(laid.system, recorded, partial(left.end, said, wall, recorded.rows))
             if 2 * self._blank.size > _HELD:
                 # reads it: next to a run of so many contacts that takes no time

@@ -7,6 +7,7 @@ from nonsmooth.engine.memory.modes import (
     GAP_UNDECIDED,
     GAP_UNEXPLAINED,
     MOTION_UNEXPLAINED,
+    PASSED,
     QUATERNION_UNEXPLAINED,
 )
 from nonsmooth.model.laid_out import LaidOut
@@ -24,6 +25,14 @@ def unexplained(model: LaidOut, status: int) -> str:
         return (
             f"The {contact}: the gap is {found:.3g} m, of which tolerances explain {allowed:.3g} m.  It jumps in "
             f"{described(contact.kinematics.evaluator)}, or contacts that contradict each other are closed. {_REMEDY}"
+        )
+    if status == PASSED:
+        contact, names = model.system.contacts[number], model.system.names.bodies
+        first, second = (names[model.system.bodies.index(body)] for body in (contact.first, contact.second))
+        return (
+            f"The bodies {first!r} and {second!r} of the {contact} overlap by {-found:.3g} m, of which their closed "
+            f"contacts explain {-allowed:.3g} m. Their features missed each other: turn or shift one of them by a "
+            "thousandth of its size, give it feet or a rounding, or take shorter steps, EventDriven(largest_step=...)."
         )
     if status == GAP_UNDECIDED:
         n = int(scalars["n_contacts"])

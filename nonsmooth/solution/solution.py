@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.engine.memory.modes import GUARD, IMPACT, JAM, PAINLEVE
 from nonsmooth.interfaces import Body
+from nonsmooth.model.part_pairs import unseen
 from nonsmooth.notices import say
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events, words
@@ -189,11 +190,20 @@ class Solution:
         """Why it stopped, and what is suspect."""
         return self.end.message
 
+    @functools.cached_property
+    def unseen(self) -> tuple[str, ...]:
+        """Names of the contacts of which only their own gap tells that bodies pass into each other.
+
+        All other pairs of bodies between which contacts are declared are looked at as wholes, too.
+        """
+        return tuple(unseen(self.system.contacts))
+
     def __repr__(self) -> str:
         """Return how it ended, and how much there is of it."""
+        unseen = f", {len(self.unseen)} contacts seen by their gaps only" if self.unseen else ""
         return (
             f"Solution({self.status} at t = {self.t_end:.9g} s: {self.message}; {len(self.t)} samples, "
-            f"{len(self.events)} events, energy residual {self.energy.residual:.1e})"
+            f"{len(self.events)} events, energy residual {self.energy.residual:.1e}{unseen})"
         )
 
     @property

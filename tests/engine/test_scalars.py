@@ -12,11 +12,12 @@ ENGINE = Path(nonsmooth.__file__).parent / "engine"
 LOWER = {
     "numerics": (),
     "bodies": ("numerics",),
-    "delassus": ("numerics", "bodies"),
-    "contact": ("numerics", "bodies", "delassus"),
-    "impact": ("numerics", "bodies", "delassus", "contact"),
-    "flow": ("numerics", "bodies", "delassus", "contact"),
-    "events": ("numerics", "bodies", "delassus", "contact", "impact", "flow"),
+    "pairs": ("numerics", "bodies"),
+    "delassus": ("numerics", "bodies", "pairs"),
+    "contact": ("numerics", "bodies", "pairs", "delassus"),
+    "impact": ("numerics", "bodies", "pairs", "delassus", "contact"),
+    "flow": ("numerics", "bodies", "pairs", "delassus", "contact"),
+    "events": ("numerics", "bodies", "pairs", "delassus", "contact", "impact", "flow"),
 }
 
 

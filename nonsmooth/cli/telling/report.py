@@ -31,6 +31,7 @@ _NUMBERS = (
     "step_limits",
     "event_intervals",
     "contacts",
+    "unseen_contacts",
     "mode_words",
     "energy_residual",
 )
@@ -51,6 +52,7 @@ def of_solution(solution: Solution | None) -> Report:
         "step_limits": dict(solution.counters.limits),
         "event_intervals": solution.events.intervals(),
         "contacts": list(solution.system.names.contacts),
+        "unseen_contacts": list(solution.unseen),
         "mode_words": solution.modes,
         "energy_residual": solution.energy.residual,
     }

@@ -6,9 +6,10 @@ from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry
 from nonsmooth.engine.flow.mean_work import book_mean_forces
 from nonsmooth.engine.memory.layout import EXCHANGED
-from nonsmooth.engine.memory.modes import GAP_UNEXPLAINED, OPEN, RUNNING
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, body_at, contact_at, frame_at, kernel
+from nonsmooth.engine.memory.modes import GAP_UNEXPLAINED, OPEN, PASSED, RUNNING
+from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, body_at, contact_at, frame_at, kernel, pair_at
 from nonsmooth.engine.numerics.vectors import minus
+from nonsmooth.engine.pairs.look import look_at_pairs
 
 EXPLAINED = 1e3
 """What steps and events within their tolerances leave adds up to no more than so many of them."""
@@ -74,10 +75,15 @@ def _presses(S: Scalars, w: Floats, k: Integers, c: int) -> int:
 
 @kernel("void(S, F, I)")
 def check_gaps(S: Scalars, w: Floats, k: Integers) -> None:
-    """Look at the gaps where a step begins: open contacts must be apart, closed rigid ones closed.
+    """Look at pairs and gaps where a step begins: open contacts must be apart, closed rigid ones closed.
 
     Bodies that springs let into each other overlap at other features, too, as long as one contact of theirs is closed.
     """
+    for number in range(S.n_pairs):
+        pair = pair_at(S, w, k, number)
+        if pair.excess < 0.0:
+            group = pair_at(S, w, k, pair.group)
+            blame(S, PASSED, pair.contact, pair.excess + group.deepest - pair.allowed, group.deepest - pair.allowed)
     for c in range(S.n_contacts):
         contact = contact_at(S, w, k, c)
         gap = contact.gap_end
@@ -159,6 +165,8 @@ def check_end(S: Scalars, w: Floats, k: Integers) -> None:
         contact = contact_at(S, w, k, c)
         evaluate_geometry(S, w, k, c)
         contact.gap_end, contact.overlap_end = contact.gap, contact.overlap
+    if S.n_pairs > 0:
+        look_at_pairs(S, w, k)
     book_mean_forces(S, w, k)
     S.scale_energy = scale_energy(S, w, k)
     close_account(S, w, k)

@@ -72,5 +72,14 @@ FORCE_AND_MOMENT = 5
 """Floats that a law of traction writes before the rates of its states."""
 DELASSUS = 9
 """Floats of a block of the Delassus matrix, row by row."""
+PART_PLACE, PART_AXES, PART_SEMI, PART_POWERS, PART_BALL, PART_RADIUS = 0, 3, 12, 15, 17, 18
+"""Where the numbers of a convex part stand (:class:`nonsmooth.interfaces.ConvexPart`): its origin and axes in the frame
+of its body, semi-axes and powers of what is added, the radius of the ball that is, and of one about the origin that
+holds it all;"""
+PART_FUNCTION, PART_COUNT, PART_RINGS = 19, 20, 21
+"""where in them a function stands that gives what is added, 0 for none, how many circles there are, -1 for a half-space
+below the origin, and the circles."""
+RING = 4
+"""Centre and radius of a circle."""
 CANDIDATE = 3
 """Numbers of a pair of features in a pool; the first is not 0."""

@@ -10,6 +10,14 @@ from nonsmooth.engine.memory.blocks import (
     LOAD_MOMENT,
     LOAD_POINT,
     MOMENT,
+    PART_AXES,
+    PART_BALL,
+    PART_COUNT,
+    PART_FUNCTION,
+    PART_PLACE,
+    PART_POWERS,
+    PART_RADIUS,
+    PART_SEMI,
     POINT_A,
     POINT_B,
     POSITION,
@@ -129,6 +137,38 @@ POOL = without(
     "pool_unit_b",
 )
 """Of a pool of features (:mod:`nonsmooth.engine.bodies.pools`)."""
+
+PAIR_OF_PARTS: Fields = {
+    **without(
+        "pair_",
+        "pair_frame_a",
+        "pair_frame_b",
+        "pair_part_a",
+        "pair_part_b",
+        "pair_group",
+        "pair_contact",
+        "pair_allowed",
+        "pair_size",
+        "pair_closed",
+        "pair_deepest",
+        "pair_excess",
+    ),
+    "direction": vector("pair_direction", 0, 3),
+    "normal": vector("pair_normal", 0, 3),
+}
+"""Of a pair of convex parts (:mod:`nonsmooth.engine.pairs.look`)."""
+
+CONVEX_PART: Fields = {
+    "place": packed(PART_PLACE, 3),
+    "axes": packed(PART_AXES, 9),
+    "semi": packed(PART_SEMI, 3),
+    "powers": packed(PART_POWERS, 2),
+    "ball": packed(PART_BALL),
+    "radius": packed(PART_RADIUS),
+    "function": packed(PART_FUNCTION),
+    "rings": packed(PART_COUNT),
+}
+"""Of a convex part."""
 
 FRAME_OF_BODY: Fields = {
     "origin": packed(POSITION, 3),

@@ -59,6 +59,7 @@ CONTACT: Fields = {
         "axis",
         "facing",
         "candidate",
+        "pair",
         "nu_a",
         "nu_b",
         "shift_a",

@@ -50,6 +50,7 @@ CATALOGUE = (
     "oriented",
     "axis",
     "candidate",
+    "pair",
     "mode",
     "averaged",
 )

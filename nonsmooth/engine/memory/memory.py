@@ -157,7 +157,7 @@ class Memory:
         return tuple(part.view(np.int64) for part in (self.scalars, *self.kept))
 
 
-ALWAYS = ("bodies", "numerics", "events")
+ALWAYS = ("bodies", "pairs", "numerics", "events")
 """Layers whose arrays every engine needs: where things are, coefficients, and what is recorded."""
 
 

@@ -43,7 +43,7 @@ STEP_TOO_SMALL, NOT_FINITE, IMPACT_ENDLESS, NO_CONTACT_SOLUTION, UPDATE_ENDLESS,
 STOPPED, NO_SLOT, PARADOX_REFUSED, JOINTS_APART = range(9, 13)
 GAP_UNEXPLAINED, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED = range(13, 16)
 CONDITION_MET = 16
-GAP_UNDECIDED = 17
+GAP_UNDECIDED, PASSED = 17, 18
 """Status of the engine."""
 
 REASONS = {
@@ -59,6 +59,7 @@ REASONS = {
     JOINTS_APART: "joints contradict each other: there is no motion that keeps all of them closed",
     GAP_UNEXPLAINED: "a gap is none that the tolerances explain",
     GAP_UNDECIDED: "whether a gap closes within a step is not decided after ten thousand looks at it",
+    PASSED: "bodies passed into each other",
     MOTION_UNEXPLAINED: "closing contacts or joints would move a body farther than the tolerances explain",
     QUATERNION_UNEXPLAINED: "a quaternion has left unit length by more than the tolerances explain",
     PARADOX_REFUSED: "sliding has no contact force (Painleve), and the option painleve is 'refuse'",

@@ -13,9 +13,11 @@ from collections.abc import Mapping
 from nonsmooth.engine.memory.body_records import (
     ARTICULATION,
     BODY,
+    CONVEX_PART,
     FRAME_OF_BODY,
     JOINT,
     LOAD,
+    PAIR_OF_PARTS,
     POOL,
     ROW_OF_JOINT,
     UNIT,
@@ -44,6 +46,7 @@ RECORDS: Mapping[str, Fields] = {
     "unit": UNIT,
     "wall": WALL,
     "pool": POOL,
+    "pair": PAIR_OF_PARTS,
     "own_guard": OWN_GUARD,
     "guard": GUARD,
     "unknown": UNKNOWN,
@@ -55,6 +58,7 @@ PACKED: Mapping[str, Fields] = {
     "delassus_block": DELASSUS_BLOCK,
     "joint_row": ROW_OF_JOINT,
     "frame": FRAME_OF_BODY,
+    "part": CONVEX_PART,
     "load_wrench": WRENCH_OF_LOAD,
 }
 """Records in the heap of floats, by kind: one behind another, or with stride 0 each by itself."""

@@ -11,13 +11,14 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.memory.arrays import bodies, contact, delassus, events, flow, impact, numerics
+from nonsmooth.engine.memory.arrays import bodies, contact, delassus, events, flow, impact, numerics, pairs
 from nonsmooth.engine.memory.arrays.arrays import Arrays, Size
 
 # that of the events comes first: what no step reads of those before begins with its output
 ARRAYS_OF: dict[str, Arrays] = {
     "events": events.ARRAYS,
     "bodies": bodies.ARRAYS,
+    "pairs": pairs.ARRAYS,
     "numerics": numerics.ARRAYS,
     "delassus": delassus.ARRAYS,
     "contact": contact.ARRAYS,
@@ -77,6 +78,7 @@ COUNTS = (
     "n_paired",
     "n_walls",
     "n_pools",
+    "n_pairs",
     "n_own_guards",
     "n_loads",
     "n_joints",

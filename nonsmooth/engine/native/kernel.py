@@ -69,12 +69,16 @@ unknown_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["unk
 """an unknown of the contact problem,"""
 pool_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["pool"]
 """a pool,"""
+pair_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["pair"]
+"""a pair of convex parts,"""
 guard_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["guard"]
 """a guard,"""
 own_guard_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["own_guard"]
 """and a guard of the scenario, by its number among these."""
 frame_at: Callable[[Floats, int], Any] = _half.records["frame"]
 """``frame_at(w, place)``: a frame that a body writes by name."""
+part_at: Callable[[Floats, int], Any] = _half.records["part"]
+"""``part_at(w, place)``: the numbers of a convex part by name."""
 joint_row: Callable[[Floats, int, int], Any] = _half.records["joint_row"]
 """``joint_row(w, joint.out, r)``: a row that a joint writes by name."""
 load_wrench: Callable[[Floats, int], Any] = _half.records["load_wrench"]
@@ -175,6 +179,8 @@ __all__ = [
     "load_wrench",
     "own_guard_at",
     "own_kernel",
+    "pair_at",
+    "part_at",
     "part_end",
     "pool_at",
     "shared",

@@ -1,0 +1,36 @@
+"""Pairs of convex parts of bodies between which contacts are declared, and the search for their separation."""
+
+from __future__ import annotations
+
+from nonsmooth.engine.memory.arrays.arrays import Arrays, fixed, per, whole
+
+ARRAYS = Arrays(
+    scalars={
+        **whole(
+            "n_pairs",
+        ),
+    },
+    floats={
+        "pair_allowed": per(1, "n_pairs"),
+        "pair_size": per(1, "n_pairs"),
+    },
+    integers={
+        "pair_frame_a": per(1, "n_pairs"),
+        "pair_frame_b": per(1, "n_pairs"),
+        "pair_part_a": per(1, "n_pairs"),
+        "pair_part_b": per(1, "n_pairs"),
+        "pair_group": per(1, "n_pairs"),
+        "pair_contact": per(1, "n_pairs"),
+    },
+    # renewed by every look: no step finds in them what changes a motion
+    later_floats={
+        "pair_direction": per(3, "n_pairs"),
+        "pair_normal": per(3, "n_pairs"),
+        "pair_deepest": per(1, "n_pairs"),
+        "pair_excess": per(1, "n_pairs"),
+        "simplex": fixed(16),
+    },
+    later_integers={
+        "pair_closed": per(1, "n_pairs"),
+    },
+)

@@ -1,0 +1,146 @@
+"""Supports of convex parts, and the separation of two of them along a direction.
+
+A part is the hull of circles about its third axis, points if they have no radius, with an ellipsoid (or a norm of other
+powers, or what a plug-in's function gives) and a ball added: the support of a sum is the sum of the supports.  The
+separation s(n) = min over b of n . b - max over a of n . a says how far all of the second part lies beyond all of the
+first along a unit vector n.  It is a lower bound of the signed distance, whatever n is.
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.memory.blocks import PART_RINGS, RING
+from nonsmooth.engine.native.kernel import (
+    Floats,
+    Integers,
+    Scalars,
+    at,
+    call_support,
+    frame_at,
+    kernel,
+    pair_at,
+    part_at,
+)
+from nonsmooth.engine.numerics.vectors import Vector, dot, minus, opposite
+
+
+@kernel("v3(F, v3)")
+def _turned(axes: Floats, v: Vector) -> Vector:
+    """Return a vector given in the axes that are the columns of a matrix, in those of its rows."""
+    x, y, z = v
+    return (
+        axes[0] * x + axes[1] * y + axes[2] * z,
+        axes[3] * x + axes[4] * y + axes[5] * z,
+        axes[6] * x + axes[7] * y + axes[8] * z,
+    )
+
+
+@kernel("v3(F, v3)")
+def _turned_back(axes: Floats, v: Vector) -> Vector:
+    """Return a vector given in the axes of the rows, in those that are the columns."""
+    x, y, z = v
+    return (
+        axes[0] * x + axes[3] * y + axes[6] * z,
+        axes[1] * x + axes[4] * y + axes[7] * z,
+        axes[2] * x + axes[5] * y + axes[8] * z,
+    )
+
+
+@kernel("v3(F, i8, v3)")
+def _on_rings(w: Floats, place: int, n: Vector) -> Vector:
+    """Return the point of the hull of a part's circles that lies farthest along ``n``; none is the origin."""
+    rings = at(w, place + PART_RINGS)
+    x, y, z = n
+    across = math.sqrt(x * x + y * y)
+    best, found = -1e300, 0
+    for i in range(int(part_at(w, place).rings)):
+        at_i = RING * i
+        height = rings[at_i] * x + rings[at_i + 1] * y + rings[at_i + 2] * z + rings[at_i + 3] * across
+        if height > best:
+            best, found = height, at_i
+    if best == -1e300:
+        return 0.0, 0.0, 0.0
+    part = rings[found + 3] / across if across > 0.0 else 0.0
+    return rings[found] + part * x, rings[found + 1] + part * y, rings[found + 2]
+
+
+@kernel("v3(F, i8, v3)")
+def _on_norm(w: Floats, place: int, n: Vector) -> Vector:
+    """Return the gradient of ((|a n_x|^q + |b n_y|^q)^(p/q) + |c n_z|^p)^(1/p) at ``n``."""
+    part = part_at(w, place)
+    a, b, c = part.semi
+    p, q = part.powers[0], part.powers[1]
+    ax, by, cz = abs(a * n[0]), abs(b * n[1]), abs(c * n[2])
+    wide = max(ax, by)
+    if wide > 0.0:
+        wide *= ((ax / wide) ** q + (by / wide) ** q) ** (1.0 / q)
+    high = max(wide, cz)
+    if high == 0.0:
+        return 0.0, 0.0, 0.0
+    high *= ((wide / high) ** p + (cz / high) ** p) ** (1.0 / p)
+    round_axis = (wide / high) ** (p - 1.0)
+    x = (ax / wide) ** (q - 1.0) * round_axis if wide > 0.0 else 0.0
+    y = (by / wide) ** (q - 1.0) * round_axis if wide > 0.0 else 0.0
+    return math.copysign(a * x, n[0]), math.copysign(b * y, n[1]), math.copysign(c * (cz / high) ** (p - 1.0), n[2])
+
+
+@kernel("v3(F, i8, v3)")
+def _added(w: Floats, place: int, n: Vector) -> Vector:
+    """Return the point of what is added to a part's circles that lies farthest along a unit vector."""
+    part = part_at(w, place)
+    x, y, z = 0.0, 0.0, 0.0
+    if part.function > 0.0:
+        x, y, z = call_support(at(w, place), int(part.function), n[0], n[1], n[2])
+    elif part.semi[0] > 0.0:
+        if part.powers[0] == 2.0 and part.powers[1] == 2.0:
+            ax, by, cz = part.semi[0] * n[0], part.semi[1] * n[1], part.semi[2] * n[2]
+            size = math.sqrt(ax * ax + by * by + cz * cz)
+            x, y, z = part.semi[0] * ax / size, part.semi[1] * by / size, part.semi[2] * cz / size
+        else:
+            x, y, z = _on_norm(w, place, n)
+    return x + part.ball * n[0], y + part.ball * n[1], z + part.ball * n[2]
+
+
+@kernel("v3(F, i8, i8)")
+def middle_of(w: Floats, frame_place: int, place: int) -> Vector:
+    """Return where the origin of a part's axes is, in a frame that stands at ``frame_place``."""
+    frame = frame_at(w, frame_place)
+    x, y, z = _turned(frame.rotation, part_at(w, place).place)
+    return frame.origin[0] + x, frame.origin[1] + y, frame.origin[2] + z
+
+
+@kernel("v3(F, i8, i8, v3)")
+def _farthest(w: Floats, frame_place: int, place: int, n: Vector) -> Vector:
+    """Return the point of a part that lies farthest along a unit vector of the world."""
+    frame, part = frame_at(w, frame_place), part_at(w, place)
+    own = _turned_back(part.axes, _turned_back(frame.rotation, n))
+    rx, ry, rz = _on_rings(w, place, own)
+    ax, ay, az = _added(w, place, own)
+    x, y, z = _turned(frame.rotation, _turned(part.axes, (rx + ax, ry + ay, rz + az)))
+    mx, my, mz = middle_of(w, frame_place, place)
+    return mx + x, my + y, mz + z
+
+
+@kernel("v3(S, F, I, i8, v3)")
+def difference(S: Scalars, w: Floats, k: Integers, number: int, n: Vector) -> Vector:
+    """Return the vector between points of both parts of a pair that is shortest along a unit vector."""
+    pair = pair_at(S, w, k, number)
+    return minus(_farthest(w, pair.frame_b, pair.part_b, opposite(n)), _farthest(w, pair.frame_a, pair.part_a, n))
+
+
+@kernel("f8(S, F, I, i8, v3)")
+def separation_along(S: Scalars, w: Floats, k: Integers, number: int, n: Vector) -> float:
+    """Return s(n) of a pair of bounded parts [m]."""
+    return dot(n, difference(S, w, k, number, n))
+
+
+@kernel("f8(S, F, I, i8)")
+def height_over(S: Scalars, w: Floats, k: Integers, number: int) -> float:
+    """Return the separation of a pair of which the first part is a half-space, exactly [m]."""
+    pair = pair_at(S, w, k, number)
+    frame = frame_at(w, pair.frame_a)
+    up = frame.rotation[2], frame.rotation[5], frame.rotation[8]
+    return dot(
+        up, minus(_farthest(w, pair.frame_b, pair.part_b, opposite(up)), middle_of(w, pair.frame_a, pair.part_a))
+    )

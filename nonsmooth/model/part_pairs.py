@@ -1,0 +1,160 @@
+"""Pairs of convex parts of bodies between which contacts are declared, laid into the engine's memory."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from operator import attrgetter
+
+import numpy as np
+
+from nonsmooth.engine.memory.blocks import PART_RINGS, RING
+from nonsmooth.engine.memory.layout import CATALOGUE
+from nonsmooth.engine.memory.memory import Heap, Memory
+from nonsmooth.engine.pairs.look import NO_PAIR
+from nonsmooth.interfaces import ConvexPart
+from nonsmooth.model.contact_table import ContactTable
+from nonsmooth.model.laying import Places
+from nonsmooth.system.contact import Contact
+
+_PASSED = 1e-7
+"""By this part of the size of the smaller shape parts may overlap more than their closed contacts say.
+
+Ten times what tolerances leave of the gap of a body that moves by a hundred times its size.
+"""
+
+
+@dataclass(frozen=True, eq=False)
+class PartPair:
+    """Two convex parts of shapes between which there are contacts.
+
+    Attributes
+    ----------
+    group : int
+        Number of the first pair of the same shapes.
+    contacts : tuple of int
+        Numbers of the contacts of the shapes.
+    sides : tuple
+        Body and frame of either part.
+    parts : tuple of ConvexPart
+        The parts; a half-space comes first.
+    shapes : tuple of int
+        Which shapes they are of, and which part of these.
+    size : float
+        Extent of the smaller shape [m].
+    """
+
+    group: int
+    contacts: tuple[int, ...]
+    sides: tuple[tuple[int, int], tuple[int, int]]
+    parts: tuple[ConvexPart, ConvexPart]
+    shapes: tuple[tuple[int, int], tuple[int, int]]
+    size: float
+
+
+def find_part_pairs(contacts: Sequence[Contact], table: ContactTable) -> list[PartPair]:
+    """Return the pairs of parts to be looked at: of bodies of which one moves by forces, and not in closed form."""
+    parts_of: dict[int, tuple[ConvexPart, ...]] = {}
+    found: list[PartPair] = []
+    for numbers in _groups(contacts):
+        contact = contacts[numbers[0]]
+        sides = [(int(table.bodies[numbers[0], i]), int(table.frames[numbers[0], i])) for i in (0, 1)]
+        for shape in contact.shapes:
+            if id(shape) not in parts_of:
+                parts_of[id(shape)] = shape.parts
+        group = len(found)
+        choices = [list(enumerate(parts_of[id(shape)])) for shape in contact.shapes]
+        for one, two in itertools.product(*choices):
+            if is_looked_at(one[1], two[1], len(numbers)):
+                both = ((one, sides[0], id(contact.shapes[0])), (two, sides[1], id(contact.shapes[1])))
+                first, second = both[::-1] if two[1].is_half_space else both
+                found.append(
+                    PartPair(
+                        group,
+                        tuple(numbers),
+                        (first[1], second[1]),
+                        (first[0][1], second[0][1]),
+                        ((first[2], first[0][0]), (second[2], second[0][0])),
+                        contact.size,
+                    )
+                )
+    return found
+
+
+def is_looked_at(one: ConvexPart, two: ConvexPart, contacts: int) -> bool:
+    """Tell whether a pair of parts can overlap and no single contact of theirs says so by itself."""
+    if one.is_half_space and two.is_half_space:
+        return False
+    simple = all(part.is_ball or part.is_half_space for part in (one, two))
+    return not (one.is_flat and two.is_flat) and not (simple and contacts == 1)
+
+
+def unwatched(contacts: Sequence[Contact]) -> list[int]:
+    """Return the numbers of contacts of shapes without convex parts, at which the engine cannot look."""
+    shapes = {id(shape): shape for contact in contacts for shape in contact.shapes}
+    blind = {key for key, shape in shapes.items() if not shape.parts}
+    if not blind:
+        return []
+    return [i for i, contact in enumerate(contacts) if not blind.isdisjoint(map(id, contact.shapes))]
+
+
+def unseen(contacts: Sequence[Contact]) -> list[str]:
+    """Return the names of contacts of which nothing but their own gap tells that their bodies pass into each other.
+
+    Those are contacts of shapes that have neither convex parts nor a solid, and of two that are flat.
+    """
+    parts = {id(shape): shape.parts for contact in contacts for shape in contact.shapes}
+    blind = {id(shape) for contact in contacts for shape in contact.shapes if not parts[id(shape)] and not shape.solid}
+    flat = {key for key, found in parts.items() if found and all(part.is_flat for part in found)}
+    return [
+        contact.name
+        for contact in contacts
+        if not blind.isdisjoint(map(id, contact.shapes)) or flat.issuperset(map(id, contact.shapes))
+    ]
+
+
+def _groups(contacts: Sequence[Contact]) -> list[list[int]]:
+    """Return the numbers of the contacts of each pair of shapes."""
+    groups: dict[tuple[int, ...], list[int]] = {}
+    names = "first", "second"
+    sides = [list(map(id, map(attrgetter(name), contacts))) for name in names]
+    for number, (contact, first, second) in enumerate(zip(contacts, *sides, strict=True)):
+        key = first, second, *contact.frames, *map(id, contact.shapes)
+        groups.setdefault(key, []).append(number)
+    return list(groups.values())
+
+
+def numbers_of(part: ConvexPart) -> list[float]:
+    """Return what the engine reads of a part (:mod:`nonsmooth.engine.memory.blocks`)."""
+    count = -1 if part.is_half_space else len(part.rings)
+    behind = PART_RINGS + RING * len(part.rings) if part.function else 0
+    head = [*part.place, *np.ravel(part.axes), *part.semi, *part.powers, part.ball, part.radius, behind, count]
+    return [float(number) for number in (*head, *np.ravel(part.rings), *part.function)]
+
+
+def lay_part_pairs(memory: Memory, heap: Heap, pairs: Sequence[PartPair], places: Places) -> None:
+    """Lay the pairs, and say of each contact whose pair it is."""
+    n, width = int(memory.scalars["n_declared"][0]), len(CATALOGUE)
+    of_contact = memory.array("catalogue", width * n).reshape(n, width)[:, CATALOGUE.index("pair")]
+    of_contact[:] = NO_PAIR
+    stand = {(place.number, frame): at for place in places.values() for frame, at in enumerate(place.frames)}
+    starts: dict[tuple[int, int], int] = {}
+    for number, pair in enumerate(pairs):
+        for key, part in zip(pair.shapes, pair.parts, strict=True):
+            if key not in starts:
+                starts[key] = heap.store(numbers_of(part))
+        fields: Mapping[str, float] = {
+            "frame_a": stand[pair.sides[0]],
+            "frame_b": stand[pair.sides[1]],
+            "part_a": starts[pair.shapes[0]],
+            "part_b": starts[pair.shapes[1]],
+            "group": pair.group,
+            "contact": pair.contacts[0],
+            "allowed": _PASSED * pair.size,
+            "size": pair.size,
+        }
+        for name, value in fields.items():
+            memory.array(f"pair_{name}", len(pairs))[number] = value
+        if number == pair.group:
+            of_contact[np.array(pair.contacts)] = number
