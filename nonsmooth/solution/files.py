@@ -55,6 +55,8 @@ def replacing(path: Path) -> Iterator[Path]:
     FileError
         If writing fails; an older file of that name stays as it was.
     """
+    if path.is_dir():
+        raise FileError(path, IsADirectoryError(errno.EISDIR, "It is a folder"))
     part = path.with_name(f".{path.name}.part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
