@@ -116,6 +116,9 @@ def run_engine(
     except FileError as error:
         records.drain()
         status, trouble = PAUSED, str(error)
+    except MemoryError as error:
+        # what was drained before is kept, where there is room to put it together
+        status, trouble = PAUSED, f"the memory ran out: {error}."
     if status == DONE:
         records.check_end(engine)
     records.end()

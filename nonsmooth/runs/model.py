@@ -432,6 +432,13 @@ class Model:
                     solution = Solution.known(
                         laid.system, recorded, replace(solution.end, status="failed", message=str(error))
                     )
+        except MemoryError as error:
+            # nothing that needs more of it than a text
+            reached = float(laid.memory.record["t"])
+            raise RunFailed(
+                f"At t = {reached:.9g} s the memory ran out: {error}. What was computed does not fit there. Give an "
+                "output folder, which keeps what is written so far, a shorter run, or fewer samples."
+            ) from error
         finally:
             keeper.close()
         if failed:

@@ -12,7 +12,10 @@ from pathlib import Path
 from nonsmooth.errors import InvalidInput, NonsmoothError
 
 _REMEDY = "Free space there or choose another folder."
-_REMEDIES = {errno.ENOTDIR: "Name a folder; one that is not there is made."}
+_REMEDIES = {
+    errno.ENOTDIR: "Name a folder; one that is not there is made.",
+    errno.EAGAIN: "Free memory; `nonsmooth resume` goes on with a run that was cut off.",
+}
 
 
 class FileError(NonsmoothError, OSError):

@@ -204,3 +204,16 @@ def test_a_run_of_more_steps_than_hours_hold_is_refused(limit: str) -> None:
 def test_numbers_too_large_for_a_mass_are_refused() -> None:
     with pytest.raises(ns.InvalidInput, match="mass and inertia must be finite"):
         Ball(1e200)
+
+
+def test_a_run_that_runs_out_of_memory_ends_by_name_and_keeps_what_it_has() -> None:
+    def progress(t: float, t_end: float) -> None:
+        if t > 0.0:
+            raise MemoryError("no room")
+
+    with pytest.raises(ns.RunFailed, match=r"At t = .* s the memory ran out: no room\.") as caught:
+        ns.simulate(_system(), 1e3, sample_interval=1.0, progress=progress)
+    kept = caught.value.solution
+    assert isinstance(kept, ns.Solution)
+    assert kept.status == "failed"
+    assert len(kept.events) > 0
