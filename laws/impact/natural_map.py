@@ -132,7 +132,7 @@ def is_unbounded(n: int, matrix: Array, free: Array, least: Array, p: Array) -> 
     made = 0.0
     for i in range(3 * n):
         made = max(made, matrix[i, i] * abs(p[i]))
-    return made > bound
+    return bool(made > bound)
 
 
 @compiled

@@ -105,8 +105,20 @@ def _check_joint(model: LaidOut, tie: Tie, number: int, articulation: int, allow
                 f"start of the {tie}",
                 f"must have the {what} 0 [{unit}] in each of its rows",
                 values.tolist(),
-                "Place the bodies where the joint is closed; joints that contradict each other cannot all be.",
+                _remedy_of_joint(model, tie, what),
             )
+
+
+def _remedy_of_joint(model: LaidOut, tie: Tie, what: str) -> str:
+    """Return what to do about a joint that is open at the start, or opens there as a driven body moves."""
+    remedy = "Place the bodies where the joint is closed; joints that contradict each other cannot all be."
+    for body in (tie.first, tie.second):
+        if what == "rate" and body.n_u == 0:
+            name = model.system.name_of(body)
+            return (
+                f"If {name!r} moves there, give the other body its velocity or let its motion begin at rest. {remedy}"
+            )
+    return remedy
 
 
 def _check_mobility(model: LaidOut) -> None:
