@@ -185,7 +185,13 @@ class FreeBody(Body):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        self.parameters()
+        try:
+            self.parameters()
+        except OverflowError as error:
+            remedy = "Take smaller lengths and densities."
+            raise InvalidInput(
+                f"{type(self).__name__}: mass and inertia", "must be finite", str(error), remedy
+            ) from error
 
     @property
     @abstractmethod

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 from pathlib import Path
 from typing import Any
@@ -25,9 +26,21 @@ def check_pair(thing: str, value: object) -> None:
 
 
 def check_callable(thing: str, value: object, call: str) -> None:
-    """Raise InvalidInput unless the value is left out, None, or can be called; ``call`` shows how it is."""
+    """Raise InvalidInput unless the value is left out, None, or can be called as ``call`` shows: "f(x)"."""
+    rule = f"must be a function, called as {call}"
     if value is not None and not callable(value):
-        raise InvalidInput(thing, f"must be a function, called as {call}", value, "Leave it out, or give a function.")
+        raise InvalidInput(thing, rule, value, "Leave it out, or give a function.")
+    if value is None:
+        return
+    try:
+        taken = inspect.signature(value)
+    except ValueError:  # some built-in functions do not say what they take
+        return
+    names = call[call.index("(") + 1 : -1].split(", ")
+    try:
+        taken.bind(*names)
+    except TypeError as error:
+        raise InvalidInput(thing, rule, str(taken), f"Let it take {len(names)}: {', '.join(names)}.") from error
 
 
 def is_finite(value: Any) -> bool:
@@ -53,7 +66,22 @@ def floats(thing: str, value: Any) -> NDArray[np.float64]:
 
 
 def path_of(thing: str, value: object) -> Path:
-    """Return the path that is given as one or as a text; InvalidInput if it is neither, or a text without a letter."""
+    """Return the path that is given as one or as a text.
+
+    Raises
+    ------
+    InvalidInput
+        If it is neither, or a text without a letter, or no path that this machine can have.
+    """
     if not isinstance(value, (str, Path)) or not str(value).strip():
         raise InvalidInput(thing, "must be a path", value, 'For example "results".')
-    return Path(value)
+    path = Path(value)
+    try:
+        path.lstat()
+    except (FileNotFoundError, NotADirectoryError, PermissionError):
+        # whoever writes there says so
+        return path
+    except (OSError, ValueError) as error:
+        why = error.strerror if isinstance(error, OSError) else str(error)
+        raise InvalidInput(thing, "must be a path that this machine can have", str(value), f"{why}.") from error
+    return path

@@ -18,6 +18,8 @@ _SINGLE = 5e-7
 BENT = 2e-7
 """Facets of the hull that stand out of a plane by less than this part of the largest coordinate are one face: they are
 bent by single precision."""
+_LEAST_CORNERS = 4
+"""Corners of the simplest body, a tetrahedron."""
 
 
 @final
@@ -53,10 +55,24 @@ def hull_of(name: str, vertices: Vector) -> Hull:
             f"mesh {name}", "must not be flat", str(error).split("\n")[0], "A body has a volume."
         ) from error
     shallow = BENT * max(scale, float(np.max(np.abs(vertices)))) / scale
-    unit = found.points[_corners(found, shallow)]
+    corners = _corners(found, shallow)
+    if len(corners) < _LEAST_CORNERS:
+        thickness = float(np.min(np.ptp(found.points @ _principal_axes(found.points), axis=0))) * scale
+        raise InvalidInput(
+            f"mesh {name}",
+            f"must be thicker than {shallow * scale:.3g} m, below which its faces count as one",
+            thickness,
+            "Take a thicker body; single precision, which most files have, does not tell such faces apart.",
+        )
+    unit = found.points[corners]
     flat = flattened(unit, shallow)
     moved = float(np.max(np.linalg.norm(flat - unit, axis=1))) * scale
     return Hull(flat * scale + middle, float(found.volume) * scale**3, moved)
+
+
+def _principal_axes(points: Vector) -> Vector:
+    """Return the axes along which points scatter, in columns, shape [3, 3]."""
+    return np.asarray(np.linalg.svd(points - np.mean(points, axis=0), full_matrices=False)[2].T)
 
 
 def flattened(corners: Vector, shallow: float) -> Vector:

@@ -56,10 +56,11 @@ def _loaded(thing: str, path: Path) -> tuple[Vector, Integers]:
             )
     except ModuleNotFoundError as error:
         # asked for by formats that need more, and by readers that take a broken file for another format
+        package = error.name or str(error).rpartition(" ")[2].strip("'")
         raise InvalidInput(
             thing,
             "must be a mesh that trimesh can read",
-            f"broken, or of a format that needs the package {error.name!r}",
+            f"broken, or of a format that needs the package {package!r}",
             "Is the file whole, and its ending right? STL, OBJ, PLY, OFF and GLB need no further package.",
         ) from error
     except Exception as error:

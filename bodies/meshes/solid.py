@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, final
 
@@ -29,15 +29,18 @@ class MeshSolid(Solid):
         Corners in the body frame [m], shape [n, 3].
     faces : Integers
         Triangles, counter-clockwise seen from outside, shape [m, 3].
+    touched : callable
+        Returns the corners of the surface that contacts see [m], shape [n, 3]: its nearly flat faces are made flat.
     """
 
     vertices: Vector
     faces: Integers
+    touched: Callable[[], Vector]
 
-    @property
+    @functools.cached_property
     def set_back(self) -> float:
-        """Contacts see the surface itself."""
-        return 0.0
+        """How far a corner is moved to make faces flat that the digits of a file have bent [m]."""
+        return float(np.max(np.linalg.norm(self.touched() - self.vertices, axis=1)))
 
     @property
     def hollow(self) -> bool:

@@ -12,6 +12,7 @@ from bodies.shapes.egg import Egg
 from bodies.shapes.placement import with_axes
 from bodies.shapes.smooth_shape import SmoothShape
 from bodies.shapes.support_shape import SupportShape
+from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
@@ -43,6 +44,13 @@ class MovedShape(SmoothShape):
         return {"shape": Egg()}
 
     def _check(self) -> None:
+        if not isinstance(self.shape, SupportShape):
+            raise InvalidInput(
+                "MovedShape.shape",
+                "must be a shape that is given by its farthest points, a SupportShape",
+                type(self.shape).__name__,
+                "Other shapes are placed by their own numbers, such as Box(0.1, 0.1, 0.1, x=0.1).",
+            )
         orientation = self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z
         unit_vector("MovedShape orientation", orientation, 4)
 

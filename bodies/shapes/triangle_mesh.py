@@ -79,11 +79,15 @@ class TriangleMesh(Shape):
         mesh = self.surface.mesh
         return features_of(self._placed(mesh.vertices), mesh.faces)
 
+    def _touched(self) -> Vector:
+        """Return the corners of the surface that contacts see [m], shape [n, 3]."""
+        return self.features.vertices
+
     @functools.cached_property
     def solid(self) -> MeshSolid:
         """What its surface encloses, in the body frame."""
         mesh = self.surface.mesh
-        return MeshSolid(self._placed(mesh.vertices), mesh.faces)
+        return MeshSolid(self._placed(mesh.vertices), mesh.faces, self._touched)
 
     @property
     def parts(self) -> tuple[ConvexPart, ...]:

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from laws.impact.natural_map import find_zero, sweep
+from laws.impact.natural_map import find_zero, is_unbounded, sweep
 from laws.impact.pyramid import solve_on_pyramids
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Array, Floats
@@ -64,13 +64,31 @@ def solve_cone(
                 sweep(n, matrix, free, kept, lower, mu, p)
             for compliance in _COMPLIANCES:
                 tried = p.copy()
-                if find_zero(n, matrix, free, kept, lower, mu, compliance, tried) == 1:
+                if find_zero(n, matrix, free, kept, lower, mu, compliance, False, tried) == 1:
+                    # from none, as where the search begins, it is that already
+                    if trial >= 0:
+                        _lessen(n, matrix, free, kept, lower, mu, tried)
                     _write_inside(n, kept, lower, mu, tried, out)
                     return 1
     _write_inside(n, kept, lower, mu, p, out)
-    if answered == 0:
+    if answered == 0 or is_unbounded(n, matrix, free, lower, p):
         out[0] = math.nan
     return 0
+
+
+@compiled
+def _lessen(n: int, matrix: Array, free: Array, base: Array, least: Array, friction: Array, p: Array) -> None:
+    """Replace a solution by one next to that of least norm, where it is found.
+
+    Impulses that redundant contacts exchange, as those across a wedged body, change no motion and have no bound.  A
+    vertex of the pyramids may have them, and is where the search ends.
+    """
+    for compliance in _COMPLIANCES[::-1]:
+        tried = p.copy()
+        if find_zero(n, matrix, free, base, least, friction, compliance, True, tried) == 1:
+            if np.sum(tried * tried) < np.sum(p * p):
+                p[:] = tried
+            return
 
 
 @compiled

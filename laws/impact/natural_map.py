@@ -19,11 +19,15 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Array
 
 _EXACT = 1e-11
-"""Residual that counts as zero, relative to the largest velocity."""
+"""Residual that counts as zero, relative to the largest given velocity."""
+_ROUND_OFF = 1e-15
+"""Residual that the sums of a row leave, relative to the largest velocity that an impulse makes at its own contact."""
 _STEPS = 30
 _HALVINGS = 10
 _ROUNDS = 20
-_UNBOUNDED = 1e9
+_UNBOUNDED = 1e5
+"""Impulses that make so many times the largest given velocity at their own contacts have left every answer: their
+round-off leaves 1e-10 of that velocity."""
 
 
 @compiled
@@ -110,13 +114,44 @@ def _miss(
 
 
 @compiled
+def _largest_given(n: int, matrix: Array, free: Array, least: Array) -> float:
+    """Return the largest velocity that is given, without and with the least impulses [m/s]."""
+    largest = 0.0
+    for i in range(3 * n):
+        given = free[i]
+        for a in range(n):
+            given += matrix[i, 3 * a] * least[a]
+        largest = max(largest, abs(free[i]), abs(given))
+    return largest
+
+
+@compiled
+def is_unbounded(n: int, matrix: Array, free: Array, least: Array, p: Array) -> bool:
+    """Tell whether impulses are so large that round-off of theirs hides what is asked; see :func:`find_zero`."""
+    bound = _UNBOUNDED * _largest_given(n, matrix, free, least)
+    made = 0.0
+    for i in range(3 * n):
+        made = max(made, matrix[i, i] * abs(p[i]))
+    return bool(made > bound)
+
+
+@compiled
 def find_zero(
-    n: int, matrix: Array, free: Array, base: Array, least: Array, friction: Array, compliance: float, p: Array
+    n: int,
+    matrix: Array,
+    free: Array,
+    base: Array,
+    least: Array,
+    friction: Array,
+    compliance: float,
+    from_none: bool,
+    p: Array,
 ) -> int:
     """Improve the impulses until they solve the problem; return 1 if they do.
 
     Impulses need not be unique: a small compliance of every contact makes them so, and rounds in which it is taken
-    to start from the impulses that are there take its effect out.
+    to start from the impulses that are there take its effect out.  Where the first round takes it to start from none,
+    the answer is next to that of least norm.
 
     Parameters
     ----------
@@ -130,29 +165,31 @@ def find_zero(
         Least normal impulses [N s], and coefficients mu, shape [n].
     compliance : float
         The compliance, relative to the own entries of G.
+    from_none : bool
+        Whether the compliance of the first round starts from no impulses; Newton's method starts from ``p`` anyway.
     p : array
         Impulses P: a start, then the answer [N s], shape [3 n].
     """
     width = 3 * n
     missed, slope, step, old = np.zeros(width), np.zeros((width, width)), np.zeros(width), np.zeros(width)
     soft, shifted, own = matrix.copy(), free.copy(), np.zeros(width)
-    largest = 0.0
+    largest = _largest_given(n, matrix, free, least)
     for i in range(width):
-        largest = max(largest, abs(free[i]))
         r = i - i % 3
         own[i] = matrix[i, i] if i == r else _tangential_scale(matrix, r)
         soft[i, i] += compliance * own[i]
-    for _round in range(_ROUNDS):
+    for rounds in range(_ROUNDS):
+        kept = 0.0 if from_none and rounds == 0 else 1.0
         square = _miss(n, matrix, free, base, least, friction, p, missed, slope)
         size = largest
         for i in range(width):
             size = max(size, matrix[i, i] * abs(p[i]))
-            shifted[i] = free[i] - compliance * own[i] * p[i]
-        exact = (_EXACT * size) ** 2
-        if square <= exact:
-            return 1
-        if not size < _UNBOUNDED * largest:
+            shifted[i] = free[i] - kept * compliance * own[i] * p[i]
+        if not size < _UNBOUNDED * largest and not (from_none and rounds == 0):
             return 0
+        exact = (_EXACT * largest + _ROUND_OFF * width * size) ** 2
+        if square <= exact and kept == 1.0:
+            return 1
         square = _miss(n, soft, shifted, base, least, friction, p, missed, slope)
         for _step in range(_STEPS):
             if square <= 1e-4 * exact:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
@@ -31,6 +32,10 @@ def _impulses(
     for a in range(n):
         least[a] = (1.0 + restitution[a]) * compression[3 * a]
     solve_cone(n, delassus, rates, none, compression, least, out, friction)
+    if not math.isfinite(out[0]):
+        # bodies wedged between others give nothing back
+        for i in range(3 * n):
+            out[i] = compression[i]
 
 
 @final
@@ -44,6 +49,8 @@ class PoissonImpact(ImpactMap):
     With one e_P <= 1 for all contacts it always loses energy, (1 - e_P^2) P_c^T G P_c / 2 or more, and without friction
     with any e_P <= 1: the expansion makes P^T G P / 2 + z_c^T P least, and P = P_c is open to it.  With friction and
     different e_P it may gain energy.
+
+    Where no expansion has an answer, as of bodies wedged between others, the impact ends with its compression.
 
     References
     ----------

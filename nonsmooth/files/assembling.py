@@ -40,6 +40,8 @@ def system(tables: Table, path: Path, gate: Gate) -> System:
         starts[name] = own.pop("start", {})
         material = own.pop("material", None)
         made = reader.bodies[name] = component(f"{path}: bodies.{name}", own, Body, gate)
+        if not (material is None or isinstance(material, str)):
+            raise InvalidInput(f"{path}: bodies.{name}.material", "must be one name", material, 'Write "steel".')
         if material is not None:
             made_of.setdefault(material, []).append(made)
     with naming(f"{path}"):

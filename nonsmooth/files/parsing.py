@@ -32,6 +32,9 @@ def parse(path: Path) -> Table:
         ) from error
     except ValueError as error:
         raise InvalidInput(f"{path}", f"must be {form.name} text", str(error), "Correct the place it names.") from error
+    except RecursionError as error:
+        rule = f"must be {form.name} text whose tables and lists are in one another a few times"
+        raise InvalidInput(f"{path}", rule, "hundreds of times", "No system needs so many.") from error
 
 
 def changed(tables: Table, changes: Mapping[str, Any], path: Path) -> Table:

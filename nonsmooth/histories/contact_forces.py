@@ -6,10 +6,11 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, final
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.engine.memory.blocks import GAP, GEOMETRY, NORMAL, POINT_A, TANGENT, TRACTION_MOMENT
 from nonsmooth.histories.arrays import Floats, Integers
+from nonsmooth.histories.cones import beyond_cones
 from nonsmooth.histories.contact_history import ContactHistory, contacts_dataset
 from nonsmooth.histories.times import read_times, spoken
 from nonsmooth.histories.visitor import visitor
@@ -104,6 +105,14 @@ class ContactForces:
             slip,
             solution.system.contacts,
         )
+
+    @property
+    def beyond_cone(self) -> NDArray[np.bool_]:
+        """Which entries lie outside of the friction cone, shape [m].
+
+        Where a run averages forces over a span, those of an instant within need not lie in it.
+        """
+        return beyond_cones(self.contacts, self.contact, self.normal_force, self.friction_force)
 
     def history(self, contact: Contact | str | int) -> ContactHistory:
         """Return what one contact bears over time, with zeros for forces where it is open.

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nonsmooth.engine.memory.blocks import GEOMETRY, NORMAL, POINT_A
 from nonsmooth.histories.arrays import Floats, Integers
+from nonsmooth.histories.cones import beyond_cones
 from nonsmooth.histories.visitor import visitor
+from nonsmooth.system.contact import Contact
 
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
@@ -37,6 +40,8 @@ class ContactImpulses:
         [N s], shape [m].
     friction_impulse : array
         [N s], shape [m, 3].
+    contacts : tuple of Contact
+        Those of the system.
     """
 
     event: Integers
@@ -45,6 +50,15 @@ class ContactImpulses:
     normal: Floats
     normal_impulse: Floats
     friction_impulse: Floats
+    contacts: tuple[Contact, ...] = field(repr=False)
+
+    @property
+    def beyond_cone(self) -> NDArray[np.bool_]:
+        """Which entries lie outside of the friction cone, shape [m].
+
+        Impulses within the cones give the same motion: the part of one among redundant contacts may be too large.
+        """
+        return beyond_cones(self.contacts, self.contact, self.normal_impulse, self.friction_impulse)
 
     @classmethod
     def of(cls, solution: Solution) -> ContactImpulses:
@@ -73,4 +87,4 @@ class ContactImpulses:
         event = np.repeat(np.arange(len(events)), np.diff(events.first))
         impulse = events.listed_impulse
         friction = np.einsum("ir,irx->ix", impulse[:, 1:], axes[:, 1:])
-        return cls(event, events.listed, points, axes[:, 0], impulse[:, 0], friction)
+        return cls(event, events.listed, points, axes[:, 0], impulse[:, 0], friction, solution.system.contacts)

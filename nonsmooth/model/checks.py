@@ -13,6 +13,7 @@ from nonsmooth.interfaces.guard import guard_value
 from nonsmooth.model.articulations import articulations
 from nonsmooth.model.blocks import written_past
 from nonsmooth.model.image import Guards
+from nonsmooth.model.immobile import REMEDY, held_by, immobile_contact
 from nonsmooth.model.laid_out import LaidOut, energies
 from nonsmooth.model.overlaps import check_overlaps, frames_of, overlap_allowed
 from nonsmooth.system.contact import Tie
@@ -27,7 +28,8 @@ def check_start(model: LaidOut, guards: Guards) -> None:
     Raises
     ------
     InvalidInput
-        If bodies overlap, a shape has no farthest point, a joint is open or opening, or a guard has no finite value.
+        If bodies overlap, a shape has no farthest point, a joint is open or opening, joints hold a contact along its
+        normal, or a guard has no finite value.
     PluginError
         If a function writes past its block.
     """
@@ -51,6 +53,7 @@ def check_start(model: LaidOut, guards: Guards) -> None:
     # gaps tell of features that face each other, and bodies right through one another may have none
     check_overlaps(model)
     _check_joints(model)
+    _check_mobility(model)
     t, y = float(model.memory.scalars["t"][0]), model.memory.array("y", model.n_q + model.n_u)
     check_guards(model.system, t, y[: model.n_q], y[model.n_q :])
 
@@ -102,8 +105,33 @@ def _check_joint(model: LaidOut, tie: Tie, number: int, articulation: int, allow
                 f"start of the {tie}",
                 f"must have the {what} 0 [{unit}] in each of its rows",
                 values.tolist(),
-                "Place the bodies where the joint is closed; joints that contradict each other cannot all be.",
+                _remedy_of_joint(model, tie, what),
             )
+
+
+def _remedy_of_joint(model: LaidOut, tie: Tie, what: str) -> str:
+    """Return what to do about a joint that is open at the start, or opens there as a driven body moves."""
+    remedy = "Place the bodies where the joint is closed; joints that contradict each other cannot all be."
+    for body in (tie.first, tie.second):
+        if what == "rate" and body.n_u == 0:
+            name = model.system.name_of(body)
+            return (
+                f"If {name!r} moves there, give the other body its velocity or let its motion begin at rest. {remedy}"
+            )
+    return remedy
+
+
+def _check_mobility(model: LaidOut) -> None:
+    """Raise InvalidInput if a rigid contact touches whose gap no force can change."""
+    found = immobile_contact(model)
+    if found is not None:
+        contact, joints, mobility = found
+        raise InvalidInput(
+            f"start of the {contact}",
+            "must have some mobility along its normal, over that without joints",
+            mobility,
+            f"Its force is not determined, as {held_by(joints)}. {REMEDY}",
+        )
 
 
 def check_guards(system: System, t: float, q: Vector, u: Vector) -> None:

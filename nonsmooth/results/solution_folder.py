@@ -160,6 +160,9 @@ class SolutionFolder:
     def rows(self) -> Floats:
         """Return all samples: time, q, u, accounts, inner states of laws, what is booked, shape [n, 1 + n_y + 4]."""
         parts = [self._arrays.read(name) for name in ("time", "q", "u", "account", "law_state", "booked")]
+        if len(lengths := {len(part) for part in parts}) > 1:
+            rule = "must have one number of samples in all of its arrays"
+            raise InvalidInput(f"{self._arrays.path}", rule, sorted(lengths), "Results are damaged there.")
         return np.column_stack(parts) if len(parts[0]) else np.zeros((0, 1 + sum(p.shape[1] for p in parts[1:])))
 
     def state(self) -> State:

@@ -8,11 +8,13 @@ promises that order, nor that a file is safe on the disk before it takes its nam
 
 from __future__ import annotations
 
+import contextlib
+import errno
 import json
 import os
 import re
 import shutil
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -183,6 +185,15 @@ class ZarrFolder:
                 self._lengths[name] = min(length, self._lengths[name])
         self._tails.clear()
 
+    @contextlib.contextmanager
+    def _threads(self) -> Iterator[Executor]:
+        """Yield a pool of threads; FileError where the machine starts none, as where memory has run out."""
+        try:
+            with ThreadPoolExecutor(_AT_ONCE) as pool:
+                yield pool
+        except RuntimeError as error:
+            raise FileError(self.path, OSError(errno.EAGAIN, f"{error}")) from error
+
     def commit_safely(self) -> None:
         """Let all that was written since the last commit count, at once, and after a power cut from now on as well.
 
@@ -191,7 +202,7 @@ class ZarrFolder:
         FileError
             If that is not possible; then the last commit counts.
         """
-        with ThreadPoolExecutor(_AT_ONCE) as pool:
+        with self._threads() as pool:
             _to_disk(pool, self._waiting.values())
             _to_disk(pool, self._rename())
             self._announce()

@@ -25,6 +25,8 @@ from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.interfaces.guard import guard_value
 from nonsmooth.model.blocks import blocks
+from nonsmooth.model.immobile import REMEDY as MOVE_IT
+from nonsmooth.model.immobile import held_by, immobile_contact
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.pools import failed_search
 from nonsmooth.runs.squeezed import squeezed
@@ -47,6 +49,11 @@ def _culprit(model: LaidOut, status: int) -> str:
         return unexplained(model, status)
     if found := squeezed(model, status):
         return found
+    if status == NOT_FINITE and (immobile := immobile_contact(model)) is not None:
+        contact, joints, _ = immobile
+        return (
+            f"The {contact} cannot move along its normal, as {held_by(joints)}: its force is not determined. {MOVE_IT}"
+        )
     found = (_in_the_map(model) if status == NOT_FINITE else "") or failed_search(model.memory, model.system.contacts)
     found = found or _in_the_blocks(model)
     if found or status not in (NOT_FINITE, STEP_TOO_SMALL):

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from nonsmooth.engine.memory.modes import CONDITION_MET, DONE, PAUSED, STOPPED
+from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.image import Image
 from nonsmooth.model.laid_out import LaidOut
@@ -67,7 +68,7 @@ def run_engine(
     Raises
     ------
     InvalidInput
-        If the engine breaks its contract.
+        If the engine breaks its contract, or ``until`` returns what is neither true nor false.
     BaseException
         Whatever ``progress`` or ``until`` raises.
     """
@@ -102,7 +103,7 @@ def run_engine(
                     pace = pace or Pace(model, begun)
                     pace.look(status)
                 records.drain()
-                if status == PAUSED and so_far is not None and until is not None and until(so_far):
+                if status == PAUSED and so_far is not None and until is not None and _is_met(until, so_far):
                     status = CONDITION_MET
                 if progress is not None:
                     progress(float(memory.record["t"]), t_end)
@@ -115,6 +116,9 @@ def run_engine(
     except FileError as error:
         records.drain()
         status, trouble = PAUSED, str(error)
+    except MemoryError as error:
+        # what was drained before is kept, where there is room to put it together
+        status, trouble = PAUSED, f"the memory ran out: {error}."
     if status == DONE:
         records.check_end(engine)
     records.end()
@@ -122,3 +126,19 @@ def run_engine(
         image, before = Image.of(memory), records.n_passed
     hint = "" if pace is None else pace.hint(status)
     return Ending(status, interrupted, image, records.n_passed - before, hint, trouble)
+
+
+def _is_met(until: Until, run: RunSoFar) -> bool:
+    """Return whether a condition is met.
+
+    Raises
+    ------
+    InvalidInput
+        If what it returns is neither true nor false, such as an array.
+    """
+    answer = until(run)
+    try:
+        return bool(answer)
+    except ValueError as error:
+        rule = f"must return True or False, at t = {run.time:.9g} s"
+        raise InvalidInput("run: until", rule, answer, "Reduce an array by numpy.any or numpy.all.") from error

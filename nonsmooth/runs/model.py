@@ -46,6 +46,8 @@ _T_END, _INTERVAL, _FIRST, _NEXT, _SPAN, _INDEX, _CAPACITY = places(
 _DEFAULT_SAMPLES = 2000
 _MOST_SAMPLES = 10**8
 """Samples of the smallest body alone then take more memory than most machines have."""
+_MOST_STEPS = 10**10
+"""Steps of the longest run: at a microsecond a step, which nothing is quicker than, they take three hours."""
 _SAMPLES_AT_ONCE = 0.5
 _HELD = 1 << 20
 """Memory that a solution may hold until somebody looks at it [bytes]."""
@@ -251,6 +253,7 @@ class Model:
             if not self._goes_on(state):
                 check_start_numbers(self._laid, state)
         interval = check_times("run", t_end, sample_interval, state.time)
+        _check_steps(t_end - state.time, float(self._laid.memory.scalars["h_max"][0]))
         where = None if output is None else Output.to(output)
         self._seize("run")
         try:
@@ -435,6 +438,13 @@ class Model:
                     solution = Solution.known(
                         laid.system, recorded, replace(solution.end, status="failed", message=str(error))
                     )
+        except MemoryError as error:
+            # nothing that needs more of it than a text
+            reached = float(laid.memory.record["t"])
+            raise RunFailed(
+                f"At t = {reached:.9g} s the memory ran out: {error}. What was computed does not fit there. Give an "
+                "output folder, which keeps what is written so far, a shorter run, or fewer samples."
+            ) from error
         finally:
             keeper.close()
         if failed:
@@ -445,6 +455,18 @@ class Model:
 def _check_calls(what: str, until: Until | None, progress: Progress | None) -> None:
     check_callable(f"{what}: until", until, "until(run)")
     check_callable(f"{what}: progress", progress, "progress(t, t_end)")
+
+
+def _check_steps(duration: float, largest: float) -> None:
+    """Raise InvalidInput if a run of a duration [s] has no end in sight, by its largest step [s]."""
+    if largest > 0.0 and duration > _MOST_STEPS * largest:
+        raise InvalidInput(
+            "run: largest step",
+            f"must be at least {duration / _MOST_STEPS:.3g} s for a run of {duration:.6g} s, {_MOST_STEPS:.0e} steps",
+            largest,
+            "It is the least of EventDriven.largest_step and, of prescribed motions, the time scale over "
+            "EventDriven.steps_per_period. Run for a shorter time, or let the motion change more slowly.",
+        )
 
 
 def check_times(what: str, t_end: float, sample_interval: float | None, start: float = 0.0) -> float:

@@ -2,17 +2,26 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from nonsmooth.binding.source import described
 from nonsmooth.engine.memory.modes import (
     GAP_UNDECIDED,
     GAP_UNEXPLAINED,
     MOTION_UNEXPLAINED,
+    OPEN,
     PASSED,
     QUATERNION_UNEXPLAINED,
 )
 from nonsmooth.model.laid_out import LaidOut
 
-_REMEDY = "`nonsmooth check` looks at it by itself; if it comes with nonsmooth, the poses before are a bug to report."
+_CHECK = "`nonsmooth check` looks at it by itself."
+_SHIFT = "Shift or turn a body a little, or give it rounded edges."
+"""For a pair of features whose gap has a jump where they are just so, as features in line have."""
+_PRESSED = (
+    "Let it be compliant, by a normal law such as LinearCompliant, or leave out a contact that holds the same body."
+)
+"""For contacts of which one holds a body still that another one moves."""
 
 
 def unexplained(model: LaidOut, status: int) -> str:
@@ -22,10 +31,10 @@ def unexplained(model: LaidOut, status: int) -> str:
     if status == GAP_UNEXPLAINED:
         n = int(scalars["n_contacts"])
         contact = model.system.contacts[int(model.memory.array("identity", n)[number])]
-        return (
-            f"The {contact}: the gap is {found:.3g} m, of which tolerances explain {allowed:.3g} m.  It jumps in "
-            f"{described(contact.kinematics.evaluator)}, or contacts that contradict each other are closed. {_REMEDY}"
-        )
+        said = f"The {contact}: the gap is {found:.3g} m, of which tolerances explain {allowed:.3g} m."
+        if model.memory.array("mode", n)[number] != OPEN and (others := _other_holds(model, number)):
+            return f"{said} It is closed, and {others} hold its bodies otherwise. {_PRESSED}"
+        return f"{said} It jumps in {described(contact.kinematics.evaluator)}. {_CHECK} {_SHIFT}"
     if status == PASSED:
         contact, names = model.system.contacts[number], model.system.names.bodies
         first, second = (names[model.system.bodies.index(body)] for body in (contact.first, contact.second))
@@ -51,5 +60,20 @@ def unexplained(model: LaidOut, status: int) -> str:
         )
     return (
         f"The body {name!r}: the length of its quaternion is off by {found:.3g} after one step, of which tolerances "
-        f"explain {allowed:.3g}: {described(body.evaluator)} turns it at rates that do not keep its length. {_REMEDY}"
+        f"explain {allowed:.3g}: {described(body.evaluator)} turns it at rates that do not keep its length. {_CHECK}"
     )
+
+
+def _other_holds(model: LaidOut, number: int) -> str:
+    """Return the names of other pairs of bodies in closed contact with a body of the contact of a slot, "" if none."""
+    n = int(model.memory.scalars["n_contacts"][0])
+    modes, identity = model.memory.array("mode", n), model.memory.array("identity", n)
+    contact = model.system.contacts[int(identity[number])]
+    own = {id(body) for body in (contact.first, contact.second) if body.n_u > 0}
+    pairs = dict[tuple[int, int], str]()
+    for slot in np.flatnonzero(modes != OPEN).tolist():
+        other = model.system.contacts[int(identity[slot])]
+        bodies = id(other.first), id(other.second)
+        if own & set(bodies) and {*bodies} != {id(contact.first), id(contact.second)}:
+            pairs.setdefault(bodies, f"the {other}")
+    return ", ".join(pairs.values())

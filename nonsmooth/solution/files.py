@@ -12,7 +12,10 @@ from pathlib import Path
 from nonsmooth.errors import InvalidInput, NonsmoothError
 
 _REMEDY = "Free space there or choose another folder."
-_REMEDIES = {errno.ENOTDIR: "Name a folder; one that is not there is made."}
+_REMEDIES = {
+    errno.ENOTDIR: "Name a folder; one that is not there is made.",
+    errno.EAGAIN: "Free memory; `nonsmooth resume` goes on with a run that was cut off.",
+}
 
 
 class FileError(NonsmoothError, OSError):
@@ -55,6 +58,8 @@ def replacing(path: Path) -> Iterator[Path]:
     FileError
         If writing fails; an older file of that name stays as it was.
     """
+    if path.is_dir():
+        raise FileError(path, IsADirectoryError(errno.EISDIR, "It is a folder"))
     part = path.with_name(f".{path.name}.part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -13,7 +13,21 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
-from bodies import Ball, BallJoint, Distance, Dumbbell, Fixed, FreeBody, Harmonic, Hinge, Plate, Slider
+from bodies import (
+    Ball,
+    BallJoint,
+    Distance,
+    DrivenBody,
+    Dumbbell,
+    Fixed,
+    FreeBody,
+    Harmonic,
+    Hinge,
+    Plate,
+    Rod,
+    Slider,
+    Wall,
+)
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engines.event_driven import EventDriven
@@ -232,6 +246,36 @@ def test_wrong_starts_and_wrong_joints() -> None:
         Hinge(axis=(1.0, 1.0, 0.0))
     with pytest.raises(ns.InvalidInput, match=r"BallJoint.first must be 3 finite numbers"):
         BallJoint(first=(0.0, math.nan, 0.0))
+
+
+def _rod_beside_a_wall(clearance: float, friction: float) -> ns.System:
+    """Return a rod of 0.4 m, level, hinged at the middle of its round end, and a wall next to that end."""
+    pivot, rod = DrivenBody(), Rod(0.4, 0.005, mass=0.2)
+    wall = Wall(normal=(1.0, 0.0, 0.0), point=(-0.005 - clearance, 0.0, 0.0))
+    system = ns.System([pivot, rod, wall])
+    system.joint(Hinge(second=(-0.2, 0.0, 0.0)), pivot, rod)
+    system.contact(wall, rod, normal=Unilateral(), friction=Coulomb(friction), impact=EnergeticImpact(0.7))
+    system.place(rod, position=(0.2, 0.0, 0.0))
+    return system
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+@pytest.mark.parametrize("overlap", [0.0, 1e-7])
+def test_a_contact_at_a_pivot_is_refused_by_name(friction: float, overlap: float) -> None:
+    """The joint takes any force along the normal, so that nothing determines the force of the contact."""
+    with pytest.raises(ns.InvalidInput, match=r"the contact 'wall - rod \(1\)' must have some mobility") as caught:
+        ns.assemble(_rod_beside_a_wall(-overlap, friction))
+    assert "the joint 'hinge driven body - rod' holds it there" in str(caught.value)
+
+
+def test_a_rod_with_a_clearance_at_its_pivot_rebounds_off_the_wall() -> None:
+    """The remedy: let go level, it meets the wall where it hangs; the spin comes back by the coefficient."""
+    system = _rod_beside_a_wall(1e-3, 0.0)
+    solution = ns.simulate(system, 0.5)
+    hit = solution.events.causes().index("impact")
+    before, after = solution.events.u_before[hit], solution.events.u_after[hit]
+    assert solution.status == "done"
+    assert -after[4] / before[4] == pytest.approx(0.7, abs=1e-9)
 
 
 def test_joints_that_come_to_contradict_each_other() -> None:

@@ -405,3 +405,8 @@ def test_a_pair_that_cannot_be_found_is_refused(build: Any) -> None:
         Rig((Egg(), Superellipsoid(5e-3, 6e-3, 8e-3, 0.7, 1.3)), build.laws())
     with pytest.raises(ns.InvalidInput, match=r"SupportBody\.shape.*SupportShape"):
         SupportBody(Sphere(0.01))  # type: ignore[arg-type]
+
+
+def test_only_shapes_given_by_their_points_are_moved() -> None:
+    with pytest.raises(ns.InvalidInput, match=r"MovedShape\.shape must be a shape .*SupportShape, but it is 'Box'"):
+        MovedShape(Box(0.1, 0.1, 0.1), x=0.1)  # type: ignore[arg-type]

@@ -260,3 +260,18 @@ def slippery(speed, friction):
     contact = ns.load_system(path, trust=True).system.contacts[0]
     assert type(contact.friction).__name__ == "Ice"
     assert contact.friction.parameters() == {"friction": 0.02}
+
+
+@pytest.mark.parametrize("ending", ["toml", "yaml"])
+def test_lists_in_lists_without_end_are_refused(tmp_path: Path, ending: str) -> None:
+    file = tmp_path / f"deep.{ending}"
+    file.write_text(("bodies = " if ending == "toml" else "bodies: ") + "[" * 3000 + "]" * 3000)
+    with pytest.raises(ns.InvalidInput, match=f"deep.{ending} must be"):
+        ns.load_system(file)
+
+
+def test_a_material_is_one_name(tmp_path: Path) -> None:
+    file = tmp_path / "ball.toml"
+    file.write_text('[bodies.ball]\ntype = "ball"\nradius = 0.01\nmaterial = ["steel"]\n')
+    with pytest.raises(ns.InvalidInput, match=r"bodies\.ball\.material must be one name, but it is \['steel'\]"):
+        ns.load_system(file)

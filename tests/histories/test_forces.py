@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
 import math
 from typing import Any
@@ -11,6 +12,7 @@ import pytest
 
 import nonsmooth as ns
 from bodies import Ball, BallJoint, BoxBody, Distance, Dumbbell, Hinge, Plate, Rest
+from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.plugins import registry
 
 GRAVITY = 9.81
@@ -144,3 +146,21 @@ def test_contact_histories_make_a_dataset() -> None:
         assert np.all(np.isnan(history.points[~closed]))
     assert data["normal_force"].attrs["units"] == "N"
     assert data.sizes["time"] == len(solution.t)
+
+
+def test_forces_and_impulses_outside_of_their_cones_are_marked() -> None:
+    """Those of a sliding box lie on the cone, within round-off; with a little more friction they are marked."""
+    plate, box = Plate(), BoxBody(0.02, 0.02, 0.01)
+    system = ns.System([plate, box])
+    system.contact(plate, box, normal=Unilateral(), friction=Coulomb(0.3), impact=EnergeticImpact(0.5))
+    system.place(box, position=(0.0, 0.0, 0.02), velocity=(0.5, 0.0, 0.0))
+    solution = ns.simulate(system, 0.3)
+    forces, impulses = solution.contact_forces(), solution.contact_impulses()
+    assert len(forces.contact) > 0
+    assert not np.any(forces.beyond_cone)
+    rubbed = np.linalg.norm(forces.friction_force, axis=1) > 0.29 * forces.normal_force
+    more = dataclasses.replace(forces, friction_force=1.01 * forces.friction_force)
+    assert np.any(rubbed)
+    assert np.array_equal(more.beyond_cone, rubbed)
+    pulled = dataclasses.replace(impulses, normal_impulse=-impulses.normal_impulse - 1e-3)
+    assert np.all(pulled.beyond_cone)

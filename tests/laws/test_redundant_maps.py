@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from laws import MoreauImpact
+from laws import MoreauImpact, PoissonImpact
 from laws.impact.cone import cone_deviation
+from nonsmooth.interfaces import ImpactMap
 from nonsmooth.testing.callers import compiled_map
 
 Array = NDArray[np.float64]
@@ -77,3 +78,30 @@ def test_a_ball_between_two_walls_does_not_rebound(friction: float) -> None:
     after = velocity + inverse * (w @ found)
     assert after[0] == pytest.approx(0.0, abs=1e-9)
     assert after @ (after / inverse) < velocity @ (velocity / inverse)
+
+
+@pytest.mark.parametrize("law", [MoreauImpact(0.9), PoissonImpact(0.973)])
+def test_a_ball_wedged_in_a_corner_gets_no_internal_impulses(law: ImpactMap) -> None:
+    """With mu > 1 a floor and a wall may press it to each other without bound; the least impulses move it alike."""
+    mass, radius = 1e-2, 7e-3
+    columns = np.zeros((6, 2, 3))
+    for a, normal in enumerate(np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]])):
+        frame = np.column_stack([normal, [0.0, 1.0, 0.0], np.cross(normal, [0.0, 1.0, 0.0])])
+        columns[:3, a] = frame
+        columns[3:, a] = np.cross(-radius * normal, frame, axisb=0, axisc=0)
+    w = columns.reshape(6, 6)
+    inverse = np.array([1.0 / mass] * 3 + [2.5 / (mass * radius**2)] * 3)
+    delassus = np.ascontiguousarray(w.T @ (inverse[:, None] * w))
+    given = {"friction": np.full(2, 1.04), "restitution": np.full(2, law.restitution)}  # type: ignore[attr-defined]
+    if isinstance(law, MoreauImpact):
+        given["tangential_restitution"] = np.zeros(2)
+    call = compiled_map(law.impulses, given, type(law).__name__)
+    for seed in range(500):
+        random = np.random.default_rng(seed)
+        velocity = random.normal(size=6) * np.array([1.0, 1.0, 1.0, 100.0, 100.0, 100.0])
+        velocity[2 * (seed % 2)] = 0.0
+        rates, found = w.T @ velocity, np.zeros(6)
+        call(2, delassus.ravel(), rates, found)
+        speed = np.max(np.abs(velocity * np.array([1.0, 1.0, 1.0, radius, radius, radius])))
+        assert np.max(np.abs(found)) <= 10.0 * mass * speed, seed
+        assert found @ (2.0 * rates + delassus @ found) <= 1e-8 * mass * speed**2, seed

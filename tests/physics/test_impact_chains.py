@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from laws import EnergeticImpact, Frictionless
+from bodies import Ball, Plate
+from laws import EnergeticImpact, Frictionless, Unilateral
 
 HERTZ_3 = (-0.07095235, 0.07640304, 0.99454931)
 LINEAR_3 = (-0.13026170, 0.15022957, 0.98003213)
@@ -105,3 +106,30 @@ def test_order_of_a_chain_does_not_matter(chain: Any) -> None:
     other = ns.solve_impact(mass, normal[:, ::-1], tangential, (1.0, 0.0, 0.0), impact[::-1], friction, tolerance=1e-12)
     np.testing.assert_allclose(other.velocity, one.velocity, rtol=0, atol=1e-11)
     np.testing.assert_allclose(other.stored[::-1], one.stored, rtol=0, atol=1e-11)
+
+
+@pytest.mark.parametrize("ratio", [1e2, 1e3, 1e4, 1e6])
+def test_a_heavy_ball_comes_to_rest_on_a_light_one(ratio: float) -> None:
+    """Endlessly many compressions of the light ball, each of which loses energy, end in common rest with e = 0.2."""
+    plate, light, heavy = Plate(), Ball(0.5, mass=1.0), Ball(0.5, mass=ratio)
+    system = ns.System([plate, light, heavy])
+    for one, other in ((plate, light), (light, heavy)):
+        system.contact(one, other, normal=Unilateral(), friction=Frictionless(), impact=EnergeticImpact(0.2))
+    system.place(light, position=(0.0, 0.0, 0.5))
+    system.place(heavy, position=(0.0, 0.0, 1.8))
+    solution = ns.simulate(system, 0.5)
+    assert solution.status == "done"
+    np.testing.assert_allclose(solution.q_end[[2, 9]], [0.5, 1.5], atol=1e-9)
+    np.testing.assert_allclose(solution.u_end, 0.0, atol=1e-7)
+
+
+def test_a_ball_without_loss_between_two_ends_by_name() -> None:
+    """Nothing makes the bounces of a light ball between a heavy one and a plate fade where no contact loses energy."""
+    plate, light, heavy = Plate(), Ball(0.5, mass=1.0), Ball(0.5, mass=1e10)
+    system = ns.System([plate, light, heavy])
+    for one, other in ((plate, light), (light, heavy)):
+        system.contact(one, other, normal=Unilateral(), friction=Frictionless(), impact=EnergeticImpact(1.0))
+    system.place(light, position=(0.0, 0.0, 0.5))
+    system.place(heavy, position=(0.0, 0.0, 1.8))
+    with pytest.raises(ns.RunFailed, match="an impact did not end within its steps"):
+        ns.simulate(system, 0.5)

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
@@ -37,6 +38,7 @@ from bodies import (
     Triangles,
 )
 from bodies.queries.coal import Coal
+from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.errors import MissingPackagesError
 from nonsmooth.interfaces import ConvexShape
 from nonsmooth.plugins import registry
@@ -326,6 +328,23 @@ print(tally.asked, tally.wrong)
 
 
 @pytest.mark.slow
+def test_a_ball_at_rest_in_a_bowl_of_single_precision_touches_it() -> None:
+    """Contacts see faces that digits have bent as flat ones; the way out through the wall is no answer then."""
+    arc = np.linspace(0.0, -math.pi / 2.0, 9)
+    hollow = [(0.1 * math.cos(a), 0.1 * math.sin(a)) for a in arc[:-1]] + [(0.0, -0.1)]
+    outline = np.array([(0.0, -0.11), (0.11, -0.11), (0.11, 0.0), *hollow])
+    made = trimesh.creation.revolve(outline, sections=24)
+    vertices = np.asarray(made.vertices, np.float32).astype(float)
+    shape = TriangleMesh(Triangles(vertices.tolist(), made.faces.tolist(), "bowl"))
+    base, ball = DrivenBody(Rest(), (shape,)), Ball(0.02)
+    system = ns.System([base, ball])
+    system.contact(base, ball, normal=Unilateral(), friction=Coulomb(0.0), impact=EnergeticImpact(0.3))
+    system.place(ball, position=(0.05, 0.01, 0.03))
+    solution = ns.simulate(system, 5.0)
+    gaps = solution.distances(base, ball, np.linspace(0.0, 5.0, 41)).gap
+    assert np.min(gaps) > -1e-9
+
+
 def test_the_process_survives_random_queries() -> None:
     """Every pair, every way, poses wrong and right, deep and far: answers between bounds or errors by name."""
     done = subprocess.run([sys.executable, "-c", _CODE], capture_output=True, text=True, timeout=200, check=False)

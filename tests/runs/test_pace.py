@@ -75,17 +75,12 @@ def test_times_between_events_are_counted_by_decades() -> None:
     ("build", "options", "said"),
     [
         (
-            lambda: ns.System([Ball(0.1)]),
-            {"largest_step": 1e-11},
-            r"steps of 1e-11 s, as .* t_end = 100 s is 1e\+13 steps away.* limited by: largest step \(\d{5}\)\.$",
-        ),
-        (
             lambda: _bouncing(1e4, 1e-5),
             {},
             r"limited by: event \(\d{5}\)\. .* are: impact of 'plate - hammer' \(200\)",
         ),
     ],
-    ids=["steps", "events"],
+    ids=["events"],
 )
 def test_where_time_hardly_passes_the_limit_and_the_contact_are_told(
     build: Callable[[], ns.System], options: Any, said: str

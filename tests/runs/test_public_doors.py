@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from bodies import Ball, Fixed, Plate, Spring
+from bodies import Ball, Fixed, Harmonic, Plate, Spring
 from laws import Coulomb, EnergeticImpact, Unilateral
 
 Given = Callable[[Any], object]
@@ -131,8 +131,12 @@ def test_what_is_of_no_kind_is_refused_by_name(door: str, tmp_path: Path, monkey
         ("run", "1"),
         ("run: start", SOLUTION),
         ("run: until", 3),
+        ("run: until", lambda: True),
+        ("run: until", lambda run: np.array([True, False])),
         ("run: output", 3),
         ("run: output", ""),
+        ("run: output", "a\0b"),
+        ("run: output", "a" * 300),
         ("run: sample_interval", "a"),
         ("Output", 3),
         ("Solution.of", Ball(0.02)),
@@ -179,3 +183,37 @@ def test_parts_are_found_by_name_and_as_objects() -> None:
     others: tuple[Any, ...] = (contact, contact.name, 0, np.int64(0))
     for asked in others:
         assert forces.history(asked).contact == "plate - ball 1"
+
+
+@pytest.mark.filterwarnings("ignore::nonsmooth.parameters.UnusualValue")
+@pytest.mark.parametrize("limit", ["largest step", "period"])
+def test_a_run_of_more_steps_than_hours_hold_is_refused(limit: str) -> None:
+    """Up to 1e10 of the largest steps are taken on; the bound is not reached by a run that comes to its end."""
+    system, engine = _system(), ns.EventDriven(largest_step=1e-15)
+    if limit == "period":
+        plate, ball = Plate(Harmonic(1e-3, 1e30)), Ball(0.02)
+        system, engine = ns.System([plate, ball]), ns.EventDriven()
+        system.place(ball, position=(0.0, 0.0, 0.1))
+    with pytest.raises(ns.InvalidInput, match="largest step must be at least"):
+        ns.simulate(system, 0.1, engine=engine)
+    near = ns.simulate(_system(), 1e-5, engine=ns.EventDriven(largest_step=1.1e-15), until=lambda run: run.time > 0.0)
+    assert near.status == "done"
+
+
+@pytest.mark.filterwarnings("ignore::nonsmooth.parameters.UnusualValue")
+def test_numbers_too_large_for_a_mass_are_refused() -> None:
+    with pytest.raises(ns.InvalidInput, match="mass and inertia must be finite"):
+        Ball(1e200)
+
+
+def test_a_run_that_runs_out_of_memory_ends_by_name_and_keeps_what_it_has() -> None:
+    def progress(t: float, t_end: float) -> None:
+        if t > 0.0:
+            raise MemoryError("no room")
+
+    with pytest.raises(ns.RunFailed, match=r"At t = .* s the memory ran out: no room\.") as caught:
+        ns.simulate(_system(), 1e3, sample_interval=1.0, progress=progress)
+    kept = caught.value.solution
+    assert isinstance(kept, ns.Solution)
+    assert kept.status == "failed"
+    assert len(kept.events) > 0

@@ -132,7 +132,7 @@ def record_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int, pha
     k[codes + CAUSE], k[codes + CONTACT], k[codes + PHASES] = cause, which, phases
     if which >= 0 and cause != GUARD:
         k[codes + CONTACT] = contact_at(S, w, k, which).identity
-    k[codes + TRUNCATED] = S.truncated if phases > 0 else 0
+    k[codes + TRUNCATED] = 1 if S.truncated > 0 and phases > 0 else 0
     k[codes + N_LISTED] = n
     for i in range(n):
         c = k[S.listed + i]

@@ -5,14 +5,20 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.delassus.delassus import diagonal_block
-from nonsmooth.engine.impact.rates import COMPRESSION, EXPANSION, IDLE, NOISE, evaluate_impact_rates
+from nonsmooth.engine.impact.rates import COMPRESSION, EXPANSION, IDLE, NOISE, efficiency, evaluate_impact_rates
 from nonsmooth.engine.impact.scales import REST
 from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, impact_state, kernel
 from nonsmooth.engine.numerics.linear import SINGULAR
+from nonsmooth.engine.numerics.vectors import length
 
 _LOCKED = 0.1
 """Forces of which no more than this part is left unbalanced are those of a wedge, not of bodies that part."""
+
+_NEXT_TO_NOTHING = 1e-3
+"""An approach below this part of the fastest approach or slip before an impact counts as none where that has no end."""
+SLOW_END, FAST_END = 1, 2
+"""How an impact that was cut short is over: ``truncated`` holds it until the instant is settled."""
 
 
 @kernel("void(S, F, I, i8)")
@@ -146,3 +152,28 @@ def finish(S: Scalars, w: Floats, k: Integers) -> None:
         account(S, w, k, a)
         active.rubbed = state.rubbed
     evaluate_impact_rates(S, w, k, S.impact_y)
+
+
+@kernel("i8(S, F, I)")
+def how_over(S: Scalars, w: Floats, k: Integers) -> int:
+    """Return how an impact of the active contacts is over that has been cut short, 0 if it is not.
+
+    SLOW_END: next to nothing approaches.  Contacts that slip may feed each other's bounces for as long as they do,
+    however small these are.
+
+    FAST_END: a heavy body approaches, and compressions of light ones between it and others stop it little by little.
+    Each of them loses energy, so that the limit of endlessly many is common rest: an inelastic impact.  Where slip is
+    faster than the approach, it may feed the bounces, and where a contact loses nothing they need not fade.
+    """
+    before = behind = slip = 0.0
+    loses = 1
+    for a in range(S.n_active):
+        active = active_at(S, w, k, a)
+        before = max(before, abs(active.rate_before[0]), abs(active.rate_before[1]), abs(active.rate_before[2]))
+        behind = max(behind, -active.gap_rate)
+        slip = max(slip, length(active.slip))
+        if not min(efficiency(S, w, k, a, 0.0), efficiency(S, w, k, a, 1e-300)) < 1.0:
+            loses = 0
+    if behind <= _NEXT_TO_NOTHING * before:
+        return SLOW_END
+    return FAST_END if loses == 1 and slip <= behind else 0

@@ -155,7 +155,10 @@ def _write_slope(S: Scalars, w: Floats, k: Integers, a: int, out: int) -> None:
         deforming = -rate / efficiency(S, w, k, a, max(rate, 1e-300))
     slope.normal_force, slope.friction = force, (t1, t2)
     slope.deformation = 0.0 if a == S.lone else deforming
-    slope.work = force * rate
-    slope.rubbed = -(t1 * v1 + t2 * v2)
+    slope.work = slope.rubbed = 0.0
+    if phase != IDLE:
+        # the rates of an idle contact may be those of a rejected step, and not finite
+        slope.work = force * rate
+        slope.rubbed = -(t1 * v1 + t2 * v2)
     slope.energy = force * deforming
     slope.lost = 0.0

@@ -261,3 +261,21 @@ def test_nothing_is_repaired_that_was_not_asked_for() -> None:
     with pytest.raises(ns.InvalidInput, match="open edges"):
         Triangles(points, faces, repair=("merge", "zero_area"))
     assert Triangles(*parts.box(), repair=("holes", "winding", "merge")).mesh.repairs == ()
+
+
+@pytest.mark.parametrize(("thickness", "is_told"), [(1e-9, True), (1e-6, False)])
+def test_a_sliver_whose_faces_count_as_one_is_refused(thickness: float, is_told: bool) -> None:
+    """Below 2e-7 of the size single precision does not tell its faces apart: no hull is made of it."""
+    points, faces = parts.box(0.1, 0.1, thickness)
+    mesh = Triangles(points.tolist(), faces.tolist(), "sliver").mesh
+    if is_told:
+        with pytest.raises(ns.InvalidInput, match=r"mesh sliver must be thicker than 2e-08 m.* but it is 1"):
+            mesh.report()
+    else:
+        assert "8 corners of the hull" in mesh.report()
+
+
+def test_a_format_of_another_package_names_it(tmp_path: Path) -> None:
+    (tmp_path / "part.step").write_text("ISO-10303-21;")
+    with pytest.raises(ns.InvalidInput, match=r"part\.step must be a mesh that trimesh can read.*cascadio"):
+        MeshFile(str(tmp_path / "part.step"), unit="m")

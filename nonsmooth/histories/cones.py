@@ -1,0 +1,53 @@
+"""Which forces or impulses of contacts lie outside of their friction cones."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.certificates import coefficient_of
+from nonsmooth.histories.arrays import Floats, Integers
+from nonsmooth.interfaces import FrictionLaw
+from nonsmooth.interfaces.friction_law import AnisotropicFrictionLaw, StatefulFrictionLaw
+from nonsmooth.system.contact import Contact
+
+_SPEEDS = np.concatenate([[0.0], np.logspace(-6.0, 3.0, 91)])
+"""Slip speeds [m/s] of which the largest coefficient counts: ten per decade, over all that bodies slide at."""
+_ROUND_OFF = 1e-6
+"""Part of the bound, and of the largest normal force, by which friction may pass it: what solvers leave."""
+
+
+def beyond_cones(contacts: Sequence[Contact], number: Integers, normal: Floats, friction: Floats) -> NDArray[np.bool_]:
+    """Return which entries pull, or have more friction than the largest coefficient of their law allows.
+
+    Parameters
+    ----------
+    contacts : sequence of Contact
+        Those of the system.
+    number : array
+        Contact of each entry, shape [m].
+    normal : array
+        Normal forces [N] or impulses [N s], shape [m].
+    friction : array
+        Friction, in the same unit, shape [m, 3].
+
+    Returns
+    -------
+    array
+        True where it is so, shape [m].  Of laws whose coefficient depends on direction or on an inner state, of
+        traction and of normal laws that may pull, no entry is.
+    """
+    bounds = np.full(len(contacts), np.inf)
+    for i in np.unique(number).tolist():
+        law = contacts[i].friction
+        if isinstance(law, FrictionLaw) and not isinstance(law, (AnisotropicFrictionLaw, StatefulFrictionLaw)):
+            coefficient = coefficient_of(law)
+            bounds[i] = max(coefficient(float(speed)) for speed in _SPEEDS)
+    if len(number) == 0:
+        return np.zeros(0, dtype=bool)
+    bound, slack = bounds[number], _ROUND_OFF * float(np.max(np.abs(normal)))
+    known = np.isfinite(bound)
+    allowed = np.where(known, bound, 0.0) * np.maximum(normal, 0.0) * (1.0 + _ROUND_OFF) + slack
+    return np.asarray(known & ((np.linalg.norm(friction, axis=1) > allowed) | (normal < -slack)))

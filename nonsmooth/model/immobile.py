@@ -1,0 +1,81 @@
+"""Contacts whose gap no force changes, as joints hold their points along the normal."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.engine.native.kernel import call_entry
+from nonsmooth.engine.numerics.linear import SINGULAR
+from nonsmooth.interfaces import CompliantNormalLaw
+from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.system.contact import Contact, Tie
+
+REMEDY = "Leave a clearance between its bodies there."
+"""What to do about such a contact."""
+
+
+def immobile_contact(model: LaidOut) -> tuple[Contact, list[Tie], float] | None:
+    """Return the first rigid contact that touches and has no mobility along its normal, None if there is none.
+
+    The mobility of a contact is its gap acceleration per normal force [1/kg]: W^T K W, K being the inverse mass that
+    joints leave.  Where it vanishes next to W^T M^-1 W, that of the bodies without their joints, the force is not
+    determined by any motion: the joints take all of it.
+
+    Returns
+    -------
+    tuple or None
+        The contact, the joints of its bodies, and its mobility over that without joints.
+    """
+    if not model.system.joints:
+        return None
+    memory = model.memory
+    call_entry("touch", memory)
+    n = int(memory.scalars["n_contacts"][0])
+    touching, identity = memory.array("touching", n), memory.array("identity", n)
+    for slot in np.flatnonzero(touching == 1).tolist():
+        contact = model.system.contacts[int(identity[slot])]
+        if isinstance(contact.normal, CompliantNormalLaw):
+            continue
+        held = free = 0.0
+        for side in ("a", "b"):
+            with_joints, without = _mobilities(model, slot, side)
+            held, free = held + with_joints, free + without
+        # between driven bodies there is nothing to move, with or without joints
+        if free > 0.0 and held <= SINGULAR * free:
+            bodies = contact.first, contact.second
+            joints = [tie for tie in model.system.joints if tie.first in bodies or tie.second in bodies]
+            return contact, joints, held / free
+    return None
+
+
+def held_by(joints: list[Tie]) -> str:
+    """Return what holds a contact, in words: the joints of its bodies."""
+    names = ", ".join(f"the {tie}" for tie in joints)
+    return f"{names} {'holds' if len(joints) == 1 else 'hold'} it there"
+
+
+def _mobilities(model: LaidOut, slot: int, side: str) -> tuple[float, float]:
+    """Return the mobility along the normal that one side of a contact gives it, with and without joints [1/kg]."""
+    memory, n = model.memory, int(model.memory.scalars["n_contacts"][0])
+    number = int(memory.array(f"articulation_{side}", n)[slot])
+    n_u, first, count, start = (
+        int(memory.array(f"articulation_{field}", number + 1)[number]) for field in ("nu", "body", "bodies", "u")
+    )
+    row, response = (
+        memory.floats[place : place + n_u]
+        for place in (int(memory.array(f"{name}_{side}", n)[slot]) for name in ("jacobian", "response"))
+    )
+    free = sum(_free_mobility(memory, model, body, row, start) for body in range(first, first + count))
+    return float(row @ response), free
+
+
+def _free_mobility(memory: Memory, model: LaidOut, number: int, row: np.ndarray, start: int) -> float:
+    """Return the mobility that a body alone gives to a row over the velocities of its articulation [1/kg]."""
+    body = model.system.bodies[number]
+    if body.n_u == 0:
+        return 0.0
+    tail, u = (int(memory.array(f"body_{field}", number + 1)[number]) for field in ("tail", "u"))
+    inverse = tail + body.n_q + body.n_u
+    own = row[u - start : u - start + body.n_u]
+    return float(own @ memory.floats[inverse : inverse + body.n_u**2].reshape(body.n_u, body.n_u) @ own)
