@@ -93,8 +93,8 @@ def derivative(sampled: Sampled, first: float, expected: Signature, enough: floa
     if best is None:
         assert trouble is not None
         raise trouble
-    error = best.error if np.isinf(after) else max(best.error, after)
-    return Derivative(best.value, _SCATTER * error, best.step)
+    apart = best.error if np.isinf(after) else max(best.error, after)
+    return Derivative(best.value, _SCATTER * apart, best.step)
 
 
 def _extrapolated(before: list[Floats], difference: Floats) -> list[Floats]:

@@ -33,6 +33,10 @@ _MOST = 30
 """Steps of Newton's method."""
 
 
+_NEARLY_ONE = 1e-3
+"""Distance of a multiplier from 1 below which Newton's method divides by less than a thousandth."""
+
+
 class NoOrbit(NonsmoothError):
     """No orbit was found, or none that has a derivative."""
 
@@ -250,7 +254,20 @@ def close(family: Family, state: State, section: Section, within: tuple[str, ...
         # along directions of symmetry nothing is to be changed: the least change of all
         change[smooth] = np.linalg.lstsq(reduced, -found.way[smooth], rcond=1e-9)[0]
         state, step = found.chart.moved(model, state, change), found.step
-    raise NoOrbit(f"no orbit near the start: after {_MOST} steps {residual:.2g} is left; begin nearer")
+    raise NoOrbit(f"no orbit near the start: after {_MOST} steps {residual:.2g} is left; {_advice(found)}")
+
+
+def _advice(found: Linear) -> str:
+    """Return why Newton's method may have failed: a multiplier 1, or a start that is too far."""
+    known = ~np.isnan(found.matrix).any(axis=0)
+    values = np.linalg.eigvals(found.matrix[np.ix_(known, known)])
+    nearest = values[np.argmin(np.abs(values - 1.0))] if len(values) else np.inf
+    if abs(nearest - 1.0) < _NEARLY_ONE:
+        return (
+            f"the map has a multiplier of {complex(nearest):.6g} there, so orbits may form a continuum or meet at a "
+            "fold; change a parameter, or leave a coordinate out of `within`"
+        )
+    return "begin nearer"
 
 
 def _check_again(model: Model, found: Linear, section: Section) -> None:
