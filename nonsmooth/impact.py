@@ -24,6 +24,9 @@ from nonsmooth.watch import Watch
 Floats = NDArray[np.float64]
 
 
+_PROCESSES = "Laws that are maps, as NewtonImpact, need a run: build a System and call simulate. EnergeticImpact works."
+
+
 @dataclass(frozen=True)
 class ImpactResult:
     """What an impact did.
@@ -110,7 +113,7 @@ def solve_impact(
     for name, laws in (("impact", impact), ("friction", friction)):
         check_kind(f"solve_impact: {name}", laws, Collection, f"Give one {name} law per contact.")
     for law in impact:
-        check_kind("solve_impact: impact", law, ImpactProcess, "See `nonsmooth list laws`.")
+        check_kind("solve_impact: impact", law, ImpactProcess, _PROCESSES)
     if not (is_finite(tolerance) and tolerance > 0.0):
         raise InvalidInput("solve_impact: tolerance", "must be positive and finite", tolerance, "For example 1e-10.")
     m, w = floats("solve_impact: mass", mass), floats("solve_impact: normal", normal)

@@ -42,3 +42,33 @@ def periods(points: NDArray[np.float64], near: float) -> NDArray[np.int64]:
         repeats = [np.all(np.ptp(points[:, first::n], axis=1) <= near, axis=1) for first in range(n)]
         found[np.all(repeats, axis=0)] = n
     return found
+
+
+def settling(points: NDArray[np.float64], near: float) -> NDArray[np.bool_]:
+    """Return whether each motion still approaches what it settles to.
+
+    Points n looks apart then differ less and less: by less than half as much in the second half of the looks, or always
+    to the same side and never more.  Differences below a thousandth of ``near`` count as none: tolerances of runs leave
+    as much.  A spiral that loses less than half in half of the looks is not noticed.
+
+    Parameters
+    ----------
+    points : array
+        What it was, look by look, shape [n_motions, n_looks, n_coordinates]; one with a nan does not settle.
+    near : float
+        Greatest difference of a coordinate within which points count as one.
+    """
+    found, repeats = np.zeros(len(points), np.bool_), periods(points, near)
+    for i, one in enumerate(points):
+        tried = (int(repeats[i]),) if repeats[i] else (1, 2, 3, 4)
+        for n in tried:
+            change = one[n:] - one[:-n]
+            half = len(change) // 2
+            if half < 2 * n or not np.isfinite(change).all():
+                continue
+            early, late = (float(np.max(np.abs(part))) for part in (change[:half], change[half:]))
+            # rounding and chaos change the side or the size
+            rows = [change[k::n, j] for k in range(n) for j in range(one.shape[1])]
+            drifts = all(np.all(row * row[0] >= 0.0) and np.all(np.diff(np.abs(row)) <= 0.0) for row in rows)
+            found[i] |= early > 1e-3 * near and (late < 0.5 * early or drifts)
+    return found

@@ -63,12 +63,15 @@ def execute(arguments: argparse.Namespace) -> bool:
         for period, count in sorted(Counter(diagram.periods.tolist()).items()):
             words = {-1: "failed", 0: "do not repeat"}.get(period, f"repeat after {period} periods")
             say(f"{f'{way}: ' if way else ''}{count} {words}")
+        if count := int(diagram.settling.sum()):
+            say(f"{f'{way}: ' if way else ''}{count} still settle: take a larger --settle")
     failed = [text for diagram in ways.values() for text in diagram.failures if text]
     for text in failed[:3]:
         tell(f"failed: {text}")
     if arguments.out is None:
         return not failed
-    rows = [f"way,{name}" if arguments.follow else name]
+    looks = ",".join(f"{arguments.show}_{i + 1}" for i in range(arguments.keep))
+    rows = [f"way,{name},{looks}" if arguments.follow else f"{name},{looks}"]
     for way, diagram in ways.items():
         for value, row in zip(diagram.values.tolist(), diagram.points.tolist(), strict=True):
             rows.append(",".join([*([way] if way else []), repr(value), *map(repr, row)]))

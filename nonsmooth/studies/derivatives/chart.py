@@ -10,6 +10,7 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.errors import InvalidInput
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.coordinates import TURNS, labels_of, labels_within, quaternions_of
@@ -101,6 +102,11 @@ class Chart:
         )
         kept = _independent(columns, same)
         columns, names = columns[:, kept], tuple(names[i] for i in kept)
+        if not names and len(held.closed):
+            rule = (
+                "must leave a coordinate or velocity free besides the one of the section, as contacts are closed there"
+            )
+            raise InvalidInput("section: within", rule, within, "Name more coordinates, or choose another section.")
         quaternions = quaternions_of(system)[1]
         whole = cls(columns, names, quaternions, held, columns[:, :0], np.zeros((0, 0)), same)
         rows = whole._slopes(model, state)

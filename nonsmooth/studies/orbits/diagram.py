@@ -12,10 +12,12 @@ from nonsmooth.checks import floats
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.plot.asked import axes_of
 from nonsmooth.progress import Display
+from nonsmooth.runs.model import Model
 from nonsmooth.studies.derivatives.family import Family, Varied
 from nonsmooth.studies.orbits.each import of_each
 from nonsmooth.studies.orbits.looks import Looks
-from nonsmooth.studies.periods import alike, periods
+from nonsmooth.studies.orbits.repeating import Period, period_at
+from nonsmooth.studies.periods import alike, periods, settling
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -63,12 +65,17 @@ class Diagram:
         return np.where([bool(text) for text in self.failures], -1, found)
 
     @property
+    def settling(self) -> NDArray[np.bool_]:
+        """Whether the motion still settles in the periods that were kept, shape [n]; a longer ``settle`` helps."""
+        return settling(self.points[:, :, np.newaxis], alike(self.points, self.scale))
+
+    @property
     def failed(self) -> int:
         """How many runs failed."""
         return sum(bool(text) for text in self.failures)
 
     def draw(self, ax: Axes | None = None, *, colour: str = "black", mark: str = ".", label: str | None = None) -> Axes:
-        """Draw it: all points over the parameter; dotted lines are at values whose runs failed.
+        """Draw it: all points over the parameter; failed runs have dotted lines, motions that settle grey ones.
 
         Parameters
         ----------
@@ -93,7 +100,11 @@ class Diagram:
         for value, text in zip(self.values.tolist(), self.failures, strict=True):
             if text:
                 ax.axvline(value, color="#d55e00", linewidth=0.8, linestyle=":")
-        ax.set_title(f"{self.failed} of {len(self.values)} runs failed (dotted)" if self.failed else "", fontsize=10)
+        counts = {"runs failed (dotted)": self.failed, "still settle (grey)": int(np.sum(self.settling))}
+        for value in self.values[self.settling].tolist():
+            ax.axvline(value, color="0.8", linewidth=0.8, zorder=0)
+        words = [f"{count} of {len(self.values)} {word}" for word, count in counts.items() if count]
+        ax.set_title("; ".join(words), fontsize=10)
         return ax
 
 
@@ -101,7 +112,7 @@ def bifurcation(
     what: Varied,
     name: str,
     values: ArrayLike,
-    period: float,
+    period: Period,
     coordinate: str,
     *,
     at: float = 0.0,
@@ -119,8 +130,9 @@ def bifurcation(
         The parameter.
     values : array
         Its values, shape [n].
-    period : float
-        [s].
+    period : float or callable
+        Of the drive, or a multiple [s]; ``period(value)`` if the parameter changes it.  A run at a value at which the
+        drive has another period counts as failed.
     coordinate : str
         Which coordinate or velocity is looked at, "vz" or "ball.vz".
     at : float
@@ -137,11 +149,17 @@ def bifurcation(
     InvalidInput
         If a number is not valid, or no value makes a system.
     """
-    row, looks = np.atleast_1d(floats("bifurcation: values", values)), Looks(period, coordinate, at, settle, keep)
+    row = np.atleast_1d(floats("bifurcation: values", values))
+
+    def looks(value: float) -> Looks:
+        return Looks(period_at(period, value), coordinate, at, settle, keep)
+
     family = Family.of(what, EventDriven())
     _ = family[name]
-    unit, scale = looks.unit_and_scale(family.model())
-    points, failures = of_each(
-        family, name, row.tolist(), lambda model: looks.settled(model, model.start)[0], np.full(keep, np.nan), display
-    )
+    unit, scale = looks(family[name]).unit_and_scale(family.model())
+
+    def points_of(model: Model, value: float) -> Floats:
+        return looks(value).settled(model, model.start)[0]
+
+    points, failures = of_each(family, name, row.tolist(), points_of, np.full(keep, np.nan), display)
     return Diagram(name, family.label(name), row, coordinate, unit, np.array(points), failures, scale)

@@ -17,7 +17,7 @@ def of_each(
     family: Family,
     name: str,
     values: Sequence[float],
-    find: Callable[[Model], Found],
+    find: Callable[[Model, float], Found],
     nothing: Found,
     display: Display | None,
 ) -> tuple[list[Found], tuple[str, ...]]:
@@ -32,7 +32,7 @@ def of_each(
     values : sequence of float
         Its values.
     find : callable
-        ``find(model)`` runs a model; it may raise RunFailed or InvalidInput.
+        ``find(model, value)`` runs the model of a value; it may raise RunFailed or InvalidInput.
     nothing : object
         What stands where it does.
     display : Display, optional
@@ -53,7 +53,7 @@ def of_each(
         counted = RunsDone(pace, len(values))
         for value in values:
             try:
-                found.append(find(family.model(**{name: value})))
+                found.append(find(family.model(**{name: value}), value))
                 failures.append("")
             except (RunFailed, InvalidInput) as error:
                 found.append(nothing)

@@ -81,13 +81,12 @@ def continuation(
     )
     path = Path(orbit.family, name, low, high, section, orbit.within)
     _check_period(path, orbit)
-    first, rest = path.at(orbit.state, value, None)
-    tangent = rest[len(first.map.way) :]
-    up = tangent if tangent[-1] >= 0.0 else -tangent
+    first = path.at(orbit.state, value, 0.0, None)
+    up = first.tangent if first.tangent[-1] >= 0.0 else -first.tangent
     with Pace(display or on_standard_error()) as pace:
         covered = RangeCovered(pace, name, value, span)
-        back, on = (_followed(path, Point(first, way, 0.0), most, covered) for way in (-up, up))
-    orbits = (*reversed(back.orbits), first, *on.orbits)
+        back, on = (_followed(path, replace(first, tangent=way), most, covered) for way in (-up, up))
+    orbits = (*reversed(back.orbits), first.orbit, *on.orbits)
     values = np.array([one.family[name] for one in orbits])
     nearness = (*reversed(back.margins[1:]), *on.margins)
     special = (*reversed(back.special), *on.special)

@@ -22,6 +22,7 @@ from nonsmooth.studies.derivatives.family import Family, Varied
 from nonsmooth.studies.orbits.choosing import chosen
 from nonsmooth.studies.orbits.diagram import Diagram
 from nonsmooth.studies.orbits.looks import Looks
+from nonsmooth.studies.orbits.repeating import Period, period_at
 from nonsmooth.studies.periods import alike
 
 if TYPE_CHECKING:
@@ -79,7 +80,7 @@ def hysteresis(
     what: Varied,
     name: str,
     values: ArrayLike,
-    period: float,
+    period: Period,
     coordinate: str,
     *,
     at: float = 0.0,
@@ -107,24 +108,29 @@ def hysteresis(
     InvalidInput
         If a number is not valid.
     """
-    row, looks = np.unique(floats("hysteresis: values", values)), Looks(period, coordinate, at, settle, keep)
+    row = np.unique(floats("hysteresis: values", values))
+
+    def looks(value: float) -> Looks:
+        return Looks(period_at(period, value), coordinate, at, settle, keep)
+
     family = Family.of(what, EventDriven())
     _ = family[name]
     if not len(row):
         raise InvalidInput(f"values of {name}", "must be some", [], "Give at least one.")
-    unit, scale = looks.unit_and_scale(family.model())
+    unit, scale = looks(family[name]).unit_and_scale(family.model())
     points, failures = np.full((2, len(row), keep), np.nan), np.full((2, len(row)), "", dtype=object)
     upwards = range(len(row))
     with Pace(display or on_standard_error()) as pace:
         counted = RunsDone(pace, 2 * len(row))
         for way, order in enumerate((upwards, reversed(upwards))):
-            before: tuple[Model, State] | None = None
+            before: tuple[Model, State, float] | None = None
             for i in order:
                 try:
                     model = family.model(**{name: float(row[i])})
-                    start = model.start if before is None else _carried(model, *before, period)
-                    points[way, i], end = looks.settled(model, start)
-                    before = model, end
+                    look = looks(float(row[i]))
+                    start = model.start if before is None else _carried(model, look.period, *before)
+                    points[way, i], end = look.settled(model, start)
+                    before = model, end, look.period
                 except (RunFailed, InvalidInput) as error:
                     failures[way, i], before = str(error), None
                 counted.add(1, bool(failures[way, i]))
@@ -137,10 +143,10 @@ def hysteresis(
     return Hysteresis(up, down)
 
 
-def _carried(model: Model, last: Model, state: State, period: float) -> State:
-    """Return where a motion of another model goes on in a model, early in the time of its period."""
-    there = chosen(last, state, period)
-    there = replace(there, time=there.time % period)
+def _carried(model: Model, period: float, last: Model, state: State, last_period: float) -> State:
+    """Return where a motion of another model continues in a model, at the same phase of the first period."""
+    there = chosen(last, state, last_period)
+    there = replace(there, time=there.time % last_period * (period / last_period))
     # what flew so low that it is reached by what moves otherwise now is taken along
     reached = (model.contact_rates(there)[0] < 0.0) & (there.modes == OPEN)
     there = replace(there, modes=np.where(reached, SLIDE, there.modes))

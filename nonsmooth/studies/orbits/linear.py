@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -10,16 +11,20 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.errors import InvalidInput
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.chart import Chart
+from nonsmooth.studies.derivatives.extrapolation import Derivative, derivative
 from nonsmooth.studies.derivatives.passage import Passage, Signature
 from nonsmooth.studies.derivatives.slope import BACKWARD, FORWARD, OrderOfEvents, Sampled, slope, steady
 from nonsmooth.studies.orbits.sections import Section
 
 Floats = NDArray[np.float64]
 STEPS = (3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7)
-"""Changes that derivatives are tried with, in units of scales."""
+"""Steps that one-sided derivatives at a corner are tried with, in units of scales."""
+_FIRST = 5e-3
+"""Largest step of derivatives, in units of scales: the series of a smooth motion converges within it."""
 
 
 @final
@@ -61,8 +66,10 @@ class Linear:
         is none; shape [m, m].
     corners : tuple of Corner
         The directions without one.
+    error : array
+        Bounds of the errors of the derivatives; infinite where there is none; shape [m, m].
     step : float
-        The least change that derivatives were taken with, in units of scales.
+        The smallest step that derivatives were taken with, in units of scales.
     """
 
     chart: Chart
@@ -70,15 +77,17 @@ class Linear:
     way: Floats
     matrix: Floats
     corners: tuple[Corner, ...]
+    error: Floats
     step: float
 
 
 def linear(
-    model: Model, state: State, section: Section, within: Sequence[str] | None, steps: Sequence[float] = STEPS
+    model: Model, state: State, section: Section, within: Sequence[str] | None, step: float | None = None
 ) -> Linear:
     """Return the map from a state to the next one of a section, along the coordinates that are named.
 
-    The steps are those that may be taken; one that is known to be good saves the others.
+    With a step that is known to be good near the state the derivatives are quick differences of fourth order, whose
+    errors are not known.  They serve Newton's method.  Without one the steps are chosen at this state.
 
     Raises
     ------
@@ -91,20 +100,18 @@ def linear(
     """
     chart, end = chart_at(model, state, section, within), section.passage(model, state)
     there = _directions_at(end, chart, model, section, within)
-    columns, corners, taken = list[Floats](), list[Corner](), [max(steps)]
+    columns, corners = list[Derivative](), list[Corner]()
     for name, sampled in zip(chart.names, _directions(model, state, section, chart, end, there), strict=True):
         try:
-            column, step, _ = steady(partial(slope, sampled, expected=end.signature), steps)
-            columns.append(column)
-            taken.append(step)
+            columns.append(_column(sampled, end.signature, step))
         except OrderOfEvents:
-            columns.append(np.full(len(chart.names), np.nan))
+            columns.append(Derivative(np.full(len(chart.names), np.nan), np.inf, _FIRST))
             corners.append(_corner(name, sampled))
-    return _joined(chart, state, end, columns, tuple(corners), min(taken))
+    return _joined(chart, state, end, columns, tuple(corners))
 
 
 def smooth(
-    model: Model, state: State, section: Section, within: Sequence[str] | None, steps: Sequence[float] = STEPS
+    model: Model, state: State, section: Section, within: Sequence[str] | None, step: float | None = None
 ) -> Linear:
     """Return the same of a map that has all derivatives.
 
@@ -115,19 +122,23 @@ def smooth(
     """
     chart, end = chart_at(model, state, section, within), section.passage(model, state)
     there = _directions_at(end, chart, model, section, within)
-    columns, taken = list[Floats](), [max(steps)]
-    for sampled in _directions(model, state, section, chart, end, there):
-        column, step, _ = steady(partial(slope, sampled, expected=end.signature), steps)
-        columns.append(column)
-        taken.append(step)
-    return _joined(chart, state, end, columns, (), min(taken))
+    moves = _directions(model, state, section, chart, end, there)
+    return _joined(chart, state, end, [_column(sampled, end.signature, step) for sampled in moves], ())
 
 
-def _joined(
-    chart: Chart, state: State, end: Passage, columns: list[Floats], corners: tuple[Corner, ...], step: float
-) -> Linear:
-    matrix = np.array(columns).reshape(len(columns), len(columns)).T
-    return Linear(chart, end, chart.between(state, end.state), matrix, corners, step)
+def _column(sampled: Sampled, expected: Signature, step: float | None) -> Derivative:
+    if step is not None:
+        with contextlib.suppress(OrderOfEvents, InvalidInput):
+            return Derivative(slope(sampled, step, expected), np.inf, step)
+    return derivative(sampled, _FIRST, expected)
+
+
+def _joined(chart: Chart, state: State, end: Passage, columns: list[Derivative], corners: tuple[Corner, ...]) -> Linear:
+    m = len(columns)
+    matrix = np.array([one.value for one in columns]).reshape(m, m).T
+    error = np.tile([one.error for one in columns], (m, 1)).reshape(m, m)
+    step = min((one.step for one in columns), default=_FIRST)
+    return Linear(chart, end, chart.between(state, end.state), matrix, corners, error, step)
 
 
 def chart_at(model: Model, state: State, section: Section, within: Sequence[str] | None) -> Chart:

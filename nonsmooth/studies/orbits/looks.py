@@ -14,6 +14,7 @@ from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.coordinates import coordinate_number, unit
 from nonsmooth.studies.orbits.choosing import at_phase
+from nonsmooth.studies.orbits.repeating import check_period
 
 Floats = NDArray[np.float64]
 
@@ -73,6 +74,8 @@ class Looks:
         ------
         RunFailed
             If a run cannot go on.
+        InvalidInput
+            If the system does not have the period.
         """
         begin = at_phase(model, start, self.period, self.at)
         number = coordinate_number(model.system, self.coordinate)
@@ -81,4 +84,5 @@ class Looks:
         if run.status == "interrupted":
             raise KeyboardInterrupt
         kept = slice(self.settle + 1, self.settle + 1 + self.keep)
+        check_period(model, run.state, self.period, "bifurcation: period")
         return np.concatenate([run.q, run.u], axis=1)[kept, number], run.state

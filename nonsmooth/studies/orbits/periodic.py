@@ -18,7 +18,8 @@ from nonsmooth.studies.derivatives.coordinates import coordinate_number
 from nonsmooth.studies.derivatives.family import Family, Varied
 from nonsmooth.studies.derivatives.passage import Signature, named
 from nonsmooth.studies.orbits.choosing import at_phase, chosen
-from nonsmooth.studies.orbits.linear import STEPS, Corner, Linear, linear
+from nonsmooth.studies.orbits.eigenvalues import eigenvalues, with_error
+from nonsmooth.studies.orbits.linear import Corner, Linear, linear
 from nonsmooth.studies.orbits.modulo import Modulo
 from nonsmooth.studies.orbits.sections import Crossing, Section, Strobe
 from nonsmooth.studies.orbits.symmetries import Symmetry
@@ -30,6 +31,10 @@ _AGAIN = 1e-8
 """What may be left of it after another period, for a map that stretches by 1."""
 _MOST = 30
 """Steps of Newton's method."""
+
+
+_NEARLY_ONE = 1e-3
+"""Distance of a multiplier from 1 below which Newton's method divides by less than a thousandth."""
 
 
 class NoOrbit(NonsmoothError):
@@ -94,13 +99,18 @@ class Orbit:
     @property
     def multipliers(self) -> NDArray[np.complex128]:
         """Floquet multipliers, the largest first, of perturbations along the smooth directions."""
-        found = np.linalg.eigvals(self.monodromy).astype(complex)
-        return np.asarray(found[np.argsort(-np.abs(found), kind="stable")])
+        return eigenvalues(self.monodromy, np.zeros_like(self.monodromy))[0]
+
+    @property
+    def multiplier_errors(self) -> Floats:
+        """Bounds of the errors of the multipliers, in their order, from those of the derivatives; shape [m]."""
+        kept = [name in self.smooth for name in self.map.chart.names]
+        return eigenvalues(self.monodromy, self.map.error[np.ix_(kept, kept)])[1]
 
     @property
     def stable(self) -> bool:
-        """Whether all multipliers lie within the unit circle, and there are no corners."""
-        return not self.corners and bool(np.all(np.abs(self.multipliers) < 1.0))
+        """Whether all multipliers lie within the unit circle by more than their errors, and there are no corners."""
+        return not self.corners and bool(np.all(np.abs(self.multipliers) + self.multiplier_errors < 1.0))
 
     @property
     def events(self) -> Signature:
@@ -110,7 +120,7 @@ class Orbit:
     def __str__(self) -> str:
         """Return period, residual, multipliers and events."""
         model = self.family.model()
-        values = ", ".join(f"{value:.8g}" for value in self.multipliers) or "none"
+        values = ", ".join(map(with_error, self.multipliers, self.multiplier_errors)) or "none"
         rough = f"; no derivative along {', '.join(c.direction for c in self.corners)}" if self.corners else ""
         passes = ", ".join(self.section.without(model))
         trivial = f" besides 1 along the motion, which the section of {passes} takes away" if passes else ""
@@ -222,17 +232,17 @@ def close(family: Family, state: State, section: Section, within: tuple[str, ...
     """
     model, residual = family.model(), np.inf
     section.check(model, state)
-    steps: Sequence[float] = STEPS
+    step: float | None = None
     for i in range(_MOST):
         try:
-            found = linear(model, state, section, within, steps)
+            found = linear(model, state, section, within, step)
         except (InvalidInput, RunFailed) as error:
             if i == 0:
                 raise
             raise NoOrbit(f"no orbit near the start: step {i} leads where no run is ({error})") from error
         residual = float(np.max(np.abs(found.way), initial=0.0))
-        if residual <= _CLOSE and steps is not STEPS:
-            found, steps = linear(model, state, section, within), STEPS
+        if residual <= _CLOSE and step is not None:
+            found = linear(model, state, section, within)
         if residual <= _CLOSE:
             if not np.array_equal(found.end.state.modes, state.modes):
                 raise NoOrbit("no orbit near the start: other contacts are closed at the end; choose another section")
@@ -243,8 +253,21 @@ def close(family: Family, state: State, section: Section, within: tuple[str, ...
         reduced = found.matrix[np.ix_(smooth, smooth)] - np.eye(int(np.sum(smooth)))
         # along directions of symmetry nothing is to be changed: the least change of all
         change[smooth] = np.linalg.lstsq(reduced, -found.way[smooth], rcond=1e-9)[0]
-        state, steps = found.chart.moved(model, state, change), (found.step,)
-    raise NoOrbit(f"no orbit near the start: after {_MOST} steps {residual:.2g} is left; begin nearer")
+        state, step = found.chart.moved(model, state, change), found.step
+    raise NoOrbit(f"no orbit near the start: after {_MOST} steps {residual:.2g} is left; {_advice(found)}")
+
+
+def _advice(found: Linear) -> str:
+    """Return why Newton's method may have failed: a multiplier 1, or a start that is too far."""
+    known = ~np.isnan(found.matrix).any(axis=0)
+    values = np.linalg.eigvals(found.matrix[np.ix_(known, known)])
+    nearest = values[np.argmin(np.abs(values - 1.0))] if len(values) else np.inf
+    if abs(nearest - 1.0) < _NEARLY_ONE:
+        return (
+            f"the map has a multiplier of {complex(nearest):.6g} there, so orbits may form a continuum or meet at a "
+            "fold; change a parameter, or leave a coordinate out of `within`"
+        )
+    return "begin nearer"
 
 
 def _check_again(model: Model, found: Linear, section: Section) -> None:

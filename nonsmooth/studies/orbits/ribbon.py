@@ -21,6 +21,7 @@ from nonsmooth.solution.solution import Solution
 from nonsmooth.studies.derivatives.family import Family, Varied
 from nonsmooth.studies.derivatives.passage import Signature, named
 from nonsmooth.studies.orbits.each import of_each
+from nonsmooth.studies.orbits.repeating import check_period
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -129,7 +130,7 @@ def ribbon(
     values : array
         Its values, rising, shape [n].
     period : float
-        [s].
+        [s].  A run at a value at which the drive has another period counts as failed.
     settle, keep : int
         Periods that are left out, and those that are kept.
     display : Display, optional
@@ -150,10 +151,11 @@ def ribbon(
             raise InvalidInput(f"ribbon: {word}", "must be positive and finite", number, "Give a larger one.")
     family = Family.of(what, EventDriven())
 
-    def row(model: Model) -> Row:
+    def row(model: Model, value: float) -> Row:
         run = model.run((settle + keep) * period, sample_interval=period)
         if run.status == "interrupted":
             raise KeyboardInterrupt
+        check_period(model, run.state, period, "ribbon: period")
         return _row(run, period, settle, keep)
 
     rows, failures = of_each(family, name, column.tolist(), row, Row(np.empty(0), ()), display)
