@@ -83,3 +83,13 @@ class ConvexPart:
         # of a norm the sum of the semi-axes is a bound, whatever its powers are
         semi = max(self.semi) if self.powers == (2.0, 2.0) else sum(self.semi)
         return float(np.max(rings, initial=0.0)) + semi + self.ball + self.reach
+
+    def height(self, direction: Vector) -> float:
+        """Return h(n) in the frame of the body, for a direction of any length [m times that]; not of functions."""
+        n = np.asarray(direction) @ self.axes
+        across = math.hypot(n[0], n[1])
+        (a, b, c), (p, q) = self.semi, self.powers
+        wide = (abs(a * n[0]) ** q + abs(b * n[1]) ** q) ** (1.0 / q)
+        added = (wide**p + abs(c * n[2]) ** p) ** (1.0 / p) + self.ball * float(np.linalg.norm(n))
+        hull = np.max(self.rings[:, :3] @ n + self.rings[:, 3] * across) if len(self.rings) > 0 else 0.0
+        return float(self.place @ direction + hull + added)

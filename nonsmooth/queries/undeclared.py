@@ -78,10 +78,10 @@ class Undeclared:
         Bodies that a joint or a load ties to another one are held by that.
         """
         bodies, names = self.system.bodies, self.system.names.bodies
-        known = {i for pair in self.ties.declared for i in pair}
-        tied = {id(body) for tie in (*self.system.joints, *self.system.loads) for body in (tie.first, tie.second)}
+        ties = *self.system.contacts, *self.system.joints, *self.system.loads
+        held = {id(body) for tie in ties for body in (tie.first, tie.second)}
         shaped = [i for i, body in enumerate(bodies) if any(body.frames)]
-        lone = [i for i in shaped if i not in known and bodies[i].n_u > 0 and id(bodies[i]) not in tied]
+        lone = [i for i in shaped if bodies[i].n_u > 0 and id(bodies[i]) not in held]
         met = [(i, j) for i in lone for j in shaped if i != j and self._is_one(min(i, j), max(i, j))]
         if not met:
             return

@@ -34,6 +34,7 @@ def check_shape(shape: Shape) -> list[Property]:
             "bounds and its extent, and points inside are",
             lambda: _check_solid(shape),
         ),
+        ("parts", "its convex parts lie within what it encloses", lambda: _check_parts(shape)),
         ("look", "what is seen of it can be drawn", lambda: check_look("look", shape.look)),
     ]
     return properties(shape, [*component_rows(shape), *rows])
@@ -82,3 +83,16 @@ def _check_solid(shape: Shape) -> None:
     farthest = float(np.max(np.linalg.norm(points, axis=1)))
     if farthest > shape.extent + none + solid.set_back:
         raise Broken(f"a point of the solid is {farthest:g} m away", "extent", shape.extent)
+
+
+def _check_parts(shape: Shape) -> None:
+    """Look whether the convex parts lie within the solid, or as far beyond it as contacts may see its surface."""
+    solid = shape.solid
+    for part in shape.parts:
+        if solid is None or part.function or part.is_half_space:
+            continue
+        for n in np.random.default_rng(0).normal(size=(_DIRECTIONS, 3)):
+            size = float(np.linalg.norm(n))
+            beyond = part.height(n) / size - float(n @ solid.support(n)) / size
+            if not beyond <= _ROUND_OFF * (shape.extent + part.radius) + solid.set_back:
+                raise Broken(f"a part must not reach {beyond:.3g} m out of the solid along {n.tolist()}", "parts", part)

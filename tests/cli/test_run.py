@@ -26,6 +26,7 @@ KEYS = {
     "step_limits",
     "event_intervals",
     "contacts",
+    "unseen_contacts",
     "mode_words",
     "energy_residual",
     "final",

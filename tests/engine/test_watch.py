@@ -43,6 +43,9 @@ def _between_two_plates(beside: bool) -> ns.System:
     plate, ball, free = Plate(), Ball(RADIUS), Ball(RADIUS)
     system = ns.System([plate, lid, free, ball])
     laws: dict[str, Any] = {"normal": Unilateral(), "friction": Frictionless()}
+    for other in (plate, lid, ball):
+        if other is not plate or not beside:
+            system.exclude(free, other)
     if beside:
         system.contact(plate, free, **laws, impact=EnergeticImpact(0.5))
     system.contact(plate, ball, **laws, impact=EnergeticImpact(1.0))

@@ -118,7 +118,9 @@ def _warned(system: ns.System) -> list[str]:
 def test_an_overlap_that_nobody_declared_is_told_before_a_run() -> None:
     """Once for all pairs, with depth and remedy; and the run goes on."""
     system = _row(-1e-3, 5e-3)
-    system.contact(system.bodies[0], system.bodies[1], **LAWS)
+    plate, one, two = system.bodies[:3]
+    system.contact(plate, one, **LAWS)
+    system.contact(plate, two, **LAWS)
     with pytest.warns(UndeclaredOverlap, match=r"'ball 1' and 'ball 2' by at least .*system\.exclude"):
         solution = ns.simulate(system, 1e-3)
     assert solution.status == "done"
@@ -231,6 +233,8 @@ def test_a_history_is_what_single_questions_say() -> None:
     system = _row(5e-3)
     plate, one, two = system.bodies
     system.contact(plate, one, **LAWS)
+    system.exclude(plate, two)
+    system.exclude(one, two)
     solution = ns.simulate(system, 0.1, sample_interval=0.01)
     found = solution.distances(plate, one)
     assert set(found.how) == {"exact"}

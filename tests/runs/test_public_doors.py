@@ -26,6 +26,7 @@ def _system() -> ns.System:
     system = ns.System([PLATE, BALL, OTHER])
     system.contact(PLATE, BALL, **LAWS)
     system.exclude(PLATE, OTHER)
+    system.exclude(BALL, OTHER)
     system.place(BALL, position=(0.0, 0.0, 0.1))
     system.place(OTHER, position=(1.0, 0.0, 0.1))
     return system
@@ -193,6 +194,7 @@ def test_a_run_of_more_steps_than_hours_hold_is_refused(limit: str) -> None:
     if limit == "period":
         plate, ball = Plate(Harmonic(1e-3, 1e30)), Ball(0.02)
         system, engine = ns.System([plate, ball]), ns.EventDriven()
+        system.exclude(plate, ball)
         system.place(ball, position=(0.0, 0.0, 0.1))
     with pytest.raises(ns.InvalidInput, match="largest step must be at least"):
         ns.simulate(system, 0.1, engine=engine)

@@ -27,6 +27,8 @@ def _drawn(run: ns.Solution) -> tuple[Extent, list[Floats]]:
 def _fall(*bodies: object, position: tuple[float, float, float] = (0.0, 0.0, 0.5)) -> ns.Solution:
     ball = Ball(0.02)
     system = ns.System([*bodies, ball])  # type: ignore[list-item]
+    for body in bodies:
+        system.exclude(body, ball)  # type: ignore[arg-type]
     system.place(ball, position=position)
     return ns.simulate(system, 0.3)
 

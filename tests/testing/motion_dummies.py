@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from nonsmooth.interfaces import Guard, Look, Motion, Shape
+from nonsmooth.interfaces import ConvexPart, Guard, Look, Motion, Shape
 from nonsmooth.interfaces.convex_solid import ConvexSolid
 from nonsmooth.types import Floats
 
@@ -120,6 +120,17 @@ class Ball(Shape):
 
 
 @dataclass(frozen=True)
+class Parted(Ball):
+    """A ball with these parts."""
+
+    parts_: tuple[ConvexPart, ...] = ()
+
+    @property
+    def parts(self) -> tuple[ConvexPart, ...]:
+        return self.parts_
+
+
+@dataclass(frozen=True)
 class Seen(Blob):
     """A shape that is seen as it says."""
 
@@ -128,6 +139,10 @@ class Seen(Blob):
     @property
     def look(self) -> Look:
         return self.seen  # type: ignore[no-any-return]
+
+
+def _round(n: Any) -> Any:
+    return n / np.linalg.norm(n)
 
 
 def _dented(n: Any) -> Any:
@@ -144,6 +159,7 @@ SHAPES: list[tuple[str, Shape]] = [
     ("look", Seen(seen=Look(np.full((1, 3), math.nan)))),
     ("look", Seen(seen=Look(np.zeros((2, 3)), sheet=True))),
     ("look", Seen(seen=Look(np.zeros((3, 3)), triangles=np.array([[0, 1, 3]])))),
+    ("parts", Parted(_round, parts_=(ConvexPart(ball=1.01),))),
     ("solid", Ball(_dented)),
     ("solid", Ball(lambda n: n)),
     ("solid", Ball(lambda n: np.full(3, math.nan))),

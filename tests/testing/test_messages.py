@@ -170,6 +170,7 @@ class Chance(scenario_dummies.Bounce):
 
     def build(self) -> ns.System:  # builds another
         system = ns.System([Plate(), Ball(0.01)])
+        system.exclude(*system.bodies)
         system.place(system.bodies[1], position=(0.0, 0.0, 1.0 + 0.001 * next(_count)))
         return system
 
