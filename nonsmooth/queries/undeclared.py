@@ -19,6 +19,7 @@ from nonsmooth.queries.bodies import BodyPair
 from nonsmooth.queries.near import near_bodies, size_of, touching
 from nonsmooth.queries.ties import Ties
 from nonsmooth.solids.placed import Placed, overlap
+from nonsmooth.system.contact import Contact, Tie
 from nonsmooth.system.system import System
 
 Places = Sequence[Sequence[Place]]
@@ -78,8 +79,8 @@ class Undeclared:
         Bodies that a joint or a load ties to another one are held by that.
         """
         bodies, names = self.system.bodies, self.system.names.bodies
-        ties = *self.system.contacts, *self.system.joints, *self.system.loads
-        held = {id(body) for tie in ties for body in (tie.first, tie.second)}
+        said: list[Contact | Tie] = [*self.system.contacts, *self.system.joints, *self.system.loads]
+        held = {id(body) for one in said for body in (one.first, one.second)}
         shaped = [i for i, body in enumerate(bodies) if any(body.frames)]
         lone = [i for i in shaped if bodies[i].n_u > 0 and id(bodies[i]) not in held]
         met = [(i, j) for i in lone for j in shaped if i != j and self._is_one(min(i, j), max(i, j))]

@@ -36,11 +36,11 @@ def unexplained(model: LaidOut, status: int) -> str:
             return f"{said} It is closed, and {others} hold its bodies otherwise. {_PRESSED}"
         return f"{said} It jumps in {described(contact.kinematics.evaluator)}. {_CHECK} {_SHIFT}"
     if status == PASSED:
-        contact, names = model.system.contacts[number], model.system.names.bodies
-        first, second = (names[model.system.bodies.index(body)] for body in (contact.first, contact.second))
+        contact = model.system.contacts[number]
+        first, second = map(model.system.name_of, (contact.first, contact.second))
         return (
-            f"The bodies {first!r} and {second!r} of the {contact} overlap by {-found:.3g} m, of which their closed "
-            f"contacts explain {-allowed:.3g} m. Their features missed each other: turn or shift one of them by a "
+            f"The bodies {first!r} and {second!r} of the {contact} overlap by {found:.3g} m, of which their closed "
+            f"contacts explain {allowed:.3g} m. Their features missed each other: turn or shift one of them by a "
             "thousandth of its size, give it feet or a rounding, or take shorter steps, EventDriven(largest_step=...)."
         )
     if status == GAP_UNDECIDED:

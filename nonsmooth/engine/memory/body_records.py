@@ -151,7 +151,6 @@ PAIR_OF_PARTS: Fields = {
         "pair_size",
         "pair_closed",
         "pair_deepest",
-        "pair_excess",
     ),
     "direction": vector("pair_direction", 0, 3),
     "normal": vector("pair_normal", 0, 3),

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.memory.arrays.arrays import Arrays, fixed, per, whole
+from nonsmooth.engine.memory.arrays.arrays import Arrays, fixed, per, real, whole
 
 ARRAYS = Arrays(
     scalars={
         **whole(
             "n_pairs",
         ),
+        **real(
+            "passed_depth",
+            "passed_explained",
+        ),
+        # no pair of bodies has passed into each other
+        "passed": -1,
     },
     floats={
         "pair_allowed": per(1, "n_pairs"),
@@ -27,7 +33,6 @@ ARRAYS = Arrays(
         "pair_direction": per(3, "n_pairs"),
         "pair_normal": per(3, "n_pairs"),
         "pair_deepest": per(1, "n_pairs"),
-        "pair_excess": per(1, "n_pairs"),
         "simplex": fixed(16),
     },
     later_integers={
