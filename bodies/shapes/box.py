@@ -15,6 +15,7 @@ from bodies.shapes.polytope import Polytope, polytope_of
 from bodies.shapes.swept_drawing import draw_swept
 from bodies.shapes.swept_solid import swept_solid
 from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import ConvexPart
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
@@ -82,6 +83,11 @@ class Box(Polyhedron):
     def core(self) -> Polytope:
         """Vertices, faces and edges of the core in the body frame."""
         return polytope_of("Box", self.vertices)
+
+    @property
+    def parts(self) -> tuple[ConvexPart, ...]:
+        """The hull of the vertices, swept: those of the core, whose faces take longer to find."""
+        return (ConvexPart.of_points(np.array(self.vertices), self.rounding),)
 
     @property
     def _axes(self) -> Vector:

@@ -86,7 +86,10 @@ def _lessen(n: int, matrix: Array, free: Array, base: Array, least: Array, frict
     for compliance in _COMPLIANCES[::-1]:
         tried = p.copy()
         if find_zero(n, matrix, free, base, least, friction, compliance, True, tried) == 1:
-            if np.sum(tried * tried) < np.sum(p * p):
+            longer = 0.0
+            for i in range(3 * n):
+                longer += tried[i] * tried[i] - p[i] * p[i]
+            if longer < 0.0:
                 p[:] = tried
             return
 

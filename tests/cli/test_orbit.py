@@ -55,7 +55,7 @@ def test_a_followed_diagram(call: Call, tmp_path: Path) -> None:
     assert "1 of 2 values have two motions" in output
     assert "up: 2 repeat after 1 periods" in output
     lines = (tmp_path / "out" / "bifurcation.csv").read_text(encoding="utf-8").splitlines()
-    assert lines[0] == "way,gamma"
+    assert lines[0] == ",".join(["way", "gamma", *(f"vz_{i}" for i in range(1, 9))])
     assert [line.split(",")[:2] for line in lines[1:]] == [
         ["up", "0.3"],
         ["up", "0.8"],

@@ -147,7 +147,7 @@ def test_what_is_no_orbit() -> None:
     with pytest.raises(ns.InvalidInput, match="must be one of the system, but after a second one"):
         orbit(scenario, 0.0311, within=("z", "vz"))
     # beyond the fold there is none
-    with pytest.raises(NoOrbit, match="begin nearer"):
+    with pytest.raises(NoOrbit, match="meet at a fold"):
         orbit(BouncingBall(gamma=0.3, start_phase=0.1, speed=0.19), 0.04, within=("z", "vz"))
     found = orbit(scenario, scenario.period, within=("z", "vz"))
     with pytest.raises(ns.InvalidInput, match=r"around the value of the orbit.*gamma = 0\.8"):
