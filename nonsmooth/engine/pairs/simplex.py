@@ -26,7 +26,7 @@ def corner(S: Scalars, w: Floats, i: int) -> Vector:
 
 @kernel("void(S, F, i8, v3)")
 def put_corner(S: Scalars, w: Floats, i: int, place: Vector) -> None:
-    """Make a place a corner of the simplex."""
+    """Write corner ``i`` of the simplex [m]."""
     at = S.simplex + 3 * i
     w[at], w[at + 1], w[at + 2] = place
 

@@ -27,7 +27,7 @@ from nonsmooth.engine.numerics.vectors import Vector, dot, minus, opposite
 
 @kernel("v3(F, v3)")
 def _turned(axes: Floats, v: Vector) -> Vector:
-    """Return a vector given in the axes that are the columns of a matrix, in those of its rows."""
+    """Return R v for a rotation matrix R, row by row: from axes of a body or part to those around it."""
     x, y, z = v
     return (
         axes[0] * x + axes[1] * y + axes[2] * z,
@@ -38,7 +38,7 @@ def _turned(axes: Floats, v: Vector) -> Vector:
 
 @kernel("v3(F, v3)")
 def _turned_back(axes: Floats, v: Vector) -> Vector:
-    """Return a vector given in the axes of the rows, in those that are the columns."""
+    """Return R^T v: the way back."""
     x, y, z = v
     return (
         axes[0] * x + axes[3] * y + axes[6] * z,
