@@ -18,7 +18,7 @@ from nonsmooth.model.image import Guards
 from nonsmooth.model.laid_out import LaidOut, map_width
 from nonsmooth.model.laying import lay_bodies, lay_guards, lay_joints, lay_loads
 from nonsmooth.model.laying_contacts import by_kind, initial_state, lay_contacts
-from nonsmooth.model.part_pairs import find_part_pairs, lay_part_pairs
+from nonsmooth.model.part_pairs import carriers_of, find_part_pairs, lay_part_pairs
 from nonsmooth.model.pools import lay_pools
 from nonsmooth.model.units import find_units, lay_units
 from nonsmooth.system.system import System
@@ -94,6 +94,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
         "n_walls": len(units.walls) if len(units.radii) > 0 else 0,
         "n_pools": len(units.pools),
         "n_pairs": len(pairs),
+        "n_carriers": len(carriers_of(pairs)),
         "n_own_guards": len(system.guards),
         "n_loads": len(system.loads),
         "n_joints": len(system.joints),

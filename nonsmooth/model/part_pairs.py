@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from operator import attrgetter
@@ -23,6 +24,8 @@ _PASSED = 1e-7
 
 Ten times what tolerances leave of the gap of a body that moves by a hundred times its size.
 """
+_ENDLESS = 1e300
+"""Distance to the farthest point of a half-space [m]; times no turn at all it is zero."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,6 +85,16 @@ def find_part_pairs(contacts: Sequence[Contact], table: ContactTable) -> list[Pa
     return found
 
 
+def carriers_of(pairs: Sequence[PartPair]) -> dict[tuple[int, int], float]:
+    """Return the bodies and frames that carry parts of pairs, each with the distance to its farthest point [m]."""
+    levers: dict[tuple[int, int], float] = {}
+    for pair in pairs:
+        for side, part in zip(pair.sides, pair.parts, strict=True):
+            reach = _ENDLESS if part.is_half_space else math.hypot(*part.place) + part.radius
+            levers[side] = max(reach, levers.get(side, 0.0))
+    return levers
+
+
 def is_looked_at(one: ConvexPart, two: ConvexPart, contacts: int) -> bool:
     """Tell whether a pair of parts can overlap and no single contact of theirs says so by itself."""
     if one.is_half_space and two.is_half_space:
@@ -139,12 +152,18 @@ def lay_part_pairs(memory: Memory, heap: Heap, pairs: Sequence[PartPair], places
     of_contact = memory.array("catalogue", width * n).reshape(n, width)[:, CATALOGUE.index("pair")]
     of_contact[:] = NO_PAIR
     stand = {(place.number, frame): at for place in places.values() for frame, at in enumerate(place.frames)}
+    carriers = carriers_of(pairs)
+    numbers = {side: number for number, side in enumerate(carriers)}
+    memory.array("carrier_frame", len(carriers))[:] = [stand[side] for side in carriers]
+    memory.array("carrier_lever", len(carriers))[:] = list(carriers.values())
     starts: dict[tuple[int, int], int] = {}
     for number, pair in enumerate(pairs):
         for key, part in zip(pair.shapes, pair.parts, strict=True):
             if key not in starts:
                 starts[key] = heap.store(numbers_of(part))
         fields: Mapping[str, float] = {
+            "carrier_a": numbers[pair.sides[0]],
+            "carrier_b": numbers[pair.sides[1]],
             "frame_a": stand[pair.sides[0]],
             "frame_b": stand[pair.sides[1]],
             "part_a": starts[pair.shapes[0]],

@@ -141,6 +141,8 @@ POOL = without(
 PAIR_OF_PARTS: Fields = {
     **without(
         "pair_",
+        "pair_carrier_a",
+        "pair_carrier_b",
         "pair_frame_a",
         "pair_frame_b",
         "pair_part_a",
@@ -149,6 +151,7 @@ PAIR_OF_PARTS: Fields = {
         "pair_contact",
         "pair_allowed",
         "pair_size",
+        "pair_room",
         "pair_closed",
         "pair_deepest",
     ),
@@ -156,6 +159,12 @@ PAIR_OF_PARTS: Fields = {
     "normal": vector("pair_normal", 0, 3),
 }
 """Of a pair of convex parts (:mod:`nonsmooth.engine.pairs.look`)."""
+
+CARRIER: Fields = {
+    **without("carrier_", "carrier_frame", "carrier_lever", "carrier_way", "carrier_axes"),
+    "place": vector("carrier_place", 0, 3),
+}
+"""Of a frame that carries convex parts (:mod:`nonsmooth.engine.pairs.look`)."""
 
 CONVEX_PART: Fields = {
     "place": packed(PART_PLACE, 3),

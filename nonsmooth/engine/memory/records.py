@@ -13,6 +13,7 @@ from collections.abc import Mapping
 from nonsmooth.engine.memory.body_records import (
     ARTICULATION,
     BODY,
+    CARRIER,
     CONVEX_PART,
     FRAME_OF_BODY,
     JOINT,
@@ -47,6 +48,7 @@ RECORDS: Mapping[str, Fields] = {
     "wall": WALL,
     "pool": POOL,
     "pair": PAIR_OF_PARTS,
+    "carrier": CARRIER,
     "own_guard": OWN_GUARD,
     "guard": GUARD,
     "unknown": UNKNOWN,

@@ -79,6 +79,7 @@ COUNTS = (
     "n_walls",
     "n_pools",
     "n_pairs",
+    "n_carriers",
     "n_own_guards",
     "n_loads",
     "n_joints",

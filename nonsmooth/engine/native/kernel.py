@@ -71,6 +71,8 @@ pool_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["pool"]
 """a pool,"""
 pair_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["pair"]
 """a pair of convex parts,"""
+carrier_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["carrier"]
+"""a frame that carries some,"""
 guard_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["guard"]
 """a guard,"""
 own_guard_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["own_guard"]
@@ -163,6 +165,7 @@ __all__ = [
     "call_traction",
     "call_watch",
     "calls",
+    "carrier_at",
     "contact_at",
     "delassus_block",
     "entry_addresses",

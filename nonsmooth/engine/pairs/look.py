@@ -2,28 +2,35 @@
 
 Features of bodies can miss each other; their pair cannot.  For each pair of convex parts whose balls meet the
 separation along the direction that parted them last is taken first, or along the normal of a contact of theirs that is
-closed.  Only where that does not show them apart is a better direction looked for.
+closed.  Only where that does not show them apart is a better direction looked for.  A pair that was found apart is not
+looked at again before its parts have moved so far that they may meet.
 """
 
 from __future__ import annotations
+
+import math
 
 from nonsmooth.engine.memory.modes import OPEN
 from nonsmooth.engine.native.kernel import (
     Floats,
     Integers,
     Scalars,
+    carrier_at,
     contact_at,
     entry_point,
+    frame_at,
     kernel,
     pair_at,
     part_at,
 )
-from nonsmooth.engine.numerics.vectors import dot, minus
+from nonsmooth.engine.numerics.vectors import distance, dot
 from nonsmooth.engine.pairs.separation import direction_of
 from nonsmooth.engine.pairs.support import height_over, middle_of, separation_along
 
 NO_PAIR = -1
 """A contact between shapes that are not looked at."""
+_FAR = 1e3
+"""After this way [m] ways are counted anew, long before their round-off counts; half-spaces that turn go farther."""
 
 
 @kernel("void(S, F, I)")
@@ -41,25 +48,45 @@ def _ask_contacts(S: Scalars, w: Floats, k: Integers) -> None:
             pair.closed, pair.deepest, pair.normal = 1, min(0.0, contact.gap), contact.normal
 
 
-@kernel("i8(S, F, I, i8)")
-def _balls_meet(S: Scalars, w: Floats, k: Integers, number: int) -> int:
-    """Return 1 if the balls that hold the parts of a pair meet."""
+@kernel("void(S, F, I)")
+def _move_carriers(S: Scalars, w: Floats, k: Integers) -> None:
+    """Add to the way of each carrier how far any point of its parts can be from where it was at the last look."""
+    farthest = 0.0
+    for number in range(S.n_carriers):
+        carrier = carrier_at(S, w, k, number)
+        frame, square = frame_at(w, carrier.frame), 0.0
+        for i in range(9):
+            square += (frame.rotation[i] - carrier.axes[i]) ** 2
+            carrier.axes[i] = frame.rotation[i]
+        carrier.way += distance(frame.origin, carrier.place) + carrier.lever * math.sqrt(0.5 * square)
+        carrier.place = frame.origin
+        farthest = max(farthest, carrier.way)
+    if farthest > _FAR:
+        for number in range(S.n_carriers):
+            carrier_at(S, w, k, number).way = 0.0
+        for number in range(S.n_pairs):
+            pair_at(S, w, k, number).room = 0.0
+
+
+@kernel("f8(S, F, I, i8)")
+def _way(S: Scalars, w: Floats, k: Integers, number: int) -> float:
+    """Return the way of both carriers of a pair [m]: its separation changes by no more."""
     pair = pair_at(S, w, k, number)
-    way = minus(middle_of(w, pair.frame_b, pair.part_b), middle_of(w, pair.frame_a, pair.part_a))
-    reach = part_at(w, pair.part_a).radius + part_at(w, pair.part_b).radius
-    return 1 if dot(way, way) < reach * reach else 0
+    return float(carrier_at(S, w, k, pair.carrier_a).way + carrier_at(S, w, k, pair.carrier_b).way)
 
 
-@kernel("i8(S, F, I, i8)")
-def _are_parted(S: Scalars, w: Floats, k: Integers, number: int) -> int:
-    """Return 1 if a pair is apart, or overlaps by no more than is allowed, as far as what is known of it tells."""
+@kernel("f8(S, F, I, i8)")
+def _known_separation(S: Scalars, w: Floats, k: Integers, number: int) -> float:
+    """Return how far apart a pair is at least, as far as what is known of it tells [m]."""
     pair = pair_at(S, w, k, number)
     if part_at(w, pair.part_a).rings < 0.0:
-        return 1 if height_over(S, w, k, number) >= -pair.allowed else 0
-    if _balls_meet(S, w, k, number) == 0:
-        return 1
+        return height_over(S, w, k, number)
+    between = distance(middle_of(w, pair.frame_b, pair.part_b), middle_of(w, pair.frame_a, pair.part_a))
+    apart = between - part_at(w, pair.part_a).radius - part_at(w, pair.part_b).radius
     n = pair.direction
-    return 1 if dot(n, n) > 0.0 and separation_along(S, w, k, number, n) >= -pair.allowed else 0
+    if apart >= 0.0 or dot(n, n) == 0.0:
+        return float(apart)
+    return float(separation_along(S, w, k, number, n))
 
 
 @kernel("f8(S, F, I, i8, f8)")
@@ -85,13 +112,18 @@ def look_at_pairs(S: Scalars, w: Floats, k: Integers) -> None:
     What these say is asked only where a pair is not apart.
     """
     S.passed, asked, most = -1, 0, 0.0
+    _move_carriers(S, w, k)
     for number in range(S.n_pairs):
-        if _are_parted(S, w, k, number) == 1:
+        pair, way = pair_at(S, w, k, number), _way(S, w, k, number)
+        if way < pair.room:
+            continue
+        spare = _known_separation(S, w, k, number) + pair.allowed
+        pair.room = way + spare
+        if spare >= 0.0:
             continue
         if asked == 0:
             _ask_contacts(S, w, k)
             asked = 1
-        pair = pair_at(S, w, k, number)
         explained = pair_at(S, w, k, pair.group).deepest - pair.allowed
         found = _separation(S, w, k, number, explained)
         if explained - found > most:

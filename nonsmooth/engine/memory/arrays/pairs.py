@@ -8,6 +8,7 @@ ARRAYS = Arrays(
     scalars={
         **whole(
             "n_pairs",
+            "n_carriers",
         ),
         **real(
             "passed_depth",
@@ -19,8 +20,12 @@ ARRAYS = Arrays(
     floats={
         "pair_allowed": per(1, "n_pairs"),
         "pair_size": per(1, "n_pairs"),
+        "carrier_lever": per(1, "n_carriers"),
     },
     integers={
+        "carrier_frame": per(1, "n_carriers"),
+        "pair_carrier_a": per(1, "n_pairs"),
+        "pair_carrier_b": per(1, "n_pairs"),
         "pair_frame_a": per(1, "n_pairs"),
         "pair_frame_b": per(1, "n_pairs"),
         "pair_part_a": per(1, "n_pairs"),
@@ -30,6 +35,10 @@ ARRAYS = Arrays(
     },
     # renewed by every look: no step finds in them what changes a motion
     later_floats={
+        "carrier_place": per(3, "n_carriers"),
+        "carrier_axes": per(9, "n_carriers"),
+        "carrier_way": per(1, "n_carriers"),
+        "pair_room": per(1, "n_pairs"),
         "pair_direction": per(3, "n_pairs"),
         "pair_normal": per(3, "n_pairs"),
         "pair_deepest": per(1, "n_pairs"),
