@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from bodies import BoxBody, HullBody
+from bodies import BoxBody, CylinderBody, HullBody
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.interfaces import Body
 
@@ -49,3 +49,18 @@ def test_they_collide_head_on(
     assert speed > 0.1
     apart = float(solution.of(two)[0][-1, 0] - solution.of(one)[0][-1, 0]) - 2.0 * size[0]
     assert apart > -1e-9
+
+
+@pytest.mark.parametrize("rounding", [0.0, 0.005])
+@pytest.mark.parametrize("turn", [0.0, 0.3, math.pi / 3.0])
+def test_cylinders_on_feet_collide_end_to_end(turn: float, rounding: float) -> None:
+    """It is the feet that meet, whatever rims there are: the impact is central."""
+    one, two = (CylinderBody(0.05, 0.07, rounding=rounding) for _ in range(2))
+    system = ns.System([one, two], gravity=0.0)
+    system.contact(one, two, normal=Unilateral(), friction=Coulomb(0.0), impact=EnergeticImpact(E))
+    system.place(one, velocity=(0.0, 0.0, 1.0))
+    system.place(two, position=(0.0, 0.0, 0.16), orientation=ns.turned_about((0.0, 0.0, 1.0), turn))
+    first, second = (ns.simulate(system, 0.06).of(body)[1][-1] for body in (one, two))
+    assert first[2] == pytest.approx(0.5 * (1.0 - E), abs=1e-5)
+    assert second[2] == pytest.approx(0.5 * (1.0 + E), abs=1e-5)
+    assert max(np.abs(first[3:]).max(), np.abs(second[3:]).max()) < 1e-5

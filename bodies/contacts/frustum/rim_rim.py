@@ -15,6 +15,7 @@ from typing import ClassVar, final
 from bodies.contacts.features.polytope_tables import Numbers
 from bodies.contacts.features.vertex_face import REACH
 from bodies.contacts.frustum.frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, nearest_part
+from bodies.contacts.frustum.frustum_parts import set_back
 from bodies.contacts.frustum.frustum_writing import Point, astray_of_rim, overlap_of, past_border, write_side, write_two
 from bodies.contacts.smooth.smooth_core import axes_in_world, back, forth
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
@@ -296,7 +297,8 @@ class RimRim(ContactKinematics):
         """Return the contacts of all rims of the one with all rims of the other; an apex is none."""
         assert isinstance(first, Frustum)
         assert isinstance(second, Frustum)
-        one, two = first.frustum, second.frustum
+        # flat faces stand on their feet, not on rims in the same plane
+        one, two = (set_back(shape) if shape.feet else shape.frustum for shape in (first, second))
         rims = [
             [LOW_RIM, HIGH_RIM] if numbers[SIDE] > 0.0 and numbers[1] > 0.0 else [LOW_RIM] for numbers in (one, two)
         ]

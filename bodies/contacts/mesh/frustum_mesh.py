@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, final
 
+from bodies.contacts.frustum.frustum_parts import apex_of, feet_of, set_back
 from bodies.contacts.frustum.frustum_swept import FrustumSwept
 from bodies.contacts.mesh.apex_mesh import ApexMesh
 from bodies.contacts.mesh.flank_mesh import FlankMesh
 from bodies.contacts.mesh.frustum_corner import FrustumCorner
 from bodies.contacts.mesh.frustum_pairs import FrustumPairs
-from bodies.contacts.mesh.frustum_parts import apex_of, feet_of, set_back
 from bodies.contacts.mesh.mesh_mesh import are_many
 from bodies.contacts.mesh.rim_mesh import RimMesh
 from bodies.contacts.mesh.surface_rim import rim_in_surface, rim_under, write_rim

@@ -9,6 +9,7 @@ from typing import ClassVar, final
 
 from bodies.contacts.features.apart import NO_CANDIDATE, write_apart
 from bodies.contacts.frustum.frustum import HIGH_RIM
+from bodies.contacts.frustum.frustum_parts import apex_of, feet_of, set_back
 from bodies.contacts.frustum.frustum_swept import write_vertex_ball
 from bodies.contacts.mesh.apex_mesh import write_apex
 from bodies.contacts.mesh.flank_mesh import write_flank
@@ -24,7 +25,6 @@ from bodies.contacts.mesh.frustum_find import (
     UNDER,
     find_near_frustum,
 )
-from bodies.contacts.mesh.frustum_parts import apex_of, feet_of, set_back
 from bodies.contacts.mesh.rim_mesh import write_half_rim
 from bodies.contacts.mesh.surface_rim import rim_in_surface, rim_over, write_rim
 from bodies.contacts.surface.mesh_point import write_over_second
