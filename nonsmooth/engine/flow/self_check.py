@@ -108,6 +108,26 @@ def check_gaps(S: Scalars, w: Floats, k: Integers) -> None:
             blame(S, GAP_UNEXPLAINED, c, gap, explained_gap(S, w, k, c))
 
 
+@kernel("void(S, F, I)")
+def check_begun(S: Scalars, w: Floats, k: Integers) -> None:
+    """Look at springs that begin at an event, before modes are taken over: none begins inside of a body.
+
+    Where bodies are in each other already, one contact takes over from another at the depth that this had.
+    """
+    for c in range(S.n_contacts):
+        contact = contact_at(S, w, k, c)
+        begins = contact.mode == OPEN and contact.mode_agreed != OPEN and contact.normal_function != 0
+        if not begins or contact.gap >= -explained_gap(S, w, k, c):
+            continue
+        deepest = 0.0
+        for other in range(S.n_contacts):
+            another = contact_at(S, w, k, other)
+            if another.mode != OPEN and another.frame_a == contact.frame_a and another.frame_b == contact.frame_b:
+                deepest = min(deepest, another.gap)
+        if contact.gap < deepest - explained_gap(S, w, k, c):
+            blame(S, GAP_UNEXPLAINED, c, contact.gap, explained_gap(S, w, k, c) - deepest)
+
+
 @kernel("f8(S)")
 def _booked(S: Scalars) -> float:
     """Return what the account says of the energy that events gave and took so far [J]."""
