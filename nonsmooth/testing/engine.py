@@ -8,6 +8,7 @@ import numpy as np
 from numpy.testing import assert_allclose
 from numpy.typing import NDArray
 
+from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Engine
 from nonsmooth.runs.model import Model
@@ -150,6 +151,8 @@ class _Look:
 
     def heaps(self) -> None:
         """Look at energies and distances."""
+        if PLAIN:
+            raise NotChecked("a heap takes minutes in plain mode")
         solution = self._run(scenes.heap(), _END, _HEAP_SAMPLES)
         deep, energy = scenes.overlap(solution), scenes.energies(solution)
         if not deep <= _THROUGH * scenes.RADIUS:
