@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nonsmooth.engine.memory.modes import OPEN
+from nonsmooth.errors import InvalidInput
 from nonsmooth.histories.energies import Energies
 from nonsmooth.solution.solution import Solution
 
@@ -24,7 +25,11 @@ def open_span(solution: Solution) -> str:
     """
     events = solution.events
     times = np.unique(np.concatenate([solution.t, events.time, [solution.t_end]]))
-    lacking = Energies.of(solution, times).unexplained
+    try:
+        lacking = Energies.of(solution, times).unexplained
+    except InvalidInput:
+        # contacts were declared since the run
+        return ""
     first, last = sorted((int(np.argmin(lacking)), int(np.argmax(lacking))))
     if first == last:
         return ""

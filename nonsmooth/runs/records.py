@@ -141,7 +141,7 @@ class Records:
         if self._events > 0 and not engine.records_contacts:
             raise InvalidInput(
                 thing,
-                "must record no event of a system with contacts where the engine does not record contacts",
+                "must record no event of a system with contacts unless the engine records contacts",
                 f"{self._events} events",
                 "Let records_contacts return True, and keep the mode and event_impulse of each contact.",
             )
