@@ -47,6 +47,11 @@ class EventDriven(Engine):
         """All."""
         return ("delassus", "contact", "impact", "flow")
 
+    @property
+    def records_contacts(self) -> bool:
+        """Yes: modes change at events only."""
+        return True
+
     def check(self, system: System) -> None:
         """Refuse nothing: whatever can be declared can be run."""
 

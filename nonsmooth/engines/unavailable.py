@@ -23,14 +23,22 @@ class Unavailable(Engine):
     ----------
     described : dict
         Its class and its options, as the folder says them.
+    recorded_contacts : bool
+        Whether its events hold modes and impulses.
     """
 
     described: Mapping[str, Any] = field(hash=False)
+    recorded_contacts: bool
 
     @property
     def layers(self) -> tuple[str, ...]:
         """None but those that every engine has."""
         return ()
+
+    @property
+    def records_contacts(self) -> bool:
+        """As the engine that ran."""
+        return self.recorded_contacts
 
     def check(self, system: System) -> None:
         """Refuse nothing: results are looked at."""

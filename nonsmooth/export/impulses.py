@@ -10,6 +10,7 @@ import numpy as np
 
 from nonsmooth.export.meshes import along_axes
 from nonsmooth.histories.arrays import Floats
+from nonsmooth.histories.contact_impulses import ContactImpulses
 from nonsmooth.scene.sides import sides
 
 if TYPE_CHECKING:
@@ -47,7 +48,8 @@ class Arrows:
 
 def arrows(solution: Solution) -> Iterator[Arrows]:
     """Give the arrows of each contact that takes part in an impact; they show what bodies that move get."""
-    found, events = solution.contact_impulses(), solution.events
+    # also of an engine that records no contacts, and so no events
+    found, events = ContactImpulses.of(solution), solution.events
     side = sides(solution.system)[found.contact][:, None]
     push = side * (found.normal_impulse[:, None] * found.normal + found.friction_impulse)
     size = np.linalg.norm(push, axis=1)

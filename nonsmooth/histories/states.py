@@ -11,8 +11,10 @@ from numpy.typing import ArrayLike
 from nonsmooth.datasets import Told, dataset
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.histories.arrays import Floats, Integers
+from nonsmooth.histories.recorded import check_recorded
 from nonsmooth.histories.times import of_one, read_times, spoken
 from nonsmooth.histories.visitor import visitor
+from nonsmooth.interfaces import Engine
 from nonsmooth.system.labels import labels
 from nonsmooth.system.system import System
 
@@ -40,25 +42,40 @@ class States:
         [s], shape [n].
     q, u : array
         Coordinates and velocities of all bodies, shapes [n, n_q] and [n, n_u].
-    modes : array
-        0 open, 1 stick, 2 slide, shape [n, n_contacts].
     law_states : array
         Inner states of friction and traction laws, contact by contact, shape [n, n_states]; those of open contacts
         are what is left of them.
     system : System
         What ran.
+    engine : Engine
+        What integrated it.
+    found_modes : array
+        What :attr:`modes` returns where the engine records modes.
     """
 
     time: Floats
     q: Floats
     u: Floats
-    modes: Integers
     law_states: Floats
     system: System = field(repr=False)
+    engine: Engine = field(repr=False)
+    found_modes: Integers = field(repr=False)
+
+    @property
+    def modes(self) -> Integers:
+        """0 open, 1 stick, 2 slide, shape [n, n_contacts].
+
+        Raises
+        ------
+        InvalidInput
+            If the engine records no modes.
+        """
+        check_recorded("Solution.at", "modes", self.system, self.engine)
+        return self.found_modes
 
     def __repr__(self) -> str:
         """Return of which times it is, and how much there is of it."""
-        return f"States({spoken(self.time)}; {self.q.shape[-1]} coordinates, {self.modes.shape[-1]} contacts)"
+        return f"States({spoken(self.time)}; {self.q.shape[-1]} coordinates, {self.found_modes.shape[-1]} contacts)"
 
     def to_xarray(self) -> xarray.Dataset:
         """Return them as a dataset with names and units; those of coordinates and velocities lie along these."""
@@ -75,5 +92,6 @@ class States:
         row, known = np.atleast_1d(given), visitor(solution)
         n_q, n_u = solution.q.shape[1], solution.u.shape[1]
         q, u, _, law_states = np.split(known.states(row), np.cumsum([n_q, n_u, N_ACCOUNTS]), axis=1)
-        found = cls(row, q, u, known.modes(row), law_states, solution.system)
+        system, engine = solution.system, solution.recorded.engine
+        found = cls(row, q, u, law_states, system, engine, known.modes(row))
         return found if given.ndim else of_one(found)

@@ -168,13 +168,14 @@ class Visitor:
     @property
     def solves(self) -> bool:
         """Whether the engine can be followed between stored states, and asked for forces."""
-        return {"delassus", "contact", "flow"} <= set(self._engine.layers)
+        recorded = self._engine.records_contacts or not self._system.contacts
+        return recorded and {"delassus", "contact", "flow"} <= set(self._engine.layers)
 
     def _check_solves(self, what: str) -> None:
         if not self.solves:
             raise InvalidInput(
                 "Solution",
-                f"is known {what} only where the engine has the layers delassus, contact and flow, which solve for it",
+                f"is known {what} only where the engine records contacts and has the layers delassus, contact and flow",
                 self._engine,
                 "States, poses and energies are known at the times of samples and events; for more, run with "
                 "nonsmooth.EventDriven().",

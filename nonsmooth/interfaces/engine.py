@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from nonsmooth.interfaces.engine_report import Cause, Measure
 from nonsmooth.parameters import Component
 
 if TYPE_CHECKING:
@@ -34,6 +35,10 @@ class Engine(Component, ABC):
     6. Where time stops passing it returns ``STALLED`` and leaves in the memory the state at that instant, and in
        ``crowd_events`` which contacts hold it up.  That does not yet end the run: an engine that is put together of two
        may let the other one go on from there.
+    7. An engine that ``records_contacts`` records an event at the start, and one whenever modes change.  Other engines
+       record no event of a system with contacts, because its modes and impulses would be zeros.
+    8. ``verdict`` names numbers that the user reads with the run, ``causes`` the causes for which only this engine ends
+       a run.  ``promised_residual`` decides which runs are suspect.
     """
 
     @property
@@ -44,6 +49,29 @@ class Engine(Component, ABC):
     @property
     def own(self) -> Arrays | None:
         """Scalars and arrays of its own."""
+        return None
+
+    @property
+    def records_contacts(self) -> bool:
+        """Whether its events hold the modes after them and the impulses in them."""
+        return False
+
+    @property
+    def verdict(self) -> tuple[Measure, ...]:
+        """Numbers by which it judges a run, for ``Solution.verdict``."""
+        return ()
+
+    @property
+    def causes(self) -> tuple[Cause, ...]:
+        """Causes of its own for which a run ends."""
+        return ()
+
+    @property
+    def promised_residual(self) -> float | None:
+        """Largest part of the exchanged energy that its account may lack in a good run.
+
+        Without a promise the tolerances ``rtol`` and ``impact_rtol`` decide, as for the event-driven engine.
+        """
         return None
 
     @abstractmethod
@@ -96,5 +124,5 @@ class Engine(Component, ABC):
         -------
         int
             ``DONE`` at the end time, to which ``S.t`` is set, ``PAUSED`` to be called again, ``STOPPED`` where a guard
-            ends the run, or a failure of :data:`nonsmooth.engine.memory.modes.REASONS`.
+            ends the run, a failure of :data:`nonsmooth.engine.memory.modes.REASONS`, or the code of one of its causes.
         """

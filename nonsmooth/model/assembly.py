@@ -13,7 +13,7 @@ from nonsmooth.interfaces import Engine
 from nonsmooth.model.articulations import articulations
 from nonsmooth.model.checks import check_guards, check_start
 from nonsmooth.model.contact_table import ContactTable
-from nonsmooth.model.engine_parts import counts_of, laid_own, layers_of, settings_of
+from nonsmooth.model.engine_parts import check_report, counts_of, laid_own, layers_of, settings_of
 from nonsmooth.model.image import Guards
 from nonsmooth.model.laid_out import LaidOut, map_width
 from nonsmooth.model.laying import lay_bodies, lay_guards, lay_joints, lay_loads
@@ -72,6 +72,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
         If the engine cannot run it or names what there is not, or a guard has no value where it was placed.
     """
     engine.check(system)
+    check_report(engine)
     check_guards(system, 0.0, *system.starts())
     bodies, contacts = system.bodies, system.contacts
     n_q = sum(body.n_q for body in bodies)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterable, Mapping
 from numbers import Real
 
@@ -10,6 +11,7 @@ from nonsmooth.engine.memory.memory import NOTHING
 from nonsmooth.engine.memory.tables import ARRAYS_OF, CONSTANT_SCALARS, SCALARS, floats_of, integers_of
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.interfaces import Engine
+from nonsmooth.interfaces.engine_report import FIRST_CODE
 
 _SETTABLE = tuple(name for name in SCALARS.names or () if name not in CONSTANT_SCALARS)
 
@@ -86,6 +88,25 @@ def laid_own(engine: Engine, counts: Mapping[str, int]) -> Arrays:
             rule = "must have a whole number for its length, not negative"
             raise InvalidInput(f"{_name(engine)}.own: {name}", rule, length, "Take per(...) or fixed(...).")
     return own
+
+
+def check_report(engine: Engine) -> None:
+    """Look whether an engine can report what it declares.
+
+    Raises
+    ------
+    InvalidInput
+        If a measure is no scalar of its own, a cause has a code that is taken, or the promised residual is no part.
+    """
+    _known(engine, "verdict", [one.name for one in engine.verdict], own_of(engine).scalars)
+    codes = [cause.code for cause in engine.causes]
+    if len({*codes}) < len(codes) or min(codes, default=FIRST_CODE) < FIRST_CODE:
+        rule = f"must have codes of their own, {FIRST_CODE} or more"
+        raise InvalidInput(f"{_name(engine)}.causes", rule, codes, "Number the causes anew.")
+    promised = engine.promised_residual
+    if promised is not None and not (isinstance(promised, Real) and math.isfinite(promised) and promised > 0.0):
+        rule = "must be a positive finite number or None"
+        raise InvalidInput(f"{_name(engine)}.promised_residual", rule, promised, "Give a part of the energy exchanged.")
 
 
 def _known(engine: Engine, what: str, names: Iterable[str], known: Collection[str]) -> tuple[str, ...]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.histories.arrays import Floats, Integers
+from nonsmooth.histories.recorded import check_recorded
 from nonsmooth.plot.asked import Contacts, axes_of, contacts_of
 from nonsmooth.plot.lines import beside, over_time, title_of
 
@@ -41,8 +42,9 @@ def modes(solution: Solution, contacts: Contacts | None = None, ax: Axes | None 
     Raises
     ------
     InvalidInput, UnknownName
-        If the system has no such contact, or none at all.
+        If the system has no such contact, or none at all, or the engine records no modes.
     """
+    check_recorded("nonsmooth.plot.modes", "modes", solution.system, solution.recorded.engine)
     numbers = contacts_of("nonsmooth.plot.modes", solution, contacts, _MOST)
     ax, events = axes_of(ax, 1.2 + _LANE * len(numbers)), solution.events
     edges = np.concatenate([solution.track.time[:1], events.time, [solution.t_end]])

@@ -45,7 +45,8 @@ def _panels(solution: Solution) -> list[tuple[str, Panel]]:
     events, found = solution.events, list[tuple[str, Panel]]()
     if solution.system.contacts:
         numbers = contacts_of("Solution.plot", solution, None)
-        found.append(("Modes of the contacts", lambda ax: modes(solution, numbers, ax)))
+        if solution.knows_modes:
+            found.append(("Modes of the contacts", lambda ax: modes(solution, numbers, ax)))
         found.append(("Gaps", lambda ax: gaps(solution, ax=ax)))
     if np.any(events.codes >> 6 & 1):
         found.append(("Normal forces between events", lambda ax: forces(solution, ax=ax)))

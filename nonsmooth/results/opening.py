@@ -11,11 +11,12 @@ from nonsmooth.engines.unavailable import Unavailable
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files.gate import Gate
 from nonsmooth.files.reading import Setup, engine_of, load_system
-from nonsmooth.interfaces import Engine
+from nonsmooth.interfaces import Engine, Measure
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder, named_elsewhere
+from nonsmooth.solution.end import Counters, End
 from nonsmooth.solution.recorded import Recorded
-from nonsmooth.solution.solution import Counters, End, Solution
+from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 
 _NONE: dict[str, Any] = {"limits": {}}
@@ -60,7 +61,10 @@ def open_solution(
     folder = SolutionFolder.opened(where)
     said = folder.said("counters") if "counters" in folder.attributes else {}
     counters = {field.name: said.get(field.name, _NONE.get(field.name, 0)) for field in fields(Counters)}
-    end = End(folder.state(), Counters(**counters), folder.status, str(folder.attributes.get("message")))
+    message, cause = str(folder.attributes.get("message")), str(folder.attributes.get("cause", ""))
+    measures = folder.said("verdict") if "verdict" in folder.attributes else []
+    verdict = {Measure(one["name"], one["unit"], one["meaning"]): float(one["value"]) for one in measures}
+    end = End(folder.state(), Counters(**counters), folder.status, message, cause, verdict)
     made = system or stored_setup(where, folder, trust).system
     recorded = Recorded.of(folder.events(), folder.rows(), engine or _engine_or_its_name(where, folder, trust))
     return Solution.known(made, recorded, end)
@@ -94,7 +98,8 @@ def stored_setup(output: Output, folder: SolutionFolder, trust: bool) -> Setup:
 
 def _engine_or_its_name(output: Output, folder: SolutionFolder, trust: bool) -> Engine:
     table = folder.said("engine")
-    return Unavailable(table) if named_elsewhere(table) else stored_engine(output, folder, trust)
+    recorded = bool(folder.attributes.get("records_contacts", 0))
+    return Unavailable(table, recorded) if named_elsewhere(table) else stored_engine(output, folder, trust)
 
 
 def stored_engine(output: Output, folder: SolutionFolder, trust: bool) -> Engine:

@@ -254,6 +254,8 @@ class SolutionFolder:
             state=_LAST,
             t_end=solution.t_end,
             counters=json.dumps(vars(solution.counters) | {"limits": dict(solution.counters.limits)}),
+            cause=solution.cause,
+            verdict=json.dumps([{**vars(one), "value": value} for one, value in solution.end.verdict.items()]),
             **_energy(solution.state),
         )
         if solution.status in ("done", "suspect"):
@@ -405,6 +407,7 @@ def _attributes(output: Output, engine: Engine, t_end: float, conditional: bool)
         "t_end_asked": t_end,
         "conditional": int(conditional),
         "engine": json.dumps(_table(engine)),
+        "records_contacts": int(engine.records_contacts),
         "versions": json.dumps(dict(known)),
         "request": json.dumps(dict(output.request)),
         "parameters": json.dumps(dict(output.parameters)),

@@ -36,6 +36,7 @@ class Advancing:
 
     def __init__(self, engine: Engine, model: LaidOut, call: Callable[..., Any]) -> None:
         self._engine, self._memory, self._call = engine, model.memory, call
+        self._statuses = {*_STATUSES, *(cause.code for cause in engine.causes)}
 
     def advance(self, most_steps: int, wary: bool) -> int:
         """Let the engine go on; return the status.
@@ -52,8 +53,8 @@ class Advancing:
             status = self._engine.advance(self._call, self._memory, most_steps, wary)
         except UnknownName as error:
             raise InvalidInput(f"{thing}: {error.thing}", error.rule, error.value, error.remedy) from error
-        if status not in _STATUSES:
-            names = "DONE, PAUSED, STOPPED or a failure of nonsmooth.engine.memory.modes"
+        if status not in self._statuses:
+            names = "DONE, PAUSED, STOPPED, a failure of nonsmooth.engine.memory.modes or a code of its causes"
             raise InvalidInput(f"{thing}: its status", f"must be {names}", status, "Return PAUSED to be called again.")
         t, t_end = (float(self._memory.record[name]) for name in ("t", "t_end"))
         if status == DONE and t != t_end:

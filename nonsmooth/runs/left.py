@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -11,11 +12,18 @@ import numpy as np
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CLOSING_RATE, DIRECTION, N_ACCOUNTS
 from nonsmooth.engine.memory.limits import LIMITS
+from nonsmooth.engine.memory.tables import record_with
+from nonsmooth.interfaces import Engine
+from nonsmooth.model.engine_parts import own_of
 from nonsmooth.model.image import Difference, Image
 from nonsmooth.model.laid_out import energies
 from nonsmooth.queries.near import size_of
+from nonsmooth.runs.open_span import open_span
+from nonsmooth.runs.outcome import cause_of
+from nonsmooth.solution.end import Counters, End
 from nonsmooth.solution.energy import EnergyAccount
-from nonsmooth.solution.solution import Counters, End
+from nonsmooth.solution.recorded import Recorded
+from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import Continuation, Floats, State
 from nonsmooth.solution.suspicion import suspicions
 from nonsmooth.system.system import System
@@ -30,6 +38,8 @@ class Left(NamedTuple):
     ----------
     system : System
         What ran.
+    engine : Engine
+        What integrated it.
     key : callable
         Returns the digest of its model.
     start : tuple
@@ -41,6 +51,7 @@ class Left(NamedTuple):
     """
 
     system: System
+    engine: Engine
     key: Callable[[], str]
     start: tuple[float, float]
     blank: Image
@@ -48,8 +59,20 @@ class Left(NamedTuple):
     now: Image
     told: int
 
-    def end(self, said: tuple[str, str], wall: float, samples: Floats) -> End:
-        """Return how the run ended: with a status and a reason, after a time [s], its samples as recorded."""
+    def end(self, said: tuple[str, str], code: int, wall: float, recorded: Recorded) -> End:
+        """Return how a run ended that recorded so much.
+
+        Parameters
+        ----------
+        said : tuple of str
+            Status and message.
+        code : int
+            Status of the engine.
+        wall : float
+            Time that it took [s].
+        recorded : Recorded
+            What it recorded.
+        """
         record, state = self.now.record, self.state()
         counters = Counters(
             steps=int(record["steps"]),
@@ -66,12 +89,26 @@ class Left(NamedTuple):
             worst = float(record["open_t"]), float(record["open_energy"]), float(record["open_share"])
             tolerances = float(record["rtol"]), float(record["impact_rtol"])
             bodies = dict(zip(self.system.names.bodies, self.system.bodies, strict=True))
-            moved = samples[:, 0], samples[:, 1 : 1 + int(record["n_q"])]
+            moved = recorded.rows[:, 0], recorded.rows[:, 1 : 1 + int(record["n_q"])]
             scale = float(record["scale_energy"])
-            found = suspicions(worst, state.energy, bodies, moved, tolerances, counters.steps, scale, self._floor())
+            known = Solution.known(self.system, recorded, End(state, counters, status, message))
+            found = suspicions(
+                self.engine,
+                worst,
+                state.energy,
+                bodies,
+                moved,
+                tolerances,
+                counters.steps,
+                scale,
+                self._floor(),
+                partial(open_span, known),
+            )
             if found:
                 status, message = "suspect", f"{message}, but {found}"
-        return End(state, counters, status, message)
+        cause, own = cause_of(self.engine, code), self.now.parts[0].view(record_with(own_of(self.engine)))[0]
+        verdict = {measure: float(own[measure.name]) for measure in self.engine.verdict}
+        return End(state, counters, status, message, cause.name if cause else "", verdict)
 
     def _floor(self) -> float:
         """Return the work of the forces on all bodies, as they are now, on a way as long as the bodies [J]."""

@@ -122,7 +122,7 @@ def run_engine(
     if status == DONE:
         records.check_end(engine)
     records.end()
-    if status in (STOPPED, CONDITION_MET):
+    if status in (STOPPED, CONDITION_MET, *(cause.code for cause in engine.causes if not cause.is_failure)):
         image, before = Image.of(memory), records.n_passed
     hint = "" if pace is None else pace.hint(status)
     return Ending(status, interrupted, image, records.n_passed - before, hint, trouble)

@@ -353,7 +353,7 @@ class Model:
         """Return what has been left by now, so many events after an image."""
         laid = self._laid
         laid.evaluate()
-        return Left(laid.system, self._key, energy, self._blank, before, Image.of(laid.memory), told)
+        return Left(laid.system, self._engine, self._key, energy, self._blank, before, Image.of(laid.memory), told)
 
     def _goes_on(self, state: State) -> bool:
         """Tell whether a run of this model left a state, which goes on then."""
@@ -420,12 +420,12 @@ class Model:
         try:
             keeper.begin(begun)
             ending = run_engine(self._engine, laid, records, begun, progress, keeper, until)
-            said = reason(laid, self._guards, ending)
+            said = reason(laid, self._guards, ending, self._engine)
             wall += time.perf_counter() - began
             left, recorded = self._left(energy, ending.image, ending.told), records.joined(self._engine)
             if said[0] == "done" and (found := passed(laid, recorded.rows)):
                 said = "failed", found
-            solution = Solution(laid.system, recorded, partial(left.end, said, wall, recorded.rows))
+            solution = Solution(laid.system, recorded, partial(left.end, said, ending.status, wall, recorded))
             if 2 * self._blank.size > _HELD:
                 # reads it: next to a run of so many contacts that takes no time
                 _ = solution.end

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from nonsmooth.engine.memory.modes import CONDITION_MET, DONE, PAUSED, REASONS, STOPPED
+from nonsmooth.interfaces import Cause, Engine
 from nonsmooth.model.blocks import written_past
 from nonsmooth.model.image import Guards
 from nonsmooth.model.laid_out import LaidOut
@@ -10,11 +11,19 @@ from nonsmooth.runs.diagnose import culprit
 from nonsmooth.runs.loop import Ending
 
 
-def reason(model: LaidOut, guards: Guards, ending: Ending) -> tuple[str, str]:
+def cause_of(engine: Engine, status: int) -> Cause | None:
+    """Return the cause of an engine's own that a status stands for, None if it is no such status."""
+    return next((cause for cause in engine.causes if cause.code == status), None)
+
+
+def reason(model: LaidOut, guards: Guards, ending: Ending, engine: Engine) -> tuple[str, str]:
     """Return the status of a run that has ended, in a word, and why it did; ``guards`` are those of the model."""
     past, status = written_past(model, guards), ending.status
     if ending.trouble:
         return "failed", f"At t = {float(model.memory.record['t']):.9g} s {ending.trouble}"
+    if (cause := cause_of(engine, status)) and not past:
+        said = f"At t = {float(model.memory.record['t']):.9g} s {cause.reason}. {cause.remedy}".strip()
+        return "failed" if cause.is_failure else "done", said
     if past or status not in (DONE, STOPPED, CONDITION_MET, PAUSED):
         message = f"At t = {float(model.memory.record['t']):.9g} s {REASONS[status]}."
         return "failed", f"{message} {past or culprit(model, status) or ending.hint}".strip()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import final
 
@@ -34,7 +35,9 @@ _CODES = 1 << BEFORE | 1 << DURING | 1 << AFTER
 _FILLED = places("n_events", "n_samples", "floats_used", "integers_used", "last_floats").tolist()
 _EVENTS, _SAMPLES, _FLOATS, _INTEGERS, _ = _FILLED
 _CALLS, _TOLD, _INDEX = places("calls", "told", "sample_index").tolist()
-_T, _INTERVAL, _NEXT, _RESOLUTION = places("t", "sample_interval", "next_sample", "time_tolerance").tolist()
+_T, _START, _INTERVAL, _NEXT, _RESOLUTION = places(
+    "t", "sample_start", "sample_interval", "next_sample", "time_tolerance"
+).tolist()
 
 
 @final
@@ -111,13 +114,15 @@ class Records:
         self._parts[_BEFORE_THE_FIRST] = floats, integers, np.zeros((0, self._width))
 
     def check_end(self, engine: Engine) -> None:
-        """Look whether an engine that is at the end time has appended all samples that were due.
+        """Look whether an engine that is at the end time has appended all samples and events that were due.
 
         Raises
         ------
         InvalidInput
-            If one is missing.
+            If a sample is missing, modes are not known from the start on, or an event would tell of modes that the
+            engine does not record.
         """
+        self._check_events(engine)
         floats, _ = self.model.memory.cells
         due = floats.item(_NEXT)
         # a run that is shorter than the accuracy of its times has no step
@@ -127,6 +132,26 @@ class Records:
                 "must append all samples up to the time reached",
                 f"none for t = {due:.9g} s",
                 "Call begin_sample while S.next_sample is not past the time reached.",
+            )
+
+    def _check_events(self, engine: Engine) -> None:
+        if not self.model.system.contacts:
+            return
+        thing, start = f"{type(engine).__name__}.advance", self.model.memory.cells[0].item(_START)
+        if self._events > 0 and not engine.records_contacts:
+            raise InvalidInput(
+                thing,
+                "must record no event of a system with contacts unless the engine records contacts",
+                f"{self._events} events",
+                "Let records_contacts return True, and keep the mode and event_impulse of each contact.",
+            )
+        first = next((floats.item(0) for floats, _, _ in self._parts.values() if len(floats)), math.inf)
+        if self.earlier is None and engine.records_contacts and first > start:
+            raise InvalidInput(
+                thing,
+                "must record an event at the start, which holds the modes there",
+                f"none before t = {first:.9g} s",
+                f"Call record_event at t = {start:.9g} s.",
             )
 
     def end(self) -> None:

@@ -37,9 +37,10 @@ _COLOURS = (
     "#882255",
     "#44aa99",
     "#332288",
+    "#ddcc77",
 )
 """One for each cause, with letters besides, as nobody tells so many apart."""
-_LETTERS = "abcdefghijklmn"
+_LETTERS = "abcdefghijklmno"
 _BEND = 0.16
 
 

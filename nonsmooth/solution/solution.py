@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, final
@@ -15,6 +15,7 @@ from nonsmooth.engine.memory.modes import GUARD, IMPACT, JAM, PAINLEVE
 from nonsmooth.interfaces import Body
 from nonsmooth.model.part_pairs import unseen
 from nonsmooth.notices import say
+from nonsmooth.solution.end import Counters, End
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events, words
 from nonsmooth.solution.graph import TransitionGraph, transition_graph
@@ -37,57 +38,6 @@ if TYPE_CHECKING:
     from nonsmooth.histories.poses import Poses
     from nonsmooth.histories.states import States
     from nonsmooth.queries.result import DistanceHistory
-
-
-@dataclass(frozen=True)
-class Counters:
-    """What the run cost.
-
-    Attributes
-    ----------
-    steps, rejected : int
-        Accepted and rejected steps of the flow.
-    impacts, impact_steps : int
-        Impacts and the steps taken inside them.
-    limits : mapping of str to int
-        How many steps were limited by what (:data:`nonsmooth.engine.memory.limits.LIMITS`).
-    gap_looks : int
-        How often open gaps had to be looked at within a step to prove that they stay open.
-    listings : int
-        How often the contacts that are near each other were listed anew.
-    wall_seconds : float
-        Wall time of the engine [s].
-    """
-
-    steps: int
-    rejected: int
-    impacts: int
-    impact_steps: int
-    limits: Mapping[str, int]
-    gap_looks: int
-    listings: int
-    wall_seconds: float
-
-
-@final
-@dataclass(frozen=True)
-class End:
-    """How a run ended.
-
-    Attributes
-    ----------
-    state : State
-        Where it ended.
-    counters : Counters
-        What it cost.
-    status, message : str
-        Why it stopped, in a word and in a sentence.
-    """
-
-    state: State
-    counters: Counters
-    status: str
-    message: str
 
 
 @final
@@ -190,6 +140,16 @@ class Solution:
         """Why it stopped, and what is suspect."""
         return self.end.message
 
+    @property
+    def cause(self) -> str:
+        """Name of the cause of the engine's own for which it ended, "" if there is none."""
+        return self.end.cause
+
+    @property
+    def verdict(self) -> dict[str, float]:
+        """Numbers by which the engine judges the run, in the units of the keys of ``end.verdict``."""
+        return {measure.name: value for measure, value in self.end.verdict.items()}
+
     @functools.cached_property
     def unseen(self) -> tuple[str, ...]:
         """Names of the contacts of which only their own gap tells that bodies pass into each other.
@@ -217,8 +177,23 @@ class Solution:
         return Track.of(self.recorded.rows, self.state, self.recorded.engine)
 
     @property
+    def knows_modes(self) -> bool:
+        """Whether modes and impulses are known: there are no contacts, or the engine records them."""
+        return not self.system.contacts or self.recorded.engine.records_contacts
+
+    def _check_recorded(self, name: str, what: str = "modes") -> None:
+        from nonsmooth.histories.recorded import check_recorded
+
+        check_recorded(f"Solution.{name}", what, self.system, self.recorded.engine)
+
+    @property
     def modes(self) -> dict[str, float]:
-        """Share of the time spent in each mode word; impacts are listed with 0, as they take no time."""
+        """Share of the time spent in each mode word; impacts are listed with 0, as they take no time.
+
+        Modes and impulses are those of the engine.  Of one that records none they are refused by InvalidInput, here
+        and wherever a history holds them.
+        """
+        self._check_recorded("modes")
         shares: dict[str, float] = {}
         if len(self.events) == 0:
             return shares
@@ -233,6 +208,7 @@ class Solution:
 
     def transitions(self) -> list[tuple[float, str, str, str, str]]:
         """Return (time [s], cause, mode before, mode during, mode after) of every event."""
+        self._check_recorded("transitions")
         columns = (self.events.words(which) for which in ("before", "during", "after"))
         return list(zip(self.events.time.tolist(), self.events.causes(), *columns, strict=True))
 
@@ -244,6 +220,7 @@ class Solution:
 
     def transition_graph(self) -> TransitionGraph:
         """Return the modes visited, their shares of the time, and how often which cause led from one to another."""
+        self._check_recorded("transition_graph")
         return transition_graph(self.events, self.system.names.contacts, self.t_end)
 
     def of(self, body: Body | str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -275,10 +252,11 @@ class Solution:
         Raises
         ------
         InvalidInput
-            If a time is not within the run.
+            If a time is not within the run, or the engine records no modes.
         """
         from nonsmooth.histories.times import read_times
 
+        self._check_recorded("mode_words")
         row = np.atleast_1d(read_times("Solution.mode_words", self, times))
         index = np.searchsorted(self.events.time, row, side="right") - 1
         return words(self.events.codes_after(index))
@@ -328,6 +306,7 @@ class Solution:
 
     def contact_impulses(self) -> ContactImpulses:
         """Return points, normals and impulses of the contacts of all events, in world axes."""
+        self._check_recorded("contact_impulses", "impulses")
         from nonsmooth.histories.contact_impulses import ContactImpulses
 
         return ContactImpulses.of(self)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.interfaces import Body
+from nonsmooth.interfaces import Body, Engine
+from nonsmooth.parameters import rules
 from nonsmooth.solution.energy import EnergyAccount
 
 _EXPLAINED = 1e3
@@ -23,6 +24,7 @@ _ROUND_OFF = 1e-12
 
 
 def suspicions(
+    engine: Engine,
     worst_event: tuple[float, float, float],
     energy: EnergyAccount,
     bodies: Mapping[str, Body],
@@ -31,21 +33,46 @@ def suspicions(
     steps: int,
     scale: float,
     floor: float,
+    span: Callable[[], str],
 ) -> str:
     """Return what is wrong with a run, "" for nothing.
 
+    ``engine`` is what integrated it; what it promises takes the place of what tolerances explain.
     ``worst_event`` has time [s], energy [J] and share of what is explained; ``bodies`` are those of the system by name;
     ``samples`` t and q; ``tolerances`` are those of a step and of an impact, ``steps`` their number; ``scale`` is
     the kinetic energy of velocities as large as their scales [J], ``floor`` an energy of which the bodies exchange a
-    part where they hardly move, as weight times size [J].
+    part where they hardly move, as weight times size [J].  ``span`` returns a sentence on when an open account of the
+    run came about.
     """
-    found = (
-        open_event(*worst_event),
-        open_run(energy, max(tolerances[0], _OF_IMPACTS * tolerances[1]), steps, scale, floor),
-        long_quaternion(bodies, *samples, tolerances[0]),
-    )
+    promised, name = engine.promised_residual, type(engine).__name__
+    if promised is None:
+        tolerance, remedy = max(tolerances[0], _OF_IMPACTS * tolerances[1]), _REMEDY
+        account, off = open_run(energy, tolerance, steps, scale, floor), _EXPLAINED * tolerances[0]
+    else:
+        account, off, remedy = broken_promise(energy, promised, name, floor), promised, _remedy_of(engine)
+    found = open_event(*worst_event), account, long_quaternion(bodies, *samples, off)
     said = "; ".join(filter(None, found))
-    return f"{said}. {_REMEDY}" if said else ""
+    return " ".join(filter(None, (f"{said}.", span() if account else "", remedy))) if said else ""
+
+
+def _remedy_of(engine: Engine) -> str:
+    options = ", ".join(f"{name}=..." for name in rules(type(engine)))
+    other = f"one by other options, {type(engine).__name__}({options}), or by" if options else "one by"
+    return f"Compare the run with {other} nonsmooth.EventDriven()"
+
+
+def broken_promise(energy: EnergyAccount, promised: float, name: str, floor: float = 0.0) -> str:
+    """Return what is wrong with the energy account of a run by an engine that promises a residual, or "".
+
+    The residual counts in parts of what is exchanged, or of ``floor`` [J] where that is more.
+    """
+    potential = max(abs(energy.potential_start), abs(energy.potential_end))
+    if energy.unexplained <= promised * max(energy.scale, floor) + _ROUND_OFF * potential:
+        return ""
+    return (
+        f"the energy account of the run is open by {energy.unexplained:.3g} J, {energy.residual:.3g} of what was "
+        f"exchanged, of which {name} promises {promised:.3g} at most"
+    )
 
 
 def open_event(time: float, energy: float, share: float) -> str:
@@ -79,10 +106,10 @@ def open_run(energy: EnergyAccount, tolerance: float, steps: int, scale: float =
 
 
 def long_quaternion(
-    bodies: Mapping[str, Body], t: NDArray[np.float64], q: NDArray[np.float64], tolerance: float
+    bodies: Mapping[str, Body], t: NDArray[np.float64], q: NDArray[np.float64], explained: float
 ) -> str:
-    """Return which quaternion is off unit length most at the samples, by more than the tolerance explains, or ""."""
-    most, found, first = _EXPLAINED * tolerance, "", 0
+    """Return which quaternion is off unit length most at the samples, by more than is explained, or ""."""
+    most, found, first = explained, "", 0
     for name, body in bodies.items():
         if body.quaternion >= 0 and len(t) > 0:
             start = first + body.quaternion

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, final
 
 from nonsmooth.engine.memory.modes import PAUSED, REASONS, STOPPED
-from nonsmooth.interfaces import Engine
+from nonsmooth.interfaces import Cause, Engine, Measure
 from nonsmooth.solution.solution import Solution
 
 if TYPE_CHECKING:
@@ -41,6 +41,26 @@ class Budgeted(Engine):
     def own(self) -> Arrays | None:
         """Those of the engine."""
         return self.engine.own
+
+    @property
+    def records_contacts(self) -> bool:
+        """As the engine."""
+        return self.engine.records_contacts
+
+    @property
+    def verdict(self) -> tuple[Measure, ...]:
+        """That of the engine."""
+        return self.engine.verdict
+
+    @property
+    def causes(self) -> tuple[Cause, ...]:
+        """Those of the engine."""
+        return self.engine.causes
+
+    @property
+    def promised_residual(self) -> float | None:
+        """That of the engine."""
+        return self.engine.promised_residual
 
     def check(self, system: System) -> None:
         """Ask the engine."""

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.memory.modes import AFTER, BEFORE, CODE, DURING
+from nonsmooth.histories.contact_impulses import ContactImpulses
 
 if TYPE_CHECKING:
     from nonsmooth.solution.events import Events
@@ -57,7 +58,8 @@ def event_arrays(
     solution: Solution, times: NDArray[np.float64], side: NDArray[np.float64]
 ) -> dict[str, tuple[str, NDArray[Any]]]:
     """Return the arrays of events; ``times`` are the knots, which hold all instants [s]."""
-    events, impulses = solution.events, solution.contact_impulses()
+    # also of an engine that records no contacts, and so no events
+    events, impulses = solution.events, ContactImpulses.of(solution)
     sign = side[impulses.contact][:, None]
     push, rub = sign * impulses.normal_impulse[:, None] * impulses.normal, sign * impulses.friction_impulse
     return {

@@ -129,12 +129,19 @@ def _energies(solution: Solution, times: Floats) -> Arrays:
 def _forces(solution: Solution, times: Floats) -> Arrays:
     """Return the forces of closed contacts at the knots, none where the engine cannot be asked for them."""
     if not visitor(solution).solves:
-        times = times[:0]
+        none, nowhere = np.zeros(0), np.zeros((0, 3))
+        return {
+            "force_first": ("i4", np.zeros(2)),
+            "force_contact": ("i4", none),
+            "force_mode": ("u1", none),
+            "force_point": ("f4", nowhere),
+            "force_push": ("f4", nowhere),
+            "force_rub": ("f4", nowhere),
+        }
     found = solution.contact_forces(times)
     side = sides(solution.system)[found.contact]
-    first = found.first if len(times) else np.zeros(2, dtype=np.int64)
     return {
-        "force_first": ("i4", first),
+        "force_first": ("i4", found.first),
         "force_contact": ("i4", found.contact),
         "force_mode": ("u1", found.mode),
         "force_point": ("f4", found.points.mean(axis=1)),

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
+JUDGED = f"{Path(__file__).parents[1] / 'runs' / 'reporting_engines.py'}:Judged"
 Call = Callable[..., tuple[int, str, str]]
 
 
@@ -32,3 +34,17 @@ def test_a_wrong_engine_is_told(call: Call, word: str, told: str) -> None:
     status, output, errors = call("run", "tiny", "--engine", word)
     assert (status, output) == (2, "")
     assert told in errors
+
+
+def test_an_engine_of_a_file_reports_its_verdict_and_its_cause(call: Call) -> None:
+    """It knows no contacts, and so no modes."""
+    status, output, _ = call("run", "tiny", "--set", "t_end=0.1", "--json", "--engine", JUDGED)
+    said = json.loads(output)
+    assert (status, said["status"], said["cause"], said["mode_words"]) == (0, "done", "", None)
+    assert said["verdict"]["fastest_fall"]["value"] == pytest.approx(0.981, rel=0.2)
+    status, output, errors = call("run", "tiny", "--set", "t_end=0.1", "--engine", f"{JUDGED},most=0.5")
+    assert status == 1
+    assert output.startswith("tiny: failed (too_fast) at t = 0.05")
+    assert "fastest fall" in output
+    assert "largest speed downwards at the end of a step" in output
+    assert "the body falls too fast. Take a parachute." in errors

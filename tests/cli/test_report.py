@@ -72,6 +72,8 @@ def test_the_text_has_units_and_no_round_off() -> None:
         "contacts": ["plate - ball 1", "plate - ball 2", "tip"],
         "mode_words": shares,
         "energy_residual": 1.2e-16,
+        "cause": "",
+        "verdict": {},
         "summary": {
             "drift_velocity": np.array([5e-18, -0.0022]),
             "first_rest": None,

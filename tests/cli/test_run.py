@@ -29,6 +29,8 @@ KEYS = {
     "unseen_contacts",
     "mode_words",
     "energy_residual",
+    "cause",
+    "verdict",
     "final",
     "summary",
     "units",

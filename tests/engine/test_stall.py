@@ -66,6 +66,10 @@ class Relay(Engine):
     def layers(self) -> tuple[str, ...]:
         return self.first.layers
 
+    @property
+    def records_contacts(self) -> bool:
+        return True
+
     def check(self, system: ns.System) -> None:
         self.first.check(system)
 

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from bodies import Ball, Plate, Rest
+from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.solution.energy import EnergyAccount
-from nonsmooth.solution.suspicion import long_quaternion, open_event, open_run, suspicions
+from nonsmooth.solution.suspicion import broken_promise, long_quaternion, open_event, open_run, suspicions
 
 
 def _account(unexplained: float, potential: float = 0.0) -> EnergyAccount:
@@ -67,21 +68,36 @@ def test_a_long_quaternion_is_named_with_its_body_and_time() -> None:
     bodies = {"floor": Plate(Rest()), "one": Ball(0.01), "two": Ball(0.02), "three": Ball(0.03)}
     t = np.array([0.0, 0.1, 0.2])
     q = np.tile([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0], (3, 3))
-    assert long_quaternion(bodies, t, q, 1e-9) == ""
+    assert long_quaternion(bodies, t, q, 1e-6) == ""
     q[1, 7 + 4] = 1e-3  # half its square, 5e-7, is explained
-    assert long_quaternion(bodies, t, q, 1e-9) == ""
+    assert long_quaternion(bodies, t, q, 1e-6) == ""
     q[1, 7 + 3] = 1.0 + 2e-6
-    assert "quaternion of 'two'" in long_quaternion(bodies, t, q, 1e-9)
-    assert "t = 0.1 s" in long_quaternion(bodies, t, q, 1e-9)
-    assert long_quaternion(bodies, t[:0], q[:0], 1e-9) == ""
+    assert "quaternion of 'two'" in long_quaternion(bodies, t, q, 1e-6)
+    assert "t = 0.1 s" in long_quaternion(bodies, t, q, 1e-6)
+    assert long_quaternion(bodies, t[:0], q[:0], 1e-6) == ""
 
 
 def test_all_that_is_found_is_said() -> None:
-    """Nothing for nothing."""
+    """Nothing for nothing; when an account went wrong, if it did."""
     t: Any = np.zeros(0)
-    samples = t, np.zeros((0, 0))
-    assert suspicions((0.0, 0.0, 0.0), _account(0.0), {}, samples, (1e-9, 1e-8), 10, 0.0, 0.0) == ""
-    both = suspicions((0.5, 1e-3, 2.0), _account(1e-3), {}, samples, (1e-9, 1e-8), 10, 0.0, 0.0)
+
+    def said(event: tuple[float, float, float], unexplained: float) -> str:
+        samples, tolerances = (t, np.zeros((0, 0))), (1e-9, 1e-8)
+        account = _account(unexplained)
+        return suspicions(EventDriven(), event, account, {}, samples, tolerances, 10, 0.0, 0.0, lambda: "At noon.")
+
+    assert said((0.0, 0.0, 0.0), 0.0) == ""
+    both = said((0.5, 1e-3, 2.0), 1e-3)
     assert "at the event" in both
     assert "; the energy account" in both
+    assert ". At noon. Smaller tolerances" in both
     assert "EventDriven(tolerance=" in both
+    assert "At noon" not in said((0.5, 1e-3, 2.0), 0.0)
+
+
+def test_an_engine_is_held_to_the_residual_that_it_promises() -> None:
+    """Of the 2 J exchanged, or of the floor."""
+    assert broken_promise(_account(1.9e-2), 1e-2, "Midpoint") == ""
+    assert "open by 0.021 J, 0.0106 of" in broken_promise(_account(2.1e-2), 1e-2, "Midpoint")
+    assert "of which Midpoint promises 0.01 at most" in broken_promise(_account(2.1e-2), 1e-2, "Midpoint")
+    assert broken_promise(_account(2.1e-2), 1e-2, "Midpoint", 3.0) == ""

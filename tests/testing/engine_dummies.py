@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from nonsmooth.engine.events.record import CODE_HEAD
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Engine
@@ -19,7 +20,7 @@ def _none(memory: Memory, call: int) -> None:
 
 
 def _push(memory: Memory, call: int) -> None:
-    if memory.scalars["t"][0] == 0.0:
+    if memory.scalars["t"][0] == 0.0 and memory.record["n_bodies"] == 1:
         memory.array("y", 4)[3] += 0.1
 
 
@@ -35,7 +36,8 @@ def _skip(memory: Memory, call: int) -> None:
 
 
 def _gain(memory: Memory, call: int) -> None:
-    memory.scalars["driven_work"] += 0.01
+    if memory.record["n_bodies"] == 1:
+        memory.scalars["driven_work"] += 0.01
 
 
 def _age(memory: Memory, call: int) -> None:
@@ -47,15 +49,41 @@ def _forget(memory: Memory, call: int) -> None:
         memory.array("y", 1)[0] += 1e-12
 
 
+def _turn(memory: Memory, call: int) -> None:
+    """Turn the box that tumbles a little, at constant length of its quaternion."""
+    if memory.record["n_q"] == 14:
+        four = memory.array("y", 14)[10:]
+        four[:2] = 0.8 * four[0] - 0.6 * four[1], 0.6 * four[0] + 0.8 * four[1]
+
+
+def _throw(memory: Memory, call: int) -> None:
+    """Throw the ball over the driven plate up."""
+    if memory.record["n_bodies"] == 2 and memory.record["n_q"] == 7 and memory.record["t"] == 0.0:
+        memory.array("y", 10)[9] += 0.5
+
+
+def _sink(memory: Memory, call: int) -> None:
+    """Overlook the contacts of the heap."""
+    if memory.record["n_bodies"] == 11:
+        _overlook(memory, call)
+
+
+def _open(memory: Memory, call: int) -> None:
+    """Record the contact of the first event as open."""
+    if memory.record["integers_used"] > CODE_HEAD:
+        memory.array("event_codes", CODE_HEAD + 2)[CODE_HEAD + 1] = 0
+
+
 def _overlook(memory: Memory, call: int) -> None:
     memory.scalars["n_contacts"] = memory.scalars["n_units"] = 0
 
 
 @dataclass(frozen=True)
 class Dummy(Engine):
-    """The event-driven engine, with something done before each advance."""
+    """The event-driven engine, with something done before each advance, and something after it."""
 
     fault: Fault = _none
+    later: Fault = _none
     attic: tuple[str, ...] = ()
     calls: list[int] = field(default_factory=list, compare=False)
 
@@ -65,6 +93,10 @@ class Dummy(Engine):
     @property
     def layers(self) -> tuple[str, ...]:
         return (*EventDriven().layers, *self.attic)
+
+    @property
+    def records_contacts(self) -> bool:
+        return True
 
     def check(self, system: System) -> None:
         EventDriven().check(system)
@@ -78,7 +110,9 @@ class Dummy(Engine):
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
         self.calls.append(1)
         self.fault(memory, len(self.calls))
-        return EventDriven().advance(call, memory, most_steps, wary)
+        status = EventDriven().advance(call, memory, most_steps, wary)
+        self.later(memory, len(self.calls))
+        return status
 
 
 DUMMIES: list[tuple[str, Engine]] = [
@@ -89,5 +123,9 @@ DUMMIES: list[tuple[str, Engine]] = [
     ("energy", Dummy(_gain)),
     ("repeatable", Dummy(_age)),
     ("contact", Dummy(_overlook)),
+    ("modes", Dummy(later=_open)),
+    ("quaternion", Dummy(_turn)),
+    ("driven plate", Dummy(_throw)),
+    ("heap", Dummy(_sink)),
     ("continues", Dummy(_forget)),
 ]

@@ -106,8 +106,10 @@ def _save_solution(scenario: Scenario, solution: Solution, folder: Path, trouble
 
 def _save_figures(job: request.Job, solution: Solution, folder: Path, troubles: list[str]) -> None:
     results.without_display()
-    graph = solution.transition_graph()
-    if len(graph.shares) > 1:
+    graph = solution.transition_graph() if solution.knows_modes else None
+    if graph is None:
+        tell("no picture of transitions: the engine records no modes")
+    elif len(graph.shares) > 1:
         with results.noting(troubles, "drawing the transitions"):
             results.save_figures({"transitions": draw(graph)}, folder, troubles)
     else:

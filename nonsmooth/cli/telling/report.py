@@ -34,6 +34,8 @@ _NUMBERS = (
     "unseen_contacts",
     "mode_words",
     "energy_residual",
+    "cause",
+    "verdict",
 )
 UNITS = {"t_end": "s", "wall_seconds": "s"}
 """Of these numbers; others have none, or are those of the scenario."""
@@ -53,8 +55,13 @@ def of_solution(solution: Solution | None) -> Report:
         "event_intervals": solution.events.intervals(),
         "contacts": list(solution.system.names.contacts),
         "unseen_contacts": list(solution.unseen),
-        "mode_words": solution.modes,
+        "mode_words": solution.modes if solution.knows_modes else None,
         "energy_residual": solution.energy.residual,
+        "cause": solution.cause,
+        "verdict": {
+            one.name: {"value": value, "unit": one.unit, "meaning": one.meaning}
+            for one, value in solution.end.verdict.items()
+        },
     }
 
 
@@ -66,7 +73,7 @@ def as_json(report: Report) -> str:
 def as_text(report: Report) -> str:
     """Return a short summary to read."""
     plain = json.loads(as_json(report))
-    head = f"{plain['scenario']}: {plain['status']}"
+    head = f"{plain['scenario']}: {plain['status']}" + (f" ({plain['cause']})" if plain["cause"] else "")
     if plain["t_end"] is None:
         return head
     head += (
@@ -82,6 +89,10 @@ def as_text(report: Report) -> str:
     rows.append(("energy residual", "none" if residual is None else f"{residual:.6g}"))
     rows.append(("steps limited by", _limits(plain["step_limits"])))
     rows += [
+        (name.replace("_", " "), f"{_with_unit(_spell(one['value']), one['unit'])}, {one['meaning']}")
+        for name, one in plain["verdict"].items()
+    ]
+    rows += [
         ("time in modes" * (i == 0), line) for i, line in enumerate(_modes(plain["mode_words"], plain["contacts"]))
     ]
     rows.append(("contacts", _contacts(plain["contacts"])))
@@ -90,8 +101,10 @@ def as_text(report: Report) -> str:
     return "\n".join([head, *lines(rows), *table])
 
 
-def _modes(shares: dict[str, float], names: list[str]) -> list[str]:
+def _modes(shares: dict[str, float] | None, names: list[str]) -> list[str]:
     """Return the commonest words of modes with their shares of time, and how many others there are."""
+    if shares is None:
+        return ["unknown: the engine records no modes"]
     lasting = [(word, share) for word, share in shares.items() if share >= _INSTANT]
     before = [word for word, _ in lasting[:1] + lasting]
     told = [(_described(word, before[i], names), share) for i, (word, share) in enumerate(lasting[:_COMMONEST])]

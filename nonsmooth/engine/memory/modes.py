@@ -14,6 +14,7 @@ START, IMPACT, LIFT_OFF, SLIP_TO_STICK, STICK_TO_SLIP, CLOSING, PAINLEVE, END, J
 )
 FEATURE_CHANGE = 12
 AVERAGING = 13
+STEP = 14
 """Cause of an event."""
 
 CAUSES = (
@@ -31,6 +32,7 @@ CAUSES = (
     "end of a feature",
     "change of feature",
     "averaging of forces",
+    "step of the engine",
 )
 
 BY_LAW, COMPLIANT, REFUSE = range(3)
