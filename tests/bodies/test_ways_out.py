@@ -175,10 +175,8 @@ def test_an_ellipsoid_deep_in_a_box_leaves_by_the_shortest_way(build: Any) -> No
     """Of directions between any two faces, over the edge that they share, none separates the bodies sooner."""
     halves, rng = np.array([0.01, 0.008, 0.006]), np.random.default_rng(1)
     rig = Rig((Box(*halves), Ellipsoid(*halves)), build.laws())
-    angles, ways = np.linspace(0.0, 2.0 * np.pi, 72, endpoint=False), np.zeros((3, 72, 3))
-    for i in range(3):
-        ways[i, :, i], ways[i, :, (i + 1) % 3] = np.cos(angles), np.sin(angles)
-    ways = ways.reshape(-1, 3)
+    angles, axes = np.linspace(0.0, 2.0 * np.pi, 72, endpoint=False)[:, None], np.eye(3)
+    ways = np.vstack([np.cos(angles) * axes[i] + np.sin(angles) * axes[i - 1] for i in range(3)])
     for _ in range(150):
         turn, x = Rotation.random(random_state=rng), rng.uniform(-1.0, 1.0, 3) * halves
         rig.put([(np.zeros(3), [1.0, 0.0, 0.0, 0.0]), (x, np.roll(turn.as_quat(), 1))], np.zeros(12))
