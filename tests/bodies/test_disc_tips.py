@@ -50,6 +50,18 @@ def test_a_tip_that_leans_comes_through_a_disc(build: Any, solid: Any) -> None:
                     assert np.min(facing) >= gap - 1e-14
 
 
+@pytest.mark.parametrize("tilt", [0.3, -0.3, 2.8, -2.8])
+def test_a_disc_meets_a_face_by_the_lowest_point_of_its_rim(build: Any, tilt: float) -> None:
+    """Whichever of its sides is up: the gap is the height of the centre less R sin(tilt)."""
+    corners = np.array([(-0.1, -0.1, 0.0), (0.1, -0.1, 0.0), (0.0, 0.1, 0.0), (0.0, 0.0, -0.1)])
+    floor = TriangleMesh(Triangles(corners, ((0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0)), "tetrahedron"))
+    rig = Rig((Disc(RADIUS), floor), build.laws())
+    turn = np.array([np.cos(0.5 * tilt), 0.0, np.sin(0.5 * tilt), 0.0])
+    rig.put([(np.array([0.0, 0.0, 0.02]), turn), (np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]))], np.zeros(12))
+    facing = rig.geometry[rig.geometry[:, 30] <= 0.0, 0]
+    assert np.min(facing, initial=np.inf) == pytest.approx(0.02 - RADIUS * abs(np.sin(tilt)), abs=1e-15)
+
+
 def _nearest(one: Piece, two: Piece, turns: Any, way: Any) -> tuple[float, Any]:
     """Return distance and direction from the one to the other by support functions alone."""
     rows = np.array([one.kind, two.kind]), np.stack([one.numbers, two.numbers]), one.corners, two.corners

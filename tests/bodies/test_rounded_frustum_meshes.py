@@ -51,6 +51,25 @@ def test_gap_is_the_distance_of_the_core(build: Any, name: str) -> None:
     assert min(compared, deep) > 3
 
 
+@pytest.mark.parametrize("share", [0.0, 0.2, 0.5, 0.7])
+def test_an_apex_meets_a_face_and_an_edge_as_a_sphere(build: Any, share: float) -> None:
+    """A cone that points at a face or, at a share of its length, at an edge is as far from it as its tip."""
+    corners = np.array([(-0.03, -0.05, 0.0), (0.03, 0.05, 0.0), (0.05, -0.03, -0.08), (-0.05, 0.03, -0.08)])
+    solid = TriangleMesh(Triangles(corners, ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)), "tetrahedron"))
+    cone = Cone(6e-3, 0.012, rounding=1e-3)
+    rig = Rig((cone, solid), build.laws())
+    normal, point = np.array([0.0, 0.0, 1.0]), (1.0 - share) * corners[0] + share * corners[1]
+    if share == 0.0:
+        across = np.cross(corners[2] - corners[0], corners[1] - corners[0])
+        normal, point = across / np.linalg.norm(across), np.mean(corners[:3], axis=0)
+    turn = Rotation.align_vectors([-normal], [[0.0, 0.0, 1.0]])[0]
+    for gap in (1e-3, 1e-6, 0.0, -1e-4):
+        place = point + gap * normal - turn.apply(cone.support(np.array([0.0, 0.0, 1.0])))
+        rig.put([(place, np.roll(turn.as_quat(), 1)), (np.zeros(3), UNIT)], np.zeros(12))
+        facing = rig.geometry[rig.geometry[:, 30] <= 0.0, 0]
+        assert np.min(facing, initial=np.inf) == pytest.approx(gap, abs=1e-15)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("shape", [Disc(8e-3), Cone(6e-3, 0.012), Cylinder(2e-3, 0.012, rounding=5e-4)])
 def test_what_goes_right_through_overlaps(build: Any, shape: Frustum) -> None:

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from bodies import Cone, Cylinder, Disc, Superellipsoid
+from bodies import Box, Cone, Cylinder, Disc, Ellipsoid, Superellipsoid
 from bodies.contacts.frustum.frustum import HIGH_CAP, LOW_CAP
 from bodies.contacts.frustum.frustum_smooth import is_over_cap
 from bodies.contacts.frustum.frustum_stops import on_cap
@@ -17,7 +17,9 @@ from bodies.contacts.smooth.inscribed import no_shorter_way
 from bodies.contacts.smooth.smooth_newton import widest
 from bodies.contacts.smooth.smooth_starts import gap_along, starts_of, uphill
 from bodies.shapes.support_function import support_of
+from nonsmooth.engine.memory.blocks import GAP
 from nonsmooth.engine.native.kernel import PLAIN
+from tests.bodies.carriers import Rig
 
 Array = NDArray[np.float64]
 SAME = 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0
@@ -167,3 +169,16 @@ def test_under_a_cap_no_direction_is_a_shorter_way_out(frustum: Any, kind: str) 
             most = np.max(ways @ x - height - _heights(core, -ways @ turn))
             assert not proved or most <= gap + 1e-12
     assert proofs >= (6 if PLAIN else 24)
+
+
+def test_an_ellipsoid_deep_in_a_box_leaves_by_the_shortest_way(build: Any) -> None:
+    """Of directions between any two faces, over the edge that they share, none separates the bodies sooner."""
+    halves, rng = np.array([0.01, 0.008, 0.006]), np.random.default_rng(1)
+    rig = Rig((Box(*halves), Ellipsoid(*halves)), build.laws())
+    angles, axes = np.linspace(0.0, 2.0 * np.pi, 72, endpoint=False)[:, None], np.eye(3)
+    ways = np.vstack([np.cos(angles) * axes[i] + np.sin(angles) * axes[i - 1] for i in range(3)])
+    for _ in range(150):
+        turn, x = Rotation.random(random_state=rng), rng.uniform(-1.0, 1.0, 3) * halves
+        rig.put([(np.zeros(3), [1.0, 0.0, 0.0, 0.0]), (x, np.roll(turn.as_quat(), 1))], np.zeros(12))
+        apart = ways @ x - np.abs(ways) @ halves - np.linalg.norm(ways @ turn.as_matrix() * halves, axis=1)
+        assert rig.geometry[0, GAP] >= np.max(apart) - 1e-12

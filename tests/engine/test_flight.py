@@ -64,6 +64,13 @@ def test_a_symmetric_top_flies_in_one_step(body: FreeBody, spin: Any) -> None:
     assert solution.energy.residual < 1e-12
 
 
+@pytest.mark.parametrize("body", [Ball(0.02), BoxBody(0.02, 0.03, 0.04)], ids=["closed form", "integrated"])
+def test_a_fall_exchanges_its_potential_energy(body: FreeBody) -> None:
+    """Gravity gives m g h, of which nothing is lost."""
+    solution = ns.simulate(ns.System([body], GRAVITY), 0.3)
+    assert solution.energy.exchanged == pytest.approx(body.total_mass * 0.5 * (GRAVITY * 0.3) ** 2, rel=1e-9)
+
+
 def test_the_closed_form_is_what_integration_tends_to() -> None:
     """A top next to symmetric, which is integrated, tends to the symmetric one as the difference does."""
     ends = []

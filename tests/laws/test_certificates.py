@@ -88,6 +88,14 @@ def test_maps_of_a_ball_by_hand(e: float, mu: float) -> None:
         assert not law.is_fulfilled(delassus, before, impulses + np.array([0.0, 0.001, 0.0]), friction, 1e-4)
 
 
+@pytest.mark.parametrize("law", [NewtonImpact(0.5), MoreauImpact(0.5, 0.5)], ids=lambda law: type(law).__name__)
+def test_a_body_on_a_rail_rebounds_as_the_law_says(law: ImpactMap) -> None:
+    """It moves along the normal alone: P_N = (1 + e) v_N, and a larger impulse or a smaller one does not obey."""
+    delassus, before, friction = np.diag([1.0, 0.0, 0.0]), np.array([-2.0, 0.0, 0.0]), np.array([0.3])
+    for push, expected in ((3.0, True), (3.3, False), (2.7, False)):
+        assert law.is_fulfilled(delassus, before, np.array([push, 0.0, 0.0]), friction, 1e-6) is expected
+
+
 def test_a_gain_that_the_law_makes_obeys_it() -> None:
     """Kane's example: a rod that slides on its lower end gains energy by Newton's rule and Coulomb's friction."""
     angle, mu = math.radians(20.0), np.array([0.7])

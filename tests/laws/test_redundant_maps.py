@@ -51,7 +51,7 @@ def _impulses(delassus: Array, rates: Array, friction: Array, e: float) -> Array
 
 def test_inelastic_impacts_always_have_an_answer() -> None:
     """It is finite and solves the problem itself: nothing pulls, friction is in the disc, no energy comes in."""
-    for seed in range(40):
+    for seed in range(60):
         random = np.random.default_rng(seed)
         delassus, rates = _balls(random)
         n = len(rates) // 3

@@ -81,6 +81,18 @@ def test_a_straight_fall_is_planar_in_any_tangents(angle: float) -> None:
     np.testing.assert_allclose(after, -0.5 * velocity, rtol=0, atol=1e-15)
 
 
+@pytest.mark.parametrize("coupling", [1.5, 0.0])
+def test_a_slip_in_a_plane_does_not_depend_on_the_tangents(coupling: float) -> None:
+    """A slip that keeps to a line has a closed form, exact to round-off also where the tangent moves more easily."""
+    delassus = np.array([[1.0, coupling, 0.0], [coupling, 8.0, 0.0], [0.0, 0.0, 0.0]])
+    expected = apply([StrongeImpact(0.5)], delassus, [[-1.0, 10.0, 0.0]], [0.2])[0]
+    for angle in np.linspace(0.0, 2.0 * np.pi, 17):
+        turn = np.eye(3)
+        turn[1:, 1:] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+        turned = apply([StrongeImpact(0.5)], turn @ delassus @ turn.T, [turn @ [-1.0, 10.0, 0.0]], [0.2])[0]
+        np.testing.assert_allclose(turned, turn @ expected, rtol=0, atol=1e-13)
+
+
 def test_separating_contact_gets_nothing() -> None:
     """No approach, no impulse."""
     np.testing.assert_array_equal(apply([StrongeImpact(0.5)], np.eye(3), [[0.2, 1.0, 0.0]], [0.3]), np.zeros((1, 3)))
