@@ -48,6 +48,8 @@ ARRAYS = Arrays(
             "kinetic_before",
             "potential_before",
             "booked_before",
+            "jump",
+            "jumped",
             "open_energy",
             "open_share",
             "scale_energy",
@@ -55,6 +57,7 @@ ARRAYS = Arrays(
         ),
         # nothing has happened yet
         "feature_t": -math.inf,
+        "jump_t": -math.inf,
         "chosen_t": -math.inf,
         # no body is on a course
         "course_end": math.inf,
