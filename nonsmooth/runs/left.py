@@ -95,6 +95,7 @@ class Left(NamedTuple):
             found = suspicions(
                 self.engine,
                 worst,
+                (float(record["jump_t"]), float(record["jumped"])),
                 state.energy,
                 bodies,
                 moved,

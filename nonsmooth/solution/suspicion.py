@@ -26,6 +26,7 @@ _ROUND_OFF = 1e-12
 def suspicions(
     engine: Engine,
     worst_event: tuple[float, float, float],
+    jump: tuple[float, float],
     energy: EnergyAccount,
     bodies: Mapping[str, Body],
     samples: tuple[NDArray[np.float64], NDArray[np.float64]],
@@ -38,7 +39,8 @@ def suspicions(
     """Return what is wrong with a run, "" for nothing.
 
     ``engine`` is what integrated it; what it promises takes the place of what tolerances explain.
-    ``worst_event`` has time [s], energy [J] and share of what is explained; ``bodies`` are those of the system by name;
+    ``worst_event`` has time [s], energy [J] and share of what is explained, ``jump`` time [s] of the last spring that
+    began inside of a body and the energy [J] that springs gained so; ``bodies`` are those of the system by name;
     ``samples`` t and q; ``tolerances`` are those of a step and of an impact, ``steps`` their number; ``scale`` is
     the kinetic energy of velocities as large as their scales [J], ``floor`` an energy of which the bodies exchange a
     part where they hardly move, as weight times size [J].  ``span`` returns a sentence on when an open account of the
@@ -50,7 +52,7 @@ def suspicions(
         account, off = open_run(energy, tolerance, steps, scale, floor), _EXPLAINED * tolerances[0]
     else:
         account, off, remedy = broken_promise(energy, promised, name, floor), promised, _remedy_of(engine)
-    found = open_event(*worst_event), account, long_quaternion(bodies, *samples, off)
+    found = open_event(*worst_event), jumped(*jump, energy, floor), account, long_quaternion(bodies, *samples, off)
     said = "; ".join(filter(None, found))
     return " ".join(filter(None, (f"{said}.", span() if account else "", remedy))) if said else ""
 
@@ -82,6 +84,16 @@ def open_event(time: float, energy: float, share: float) -> str:
     return (
         f"at the event at t = {time:.9g} s {abs(energy):.3g} J {'appear' if energy > 0.0 else 'vanish'} that no work "
         f"and no loss accounts for, {share:.3g} times what the tolerances explain"
+    )
+
+
+def jumped(time: float, gained: float, energy: EnergyAccount, floor: float = 0.0) -> str:
+    """Return what is wrong with springs that began inside of bodies and gained so much energy [J], or ""."""
+    if gained <= _MOST * max(energy.scale, floor):
+        return ""
+    return (
+        f"springs that began inside of bodies, the last one at t = {time:.9g} s, brought {gained:.3g} J that no work "
+        "accounts for: bodies so deep in each other jump from feature to feature, stiffer or rounded ones do not"
     )
 
 

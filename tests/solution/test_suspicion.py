@@ -10,7 +10,7 @@ import pytest
 from bodies import Ball, Plate, Rest
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.solution.energy import EnergyAccount
-from nonsmooth.solution.suspicion import broken_promise, long_quaternion, open_event, open_run, suspicions
+from nonsmooth.solution.suspicion import broken_promise, jumped, long_quaternion, open_event, open_run, suspicions
 
 
 def _account(unexplained: float, potential: float = 0.0) -> EnergyAccount:
@@ -56,6 +56,13 @@ def test_no_number_of_steps_explains_a_thousandth() -> None:
     assert "open by 0.021 J" in open_run(_account(2.1e-2), 1e-5, 10)
 
 
+def test_springs_may_gain_a_thousandth_by_jumps() -> None:
+    """Of what is exchanged, 2 J, or of a floor."""
+    assert jumped(0.5, 1.9e-3, _account(0.0)) == ""
+    assert jumped(0.5, 2.1e-3, _account(0.0), 3.0) == ""
+    assert "at t = 0.5 s, brought 0.0021 J" in jumped(0.5, 2.1e-3, _account(0.0))
+
+
 def test_an_event_is_named_with_time_and_energy() -> None:
     """From a share of one on."""
     assert open_event(0.5, 1e-3, 1.0) == ""
@@ -84,7 +91,9 @@ def test_all_that_is_found_is_said() -> None:
     def said(event: tuple[float, float, float], unexplained: float) -> str:
         samples, tolerances = (t, np.zeros((0, 0))), (1e-9, 1e-8)
         account = _account(unexplained)
-        return suspicions(EventDriven(), event, account, {}, samples, tolerances, 10, 0.0, 0.0, lambda: "At noon.")
+        return suspicions(
+            EventDriven(), event, (0.0, 0.0), account, {}, samples, tolerances, 10, 0.0, 0.0, lambda: "At noon."
+        )
 
     assert said((0.0, 0.0, 0.0), 0.0) == ""
     both = said((0.5, 1e-3, 2.0), 1e-3)

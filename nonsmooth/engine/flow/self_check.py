@@ -121,27 +121,28 @@ def check_gaps(S: Scalars, w: Floats, k: Integers) -> None:
             blame(S, GAP_UNEXPLAINED, c, gap, explained_gap(S, w, k, c))
 
 
-@kernel("f8(S, F, I, i8)")
-def _stored(S: Scalars, w: Floats, k: Integers, c: int) -> float:
-    """Return the energy of a spring as deep as its gap tells [J]: of its force at rest, by Gauss's rule."""
-    contact = contact_at(S, w, k, c)
-    half, total = 0.5 * abs(contact.gap), 0.0
+@kernel("f8(S, F, I, i8, f8)")
+def _stored(S: Scalars, w: Floats, k: Integers, c: int, depth: float) -> float:
+    """Return the energy of a spring at a depth [J]: of its force at rest, by Gauss's rule."""
+    contact, total = contact_at(S, w, k, c), 0.0
     for i in range(-1, 2):
-        depth = half * (1.0 + i * math.sqrt(0.6))
-        weight = (8.0 - 3.0 * i * i) / 9.0
+        weight, place = (8.0 - 3.0 * i * i) / 18.0, 0.5 * (1.0 + i * math.sqrt(0.6))
         parameters = at(w, contact.normal_parameters)
-        total += weight * call_compliance(contact.normal_function, depth, 0.0, contact.closing_rate, parameters)
-    return float(half * total)
+        total += weight * call_compliance(contact.normal_function, place * depth, 0.0, contact.closing_rate, parameters)
+    return float(depth * total)
 
 
-@kernel("void(S, F, I)")
-def book_jump(S: Scalars, w: Floats, k: Integers) -> None:
-    """Compare what springs gained and lost in jumps with what was exchanged; of that a thousandth is none."""
-    S.jumped += abs(S.jump)
-    explained = NOUGHT * abs(w[S.y + S.n_q + S.n_u + EXCHANGED])
-    if S.jump != 0.0 and S.jumped > S.open_share * explained:
-        S.open_share, S.open_energy, S.open_t = S.jumped / max(explained, 1e-300), S.jump, S.jump_t
-    S.jump = 0.0
+@kernel("f8(S, F, I, i8, i8)")
+def _deepest_other(S: Scalars, w: Floats, k: Integers, c: int, after: int) -> float:
+    """Return the least gap of the other closed contacts of the frames of a contact, before an event or after it."""
+    contact, deepest = contact_at(S, w, k, c), 0.0
+    for other in range(S.n_contacts):
+        another = contact_at(S, w, k, other)
+        mode = another.mode_agreed if after == 1 else another.mode
+        same = another.frame_a == contact.frame_a and another.frame_b == contact.frame_b
+        if other != c and same and mode != OPEN:
+            deepest = min(deepest, another.gap)
+    return float(deepest)
 
 
 @kernel("void(S, F, I)")
@@ -155,21 +156,19 @@ def check_begun(S: Scalars, w: Floats, k: Integers) -> None:
         contact = contact_at(S, w, k, c)
         if contact.normal_function == 0 or (contact.mode == OPEN) == (contact.mode_agreed == OPEN):
             continue
-        begins = contact.mode == OPEN
-        tolerated = explained_gap(S, w, k, c)
-        if (begins and contact.gap >= -tolerated) or (not begins and contact.beyond <= 0.0):
+        if contact.mode != OPEN:
+            # past its end only what takes over knows the depth
+            if contact.beyond > 0.0:
+                S.jumped -= _stored(S, w, k, c, -_deepest_other(S, w, k, c, 1))
             continue
-        if S.t - S.jump_t > EXPLAINED * S.time_tolerance:
-            book_jump(S, w, k)
-            S.jump_t = S.t
-        S.jump += _stored(S, w, k, c) if begins else -_stored(S, w, k, c)
-        deepest = 0.0
-        for other in range(S.n_contacts):
-            another = contact_at(S, w, k, other)
-            if another.mode != OPEN and another.frame_a == contact.frame_a and another.frame_b == contact.frame_b:
-                deepest = min(deepest, another.gap)
-        if begins and contact.gap < deepest - tolerated:
-            blame(S, GAP_UNEXPLAINED, c, contact.gap, tolerated - deepest)
+        tolerated = explained_gap(S, w, k, c)
+        if contact.gap >= -tolerated:
+            continue
+        S.jumped += _stored(S, w, k, c, -contact.gap)
+        S.jump_t = S.t
+        explained = tolerated - _deepest_other(S, w, k, c, 0)
+        if contact.gap < -explained:
+            blame(S, GAP_UNEXPLAINED, c, contact.gap, explained)
 
 
 @kernel("f8(S)")
@@ -244,5 +243,4 @@ def check_end(S: Scalars, w: Floats, k: Integers) -> None:
     book_mean_forces(S, w, k)
     S.scale_energy = scale_energy(S, w, k)
     close_account(S, w, k)
-    book_jump(S, w, k)
     check_gaps(S, w, k)

@@ -48,8 +48,8 @@ ARRAYS = Arrays(
             "kinetic_before",
             "potential_before",
             "booked_before",
-            "jump",
             "jumped",
+            "jump_t",
             "open_energy",
             "open_share",
             "scale_energy",
@@ -57,7 +57,6 @@ ARRAYS = Arrays(
         ),
         # nothing has happened yet
         "feature_t": -math.inf,
-        "jump_t": -math.inf,
         "chosen_t": -math.inf,
         # no body is on a course
         "course_end": math.inf,
