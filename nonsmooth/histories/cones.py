@@ -31,7 +31,7 @@ def beyond_cones(contacts: Sequence[Contact], number: Integers, normal: Floats, 
     normal : array
         Normal forces [N] or impulses [N s], shape [m].
     friction : array
-        Friction, in the same unit, shape [m, 3].
+        Friction, in the same unit, shape [m, 3], or along two tangents, shape [m, 2].
 
     Returns
     -------

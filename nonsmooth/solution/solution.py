@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.engine.memory.modes import GUARD, IMPACT, JAM, PAINLEVE
+from nonsmooth.histories.cones import beyond_cones
 from nonsmooth.interfaces import Body
 from nonsmooth.model.part_pairs import unseen
 from nonsmooth.notices import say
@@ -158,9 +159,21 @@ class Solution:
         """
         return tuple(unseen(self.system.contacts))
 
+    @functools.cached_property
+    def impulses_beyond_cone(self) -> int:
+        """How many impulses of events lie outside of their friction cones.
+
+        :attr:`nonsmooth.histories.contact_impulses.ContactImpulses.beyond_cone` says which.
+        """
+        events = self.events
+        normal, friction = events.listed_impulse[:, 0], events.listed_impulse[:, 1:]
+        return int(np.count_nonzero(beyond_cones(self.system.contacts, events.listed, normal, friction)))
+
     def __repr__(self) -> str:
         """Return how it ended, and how much there is of it."""
         unseen = f", {len(self.unseen)} contacts seen by their gaps only" if self.unseen else ""
+        outside = self.impulses_beyond_cone
+        unseen += f", {outside} impulses outside of their friction cones" if outside else ""
         return (
             f"Solution({self.status} at t = {self.t_end:.9g} s: {self.message}; {len(self.t)} samples, "
             f"{len(self.events)} events, energy residual {self.energy.residual:.1e}{unseen})"

@@ -70,6 +70,8 @@ def test_the_text_has_units_and_no_round_off() -> None:
         "step_limits": {"no step": 7, "error": 2, "event": 3},
         "event_intervals": {},
         "contacts": ["plate - ball 1", "plate - ball 2", "tip"],
+        "unseen_contacts": [],
+        "impulses_beyond_cone": 0,
         "mode_words": shares,
         "energy_residual": 1.2e-16,
         "cause": "",

@@ -27,6 +27,7 @@ KEYS = {
     "event_intervals",
     "contacts",
     "unseen_contacts",
+    "impulses_beyond_cone",
     "mode_words",
     "energy_residual",
     "cause",

@@ -57,9 +57,8 @@ def _outside(normal: float, friction: float, bound: float, may_pull: bool = Fals
     def pair(first: float, second: float) -> Vector:
         return np.array([first, second])
 
-    rows = Reported(
-        np.zeros(2), np.zeros(2, dtype=np.int64), pair(normal, 1.0), pair(friction, 0.0), pair(bound, 0.0), np.ones(2)
-    )
+    none, marked = np.zeros(2, dtype=np.int64), np.zeros(2, dtype=bool)
+    rows = Reported(np.zeros(2), none, pair(normal, 1.0), pair(friction, 0.0), pair(bound, 0.0), np.ones(2), marked)
     pulls, beyond = rows.outside(np.array([may_pull, False]), floor)
     assert pulls[1] <= 0.0
     assert beyond[1] <= 0.0

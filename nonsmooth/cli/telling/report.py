@@ -32,6 +32,7 @@ _NUMBERS = (
     "event_intervals",
     "contacts",
     "unseen_contacts",
+    "impulses_beyond_cone",
     "mode_words",
     "energy_residual",
     "cause",
@@ -55,6 +56,7 @@ def of_solution(solution: Solution | None) -> Report:
         "event_intervals": solution.events.intervals(),
         "contacts": list(solution.system.names.contacts),
         "unseen_contacts": list(solution.unseen),
+        "impulses_beyond_cone": solution.impulses_beyond_cone,
         "mode_words": solution.modes if solution.knows_modes else None,
         "energy_residual": solution.energy.residual,
         "cause": solution.cause,
@@ -96,6 +98,11 @@ def as_text(report: Report) -> str:
         ("time in modes" * (i == 0), line) for i, line in enumerate(_modes(plain["mode_words"], plain["contacts"]))
     ]
     rows.append(("contacts", _contacts(plain["contacts"])))
+    told = (
+        ("seen by their gaps only", len(plain["unseen_contacts"])),
+        ("outside of cones", plain["impulses_beyond_cone"]),
+    )
+    rows += [(f"{what} {name}", str(n)) for what, (name, n) in zip(("contacts", "impulses"), told, strict=True) if n]
     judged = plain.get("acceptance")
     table = [] if judged is None else ["", *_judged(judged)]
     return "\n".join([head, *lines(rows), *table])

@@ -70,6 +70,8 @@ class Reported:
         Coefficient of the law of each, shape [n].
     largest : array
         Largest normal force or impulse at the same instant, shape [n].
+    marked : array
+        Which entries the run itself says to be outside, shape [n].
     """
 
     time: Vector
@@ -78,6 +80,7 @@ class Reported:
     friction: Vector
     bound: Vector
     largest: Vector
+    marked: NDArray[np.bool_]
 
     def outside(self, pulls: NDArray[np.bool_], floor: float) -> tuple[Vector, Vector]:
         """Return by how much each pulls, unless its law may, and exceeds its bound, beyond what round-off explains."""
@@ -110,6 +113,7 @@ def reported(case: Case, solution: ns.Solution) -> tuple[list[ContactLaws], dict
         np.linalg.norm(f.friction_force, axis=1),
         np.array([coefficient(laws[c].friction, v) for c, v in zip(f.contact.tolist(), speeds, strict=True)]),
         _largest(f.normal_force, f.first),
+        f.beyond_cone,
     )
     impulses = Reported(
         events.time[p.event],
@@ -119,6 +123,7 @@ def reported(case: Case, solution: ns.Solution) -> tuple[list[ContactLaws], dict
         np.nan_to_num(np.linalg.norm(p.friction_impulse, axis=1)),
         np.array([strongest(laws[c].friction) for c in p.contact.tolist()]),
         _largest(p.normal_impulse, events.first),
+        p.beyond_cone,
     )
     return laws, {"force": forces, "impulse": impulses}
 
@@ -139,6 +144,8 @@ def cones(case: Case, solution: ns.Solution, weight: float, momentum: float) -> 
         rows = found[what]
         pulls, beyond = rows.outside(pulling[rows.contact], _FLOOR * floor)
         for kind, excess in (("pulls", pulls), ("cone", beyond)):
+            # an entry that the run itself marks is not silent
+            excess = np.where(rows.marked, -np.inf, excess)
             if np.any(excess > 0.0):
                 k = int(np.argmax(excess))
                 name = solution.system.contacts[int(rows.contact[k])].name
