@@ -103,6 +103,8 @@ def check_gaps(S: Scalars, w: Floats, k: Integers) -> None:
 
     Bodies that springs let into each other overlap at other features, too, as long as one contact of theirs is closed.
     """
+    if S.n_pairs > 0:
+        look_at_pairs(S, w, k)
     if S.passed >= 0:
         explained = S.passed_explained + _tolerated_overlap(S, w, k, S.passed)
         if S.passed_depth > explained:
@@ -238,8 +240,6 @@ def check_end(S: Scalars, w: Floats, k: Integers) -> None:
         contact = contact_at(S, w, k, c)
         evaluate_geometry(S, w, k, c)
         contact.gap_end, contact.overlap_end = contact.gap, contact.overlap
-    if S.n_pairs > 0:
-        look_at_pairs(S, w, k)
     book_mean_forces(S, w, k)
     S.scale_energy = scale_energy(S, w, k)
     close_account(S, w, k)

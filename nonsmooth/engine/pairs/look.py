@@ -1,9 +1,9 @@
 """The look at pairs: whether bodies between which contacts are declared have passed into each other.
 
-Features of bodies can miss each other; their pair cannot.  For each pair of convex parts whose balls meet the
-separation along the direction that parted them last is taken first, or along the normal of a contact of theirs that is
-closed.  Only where that does not show them apart is a better direction looked for.  A pair that was found apart is not
-looked at again before its parts have moved so far that they may meet.
+Features of bodies can miss each other; their pair cannot.  Where a step begins, for each pair of convex parts whose balls
+meet, the separation along the direction that parted them last is taken first, then that which one search finds.  Only of
+a pair that overlaps are its contacts asked how deep they let it, and is the largest separation looked for.  A pair that
+was found apart is not looked at again before its parts have moved so far that they may meet.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from nonsmooth.engine.native.kernel import (
     part_at,
 )
 from nonsmooth.engine.numerics.vectors import distance, dot
-from nonsmooth.engine.pairs.separation import direction_of
+from nonsmooth.engine.pairs.separation import direction_of, parting_direction
 from nonsmooth.engine.pairs.support import height_over, middle_of, separation_along
 
 NO_PAIR = -1
@@ -44,8 +44,8 @@ def _ask_contacts(S: Scalars, w: Floats, k: Integers) -> None:
         if contact.mode == OPEN or contact.pair == NO_PAIR:
             continue
         pair = pair_at(S, w, k, contact.pair)
-        if pair.closed == 0 or contact.gap < pair.deepest:
-            pair.closed, pair.deepest, pair.normal = 1, min(0.0, contact.gap), contact.normal
+        if pair.closed == 0 or contact.gap_end < pair.deepest:
+            pair.closed, pair.deepest, pair.normal = 1, min(0.0, contact.gap_end), contact.normal
 
 
 @kernel("void(S, F, I)")
@@ -109,7 +109,7 @@ def _separation(S: Scalars, w: Floats, k: Integers, number: int, enough: float) 
 def look_at_pairs(S: Scalars, w: Floats, k: Integers) -> None:
     """Find a pair that overlaps by more than its closed contacts say, bodies and contacts being evaluated.
 
-    What these say is asked only where a pair is not apart.
+    What these say is asked only of a pair that one search does not find apart.
     """
     S.passed, asked, most = -1, 0, 0.0
     _move_carriers(S, w, k)
@@ -117,9 +117,12 @@ def look_at_pairs(S: Scalars, w: Floats, k: Integers) -> None:
         pair, way = pair_at(S, w, k, number), _way(S, w, k, number)
         if way < pair.room:
             continue
-        spare = _known_separation(S, w, k, number) + pair.allowed
-        pair.room = way + spare
-        if spare >= 0.0:
+        apart = _known_separation(S, w, k, number)
+        if apart < -pair.allowed and part_at(w, pair.part_a).rings >= 0.0:
+            pair.direction = parting_direction(S, w, k, number, pair.direction)
+            apart = separation_along(S, w, k, number, pair.direction)
+        pair.room = way + apart + pair.allowed
+        if apart >= -pair.allowed:
             continue
         if asked == 0:
             _ask_contacts(S, w, k)

@@ -87,15 +87,31 @@ def _axis(w: Floats, frame_place: int, axis: int) -> Vector:
     return sign * frame.rotation[column], sign * frame.rotation[column + 3], sign * frame.rotation[column + 6]
 
 
+@kernel("v3(S, F, I, i8)")
+def _across(S: Scalars, w: Floats, k: Integers, number: int) -> Vector:
+    """Return the direction from the middle of the first part of a pair to that of the second."""
+    pair = pair_at(S, w, k, number)
+    between = minus(middle_of(w, pair.frame_b, pair.part_b), middle_of(w, pair.frame_a, pair.part_a))
+    return _unit(between, (0.0, 0.0, 1.0))
+
+
+@kernel("v3(S, F, I, i8, v3)")
+def parting_direction(S: Scalars, w: Floats, k: Integers, number: int, known: Vector) -> Vector:
+    """Return a unit vector along which a pair is farthest apart, if it is apart, as far as one search tells.
+
+    ``known`` is one to begin with, of length 0 if there is none.
+    """
+    pair = pair_at(S, w, k, number)
+    return _search(S, w, k, number, _unit(known, _across(S, w, k, number)), (0.0, 0.0, 0.0), pair.size)
+
+
 @kernel("v3(S, F, I, i8, v3, f8)")
 def direction_of(S: Scalars, w: Floats, k: Integers, number: int, known: Vector, enough: float) -> Vector:
     """Return a unit vector along which the separation of a pair is at least ``enough``, or else the largest found.
 
     ``known`` is one to begin with, of length 0 if there is none.
     """
-    pair = pair_at(S, w, k, number)
-    between = minus(middle_of(w, pair.frame_b, pair.part_b), middle_of(w, pair.frame_a, pair.part_a))
-    across = _unit(between, (0.0, 0.0, 1.0))
+    pair, across = pair_at(S, w, k, number), _across(S, w, k, number)
     start = _unit(known, across)
     n = _search(S, w, k, number, start, (0.0, 0.0, 0.0), pair.size)
     best = separation_along(S, w, k, number, n)
