@@ -1,9 +1,9 @@
 """The look at pairs: whether bodies between which contacts are declared have passed into each other.
 
-Features of bodies can miss each other; their pair cannot.  Where a step begins, for each pair of convex parts whose balls
-meet, the separation along the direction that parted them last is taken first, then that which one search finds.  Only of
-a pair that overlaps are its contacts asked how deep they let it, and is the largest separation looked for.  A pair that
-was found apart is not looked at again before its parts have moved so far that they may meet.
+Features of bodies can miss each other; their pair cannot.  Where a step begins, for each pair of convex parts whose
+balls meet, the separation along the direction that parted them last is taken first, then that which one search finds.
+Only of a pair that overlaps are its contacts asked how deep they let it, and is the largest separation looked for.  A
+pair that was found apart is not looked at again before its parts have moved so far that they may meet.
 """
 
 from __future__ import annotations
