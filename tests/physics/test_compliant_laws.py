@@ -310,7 +310,7 @@ def _gained(solution: ns.Solution) -> float:
 
 @pytest.mark.parametrize("seed", range(6))
 def test_boxes_on_stiff_springs_part_with_the_energy_they_had(seed: int) -> None:
-    """They go into each other by some hundredth of a millimetre."""
+    """Shallow overlaps keep to the features that met."""
     solution = ns.simulate(_collision(seed, 3e6), 0.05)
     assert solution.status == "done"
     assert TOUCH in solution.events.cause
