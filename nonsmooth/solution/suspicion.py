@@ -52,9 +52,11 @@ def suspicions(
         account, off = open_run(energy, tolerance, steps, scale, floor), _EXPLAINED * tolerances[0]
     else:
         account, off, remedy = broken_promise(energy, promised, name, floor), promised, _remedy_of(engine)
-    found = open_event(*worst_event), jumped(*jump, energy, floor), account, long_quaternion(bodies, *samples, off)
-    said = "; ".join(filter(None, found))
-    return " ".join(filter(None, (f"{said}.", span() if account else "", remedy))) if said else ""
+    found = open_event(*worst_event), account, long_quaternion(bodies, *samples, off)
+    said = "; ".join(filter(None, (jumped(*jump, energy, floor), *found)))
+    # what springs gain in jumps names a remedy of its own
+    more = span() if account else "", remedy if any(found) else ""
+    return " ".join(filter(None, (f"{said}.", *more))) if said else ""
 
 
 def _remedy_of(engine: Engine) -> str:

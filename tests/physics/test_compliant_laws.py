@@ -330,3 +330,5 @@ def test_energy_of_springs_that_begin_inside_is_told() -> None:
     assert _gained(solution) > 0.1
     assert solution.status == "suspect"
     assert "springs that began inside of bodies" in solution.message
+    assert "stiffer or rounded ones do not" in solution.message
+    assert "tolerance=" not in solution.message
