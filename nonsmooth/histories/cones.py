@@ -16,11 +16,14 @@ from nonsmooth.system.contact import Contact
 _SPEEDS = np.concatenate([[0.0], np.logspace(-6.0, 3.0, 91)])
 """Slip speeds [m/s] of which the largest coefficient counts: ten per decade, over all that bodies slide at."""
 _ROUND_OFF = 1e-6
-"""Part of the bound, and of the largest normal force, by which friction may pass it: what solvers leave."""
+"""Part of the bound, and of the largest normal force of an instant, by which friction may pass it: what solvers leave.
+"""
 
 
-def beyond_cones(contacts: Sequence[Contact], number: Integers, normal: Floats, friction: Floats) -> NDArray[np.bool_]:
-    """Return which entries pull, or have more friction than the largest coefficient of their law allows.
+def beyond_cones(
+    contacts: Sequence[Contact], number: Integers, first: Integers, normal: Floats, friction: Floats, speed: Floats
+) -> NDArray[np.bool_]:
+    """Return which entries pull, or have more friction than their law allows.
 
     Parameters
     ----------
@@ -28,10 +31,14 @@ def beyond_cones(contacts: Sequence[Contact], number: Integers, normal: Floats, 
         Those of the system.
     number : array
         Contact of each entry, shape [m].
+    first : array
+        Where the entries of each instant begin, shape [n + 1].
     normal : array
         Normal forces [N] or impulses [N s], shape [m].
     friction : array
         Friction, in the same unit, shape [m, 3], or along two tangents, shape [m, 2].
+    speed : array
+        Slip speed at which the coefficient is taken [m/s], shape [m]; where it is nan, the largest coefficient counts.
 
     Returns
     -------
@@ -39,15 +46,23 @@ def beyond_cones(contacts: Sequence[Contact], number: Integers, normal: Floats, 
         True where it is so, shape [m].  Of laws whose coefficient depends on direction or on an inner state, of
         traction and of normal laws that may pull, no entry is.
     """
-    bounds = np.full(len(contacts), np.inf)
+    bound = np.full(len(number), np.inf)
     for i in np.unique(number).tolist():
         law = contacts[i].friction
         if isinstance(law, FrictionLaw) and not isinstance(law, (AnisotropicFrictionLaw, StatefulFrictionLaw)):
             coefficient = coefficient_of(law)
-            bounds[i] = max(coefficient(float(speed)) for speed in _SPEEDS)
-    if len(number) == 0:
-        return np.zeros(0, dtype=bool)
-    bound, slack = bounds[number], _ROUND_OFF * float(np.max(np.abs(normal)))
+            entries = np.flatnonzero(number == i)
+            most = max(coefficient(float(v)) for v in _SPEEDS)
+            bound[entries] = [most if np.isnan(v) else coefficient(v) for v in speed[entries].tolist()]
     known = np.isfinite(bound)
+    slack = _ROUND_OFF * largest_of_instants(normal, first)
     allowed = np.where(known, bound, 0.0) * np.maximum(normal, 0.0) * (1.0 + _ROUND_OFF) + slack
     return np.asarray(known & ((np.linalg.norm(friction, axis=1) > allowed) | (normal < -slack)))
+
+
+def largest_of_instants(normal: Floats, first: Integers) -> Floats:
+    """Return the largest size of the normal forces at the instant of each entry, shape [m]; ``first`` as above."""
+    counts = np.diff(first)
+    starts = first[:-1][counts > 0]
+    most = np.maximum.reduceat(np.abs(normal), starts) if len(starts) else np.zeros(0)
+    return np.asarray(np.repeat(most, counts[counts > 0]))

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.engine.memory.blocks import GAP, GEOMETRY, NORMAL, POINT_A, TANGENT, TRACTION_MOMENT
+from nonsmooth.engine.memory.modes import SLIDE
 from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.histories.cones import beyond_cones
 from nonsmooth.histories.contact_history import ContactHistory, contacts_dataset
@@ -108,11 +109,12 @@ class ContactForces:
 
     @property
     def beyond_cone(self) -> NDArray[np.bool_]:
-        """Which entries lie outside of the friction cone, shape [m].
+        """Which entries lie outside of the friction cone, shape [m]; where a contact slides, of that at its slip speed.
 
         Where a run averages forces over a span, those of an instant within need not lie in it.
         """
-        return beyond_cones(self.contacts, self.contact, self.normal_force, self.friction_force)
+        speed = np.where(self.mode == SLIDE, np.linalg.norm(self.slip_velocity, axis=1), np.nan)
+        return beyond_cones(self.contacts, self.contact, self.first, self.normal_force, self.friction_force, speed)
 
     def history(self, contact: Contact | str | int) -> ContactHistory:
         """Return what one contact bears over time, with zeros for forces where it is open.

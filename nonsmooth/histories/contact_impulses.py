@@ -58,7 +58,15 @@ class ContactImpulses:
 
         Impulses within the cones give the same motion: the part of one among redundant contacts may be too large.
         """
-        return beyond_cones(self.contacts, self.contact, self.normal_impulse, self.friction_impulse)
+        first = np.searchsorted(self.event, np.arange(self.event[-1] + 2 if len(self.event) else 1))
+        return beyond_cones(
+            self.contacts,
+            self.contact,
+            first,
+            self.normal_impulse,
+            self.friction_impulse,
+            np.full(len(self.contact), np.nan),
+        )
 
     @classmethod
     def of(cls, solution: Solution) -> ContactImpulses:

@@ -167,7 +167,9 @@ class Solution:
         """
         events = self.events
         normal, friction = events.listed_impulse[:, 0], events.listed_impulse[:, 1:]
-        return int(np.count_nonzero(beyond_cones(self.system.contacts, events.listed, normal, friction)))
+        speed = np.full(len(normal), np.nan)
+        outside = beyond_cones(self.system.contacts, events.listed, events.first, normal, friction, speed)
+        return int(np.count_nonzero(outside))
 
     def __repr__(self) -> str:
         """Return how it ended, and how much there is of it."""
