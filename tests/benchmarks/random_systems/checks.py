@@ -245,13 +245,15 @@ def _joints(case: Case, records: Records) -> Iterator[str]:
 
 def _energy(case: Case, solution: ns.Solution) -> Iterator[str]:
     account = solution.energy
-    # after each step velocities are known to a part of those of falls through the bodies, and energies to as much
+    # after each step velocities are known to a part of those of falls through the bodies, heights to one of their sizes
     falls = [
         mass * float(body.scales[1][0]) ** 2
         for mass, body in zip(_masses(case), case.bodies, strict=True)
         if mass > 0.0
     ]
-    slow = _STEP * solution.counters.steps * float(np.sqrt(account.scale * sum(falls)))
+    heights = [mass * float(body.scales[0][0]) for mass, body in zip(_masses(case), case.bodies, strict=True) if mass]
+    steps = _STEP * solution.counters.steps
+    slow = steps * (float(np.sqrt(account.scale * sum(falls))) + abs(case.gravity) * sum(heights))
     if account.unexplained > _OPEN * account.scale + slow:
         yield f"energy: residual {account.residual:.3g}"
     # by the masses alone, whatever the account says
