@@ -77,6 +77,11 @@ class ConvexPart:
         return len(self.rings) == 1 and self.ball == 0.0 and max(self.semi) == 0.0 and not self.function
 
     @property
+    def is_disc(self) -> bool:
+        """Whether it is a disc without thickness."""
+        return self.is_flat and bool(self.rings[0, 3] > 0.0)
+
+    @property
     def radius(self) -> float:
         """Radius of a ball about its origin that holds it [m]."""
         rings = np.linalg.norm(self.rings[:, :3], axis=1) + self.rings[:, 3]

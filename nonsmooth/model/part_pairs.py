@@ -100,7 +100,8 @@ def is_looked_at(one: ConvexPart, two: ConvexPart, contacts: int) -> bool:
     if one.is_half_space and two.is_half_space:
         return False
     simple = all(part.is_ball or part.is_half_space for part in (one, two))
-    return not (one.is_flat and two.is_flat) and not (simple and contacts == 1)
+    flat = one.is_flat and two.is_flat
+    return not (simple and contacts == 1) and (not flat or (one.is_disc and two.is_disc))
 
 
 def unwatched(contacts: Sequence[Contact]) -> list[int]:
@@ -115,16 +116,11 @@ def unwatched(contacts: Sequence[Contact]) -> list[int]:
 def unseen(contacts: Sequence[Contact]) -> list[str]:
     """Return the names of contacts of which nothing but their own gap tells that their bodies pass into each other.
 
-    Those are contacts of shapes that have neither convex parts nor a solid, and of two that are flat.
+    Those are contacts of shapes that have neither convex parts nor a solid.
     """
     parts = {id(shape): shape.parts for contact in contacts for shape in contact.shapes}
     blind = {id(shape) for contact in contacts for shape in contact.shapes if not parts[id(shape)] and not shape.solid}
-    flat = {key for key, found in parts.items() if found and all(part.is_flat for part in found)}
-    return [
-        contact.name
-        for contact in contacts
-        if not blind.isdisjoint(map(id, contact.shapes)) or flat.issuperset(map(id, contact.shapes))
-    ]
+    return [contact.name for contact in contacts if not blind.isdisjoint(map(id, contact.shapes))]
 
 
 def _groups(contacts: Sequence[Contact]) -> list[list[int]]:
@@ -170,6 +166,7 @@ def lay_part_pairs(memory: Memory, heap: Heap, pairs: Sequence[PartPair], places
             "part_b": starts[pair.shapes[1]],
             "group": pair.group,
             "contact": pair.contacts[0],
+            "flat": all(part.is_flat for part in pair.parts),
             "allowed": _PASSED * pair.size,
             "size": pair.size,
         }

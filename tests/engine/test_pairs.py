@@ -164,20 +164,54 @@ def test_springs_let_bodies_overlap_as_deep_as_their_contacts_say(kind: str) -> 
     assert solution.of(two)[1][-1, 0] == pytest.approx(1.0, abs=1e-3)
 
 
-def test_contacts_of_flat_bodies_are_said_to_be_seen_by_their_gaps_only() -> None:
-    """Two discs without thickness never overlap by any depth; a disc and a box do."""
-    disc, other, box = DiscBody(0.05, foot_height=0.0), DiscBody(0.05, foot_height=0.0), BoxBody(0.05, 0.05, 0.05)
-    system = ns.System([disc, other, box], gravity=0.0)
+@pytest.mark.usefixtures("blind")
+@pytest.mark.parametrize("way", [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.6, 0.0, 0.8)], ids=str)
+@pytest.mark.parametrize(("turn", "shift"), [(0.0, 0.0), (0.0, 0.06), (1e-6, 0.0), (0.3, 0.01)])
+def test_discs_without_thickness_do_not_pass_through_each_other_in_silence(
+    way: tuple[float, float, float], turn: float, shift: float
+) -> None:
+    """They never overlap by any depth: that one goes through the plane of the other within the disc is what tells."""
+    disc, other = DiscBody(0.05, foot_height=0.0), DiscBody(0.05, foot_height=0.0)
+    system = _system(disc, other)
+    system.place(disc, velocity=way)
+    start = 0.2 * np.array(way) + (0.0, shift, 0.0)
+    system.place(other, position=tuple(start), orientation=ns.turned_about((1.0, 0.0, 0.0), turn))
+    with pytest.raises(ns.RunFailed, match="bodies passed into each other"):
+        ns.simulate(system, 0.4)
+
+
+@pytest.mark.usefixtures("blind")
+def test_discs_that_pass_beside_each_other_end_no_run() -> None:
+    """Past the rim, at a distance, and in one plane side by side."""
+    for start, velocity in (
+        ((0.11, 0.0, 0.2), (0.0, 0.0, 1.0)),
+        ((0.2, 0.0, 0.01), (1.0, 0.0, 0.0)),
+        ((0.2, 0.101, 0.0), (1.0, 0.0, 0.0)),
+    ):
+        disc, other = DiscBody(0.05, foot_height=0.0), DiscBody(0.05, foot_height=0.0)
+        system = _system(disc, other)
+        system.place(disc, velocity=velocity)
+        system.place(other, position=start)
+        assert ns.simulate(system, 0.4).status == "done"
+
+
+def test_contacts_of_shapes_that_have_no_parts_are_said_to_be_seen_by_their_gaps_only(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Of a shape with neither convex parts nor a solid nothing but gaps tells; a ball next to it is looked at."""
+    ball, bean, plate = Ball(0.05), EllipsoidBody(0.03, 0.02, 0.01), Plate()
+    for name, nothing in (("parts", ()), ("solid", None)):
+        monkeypatch.setattr(type(bean.shapes[0]), name, property(lambda self, nothing=nothing: nothing))
+    system = ns.System([ball, bean, plate])
     laws: dict[str, Any] = {"normal": Unilateral(), "friction": Coulomb(0.0), "impact": EnergeticImpact(0.5)}
-    system.contact(disc, other, name="flat", **laws)
-    system.contact(disc, box, name="thick", **laws)
-    system.exclude(other, box)
-    system.place(other, position=(0.0, 0.0, 0.2))
-    system.place(box, position=(0.0, 0.0, -0.2))
+    system.contact(plate, bean, name="bean", **laws)
+    system.contact(plate, ball, name="ball", **laws)
+    system.exclude(ball, bean)
+    system.place(ball, position=(0.0, 0.0, 0.2))
+    system.place(bean, position=(0.2, 0.0, 0.2))
     solution = ns.simulate(system, 0.01)
-    assert solution.unseen
-    assert all(name.startswith("flat") for name in solution.unseen)
-    assert "seen by their gaps only" in repr(solution)
+    assert solution.unseen == ("bean",)
+    assert "1 contacts seen by their gaps only" in repr(solution)
 
 
 def _poses(rng: np.random.Generator, n: int) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:

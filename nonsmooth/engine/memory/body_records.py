@@ -149,6 +149,7 @@ PAIR_OF_PARTS: Fields = {
         "pair_part_b",
         "pair_group",
         "pair_contact",
+        "pair_flat",
         "pair_allowed",
         "pair_size",
         "pair_room",
@@ -157,6 +158,7 @@ PAIR_OF_PARTS: Fields = {
     ),
     "direction": vector("pair_direction", 0, 3),
     "normal": vector("pair_normal", 0, 3),
+    "between": vector("pair_between", 0, 3),
 }
 """Of a pair of convex parts (:mod:`nonsmooth.engine.pairs.look`)."""
 

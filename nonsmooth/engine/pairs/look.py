@@ -3,7 +3,8 @@
 Features of bodies can miss each other; their pair cannot.  Where a step begins, for each pair of convex parts whose
 balls meet, the separation along the direction that parted them last is taken first, then that which one search finds.
 Only of a pair that overlaps are its contacts asked how deep they let it, and is the largest separation looked for.  A
-pair that was found apart is not looked at again before its parts have moved so far that they may meet.
+pair that was found apart is not looked at again before its parts have moved so far that they may meet.  Discs without
+thickness overlap by no depth: of these it is asked whether one went through the other.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from nonsmooth.engine.native.kernel import (
     part_at,
 )
 from nonsmooth.engine.numerics.vectors import distance, dot
+from nonsmooth.engine.pairs.circles import crossed
 from nonsmooth.engine.pairs.separation import direction_of, parting_direction
 from nonsmooth.engine.pairs.support import height_over, middle_of, separation_along
 
@@ -121,14 +123,18 @@ def look_at_pairs(S: Scalars, w: Floats, k: Integers) -> None:
         if apart < -pair.allowed and part_at(w, pair.part_a).rings >= 0.0:
             pair.direction = parting_direction(S, w, k, number, pair.direction)
             apart = separation_along(S, w, k, number, pair.direction)
-        pair.room = way + apart + pair.allowed
-        if apart >= -pair.allowed:
+        inside = crossed(S, w, k, number) if pair.flat == 1 else -apart
+        pair.room = way + apart + (0.0 if pair.flat == 1 else pair.allowed)
+        if inside <= pair.allowed:
             continue
         if asked == 0:
             _ask_contacts(S, w, k)
             asked = 1
-        explained = pair_at(S, w, k, pair.group).deepest - pair.allowed
-        found = _separation(S, w, k, number, explained)
+        group = pair_at(S, w, k, pair.group)
+        if pair.flat == 1 and group.closed == 1:
+            continue
+        explained = group.deepest - pair.allowed
+        found = -inside if pair.flat == 1 else _separation(S, w, k, number, explained)
         if explained - found > most:
             most = explained - found
             S.passed, S.passed_depth, S.passed_explained = number, -found, -explained

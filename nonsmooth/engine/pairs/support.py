@@ -26,7 +26,7 @@ from nonsmooth.engine.numerics.vectors import Vector, dot, minus, opposite
 
 
 @kernel("v3(F, v3)")
-def _turned(axes: Floats, v: Vector) -> Vector:
+def turned(axes: Floats, v: Vector) -> Vector:
     """Return R v for a rotation matrix R, row by row: from axes of a body or part to those around it."""
     x, y, z = v
     return (
@@ -37,7 +37,7 @@ def _turned(axes: Floats, v: Vector) -> Vector:
 
 
 @kernel("v3(F, v3)")
-def _turned_back(axes: Floats, v: Vector) -> Vector:
+def turned_back(axes: Floats, v: Vector) -> Vector:
     """Return R^T v: the way back."""
     x, y, z = v
     return (
@@ -106,7 +106,7 @@ def _added(w: Floats, place: int, n: Vector) -> Vector:
 def middle_of(w: Floats, frame_place: int, place: int) -> Vector:
     """Return where the origin of a part's axes is, in a frame that stands at ``frame_place``."""
     frame = frame_at(w, frame_place)
-    x, y, z = _turned(frame.rotation, part_at(w, place).place)
+    x, y, z = turned(frame.rotation, part_at(w, place).place)
     return frame.origin[0] + x, frame.origin[1] + y, frame.origin[2] + z
 
 
@@ -114,10 +114,10 @@ def middle_of(w: Floats, frame_place: int, place: int) -> Vector:
 def _farthest(w: Floats, frame_place: int, place: int, n: Vector) -> Vector:
     """Return the point of a part that lies farthest along a unit vector of the world."""
     frame, part = frame_at(w, frame_place), part_at(w, place)
-    own = _turned_back(part.axes, _turned_back(frame.rotation, n))
+    own = turned_back(part.axes, turned_back(frame.rotation, n))
     rx, ry, rz = _on_rings(w, place, own)
     ax, ay, az = _added(w, place, own)
-    x, y, z = _turned(frame.rotation, _turned(part.axes, (rx + ax, ry + ay, rz + az)))
+    x, y, z = turned(frame.rotation, turned(part.axes, (rx + ax, ry + ay, rz + az)))
     mx, my, mz = middle_of(w, frame_place, place)
     return mx + x, my + y, mz + z
 

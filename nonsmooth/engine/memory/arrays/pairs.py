@@ -32,6 +32,7 @@ ARRAYS = Arrays(
         "pair_part_b": per(1, "n_pairs"),
         "pair_group": per(1, "n_pairs"),
         "pair_contact": per(1, "n_pairs"),
+        "pair_flat": per(1, "n_pairs"),
     },
     # renewed by every look: no step finds in them what changes a motion
     later_floats={
@@ -41,6 +42,7 @@ ARRAYS = Arrays(
         "pair_room": per(1, "n_pairs"),
         "pair_direction": per(3, "n_pairs"),
         "pair_normal": per(3, "n_pairs"),
+        "pair_between": per(3, "n_pairs"),
         "pair_deepest": per(1, "n_pairs"),
         "simplex": fixed(16),
     },
