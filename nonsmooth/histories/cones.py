@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from nonsmooth.certificates import coefficient_of
 from nonsmooth.histories.arrays import Floats, Integers
-from nonsmooth.interfaces import FrictionLaw
-from nonsmooth.interfaces.friction_law import AnisotropicFrictionLaw, StatefulFrictionLaw
+from nonsmooth.interfaces import CompliantNormalLaw, FrictionLaw
+from nonsmooth.interfaces.friction_law import StatefulFrictionLaw
 from nonsmooth.system.contact import Contact
 
 _SPEEDS = np.concatenate([[0.0], np.logspace(-6.0, 3.0, 91)])
@@ -43,21 +43,22 @@ def beyond_cones(
     Returns
     -------
     array
-        True where it is so, shape [m].  Of laws whose coefficient depends on direction or on an inner state, of
-        traction and of normal laws that may pull, no entry is.
+        True where it is so, shape [m].  Where the coefficient depends on direction the largest counts.  Friction of
+        laws with an inner state and of traction is not judged, nor is what pulls by a law that may.
     """
-    bound = np.full(len(number), np.inf)
+    bound, may_pull = np.full(len(number), np.inf), np.zeros(len(number), dtype=bool)
     for i in np.unique(number).tolist():
-        law = contacts[i].friction
-        if isinstance(law, FrictionLaw) and not isinstance(law, (AnisotropicFrictionLaw, StatefulFrictionLaw)):
+        law, normal_law, entries = contacts[i].friction, contacts[i].normal, np.flatnonzero(number == i)
+        may_pull[entries] = isinstance(normal_law, CompliantNormalLaw) and normal_law.reach > 0.0
+        if isinstance(law, FrictionLaw) and not isinstance(law, StatefulFrictionLaw):
             coefficient = coefficient_of(law)
-            entries = np.flatnonzero(number == i)
             most = max(coefficient(float(v)) for v in _SPEEDS)
             bound[entries] = [most if np.isnan(v) else coefficient(v) for v in speed[entries].tolist()]
     known = np.isfinite(bound)
     slack = _ROUND_OFF * largest_of_instants(normal, first)
     allowed = np.where(known, bound, 0.0) * np.maximum(normal, 0.0) * (1.0 + _ROUND_OFF) + slack
-    return np.asarray(known & ((np.linalg.norm(friction, axis=1) > allowed) | (normal < -slack)))
+    rubs = known & (np.linalg.norm(friction, axis=1) > allowed)
+    return np.asarray(rubs | (normal < -slack) & ~may_pull)
 
 
 def largest_of_instants(normal: Floats, first: Integers) -> Floats:
