@@ -57,12 +57,15 @@ class Frustum(ConvexShape):
     @property
     @final
     def parts(self) -> tuple[ConvexPart, ...]:
-        """The hull of the rims that are set back, and the feet."""
+        """The hull of the rims that are set back, and the feet but those of a disc.
+
+        These stand out of its faces and go into one another where those of two discs come to lie on each other.
+        """
         numbers = self.frustum
         place, sweep = np.array(numbers[CENTER : CENTER + 3]), numbers[SWEEP]
         axes = np.array(numbers[AXIS - 2 : AXIS + 7]).reshape(3, 3)
         rings = np.array([(*((np.array(c) - place) @ axes), r) for r, c in self.standing_rims])
-        feet = (ConvexPart.of_points(np.array([foot]), sweep) for foot in self.feet)
+        feet = (ConvexPart.of_points(np.array([foot]), sweep) for foot in self.feet if len(rings) > 1)
         return ConvexPart(rings, ball=sweep, place=place, axes=axes), *feet
 
     @final

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Callable
 
 import numpy as np
 import pytest
 
 import nonsmooth as ns
-from bodies import BoxBody, CylinderBody, HullBody
+from bodies import BoxBody, CylinderBody, DiscBody, HullBody
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.interfaces import Body
 
@@ -51,11 +52,19 @@ def test_they_collide_head_on(
     assert apart > -1e-9
 
 
-@pytest.mark.parametrize("rounding", [0.0, 0.005])
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: CylinderBody(0.05, 0.07),
+        lambda: CylinderBody(0.05, 0.07, rounding=0.005),
+        lambda: DiscBody(0.05, rounding=0.003),
+    ],
+    ids=["cylinder", "rounded cylinder", "rounded disc"],
+)
 @pytest.mark.parametrize("turn", [0.0, 0.3, math.pi / 3.0])
-def test_cylinders_on_feet_collide_end_to_end(turn: float, rounding: float) -> None:
+def test_bodies_on_feet_collide_end_to_end(turn: float, make: Callable[[], Body]) -> None:
     """It is the feet that meet, whatever rims there are: the impact is central."""
-    one, two = (CylinderBody(0.05, 0.07, rounding=rounding) for _ in range(2))
+    one, two = make(), make()
     system = ns.System([one, two], gravity=0.0)
     system.contact(one, two, normal=Unilateral(), friction=Coulomb(0.0), impact=EnergeticImpact(E))
     system.place(one, velocity=(0.0, 0.0, 1.0))
