@@ -120,7 +120,7 @@ class Study:
         for run in range(min(len(self), 10)):
             try:
                 case = self._target.case(self._points.at(run))
-                return Outcome(case.scenario, self._work.solution(case, _end_of_look(case)), case.t_end)
+                return self._work.outcome(case, _end_of_look(case))
             except Exception as error:  # of the user, too
                 last = error
         raise last

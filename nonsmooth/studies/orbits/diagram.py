@@ -152,7 +152,7 @@ def bifurcation(
     row = np.atleast_1d(floats("bifurcation: values", values))
 
     def looks(value: float) -> Looks:
-        return Looks(period_at(period, value), coordinate, at, settle, keep)
+        return Looks(period_at(period, value, "bifurcation: period"), coordinate, at, settle, keep, "bifurcation")
 
     family = Family.of(what, EventDriven())
     _ = family[name]

@@ -9,7 +9,7 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.checks import is_finite
+from nonsmooth.checks import check_callable, is_finite
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.progress import Display, Pace, RangeCovered, on_standard_error
 from nonsmooth.studies.derivatives.slope import OrderOfEvents
@@ -17,6 +17,7 @@ from nonsmooth.studies.orbits.branch import Branch, Special
 from nonsmooth.studies.orbits.margins import Foretold, Margins, foretold, margins
 from nonsmooth.studies.orbits.path import OutOfRange, Path, Point
 from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit
+from nonsmooth.studies.orbits.repeating import period_at
 from nonsmooth.studies.orbits.sections import Section
 
 Floats = NDArray[np.float64]
@@ -76,8 +77,11 @@ def continuation(
             ", ".join(corner.direction for corner in orbit.corners),
             "Leave these directions out of `within`, if the motion stays in the others.",
         )
+    check_callable("continuation: period", period, "period(value)")
     section: Callable[[float], Section] = (
-        (lambda _: orbit.section) if period is None else lambda v: orbit.section.lasting(period(v))
+        (lambda _: orbit.section)
+        if period is None
+        else lambda v: orbit.section.lasting(period_at(period, v, "continuation: period"))
     )
     path = Path(orbit.family, name, low, high, section, orbit.within)
     _check_period(path, orbit)

@@ -111,7 +111,7 @@ def hysteresis(
     row = np.unique(floats("hysteresis: values", values))
 
     def looks(value: float) -> Looks:
-        return Looks(period_at(period, value), coordinate, at, settle, keep)
+        return Looks(period_at(period, value, "hysteresis: period"), coordinate, at, settle, keep, "hysteresis")
 
     family = Family.of(what, EventDriven())
     _ = family[name]
