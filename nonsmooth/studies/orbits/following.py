@@ -17,7 +17,7 @@ from nonsmooth.studies.orbits.branch import Branch, Special
 from nonsmooth.studies.orbits.margins import Foretold, Margins, foretold, margins
 from nonsmooth.studies.orbits.path import OutOfRange, Path, Point
 from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit
-from nonsmooth.studies.orbits.repeating import period_at
+from nonsmooth.studies.orbits.repeating import FUNCTION, period_at
 from nonsmooth.studies.orbits.sections import Section
 
 Floats = NDArray[np.float64]
@@ -113,10 +113,11 @@ def _check_period(path: Path, orbit: Orbit) -> None:
             if (off := _shifted(path, orbit, there)) is not None:
                 break
         if off is not None and off > _SAME:
-            rule = f"must be one of the system at {path.name} = {there:.9g}, where {off:.2g} differs a period later"
-            raise InvalidInput(
-                "continuation: period", rule, f"{orbit.period:.9g}", "Give period=lambda value: ... [s]."
+            rule = (
+                f"must be one of the system, where the same motion a period later differs by {off:.2g} of its size "
+                f"at {path.name} = {there:.9g}"
             )
+            raise InvalidInput("continuation: period", rule, float(f"{orbit.period:.9g}"), FUNCTION)
 
 
 def _shifted(path: Path, orbit: Orbit, value: float) -> float | None:

@@ -287,4 +287,4 @@ def _check_again(model: Model, found: Linear, section: Section) -> None:
             f"must be one of the system, but after a second one {off:.2g} is left of what repeats, in units of scales"
         )
         remedy = "A plate that vibrates has that of its motion, or multiples."
-        raise InvalidInput("orbit: period", rule, f"{again.time - end.time:.9g}", remedy)
+        raise InvalidInput("orbit: period", rule, float(f"{again.time - end.time:.9g}"), remedy)

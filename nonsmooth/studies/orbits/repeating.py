@@ -25,7 +25,10 @@ Period = float | Callable[[float], float]
 """A period [s], or a function that returns it for a value of the parameter."""
 
 
-_FUNCTION = "If the parameter changes the frequency, give a function: period=lambda value: ... [s]."
+FUNCTION = (
+    "If the parameter changes the frequency, give period=lambda value: ... [s]; on the command line --period 1/NAME."
+)
+"""What to do about a period that does not fit."""
 
 
 def period_at(period: Period, value: float, thing: str) -> float:
@@ -57,7 +60,7 @@ def check_counts(thing: str, **counts: int) -> None:
             raise InvalidInput(f"{thing}: {word}", rule, count, f"For example {word}=64.")
 
 
-def check_period(model: Model, state: State, period: float, thing: str, remedy: str = _FUNCTION) -> None:
+def check_period(model: Model, state: State, period: float, thing: str, remedy: str = FUNCTION) -> None:
     """Check that a motion from a state is the same if it begins a period later.
 
     A period that stays while a parameter changes the frequency of the drive fails this.  The state is one of a motion,
@@ -105,4 +108,4 @@ def check_period(model: Model, state: State, period: float, thing: str, remedy: 
         known = [off for off in misses if off < np.inf]
         how = f"differs by {max(known):.2g} of its size" if known else "cannot begin, as a closed contact moves away"
         rule = f"must be one of the system, where the same motion a period later {how}"
-        raise InvalidInput(thing, rule, f"{period:.9g}", remedy)
+        raise InvalidInput(thing, rule, float(f"{period:.9g}"), remedy)

@@ -67,7 +67,7 @@ def test_a_geometric_approach_is_settling_until_it_is_over(multiplier: float) ->
 
 def test_a_function_must_return_a_period() -> None:
     family = Family(_shaken, {"frequency": 5.0})
-    with pytest.raises(ns.InvalidInput, match=r"bifurcation: period must be positive and finite at the value 5, .*-0\.2"):
+    with pytest.raises(ns.InvalidInput, match="bifurcation: period must be positive and finite at the value 5"):
         bifurcation(family, "frequency", [4.0, 5.0], lambda f: -1.0 / f, "z")
     with pytest.raises(ns.InvalidInput, match="hysteresis: period must be positive and finite at the value 5"):
         hysteresis(family, "frequency", [4.0, 5.0], lambda f: math.nan, "z")
@@ -76,7 +76,7 @@ def test_a_function_must_return_a_period() -> None:
     found = orbit(family, 0.2, settle=2.0, within=("z", "vz"))
     with pytest.raises(ns.InvalidInput, match=r"continuation: period must be a function, called as period\(value\)"):
         continuation(found, "frequency", (4.9, 5.1), period=0.2)  # type: ignore[arg-type]
-    with pytest.raises(ns.InvalidInput, match="continuation: period must be positive and finite at the value 4.9"):
+    with pytest.raises(ns.InvalidInput, match=r"continuation: period must be positive and finite at the value 4\.9"):
         continuation(found, "frequency", (4.9, 5.1), period=lambda f: 5.0 - f - 0.1)
 
 

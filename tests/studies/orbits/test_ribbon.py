@@ -73,7 +73,7 @@ def test_over_a_frequency_the_period_is_a_function() -> None:
 def test_bad_input() -> None:
     with pytest.raises(ns.InvalidInput, match="ribbon: period must be positive and finite, but it is 0"):
         ribbon(BALL, "gamma", [0.8], 0.0)
-    with pytest.raises(ns.InvalidInput, match="ribbon: period must be positive and finite at the value 0.8"):
+    with pytest.raises(ns.InvalidInput, match=r"ribbon: period must be positive and finite at the value 0\.8"):
         ribbon(BALL, "gamma", [0.8], lambda gamma: math.inf)
 
     with pytest.raises(ns.InvalidInput, match="ribbon: values must rise"):
