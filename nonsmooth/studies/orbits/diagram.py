@@ -140,7 +140,7 @@ def bifurcation(
     settle, keep : int
         Periods that are left out, and those that are kept.
     display : Display, optional
-        Where progress is shown; on standard error by default.
+        Where progress is shown; on standard error by default, ``nonsmooth.progress.Quiet()`` shows nothing.
 
     Raises
     ------

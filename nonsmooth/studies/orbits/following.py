@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from nonsmooth.checks import check_callable, is_finite
 from nonsmooth.errors import InvalidInput, RunFailed
-from nonsmooth.progress import Display, Pace, RangeCovered, on_standard_error
+from nonsmooth.progress import Display, Pace, RangeCovered
 from nonsmooth.studies.derivatives.slope import OrderOfEvents
+from nonsmooth.studies.displays import display_of
 from nonsmooth.studies.orbits.branch import Branch, Special
 from nonsmooth.studies.orbits.margins import Foretold, Margins, foretold, margins
 from nonsmooth.studies.orbits.path import OutOfRange, Path, Point
@@ -57,7 +58,7 @@ def continuation(
     most : int
         Steps at most, either way.
     display : Display, optional
-        Where progress is shown; on standard error by default.
+        Where progress is shown; on standard error by default, ``nonsmooth.progress.Quiet()`` shows nothing.
 
     Raises
     ------
@@ -87,7 +88,7 @@ def continuation(
     _check_period(path, orbit)
     first = path.at(orbit.state, value, 0.0, None)
     up = first.tangent if first.tangent[-1] >= 0.0 else -first.tangent
-    with Pace(display or on_standard_error()) as pace:
+    with Pace(display_of(display)) as pace:
         covered = RangeCovered(pace, name, value, span)
         back, on = (_followed(path, replace(first, tangent=way), most, covered) for way in (-up, up))
     orbits = (*reversed(back.orbits), first.orbit, *on.orbits)
