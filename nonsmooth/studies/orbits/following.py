@@ -115,8 +115,8 @@ def _check_period(path: Path, orbit: Orbit) -> None:
                 break
         if off is not None and off > _SAME:
             rule = (
-                f"must be one of the system, where the same motion a period later differs by {off:.2g} of its size "
-                f"at {path.name} = {there:.9g}"
+                f"must be one of the system at {path.name} = {there:.9g}, where the same motion a period later differs "
+                f"by {off:.2g} of its size"
             )
             raise InvalidInput("continuation: period", rule, float(f"{orbit.period:.9g}"), FUNCTION)
 
