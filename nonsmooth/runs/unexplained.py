@@ -90,8 +90,8 @@ def _light(model: LaidOut) -> str:
         return ""
     what, unit = ("moment of inertia", "kg m^2") if most[2] == "rad/s" else ("mass", "kg")
     return (
-        f" The {what} of {most[1]!r}, {1.0 / most[0]:.3g} {unit}, is {1.0 / ratio:.1g} of the largest inertia of "
-        f"joined bodies in SI units: round-off moves it. Give it {_ENOUGH:g} of the largest: motions change about as little."
+        f" The {what} of {most[1]!r}, {1.0 / most[0]:.3g} {unit}, is {1.0 / ratio:.1g} of the largest inertia "
+        f"of joined bodies (SI): round-off moves it. Give it {_ENOUGH:g} of the largest: motions change by as little."
     )
 
 

@@ -148,6 +148,6 @@ class Path:
             if not np.max(np.abs(moved)) < 10.0:
                 break
         raise NoOrbit(
-            f"Newton's method leaves {here.orbit.residual:.2g} of the scales at {self.name} = {there:.9g} after steps "
-            f"along the branch down to {step:.1g}; orbit(...) there tells whether there is one"
+            f"Newton's method leaves {here.orbit.residual:.2g} of the scales near {self.name} = {there:.9g}; "
+            "orbit(...) there tells whether there is one"
         )

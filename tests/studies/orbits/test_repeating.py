@@ -13,6 +13,7 @@ from bodies import Ball, Harmonic, Plate, Spring
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.orbits.diagram import bifurcation
+from nonsmooth.studies.orbits.exponents import lyapunov
 from nonsmooth.studies.orbits.following import continuation
 from nonsmooth.studies.orbits.hysteresis import hysteresis
 from nonsmooth.studies.orbits.periodic import orbit
@@ -49,6 +50,13 @@ def test_a_period_must_be_that_of_each_frequency() -> None:
     np.testing.assert_allclose(both.down.points, found.points, atol=1e-9)
     with pytest.raises(ns.InvalidInput, match="must be one of the system"):
         bifurcation(family, "frequency", [4.0, 4.5], 0.2, "z", settle=60, keep=8)
+
+
+def test_lyapunov_exponents_need_no_period_of_the_drive() -> None:
+    """Their sum is the damping over the mass, after whatever times the directions are made orthogonal."""
+    for period in (0.2, 0.13):
+        found = lyapunov(_shaken(5.0, damping=3.0), period, 6, settle=1.0, within=("z", "vz"))
+        assert np.sum(found.exponents) == pytest.approx(-3.0, abs=1e-6)
 
 
 def test_a_diagram_says_which_motions_still_settle() -> None:
