@@ -318,7 +318,7 @@ def _advice(found: Linear) -> str:
             f"the map has a multiplier of {complex(nearest):.6g} there, so orbits may form a continuum or meet at a "
             "fold; change a parameter, or leave a coordinate out of `within`"
         )
-    return "begin nearer"
+    return "begin nearer: give another start, or a longer settle if the orbit attracts"
 
 
 def _check_again(model: Model, found: Linear, section: Section) -> None:
