@@ -64,7 +64,8 @@ def check_inertia(name: str, mass: float, tensor: Vector) -> None:
             f"inertia of {name}",
             "must be positive definite",
             tensor.tolist(),
-            f"Its principal moments are {shown} [kg m^2]; a body without extent has none.",
+            f"Its principal moments are {shown} [kg m^2]; a body without extent has none. "
+            "Give a point mass 1e-8 m l^2 each, with a length l of the system.",
         )
     if moments[2] > (moments[0] + moments[1]) * (1.0 + _ROUND_OFF):
         raise InvalidInput(

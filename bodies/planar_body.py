@@ -84,7 +84,11 @@ class PlanarBody(Body):
     """
 
     mass: float = parameter(doc="mass", unit="kg", above=0.0)
-    moment: float = parameter(doc="moment of inertia about the y axis", unit="kg m^2", above=0.0)
+    moment: float = parameter(
+        doc="moment of inertia about the y axis, of a point mass 1e-8 m l^2 with a length l of the system",
+        unit="kg m^2",
+        above=0.0,
+    )
     carried: tuple[Shape, ...] = ()
     y: float = parameter(0.0, doc="second coordinate of its plane", unit="m")
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engine.numerics.linear import SINGULAR
 from nonsmooth.interfaces import CompliantNormalLaw
@@ -66,16 +65,23 @@ def _mobilities(model: LaidOut, slot: int, side: str) -> tuple[float, float]:
         memory.floats[place : place + n_u]
         for place in (int(memory.array(f"{name}_{side}", n)[slot]) for name in ("jacobian", "response"))
     )
-    free = sum(_free_mobility(memory, model, body, row, start) for body in range(first, first + count))
+    free = sum(_free_mobility(model, body, row, start) for body in range(first, first + count))
     return float(row @ response), free
 
 
-def _free_mobility(memory: Memory, model: LaidOut, number: int, row: np.ndarray, start: int) -> float:
+def inverse_mass(model: LaidOut, number: int) -> np.ndarray:
+    """Return the inverse mass matrix of a body alone, as it was evaluated last, shape [n_u, n_u]."""
+    memory, body = model.memory, model.system.bodies[number]
+    tail = int(memory.array("body_tail", number + 1)[number])
+    start = tail + body.n_q + body.n_u
+    return np.asarray(memory.floats[start : start + body.n_u**2].reshape(body.n_u, body.n_u))
+
+
+def _free_mobility(model: LaidOut, number: int, row: np.ndarray, start: int) -> float:
     """Return the mobility that a body alone gives to a row over the velocities of its articulation [1/kg]."""
     body = model.system.bodies[number]
     if body.n_u == 0:
         return 0.0
-    tail, u = (int(memory.array(f"body_{field}", number + 1)[number]) for field in ("tail", "u"))
-    inverse = tail + body.n_q + body.n_u
+    u = int(model.memory.array("body_u", number + 1)[number])
     own = row[u - start : u - start + body.n_u]
-    return float(own @ memory.floats[inverse : inverse + body.n_u**2].reshape(body.n_u, body.n_u) @ own)
+    return float(own @ inverse_mass(model, number) @ own)

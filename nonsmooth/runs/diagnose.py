@@ -15,6 +15,7 @@ from nonsmooth.engine.memory.layout import CATALOGUE, N_ACCOUNTS
 from nonsmooth.engine.memory.modes import (
     GAP_UNDECIDED,
     GAP_UNEXPLAINED,
+    JOINTS_APART,
     MOTION_UNEXPLAINED,
     NOT_FINITE,
     PASSED,
@@ -32,6 +33,9 @@ from nonsmooth.model.pools import failed_search
 from nonsmooth.runs.squeezed import squeezed
 from nonsmooth.runs.unexplained import unexplained
 
+_CHECKED = (GAP_UNDECIDED, GAP_UNEXPLAINED, JOINTS_APART, MOTION_UNEXPLAINED, PASSED, QUATERNION_UNEXPLAINED)
+"""Ends of a run by its own checks."""
+
 
 def culprit(model: LaidOut, status: int) -> str:
     """Return a sentence that names the first function found to raise or to return a non-finite number.
@@ -45,7 +49,7 @@ def culprit(model: LaidOut, status: int) -> str:
 
 
 def _culprit(model: LaidOut, status: int) -> str:
-    if status in (GAP_UNDECIDED, GAP_UNEXPLAINED, PASSED, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED):
+    if status in _CHECKED:
         return unexplained(model, status)
     if found := squeezed(model, status):
         return found

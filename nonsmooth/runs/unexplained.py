@@ -8,16 +8,22 @@ from nonsmooth.binding.source import described
 from nonsmooth.engine.memory.modes import (
     GAP_UNDECIDED,
     GAP_UNEXPLAINED,
+    JOINTS_APART,
     MOTION_UNEXPLAINED,
     OPEN,
     PASSED,
     QUATERNION_UNEXPLAINED,
 )
+from nonsmooth.model.immobile import inverse_mass
 from nonsmooth.model.laid_out import LaidOut
 
 _CHECK = "`nonsmooth check` looks at it by itself."
 _SHIFT = "Shift or turn a body a little, or give it rounded edges."
 """For a pair of features whose gap has a jump where they are just so, as features in line have."""
+_ILL_CONDITIONED = 1e11
+"""Ratio of inertias of joined bodies above which the lightest one is named."""
+_ENOUGH = 1e-8
+"""Part of the largest inertia that the lightest one may have: motions change by about as much, and runs are fast."""
 _PRESSED = (
     "Let it be compliant, by a normal law such as LinearCompliant, or leave out a contact that holds the same body."
 )
@@ -50,6 +56,8 @@ def unexplained(model: LaidOut, status: int) -> str:
             f"The {contact}: its gap is {found:.3g} m and hardly changes within a step of {float(scalars['h']):.3g} s. "
             "Place the bodies farther apart or in contact, or take a smaller tolerance: EventDriven(tolerance=...)."
         )
+    if status == JOINTS_APART:
+        return f"They are apart by {found:.3g} m or rad, of which tolerances explain {allowed:.3g}.{_light(model)}"
     if status not in (MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED):
         return ""
     body, name = model.system.bodies[number], model.system.names.bodies[number]
@@ -61,6 +69,29 @@ def unexplained(model: LaidOut, status: int) -> str:
     return (
         f"The body {name!r}: the length of its quaternion is off by {found:.3g} after one step, of which tolerances "
         f"explain {allowed:.3g}: {described(body.evaluator)} turns it at rates that do not keep its length. {_CHECK}"
+    )
+
+
+def _light(model: LaidOut) -> str:
+    """Return a sentence on the joined body whose inertia is within round-off of the largest one, "" if none is."""
+    bodies, joined = model.system.bodies, {id(body) for tie in model.system.joints for body in (tie.first, tie.second)}
+    found = [
+        (float(value), model.system.names.bodies[number], unit)
+        for number, body in enumerate(bodies)
+        if id(body) in joined and body.n_u > 0
+        for value, (_, unit) in zip(np.diag(inverse_mass(model, number)), body.u_labels, strict=True)
+        if np.isfinite(value) and value > 0.0
+    ]
+    if not found:
+        return ""
+    most = max(found)
+    ratio = most[0] / min(found)[0]
+    if ratio < _ILL_CONDITIONED:
+        return ""
+    what, unit = ("moment of inertia", "kg m^2") if most[2] == "rad/s" else ("mass", "kg")
+    return (
+        f" The {what} of {most[1]!r}, {1.0 / most[0]:.3g} {unit}, is {1.0 / ratio:.1g} of the largest inertia "
+        f"of joined bodies (SI): round-off moves it. Give it {_ENOUGH:g} of the largest: motions change by as little."
     )
 
 

@@ -15,9 +15,10 @@ from nonsmooth.checks import check_kind, path_of
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput, NonsmoothWarning, UnknownName
 from nonsmooth.interfaces import Engine, Scenario
-from nonsmooth.progress import Display, Pace, RunsDone, on_standard_error
+from nonsmooth.progress import Display, Pace, RunsDone
 from nonsmooth.studies.budget import Budgeted
 from nonsmooth.studies.definition import differing
+from nonsmooth.studies.displays import display_of
 from nonsmooth.studies.executors import Dask, Executor, Serial, Threads
 from nonsmooth.studies.extras import require_store
 from nonsmooth.studies.layout import coordinates, labels_of, stored, variables
@@ -120,7 +121,7 @@ class Study:
         for run in range(min(len(self), 10)):
             try:
                 case = self._target.case(self._points.at(run))
-                return Outcome(case.scenario, self._work.solution(case, _end_of_look(case)), case.t_end)
+                return self._work.outcome(case, _end_of_look(case))
             except Exception as error:  # of the user, too
                 last = error
         raise last
@@ -161,7 +162,7 @@ class Study:
         chunk : int, optional
             Runs that are stored as one, and done anew as one where they were cut off: fixed when a study begins.
         display : Display, optional
-            Where progress is shown; on standard error by default.
+            Where progress is shown; on standard error by default, ``nonsmooth.progress.Quiet()`` shows nothing.
         request : mapping, optional
             The words of the command line.
 
@@ -188,7 +189,7 @@ class Study:
         store = Store(place)
         self._check_same(store, chunk)
         with store.writing():
-            self._run(store, does, display or on_standard_error())
+            self._run(store, does, display_of(display))
         return open_study(place)
 
     def _run(self, store: Store, executor: Executor, display: Display) -> None:

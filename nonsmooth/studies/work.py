@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from nonsmooth.errors import RunFailed
 from nonsmooth.simulate import assemble
-from nonsmooth.solution.solution import Solution
 from nonsmooth.studies.budget import Budgeted
 from nonsmooth.studies.records.record import Outcome, Record
 from nonsmooth.studies.sampling.points import Value
@@ -125,18 +124,18 @@ class Work:
         """
         try:
             case = self.target.case(parameters)
-            solution = self.solution(case, case.t_end)
+            outcome = self.outcome(case, case.t_end)
         except RunFailed as error:
             return Row(FAILED, reason_of(str(error)), str(error))
         except Exception as error:
             return Row(FAILED, RAISED, f"{type(error).__name__}: {error}")
+        solution, values = outcome.solution, dict[str, Any]()
         if solution.status == "interrupted":
             raise KeyboardInterrupt
         reason = reason_of(solution.message)
         if self.engine.spent(solution):
             text = f"At t = {solution.t_end:.9g} s its {self.engine.steps} steps were used up."
             return Row(BUDGET, reason, text)
-        outcome, values = Outcome(case.scenario, solution, case.t_end), {}
         for record in self.records:
             try:
                 values[record.name] = record.of(outcome)
@@ -144,9 +143,11 @@ class Work:
                 return Row(FAILED, RAISED, f"record {record.name}: {type(error).__name__}: {error}")
         return Row(SUSPECT if solution.status == "suspect" else DONE, reason, "", values)
 
-    def solution(self, case: Case, t_end: float) -> Solution:
+    def outcome(self, case: Case, t_end: float) -> Outcome:
         """Simulate a case up to a time [s]; raises what the run raises."""
-        return assemble(case.system, self.engine).run(t_end, sample_interval=case.sample_interval)
+        model = assemble(case.system, self.engine)
+        solution = model.run(t_end, sample_interval=case.sample_interval)
+        return Outcome(case.scenario, model, solution, case.t_end)
 
     def _block(self, chunk: Chunk, rows: list[Row]) -> Block:
         n = len(rows)

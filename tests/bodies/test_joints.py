@@ -23,6 +23,7 @@ from bodies import (
     FreeBody,
     Harmonic,
     Hinge,
+    PlanarBody,
     Plate,
     Rod,
     Slider,
@@ -287,6 +288,26 @@ def test_joints_that_come_to_contradict_each_other() -> None:
     system.place(ball, position=(0.0, 0.0, -0.5))
     with pytest.raises(ns.RunFailed, match="joints contradict each other"):
         ns.simulate(system, 0.1)
+
+
+def test_a_joined_point_mass_is_named() -> None:
+    """Round-off moves a body that turns next to freely; with the inertia of the message the run comes to its end."""
+
+    def pendulum(moment: float) -> ns.System:
+        pivot, upper, lower = DrivenBody(), PlanarBody(1.0, 1e-3), PlanarBody(1e-3, moment)
+        system = ns.System([pivot, upper, lower])
+        system.joint(Hinge(second=(0.0, 0.0, 1.0)), pivot, upper)
+        system.joint(Hinge(second=(0.0, 0.0, 1.0)), upper, lower)
+        upper_x, upper_z = -math.sin(0.2), -math.cos(0.2)
+        system.place(upper, position=(upper_x, upper_z), angle=0.2)
+        system.place(lower, position=(upper_x - math.sin(0.5), upper_z - math.cos(0.5)), angle=0.5)
+        return system
+
+    with pytest.raises(ns.RunFailed, match=r"apart by .* The moment of inertia of 'planar body 2', 1e-16 kg m\^2"):
+        ns.simulate(pendulum(1e-16), 0.05)
+    assert ns.simulate(pendulum(1e-8), 0.05).status == "done"
+    with pytest.raises(ns.InvalidInput, match=r"moment must be > 0 .* of a point mass 1e-8 m l\^2"):
+        pendulum(0.0)
 
 
 def test_far_from_the_origin() -> None:

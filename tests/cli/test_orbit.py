@@ -47,6 +47,26 @@ def test_a_bifurcation_diagram(call: Call, tmp_path: Path) -> None:
     assert len((tmp_path / "out" / "bifurcation.csv").read_text(encoding="utf-8").splitlines()) == 4
 
 
+def test_a_diagram_over_a_frequency(call: Call) -> None:
+    """The period follows the frequency; a fixed one is refused where it does not fit, with the word that does."""
+    words = ("bifurcation", *BALL, "--over", "frequency=25:26:2", "--show", "vz", "--settle", "300", "--keep", "8")
+    status, output, _ = call(*words, "--period", "1/frequency")
+    assert status == 0
+    assert "2 repeat after 1 periods" in output
+    status, output, errors = call(*words, "--period", "0.04")
+    assert status == 1
+    assert "1 failed" in output
+    assert "--period 1/NAME" in errors
+
+
+@pytest.mark.slow
+def test_a_branch_over_a_frequency(call: Call) -> None:
+    words = "--over", "frequency=24.5:25.5", "--period", "1/frequency", "--within", "z,vz"
+    status, output, _ = call("continue", *BALL, *words)
+    assert status == 0
+    assert "ends by the end of the range; the end of the range" in output
+
+
 @pytest.mark.slow
 def test_a_followed_diagram(call: Call, tmp_path: Path) -> None:
     words = ("--over", "gamma=0.3:0.8:2", "--period", "0.04", "--show", "vz", "--settle", "200", "--keep", "8")
@@ -91,6 +111,12 @@ def test_an_orbit_without_a_period(call: Call) -> None:
             "must be left out with --over gamma",
         ),
         (("continue", *ASKED, "--over", "gama=0.7:0.9"), "Did you mean 'gamma'"),
+        (("continue", *BALL, "--over", "frequncy=24:26", "--period", "1/frequncy"), "Did you mean 'frequency'"),
+        (("continue", *BALL, "--over", "frequency=24:26", "--period", "1/f"), "--period: parameter of --over"),
+        (
+            ("continue", *BALL, "--over", "frequency=24:26", "--period", "1:f"),
+            "a number of seconds, N/NAME or Npi/NAME",
+        ),
         (("continue", *ASKED, "--over", "gamma=0.9:1.0"), "around the value of the orbit"),
         (("continue", *STUCK, "--over", "decay=2.9:3.1"), "must leave something free at the section"),
     ],

@@ -6,7 +6,7 @@ import io
 
 import pytest
 
-from nonsmooth.progress import Bar, Display, Lines, Pace, RangeCovered, RunsDone, TimeReached, on_standard_error
+from nonsmooth.progress import Bar, Display, Lines, Pace, Quiet, RangeCovered, RunsDone, TimeReached, on_standard_error
 
 
 class _Clock:
@@ -37,6 +37,11 @@ def test_a_short_run_says_nothing(kind: type[Lines] | type[Bar]) -> None:
     stream = _Terminal()
     _shown(kind(stream), 0.9)
     assert stream.getvalue() == ""
+
+
+def test_a_quiet_display_shows_nothing(capsys: pytest.CaptureFixture[str]) -> None:
+    _shown(Quiet(), 1e6)
+    assert capsys.readouterr() == ("", "")
 
 
 def test_lines_are_few_and_whole() -> None:

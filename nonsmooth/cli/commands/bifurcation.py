@@ -7,7 +7,7 @@ from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from nonsmooth.cli.asking import outputs, over, request, trust
+from nonsmooth.cli.asking import outputs, over, period, request, trust
 from nonsmooth.cli.commands.orbit import prepare, save
 from nonsmooth.cli.telling.messages import say, tell
 
@@ -24,7 +24,7 @@ def add_to(commands: Any) -> None:
     command.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="as for `run`")
     trust.add_to(command)
     command.add_argument("--over", required=True, metavar="NAME=LOW:HIGH:N", help="the parameter and its values")
-    command.add_argument("--period", type=float, required=True, metavar="SECONDS", help="after which it is looked at")
+    command.add_argument("--period", required=True, metavar="SECONDS", help=period.HELP)
     command.add_argument("--show", required=True, metavar="NAME", help="which coordinate or velocity, as vz")
     command.add_argument("--at", type=float, default=0.0, metavar="SECONDS", help="when in each period; 0 by default")
     command.add_argument("--settle", type=int, default=200, metavar="N", help="periods left out; 200 by default")
@@ -48,7 +48,7 @@ def execute(arguments: argparse.Namespace) -> bool:
     # imported when asked for: the other commands start faster without it
     from nonsmooth.studies.orbits import bifurcation, hysteresis
 
-    given = job.scenario, name, values, arguments.period, arguments.show
+    given = job.scenario, name, values, period.period(arguments.period, name), arguments.show
     asked = {word: getattr(arguments, word) for word in ("at", "settle", "keep")}
     ways: dict[str, Diagram]
     found: Diagram | Hysteresis
@@ -60,8 +60,8 @@ def execute(arguments: argparse.Namespace) -> bool:
         found = bifurcation(*given, **asked)
         ways = {"": found}
     for way, diagram in ways.items():
-        for period, count in sorted(Counter(diagram.periods.tolist()).items()):
-            words = {-1: "failed", 0: "do not repeat"}.get(period, f"repeat after {period} periods")
+        for after, count in sorted(Counter(diagram.periods.tolist()).items()):
+            words = {-1: "failed", 0: "do not repeat"}.get(after, f"repeat after {after} periods")
             say(f"{f'{way}: ' if way else ''}{count} {words}")
         if count := int(diagram.settling.sum()):
             say(f"{f'{way}: ' if way else ''}{count} still settle: take a larger --settle")

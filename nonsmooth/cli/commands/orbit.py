@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from nonsmooth.cli.asking import extras, outputs, over, request, trust
+from nonsmooth.checks import is_finite
+from nonsmooth.cli.asking import extras, outputs, over, period, request, trust
 from nonsmooth.cli.running import results
 from nonsmooth.cli.telling.messages import say
-from nonsmooth.errors import InvalidInput
+from nonsmooth.errors import InvalidInput, UnknownName
 
 if TYPE_CHECKING:
     from nonsmooth.studies.orbits import Branch, Crossing, Orbit, Spin
@@ -27,7 +29,13 @@ def add_to(commands: Any) -> None:
         command.add_argument("scenario", metavar="SCENARIO", help="as for `run`")
         command.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="as for `run`")
         trust.add_to(command)
-        command.add_argument("--period", type=float, metavar="SECONDS", help="after which what drives it repeats")
+        over_name = name == "continue"
+        command.add_argument(
+            "--period",
+            type=str if over_name else float,
+            metavar="SECONDS",
+            help=period.HELP if over_name else "after which what drives it repeats",
+        )
         command.add_argument(
             "--section",
             metavar="NAME=LEVEL",
@@ -53,7 +61,7 @@ def add_to(commands: Any) -> None:
             metavar="BODY.AXIS",
             help="a period may turn this body about its own axis, x, y or z, about which it is symmetric",
         )
-        if name == "continue":
+        if over_name:
             command.add_argument("--over", required=True, metavar="NAME=LOW:HIGH", help="the parameter and its range")
             command.add_argument("--show", metavar="NAME", help="coordinate of the picture; the first of --within")
         command.add_argument("--out", type=Path, metavar="DIR", help="save a picture and numbers there")
@@ -62,7 +70,7 @@ def add_to(commands: Any) -> None:
 
 
 def _execute_orbit(arguments: argparse.Namespace) -> bool:
-    found = _found(arguments)
+    found = _found(arguments, lambda _: arguments.period)
     say(str(found))
     if arguments.out is None:
         return True
@@ -73,7 +81,8 @@ def _execute_orbit(arguments: argparse.Namespace) -> bool:
 
 def _execute_continue(arguments: argparse.Namespace) -> bool:
     name, span = over.span(arguments.over)
-    found = _found(arguments)
+    asked = None if arguments.period is None else period.period(arguments.period, name)
+    found = _found(arguments, lambda values: asked(_value(values, name)) if callable(asked) else asked)
     from nonsmooth.studies.derivatives.coordinates import coordinate_number, unit
     from nonsmooth.studies.orbits import continuation
 
@@ -84,7 +93,7 @@ def _execute_continue(arguments: argparse.Namespace) -> bool:
     system = found.family.model().system
     number = coordinate_number(system, shown)
 
-    branch = continuation(found, name, span)
+    branch = continuation(found, name, span, period=asked if callable(asked) else None)
     say(f"{len(branch.orbits)} orbits, {name} from {branch.values.min():.9g} to {branch.values.max():.9g}")
     say(f"ends by {branch.ending}")
     for one in branch.special:
@@ -106,7 +115,8 @@ def prepare(arguments: argparse.Namespace) -> None:
         results.without_display()
 
 
-def _found(arguments: argparse.Namespace) -> Orbit:
+def _found(arguments: argparse.Namespace, period_of: Callable[[Mapping[str, Any]], float | None]) -> Orbit:
+    """Return the orbit that was asked for, whose period may follow from the values of the scenario."""
     prepare(arguments)
     job = request.job(arguments.scenario, arguments.set, trust=arguments.trust)
     # imported when asked for: the other commands start faster without it
@@ -117,13 +127,21 @@ def _found(arguments: argparse.Namespace) -> Orbit:
     turns = [Turn()] if arguments.turn else []
     return orbit(
         job.scenario,
-        arguments.period,
+        period_of(job.scenario.values),
         section=section,
         at=arguments.at,
         settle=arguments.settle,
         within=within,
         symmetries=(*turns, *map(_spin, arguments.spin)),
     )
+
+
+def _value(values: Mapping[str, Any], name: str) -> float:
+    """Return the value of a parameter of the scenario."""
+    known = {word: float(value) for word, value in values.items() if is_finite(value)}
+    if name not in known:
+        raise UnknownName("parameter", name, known)
+    return known[name]
 
 
 def _spin(word: str) -> Spin:

@@ -19,6 +19,8 @@ _MARGIN = 8
 """The largest distance is such a part of the shortest side of the grid."""
 _FEWEST = 3
 """Distances that a fit with an error needs."""
+_SMOOTH = 1.0
+"""Exponent of a smooth boundary, the largest that there is."""
 _SATURATED = 0.5
 """Above this share of uncertain starts a distance is no longer small beside the basins."""
 
@@ -38,11 +40,12 @@ class Boundary:
     starts : int
         Starts that were looked at.
     exponent, error : float
-        The uncertainty exponent, 1 for a smooth boundary, and its standard error, out of the scatter about the fit.
+        The uncertainty exponent, 1 for a smooth boundary, and its standard error, out of the scatter about the fit.  A
+        fit above 1, which no boundary has, is off by its excess at least: the error covers 1.
     offset : float
         ln f of the fit at one step.
     dimension : float
-        Of the boundary: that of the grid less the exponent.
+        Of the boundary: that of the grid less the exponent, which is 1 at most here.
     """
 
     steps: Floats
@@ -96,7 +99,9 @@ def uncertainty_exponent(attractor: xarray.DataArray) -> Boundary:
         rule = f"needs {_FEWEST} distances at which at most half of the starts have another attractor"
         raise InvalidInput("uncertainty_exponent", rule, uncertain.tolist(), "Take a finer grid.")
     fit = linregress(np.log(steps[fitted]), np.log(uncertain[fitted]))
-    exponent, error = float(fit.slope), float(fit.stderr)
+    exponent = float(fit.slope)
+    # no boundary has an exponent above 1: the excess is an error of the fit
+    error = max(float(fit.stderr), exponent - _SMOOTH)
     return Boundary(
         steps.astype(float),
         uncertain,
@@ -104,7 +109,7 @@ def uncertainty_exponent(attractor: xarray.DataArray) -> Boundary:
         exponent,
         error,
         float(fit.intercept),
-        labels.ndim - exponent,
+        labels.ndim - min(exponent, _SMOOTH),
     )
 
 

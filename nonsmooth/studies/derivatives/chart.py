@@ -135,14 +135,23 @@ class Chart:
 
     def between(self, one: State, two: State) -> Floats:
         """Return how far along the directions the second state is from the first, shape [m]."""
+        columns = np.column_stack([self.basis, self.ignored])
+        return self._along(columns, one, two)[: self.basis.shape[1]]
+
+    def following_between(self, one: State, two: State) -> Floats:
+        """Return how far along the directions that follow the second state is from the first, shape [k]."""
+        columns = np.column_stack([self.following, self.basis, self.ignored])
+        return self._along(columns, one, two)[: self.following.shape[1]]
+
+    def _along(self, columns: Floats, one: State, two: State) -> Floats:
+        """Return the coefficients of columns in the difference of two states, by least squares."""
         q = two.q.copy()
         for start in self.quaternions:
             # after a whole turn a body has the other one of the two quaternions of its orientation
             if q[start : start + 4] @ one.q[start : start + 4] < 0.0:
                 q[start : start + 4] *= -1.0
         x = np.concatenate([q - one.q, two.u - one.u])
-        columns = np.column_stack([self.basis, self.ignored])
-        return np.asarray(np.linalg.lstsq(columns, x, rcond=None)[0])[: self.basis.shape[1]]
+        return np.asarray(np.linalg.lstsq(columns, x, rcond=None)[0])
 
     def _stepped(self, state: State, change: Floats) -> State:
         x = np.concatenate([state.q, state.u]) + change

@@ -140,7 +140,7 @@ def bifurcation(
     settle, keep : int
         Periods that are left out, and those that are kept.
     display : Display, optional
-        Where progress is shown; on standard error by default.
+        Where progress is shown; on standard error by default, ``nonsmooth.progress.Quiet()`` shows nothing.
 
     Raises
     ------
@@ -152,7 +152,7 @@ def bifurcation(
     row = np.atleast_1d(floats("bifurcation: values", values))
 
     def looks(value: float) -> Looks:
-        return Looks(period_at(period, value), coordinate, at, settle, keep)
+        return Looks(period_at(period, value, "bifurcation: period"), coordinate, at, settle, keep, "bifurcation")
 
     family = Family.of(what, EventDriven())
     _ = family[name]

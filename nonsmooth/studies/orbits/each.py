@@ -6,9 +6,10 @@ from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 from nonsmooth.errors import InvalidInput, RunFailed
-from nonsmooth.progress import Display, Pace, RunsDone, on_standard_error
+from nonsmooth.progress import Display, Pace, RunsDone
 from nonsmooth.runs.model import Model
 from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.displays import display_of
 
 Found = TypeVar("Found")
 
@@ -49,7 +50,7 @@ def of_each(
     if not len(values):
         raise InvalidInput(f"values of {name}", "must be some", list(values), "Give at least one.")
     found, failures, refused = list[Found](), list[str](), list[InvalidInput]()
-    with Pace(display or on_standard_error()) as pace:
+    with Pace(display_of(display)) as pace:
         counted = RunsDone(pace, len(values))
         for value in values:
             try:

@@ -9,14 +9,16 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.checks import is_finite
+from nonsmooth.checks import check_callable, is_finite
 from nonsmooth.errors import InvalidInput, RunFailed
-from nonsmooth.progress import Display, Pace, RangeCovered, on_standard_error
+from nonsmooth.progress import Display, Pace, RangeCovered
 from nonsmooth.studies.derivatives.slope import OrderOfEvents
+from nonsmooth.studies.displays import display_of
 from nonsmooth.studies.orbits.branch import Branch, Special
 from nonsmooth.studies.orbits.margins import Foretold, Margins, foretold, margins
 from nonsmooth.studies.orbits.path import OutOfRange, Path, Point
 from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit
+from nonsmooth.studies.orbits.repeating import FUNCTION, period_at
 from nonsmooth.studies.orbits.sections import Section
 
 Floats = NDArray[np.float64]
@@ -56,7 +58,7 @@ def continuation(
     most : int
         Steps at most, either way.
     display : Display, optional
-        Where progress is shown; on standard error by default.
+        Where progress is shown; on standard error by default, ``nonsmooth.progress.Quiet()`` shows nothing.
 
     Raises
     ------
@@ -76,14 +78,17 @@ def continuation(
             ", ".join(corner.direction for corner in orbit.corners),
             "Leave these directions out of `within`, if the motion stays in the others.",
         )
+    check_callable("continuation: period", period, "period(value)")
     section: Callable[[float], Section] = (
-        (lambda _: orbit.section) if period is None else lambda v: orbit.section.lasting(period(v))
+        (lambda _: orbit.section)
+        if period is None
+        else lambda v: orbit.section.lasting(period_at(period, v, "continuation: period"))
     )
     path = Path(orbit.family, name, low, high, section, orbit.within)
     _check_period(path, orbit)
     first = path.at(orbit.state, value, 0.0, None)
     up = first.tangent if first.tangent[-1] >= 0.0 else -first.tangent
-    with Pace(display or on_standard_error()) as pace:
+    with Pace(display_of(display)) as pace:
         covered = RangeCovered(pace, name, value, span)
         back, on = (_followed(path, replace(first, tangent=way), most, covered) for way in (-up, up))
     orbits = (*reversed(back.orbits), first.orbit, *on.orbits)
@@ -109,10 +114,11 @@ def _check_period(path: Path, orbit: Orbit) -> None:
             if (off := _shifted(path, orbit, there)) is not None:
                 break
         if off is not None and off > _SAME:
-            rule = f"must be one of the system at {path.name} = {there:.9g}, where {off:.2g} differs a period later"
-            raise InvalidInput(
-                "continuation: period", rule, f"{orbit.period:.9g}", "Give period=lambda value: ... [s]."
+            rule = (
+                f"must be one of the system at {path.name} = {there:.9g}, where the same motion a period later differs "
+                f"by {off:.2g} of its size"
             )
+            raise InvalidInput("continuation: period", rule, float(f"{orbit.period:.9g}"), FUNCTION)
 
 
 def _shifted(path: Path, orbit: Orbit, value: float) -> float | None:

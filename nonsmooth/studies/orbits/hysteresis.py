@@ -14,11 +14,12 @@ from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.plot.asked import axes_of
 from nonsmooth.plot.lines import beside
-from nonsmooth.progress import Display, Pace, RunsDone, on_standard_error
+from nonsmooth.progress import Display, Pace, RunsDone
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.chart import Chart
 from nonsmooth.studies.derivatives.family import Family, Varied
+from nonsmooth.studies.displays import display_of
 from nonsmooth.studies.orbits.choosing import chosen
 from nonsmooth.studies.orbits.diagram import Diagram
 from nonsmooth.studies.orbits.looks import Looks
@@ -99,7 +100,7 @@ def hysteresis(
     what, name, values, period, coordinate, at, settle, keep
         As of :func:`bifurcation`; the values are sorted.
     display : Display, optional
-        Where progress is shown; on standard error by default.
+        Where progress is shown; on standard error by default, ``nonsmooth.progress.Quiet()`` shows nothing.
 
     Raises
     ------
@@ -111,7 +112,7 @@ def hysteresis(
     row = np.unique(floats("hysteresis: values", values))
 
     def looks(value: float) -> Looks:
-        return Looks(period_at(period, value), coordinate, at, settle, keep)
+        return Looks(period_at(period, value, "hysteresis: period"), coordinate, at, settle, keep, "hysteresis")
 
     family = Family.of(what, EventDriven())
     _ = family[name]
@@ -120,7 +121,7 @@ def hysteresis(
     unit, scale = looks(family[name]).unit_and_scale(family.model())
     points, failures = np.full((2, len(row), keep), np.nan), np.full((2, len(row)), "", dtype=object)
     upwards = range(len(row))
-    with Pace(display or on_standard_error()) as pace:
+    with Pace(display_of(display)) as pace:
         counted = RunsDone(pace, 2 * len(row))
         for way, order in enumerate((upwards, reversed(upwards))):
             before: tuple[Model, State, float] | None = None

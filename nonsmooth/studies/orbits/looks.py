@@ -14,7 +14,7 @@ from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.coordinates import coordinate_number, unit
 from nonsmooth.studies.orbits.choosing import at_phase
-from nonsmooth.studies.orbits.repeating import check_period
+from nonsmooth.studies.orbits.repeating import check_counts, check_period
 
 Floats = NDArray[np.float64]
 
@@ -34,6 +34,8 @@ class Looks:
         When in each period [s].
     settle, keep : int
         Periods that are left out, and those that are kept.
+    study : str
+        What errors name.
 
     Raises
     ------
@@ -46,14 +48,13 @@ class Looks:
     at: float
     settle: int
     keep: int
+    study: str
 
     def __post_init__(self) -> None:
-        for word in ("period", "keep", "settle"):
-            number = getattr(self, word)
-            if not (is_finite(number) and number > 0):
-                raise InvalidInput(f"bifurcation: {word}", "must be positive and finite", number, "Give a larger one.")
+        check_counts(self.study, settle=self.settle, keep=self.keep)
         if not (is_finite(self.at) and 0.0 <= self.at < self.period):
-            raise InvalidInput("bifurcation: at", "must be a time within a period", self.at, "Give it in [s].")
+            remedy = f"Give it in [s]; a period has {self.period:.9g} s."
+            raise InvalidInput(f"{self.study}: at", "must be a time within a period", self.at, remedy)
 
     def unit_and_scale(self, model: Model) -> tuple[str, float]:
         """Return the unit of what is looked at, and its scale by the size of its body.
@@ -84,5 +85,5 @@ class Looks:
         if run.status == "interrupted":
             raise KeyboardInterrupt
         kept = slice(self.settle + 1, self.settle + 1 + self.keep)
-        check_period(model, run.state, self.period, "bifurcation: period")
+        check_period(model, run.state, self.period, f"{self.study}: period")
         return np.concatenate([run.q, run.u], axis=1)[kept, number], run.state

@@ -147,4 +147,7 @@ class Path:
             moved = moved + np.linalg.lstsq(matrix, -np.append(here.orbit.map.way, off), rcond=1e-12)[0]
             if not np.max(np.abs(moved)) < 10.0:
                 break
-        raise NoOrbit("the corrections do not arrive")
+        raise NoOrbit(
+            f"Newton's method leaves {here.orbit.residual:.2g} of the scales near {self.name} = {there:.9g}; "
+            "orbit(...) there tells whether there is one"
+        )

@@ -10,13 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.checks import is_finite
+from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.errors import InvalidInput, NonsmoothError, RunFailed
-from nonsmooth.progress import Display, Pace, TimeReached, on_standard_error
+from nonsmooth.progress import Display, Pace, TimeReached
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.coordinates import coordinate_number
 from nonsmooth.studies.derivatives.family import Family, Varied
 from nonsmooth.studies.derivatives.passage import Signature, named
+from nonsmooth.studies.displays import display_of
 from nonsmooth.studies.orbits.choosing import at_phase, chosen
 from nonsmooth.studies.orbits.eigenvalues import eigenvalues, with_error
 from nonsmooth.studies.orbits.linear import Corner, Linear, linear
@@ -31,8 +33,11 @@ _AGAIN = 1e-8
 """What may be left of it after another period, for a map that stretches by 1."""
 _MOST = 30
 """Steps of Newton's method."""
-
-
+_HELD = 1e-6
+"""Largest difference of what closed contacts hold after a period, in units of scales."""
+_MODES = {OPEN: "open", STICK: "closed and sticks", SLIDE: "closed and slides"}
+_TOLD = 3
+"""Contacts that a message names at most."""
 _NEARLY_ONE = 1e-3
 """Distance of a multiplier from 1 below which Newton's method divides by less than a thousandth."""
 
@@ -183,7 +188,8 @@ def orbit(
         By which the motion may turn in a period, as one that circles: :class:`Turn` about the vertical, :class:`Spin`
         of a symmetric body about its own axis.
     display : Display, optional
-        Where it is shown how far the time before is; on standard error by default.
+        Where it is shown how far the time before is; on standard error by default, ``nonsmooth.progress.Quiet()`` shows
+        nothing.
 
     Raises
     ------
@@ -208,7 +214,7 @@ def orbit(
     model = family.model()
     begin = model.start if start is None else start
     if settle > 0.0:
-        with Pace(display or on_standard_error()) as pace:
+        with Pace(display_of(display)) as pace:
             begin = model.run(begin.time + settle, start=begin, progress=TimeReached(pace)).state
     if section is not None:
         watched = section.watched(family)
@@ -239,13 +245,18 @@ def close(family: Family, state: State, section: Section, within: tuple[str, ...
         except (InvalidInput, RunFailed) as error:
             if i == 0:
                 raise
-            raise NoOrbit(f"no orbit near the start: step {i} leads where no run is ({error})") from error
+            # values and remedies of the run are of a state that nobody asked for
+            why = f"{error.thing} {error.rule}" if isinstance(error, InvalidInput) else str(error)
+            raise NoOrbit(
+                f"no orbit near the start: step {i} of Newton's method leads to a state from which no run comes back "
+                f"to the section ({why}); begin nearer, take a longer settle, or choose another section"
+            ) from error
         residual = float(np.max(np.abs(found.way), initial=0.0))
         if residual <= _CLOSE and step is not None:
             found = linear(model, state, section, within)
         if residual <= _CLOSE:
-            if not np.array_equal(found.end.state.modes, state.modes):
-                raise NoOrbit("no orbit near the start: other contacts are closed at the end; choose another section")
+            _check_closed(model, state, found.end.state)
+            _check_following(found, state)
             _check_again(model, found, section)
             return Orbit(family, state, section, within, residual, found)
         smooth = ~np.isnan(found.matrix[0]) if len(found.matrix) else np.zeros(0, dtype=bool)
@@ -255,6 +266,46 @@ def close(family: Family, state: State, section: Section, within: tuple[str, ...
         change[smooth] = np.linalg.lstsq(reduced, -found.way[smooth], rcond=1e-9)[0]
         state, step = found.chart.moved(model, state, change), found.step
     raise NoOrbit(f"no orbit near the start: after {_MOST} steps {residual:.2g} is left; {_advice(found)}")
+
+
+def _check_closed(model: Model, start: State, end: State) -> None:
+    """Check that the same contacts are closed at both ends of a period, and stick or slide alike.
+
+    Raises
+    ------
+    NoOrbit
+        If they are not.
+    """
+    differ = np.flatnonzero(start.modes != end.modes).tolist()
+    if not differ:
+        return
+    told = [
+        f"{model.system.names.contacts[i]!r} is {_MODES[int(start.modes[i])]} at the start of the period and "
+        f"{_MODES[int(end.modes[i])]} at its end"
+        for i in differ[:_TOLD]
+    ]
+    more = f" (and {len(differ) - _TOLD} more)" if len(differ) > _TOLD else ""
+    raise NoOrbit(
+        f"no orbit near the start: {'; '.join(told)}{more}. Choose a section in flight. If feet take turns, let a "
+        "period last until the first one is down again: Crossing(..., times=n), or n times the period"
+    )
+
+
+def _check_following(found: Linear, start: State) -> None:
+    """Check that coordinates of ``within`` that closed contacts hold repeat, too.
+
+    Raises
+    ------
+    NoOrbit
+        If they do not: they depend on coordinates that were left out.
+    """
+    off = float(np.max(np.abs(found.chart.following_between(start, found.end.state)), initial=0.0))
+    if off > _HELD:
+        raise NoOrbit(
+            f"no orbit near the start: coordinates or velocities of `within` that closed contacts hold differ by "
+            f"{off:.2g} of their scales after a period; choose another section, or add those that they depend on to "
+            "`within`, as vx and vz of a body that rolls on a foot"
+        )
 
 
 def _advice(found: Linear) -> str:
@@ -267,7 +318,7 @@ def _advice(found: Linear) -> str:
             f"the map has a multiplier of {complex(nearest):.6g} there, so orbits may form a continuum or meet at a "
             "fold; change a parameter, or leave a coordinate out of `within`"
         )
-    return "begin nearer"
+    return "begin nearer: give another start, or a longer settle if the orbit attracts"
 
 
 def _check_again(model: Model, found: Linear, section: Section) -> None:
@@ -287,4 +338,4 @@ def _check_again(model: Model, found: Linear, section: Section) -> None:
             f"must be one of the system, but after a second one {off:.2g} is left of what repeats, in units of scales"
         )
         remedy = "A plate that vibrates has that of its motion, or multiples."
-        raise InvalidInput("orbit: period", rule, f"{again.time - end.time:.9g}", remedy)
+        raise InvalidInput("orbit: period", rule, float(f"{again.time - end.time:.9g}"), remedy)

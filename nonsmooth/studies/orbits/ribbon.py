@@ -21,7 +21,7 @@ from nonsmooth.solution.solution import Solution
 from nonsmooth.studies.derivatives.family import Family, Varied
 from nonsmooth.studies.derivatives.passage import Signature, named
 from nonsmooth.studies.orbits.each import of_each
-from nonsmooth.studies.orbits.repeating import check_period
+from nonsmooth.studies.orbits.repeating import Period, check_counts, check_period, period_at
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -113,7 +113,7 @@ def ribbon(
     what: Varied,
     name: str,
     values: ArrayLike,
-    period: float,
+    period: Period,
     *,
     settle: int = 200,
     keep: int = 1,
@@ -129,12 +129,13 @@ def ribbon(
         The parameter.
     values : array
         Its values, rising, shape [n].
-    period : float
-        [s].  A run at a value at which the drive has another period counts as failed.
+    period : float or callable
+        Of the drive, or a multiple [s]; ``period(value)`` if the parameter changes it.  A run at a value at which the
+        drive has another period counts as failed.
     settle, keep : int
         Periods that are left out, and those that are kept.
     display : Display, optional
-        Where progress is shown; on standard error by default.
+        Where progress is shown; on standard error by default, ``nonsmooth.progress.Quiet()`` shows nothing.
 
     Raises
     ------
@@ -146,17 +147,17 @@ def ribbon(
     column = np.atleast_1d(floats("ribbon: values", values))
     if not (len(column) and np.all(np.diff(column) > 0.0)):
         raise InvalidInput("ribbon: values", "must rise", column.tolist(), "Sort them.")
-    for word, number in (("period", period), ("keep", keep), ("settle", settle)):
-        if not (is_finite(number) and number > 0):
-            raise InvalidInput(f"ribbon: {word}", "must be positive and finite", number, "Give a larger one.")
+    check_counts("ribbon", settle=settle, keep=keep)
     family = Family.of(what, EventDriven())
+    _ = period_at(period, family[name], "ribbon: period")
 
     def row(model: Model, value: float) -> Row:
-        run = model.run((settle + keep) * period, sample_interval=period)
+        lasts = period_at(period, value, "ribbon: period")
+        run = model.run((settle + keep) * lasts, sample_interval=lasts)
         if run.status == "interrupted":
             raise KeyboardInterrupt
-        check_period(model, run.state, period, "ribbon: period")
-        return _row(run, period, settle, keep)
+        check_period(model, run.state, lasts, "ribbon: period")
+        return _row(run, lasts, settle, keep)
 
     rows, failures = of_each(family, name, column.tolist(), row, Row(np.empty(0), ()), display)
     return Ribbon(family.label(name), column, keep, tuple(rows), _words(rows, family.model()), failures)
@@ -172,7 +173,8 @@ def periods(model: Model, run: Solution, period: float) -> Ribbon:
     """
     n = int(run.t_end / period * (1.0 + 1e-12)) if is_finite(period) and period > 0.0 else 0
     if n < 1:
-        raise InvalidInput("ribbon: period", "must be positive, and not longer than the run", period, "Give it in [s].")
+        rule = f"must be positive, and not longer than the run of {run.t_end:.9g} s"
+        raise InvalidInput("periods: period", rule, period, "Give it in [s].")
     rows = [_row(run, period, i, 1) for i in range(n)]
     return Ribbon("number of the period", np.arange(1.0, n + 1.0), 1, tuple(rows), _words(rows, model), ("",) * n)
 

@@ -177,8 +177,14 @@ class Crossing(Section):
         if piece.signature[-1:] != end:
             word = "upwards" if self.rising else "downwards"
             rule = f"must pass {self.level:.9g} {word} within {self.longest:.9g} s"
-            remedy = "Choose a level between its least and its largest value, or begin nearer to the orbit."
-            raise InvalidInput(f"section: {self.coordinate}", rule, "it does not", remedy)
+            number = coordinate_number(model.system, self.coordinate)
+            before, behind = (float(np.concatenate([one.q, one.u])[number]) for one in (start, piece.state))
+            remedy = (
+                "Choose a level that it passes in each period, or begin nearer to the orbit. Of a coordinate that "
+                "drifts take the velocity."
+            )
+            said = f"{before:.9g} at t = {start.time:.9g} s, {behind:.9g} at t = {piece.state.time:.9g} s"
+            raise InvalidInput(f"section: {self.coordinate}", rule, said, remedy)
         return Passage(piece.state, piece.signature[:-1], piece.times[:-1])
 
     def _guard(self, system: System) -> Guard:

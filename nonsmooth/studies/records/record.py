@@ -11,6 +11,7 @@ from typing import Any, final
 import numpy as np
 
 from nonsmooth.interfaces import Scenario
+from nonsmooth.runs.model import Model
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.labels import labels
 
@@ -24,6 +25,8 @@ class Outcome:
     ----------
     scenario : Scenario or None
         The scenario with the parameters of the run; None where a function built the system.
+    model : Model
+        What ran.
     solution : Solution
         What it computed; of a first look only its beginning.
     t_end : float
@@ -31,6 +34,7 @@ class Outcome:
     """
 
     scenario: Scenario | None
+    model: Model
     solution: Solution
     t_end: float
 

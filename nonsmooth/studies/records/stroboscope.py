@@ -14,10 +14,12 @@ from nonsmooth.checks import is_finite
 from nonsmooth.datasets import described
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.studies.derivatives.coordinates import coordinate_number
+from nonsmooth.studies.orbits.repeating import check_period
 from nonsmooth.studies.records.record import Outcome, Record, Recorder
 
 NAME = "stroboscopic"
 """The name of the record."""
+_REMEDY = "If a parameter that varies changes the frequency, make a study of its own for each of its values."
 _ROUND = 1e-9
 """Part of a period by which a section may lie behind the end, for round-off."""
 
@@ -30,7 +32,7 @@ class Stroboscope(Recorder):
     Parameters
     ----------
     period : float
-        Of the motion that drives the system [s].
+        Of the motion that drives the system, or a multiple [s].  A run whose system has another one fails, and says so.
     within : tuple of str
         Names of coordinates and velocities, "z" or "ball.vz": those that decide what becomes of a motion, without
         those that drift or turn.
@@ -97,9 +99,10 @@ class Stroboscope(Recorder):
         Raises
         ------
         InvalidInput
-            If the run is too short.
+            If the run is too short, or what drives its system has another period.
         """
         solution = outcome.solution
+        check_period(outcome.model, solution.state, self.period, "Stroboscope: period", _REMEDY)
         states = solution.at(self._times(solution.t_end, self._start(outcome)))
         places = [coordinate_number(solution.system, name) for name in self.within]
         return np.concatenate([states.q, states.u], axis=1)[:, places]

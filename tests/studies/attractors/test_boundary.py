@@ -43,6 +43,15 @@ def test_a_smooth_boundary_has_exponent_one(inside: Floats, tolerance: float) ->
     assert found.starts == 192**2
 
 
+def test_a_fit_above_one_has_an_error_that_covers_it() -> None:
+    """A large circle reaches beyond the starts that have all neighbours; no curve has a dimension below 1."""
+    x, y = np.meshgrid(np.linspace(-0.5, 0.5, 128), np.linspace(-0.5, 0.5, 128))
+    found = uncertainty_exponent(labels(x**2 + y**2 < 0.4**2))
+    assert found.exponent > 1.01
+    assert found.exponent - found.error <= 1.0
+    assert found.dimension == 1.0
+
+
 def test_a_share_is_that_of_the_starts_beside_the_line() -> None:
     found = uncertainty_exponent(labels(_X < 0.5))
     np.testing.assert_allclose(found.uncertain, 2.0 * found.steps / 192.0)

@@ -14,7 +14,8 @@ import nonsmooth as ns
 from nonsmooth import studies
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.studies.attractors.linkage import hausdorff, linked
-from nonsmooth.studies.status import FAILED
+from nonsmooth.studies.status import DONE, FAILED
+from nonsmooth.studies.store import Store
 from scenarios.bouncing_ball import orbits
 from scenarios.bouncing_ball.scenario import GRAVITY, BouncingBall
 from scenarios.dumbbell.scenario import DumbbellScenario
@@ -94,6 +95,18 @@ def test_they_agree_with_the_classifier_of_the_dumbbell(tmp_path: Path) -> None:
     for one, same in zip(names, mine, strict=True):
         if one != "other":
             np.testing.assert_array_equal(names == one, mine == same)
+
+
+@runs
+def test_runs_whose_drive_has_another_period_fail_by_name(tmp_path: Path) -> None:
+    """Some fly for two periods on end, and nothing drives them in between."""
+    over = studies.grid(frequency=[24.0, 25.0, 50.0], speed=[0.1, 0.2])
+    study = studies.Study(BouncingBall(gamma=0.8, t_end=3.0), over, [_STROBE])
+    found = study.run(tmp_path / "s.zarr", executor="serial")
+    np.testing.assert_array_equal(found.status, np.array([[FAILED] * 2, [DONE] * 2, [DONE] * 2]))
+    for text in Store(tmp_path / "s.zarr").texts().values():
+        assert "Stroboscope: period must be one of the system" in text
+        assert "a study of its own for each of its values" in text
 
 
 def test_orbits_of_one_period_are_told_apart_by_their_points() -> None:

@@ -14,8 +14,8 @@ import pytest
 from scipy.optimize import brentq
 
 import nonsmooth as ns
-from bodies import Coordinate, GeneralisedBody, Plate, Point, PointFrame
-from laws import EnergeticImpact, Frictionless, Unilateral
+from bodies import Coordinate, GeneralisedBody, PlanarBody, Plate, Point, PointFrame
+from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.studies.derivatives.family import EXACT, Family
 from nonsmooth.studies.orbits.following import continuation
@@ -161,6 +161,34 @@ def test_the_section_takes_the_multiplier_1_away() -> None:
     assert large == pytest.approx([found.multipliers[0].real, 1.0], abs=1e-6)
 
 
+def _rolling_prism() -> ns.System:
+    """Return a hexagonal prism that rolls down a plane of 10 degrees, from edge to edge."""
+    slope, size = math.radians(10.0), 0.1
+    edges = tuple(Point(size * math.sin(k * math.pi / 3), 0.0, -size * math.cos(k * math.pi / 3)) for k in range(6))
+    plane, prism = Plate(), PlanarBody(1.0, 5.0 / 12.0 * size**2, edges)
+    system = ns.System([plane, prism], gravity=(9.81 * math.sin(slope), 0.0, -9.81 * math.cos(slope)))
+    system.contact(plane, prism, normal=Unilateral(), friction=Coulomb(1.0), impact=EnergeticImpact(0.0))
+    system.place(prism, position=(0.0, size), velocity=(6.0 * size, 0.0), angular_velocity=6.0)
+    return system
+
+
+def test_edges_that_take_turns_repeat_after_a_whole_turn() -> None:
+    """Each impact leaves 11/17 of the spin (International Physics Olympiad 1998)."""
+    system = _rolling_prism()
+    with pytest.raises(NoOrbit, match=r"\(1\)' is closed and sticks at the start .* open at its end; .*times=n"):
+        orbit(system, section=Crossing("z", 0.095), settle=3.0, within=("z", "vx", "vz", "w"))
+    turn = Crossing("z", 0.095, times=6)
+    found = orbit(system, section=turn, settle=3.0, within=("z", "vx", "vz", "w"))
+    assert found.multipliers == pytest.approx([(11.0 / 17.0) ** 12], abs=1e-9)
+    assert found.map.end.state.q[2] - found.state.q[2] == pytest.approx(2.0 * math.pi, abs=1e-9)
+
+
+def test_what_closed_contacts_hold_must_repeat_too() -> None:
+    """Without its velocities the spin of a prism on an edge counts as held, and nothing is left that is free."""
+    with pytest.raises(NoOrbit, match=r"that closed contacts hold differ by .*add those that they depend on"):
+        orbit(_rolling_prism(), section=Crossing("z", 0.095, times=6), settle=1.0, within=("angle", "w"))
+
+
 def test_what_is_no_section() -> None:
     _, restitution, height, _ = _closed_form(1.0)
     family = Family(_hopper, {"restitution": restitution, "height": height})
@@ -174,6 +202,6 @@ def test_what_is_no_section() -> None:
         orbit(family, section=Crossing("zz"))
     with pytest.raises(ns.InvalidInput, match=r"Crossing\.times must be positive"):
         Crossing("z", times=0)
-    with pytest.raises(NoOrbit, match="leads where no run is"):
+    with pytest.raises(NoOrbit, match="leads to a state from which no run comes back to the section"):
         # it falls asleep on the floor
         orbit(family.at(height=0.2 * height), section=TOP)

@@ -68,6 +68,8 @@ def test_it_is_counted_and_refused() -> None:
     found = bifurcation(family, "restitution", [0.4, 0.5], 0.05, "z", settle=20, keep=4, display=display)
     assert display.told == ["1 of 2 runs", "2 of 2 runs"]
     np.testing.assert_allclose(found.points, 0.01, atol=1e-12)
+    with pytest.raises(ns.InvalidInput, match=r"display must be of the kind Display, .*Quiet\(\)"):
+        bifurcation(family, "restitution", [0.5], 0.05, "z", display=print)  # type: ignore[arg-type]
     with pytest.raises(ns.InvalidInput, match=r"ball\.vzz.*Did you mean 'ball\.vz'"):
         bifurcation(family, "restitution", [0.5], 0.05, "ball.vzz")
     with pytest.raises(ns.InvalidInput, match=r"at must be a time within a period, but it is 0\.06"):

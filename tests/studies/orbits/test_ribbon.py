@@ -57,7 +57,25 @@ def test_a_row_is_filled_from_its_begin_to_its_end() -> None:
     assert [text.get_text() for text in legend.get_texts()] == ["impact\nof 'plate - ball'"]
 
 
+def test_over_a_frequency_the_period_is_a_function() -> None:
+    """The strength stays, so that impacts of all frequencies are at one phase; a fixed period fits one value only."""
+    found = ribbon(BALL, "frequency", [25.0, 26.0], lambda f: 1.0 / f, settle=200, keep=4)
+    assert found.failures == ("", "")
+    phase = (impact_phase(0.8, 0.8, 1) - 1.0) / (2.0 * math.pi) % 1.0
+    for row in found.rows:
+        np.testing.assert_allclose(row.at[1:], phase + np.arange(4.0), atol=1e-6)
+    fixed = ribbon(BALL, "frequency", [25.0, 26.0], 0.04, settle=200, keep=4)
+    assert fixed.failures[0] == ""
+    assert fixed.failures[1].startswith("ribbon: period must be one of the system")
+    assert "period=lambda" in fixed.failures[1]
+
+
 def test_bad_input() -> None:
+    with pytest.raises(ns.InvalidInput, match="ribbon: period must be positive and finite, but it is 0"):
+        ribbon(BALL, "gamma", [0.8], 0.0)
+    with pytest.raises(ns.InvalidInput, match=r"ribbon: period must be positive and finite at the value 0\.8"):
+        ribbon(BALL, "gamma", [0.8], lambda gamma: math.inf)
+
     with pytest.raises(ns.InvalidInput, match="ribbon: values must rise"):
         ribbon(BALL, "gamma", [0.8, 0.6], 0.04)
     with pytest.raises(ns.InvalidInput, match="ribbon: keep must be positive"):
