@@ -18,12 +18,12 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.files.components import TYPE, Table, table_of
 from nonsmooth.files.writing import text_of_system
 from nonsmooth.interfaces import Engine
-from nonsmooth.results.lock import LOCK, Lock
+from nonsmooth.results.lock import LOCK, Lock, check_no_links, is_marked
 from nonsmooth.results.output import Output, versions
 from nonsmooth.results.state_file import state_bytes, state_from
 from nonsmooth.results.zarr_folder import ZarrFolder
 from nonsmooth.solution.events import Events
-from nonsmooth.solution.files import FileError
+from nonsmooth.solution.files import FileError, content_of
 from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
 from nonsmooth.solution.variable import Variable
@@ -90,6 +90,8 @@ class SolutionFolder:
         lock = Lock(path)
         try:
             check_free(output)
+            _check_may_be_emptied(output)
+            lock.mark()
             _empty(path)
         except BaseException:
             lock.close()
@@ -114,14 +116,39 @@ class SolutionFolder:
         InvalidInput
             If there is none.
         """
-        arrays = ZarrFolder.opened(output.solution)
+        return cls._of(ZarrFolder.opened(output.solution))
+
+    @classmethod
+    def held(cls, output: Output) -> SolutionFolder:
+        """Open the folder of a run to write to it; nobody else does until it is closed.
+
+        Raises
+        ------
+        InvalidInput
+            If there is none, it holds a link, or another run writes there.
+        FileError
+            If it cannot be written to.
+        """
+        # a folder without a run gets no lock
+        cls.opened(output)
+        check_no_links(output.solution)
+        lock = Lock(output.solution)
         try:
-            found = cls(arrays, arrays.length("coordinate"), arrays.length("velocity"))
+            # what another run has written until it gave the lock back counts
+            return cls._of(ZarrFolder.opened(output.solution), lock)
+        except BaseException:
+            lock.close()
+            raise
+
+    @classmethod
+    def _of(cls, arrays: ZarrFolder, lock: Lock | None = None) -> SolutionFolder:
+        try:
+            found = cls(arrays, arrays.length("coordinate"), arrays.length("velocity"), lock)
             found._lengths = {"time": arrays.length("time"), "event": arrays.length("event_time")}
             found._lengths["listing"] = arrays.length("listed_contact")
         except KeyError as error:
             raise InvalidInput(
-                str(output.solution), "must hold a solution", f"no {error}", "Name a folder that `run` wrote."
+                str(arrays.path), "must hold a solution", f"no {error}", "Name a folder that `run` wrote."
             ) from error
         return found
 
@@ -129,6 +156,11 @@ class SolutionFolder:
     def attributes(self) -> dict[str, Any]:
         """What is said of the run."""
         return self._arrays.attributes
+
+    @property
+    def place(self) -> Path:
+        """The folder of the results, in which that of the arrays is."""
+        return self._arrays.path.parent
 
     @property
     def status(self) -> str:
@@ -145,7 +177,7 @@ class SolutionFolder:
         """
         try:
             return json.loads(self.attributes[name])
-        except (KeyError, TypeError, ValueError) as error:
+        except (KeyError, TypeError, ValueError, RecursionError) as error:
             thing = f"{self._arrays.path}: {name}"
             raise InvalidInput(thing, "must be there", None, "Name a folder that `run` wrote.") from error
 
@@ -172,15 +204,24 @@ class SolutionFolder:
             raise InvalidInput(f"{self._arrays.path}: state", "must name a state", name, "It is damaged.")
         return self._state(name)
 
+    def check_cut_off(self) -> None:
+        """Raise InvalidInput unless it holds a run that was cut off."""
+        if "checkpoint" not in self.attributes:
+            raise InvalidInput(
+                f"{self.place}",
+                "must hold a run that was cut off",
+                self.status,
+                "To go on behind its end, run its model from the `state` of nonsmooth.open_solution.",
+            )
+
     def cut_to_checkpoint(self) -> State:
         """Leave what the run had done when its last checkpoint was made, and return the state there.
 
         Raises
         ------
         InvalidInput
-            If there is none, or the run goes on in another process.
+            If there is none.
         """
-        self._lock = Lock(self._arrays.path)
         checkpoint = self.said("checkpoint")
         name = checkpoint["state"]
         if name not in _STATES:
@@ -322,7 +363,7 @@ class SolutionFolder:
     def _state(self, name: str) -> State:
         path = self._arrays.path / name
         try:
-            return state_from(path.read_bytes(), str(path))
+            return state_from(content_of(path), str(path))
         except OSError as error:
             raise InvalidInput(str(path), "must be there", error.strerror, "It is damaged.") from error
 
@@ -365,13 +406,20 @@ def check_ours(path: Path) -> None:
         names = sorted(one.name for one in path.iterdir()) if path.exists() else []
     except OSError as error:
         raise FileError(path, error) from error
-    if names and LOCK not in names and not _is_solution(path):
+    if names not in ([], [LOCK]) and not is_marked(path) and not _is_solution(path):
         raise InvalidInput(
             str(path),
             "must be a folder that a run has made, as it would be emptied",
             f"a folder with {', '.join(map(repr, names[:3]))}",
             "Name another folder.",
         )
+
+
+def _check_may_be_emptied(output: Output) -> None:
+    """Raise InvalidInput if another run has ended there that this one must not replace."""
+    if not output.overwrite and _is_solution(output.solution):
+        rule, remedy = "must be a folder that is empty or new", "Another run has ended there meanwhile: name another."
+        raise InvalidInput(str(output.folder), rule, "a folder with results", remedy)
 
 
 def _is_solution(path: Path) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import cast
@@ -96,10 +97,11 @@ def computed(compute: Compute) -> tuple[Solution | None, str, str]:
 def _save_solution(scenario: Scenario, solution: Solution, folder: Path, troubles: list[str]) -> None:
     """Add what belongs to the samples and events that the run has written."""
     with results.noting(troubles, f"{type(scenario).__name__}.coordinates"):
-        written = SolutionFolder.opened(Output(folder))
-        # where the disk was full there are fewer samples than there were
-        if written.status != UNFINISHED:
-            written.add_coordinates(scenario.coordinates(solution), scenario.unit_of)
+        written = SolutionFolder.held(Output(folder))
+        with contextlib.closing(written):
+            # where the disk was full there are fewer samples than there were
+            if written.status != UNFINISHED:
+                written.add_coordinates(scenario.coordinates(solution), scenario.unit_of)
     with results.noting(troubles, "saving the events"):
         save_events(solution, folder / "events.csv")
 
