@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import shutil
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -12,14 +11,15 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.checks import check_kind
 from nonsmooth.datasets import described
 from nonsmooth.engine.memory.layout import BOOKED, N_ACCOUNTS
 from nonsmooth.errors import InvalidInput
-from nonsmooth.files.components import TYPE, Table, table_of
-from nonsmooth.files.writing import text_of_system
 from nonsmooth.interfaces import Engine
+from nonsmooth.results.damage import naming_damage
+from nonsmooth.results.description import MESSAGE, UNFINISHED, attributes_of, energies, system_variable
 from nonsmooth.results.lock import LOCK, Lock, check_no_links, is_marked
-from nonsmooth.results.output import Output, versions
+from nonsmooth.results.output import Output
 from nonsmooth.results.state_file import state_bytes, state_from
 from nonsmooth.results.zarr_folder import ZarrFolder
 from nonsmooth.solution.events import Events
@@ -40,9 +40,6 @@ from nonsmooth.solution.variables import (
 from nonsmooth.system.system import System
 
 Floats = NDArray[np.float64]
-UNFINISHED = "unfinished"
-"""Status of a run that goes on, or was cut off."""
-_MESSAGE = "the run goes on, or it was cut off and `nonsmooth resume` goes on with it"
 _STATES = ("state/0.npz", "state/1.npz")
 """By turns: the one that the last commit names is not touched."""
 _LAST = "state/end.npz"
@@ -96,9 +93,13 @@ class SolutionFolder:
         except BaseException:
             lock.close()
             raise
-        made = ZarrFolder(path, _attributes(output, engine, t_end, conditional))
+        made = ZarrFolder(path, attributes_of(output, engine, t_end, conditional))
         found = cls(made, sum(body.n_q for body in system.bodies), sum(body.n_u for body in system.bodies), lock)
-        for variable in (*of_system(system), *of_memory(), _text(system, output, engine, t_end, made.attributes)):
+        for variable in (
+            *of_system(system),
+            *of_memory(),
+            system_variable(system, output, engine, t_end, made.attributes),
+        ):
             made.add(variable, grows=False)
         n_y = found._n_q + found._n_u + N_ACCOUNTS + n_states
         sizes = len(system.contacts), found._n_q, found._n_u, n_y
@@ -167,19 +168,21 @@ class SolutionFolder:
         """That of the solution, or "unfinished"."""
         return str(self.attributes.get("status"))
 
-    def said(self, name: str) -> Any:
-        """Return an attribute that holds more than a number or a word.
+    def said(self, name: str, kind: type = dict) -> Any:
+        """Return an attribute that holds more than a number or a word: a table or, where asked for, a list.
 
         Raises
         ------
         InvalidInput
-            If it is not there.
+            If it is not there, or something else.
         """
+        thing = f"{self._arrays.path}: {name}"
         try:
-            return json.loads(self.attributes[name])
+            found = json.loads(self.attributes[name])
         except (KeyError, TypeError, ValueError, RecursionError) as error:
-            thing = f"{self._arrays.path}: {name}"
             raise InvalidInput(thing, "must be there", None, "Name a folder that `run` wrote.") from error
+        check_kind(thing, found, kind, "It is damaged.")
+        return found
 
     def system_text(self) -> str:
         """Return the system as a scenario file, "" where it could not be written."""
@@ -187,7 +190,8 @@ class SolutionFolder:
 
     def events(self) -> Events:
         """Return all events."""
-        return events_of(self._arrays.read, self._arrays.length("contact"))
+        with naming_damage(f"{self._arrays.path}: events"):
+            return events_of(self._arrays.read, self._arrays.length("contact"))
 
     def rows(self) -> Floats:
         """Return all samples: time, q, u, accounts, inner states of laws, what is booked, shape [n, 1 + n_y + 4]."""
@@ -203,6 +207,12 @@ class SolutionFolder:
         if name not in (*_STATES, _LAST):
             raise InvalidInput(f"{self._arrays.path}: state", "must name a state", name, "It is damaged.")
         return self._state(name)
+
+    @property
+    def wall_seconds(self) -> float:
+        """How long the run took until its last checkpoint [s]."""
+        with naming_damage(f"{self._arrays.path}: checkpoint"):
+            return float(self.said("checkpoint")["wall_seconds"])
 
     def check_cut_off(self) -> None:
         """Raise InvalidInput unless it holds a run that was cut off."""
@@ -223,15 +233,17 @@ class SolutionFolder:
             If there is none.
         """
         checkpoint = self.said("checkpoint")
-        name = checkpoint["state"]
+        name, own = str(checkpoint.get("state")), str(self.attributes.pop(_OWN, ""))
         if name not in _STATES:
             raise InvalidInput(f"{self._arrays.path}: checkpoint", "must name a state", name, "It is damaged.")
         state = self._state(name)
-        for coordinate in self.attributes.pop(_OWN, "").split():
+        for coordinate in own.split():
             self._arrays.remove(coordinate)
-        for dimension in GROWING:
-            self._lengths[dimension] = min(int(checkpoint[dimension]), self._lengths[dimension])
-            self._arrays.cut(dimension, self._lengths[dimension])
+        with naming_damage(f"{self._arrays.path}: checkpoint"):
+            lengths = {one: min(max(0, int(checkpoint[one])), self._lengths[one]) for one in GROWING}
+        for dimension, length in lengths.items():
+            self._lengths[dimension] = length
+            self._arrays.cut(dimension, length)
         self.attributes["state"], self._safe = name, True
         return state
 
@@ -275,7 +287,7 @@ class SolutionFolder:
         self._arrays.file(name, state_bytes(state))
         checkpoint = json.dumps({"state": name, "wall_seconds": wall, **lengths})
         self.attributes.update(
-            status=UNFINISHED, message=_MESSAGE, state=name, checkpoint=checkpoint, t_end=state.time, **_energy(state)
+            status=UNFINISHED, message=MESSAGE, state=name, checkpoint=checkpoint, t_end=state.time, **energies(state)
         )
         self._lengths = lengths
 
@@ -297,7 +309,7 @@ class SolutionFolder:
             counters=json.dumps(vars(solution.counters) | {"limits": dict(solution.counters.limits)}),
             cause=solution.cause,
             verdict=json.dumps([{**vars(one), "value": value} for one, value in solution.end.verdict.items()]),
-            **_energy(solution.state),
+            **energies(solution.state),
         )
         if solution.status in ("done", "suspect"):
             self.attributes.pop("checkpoint", None)
@@ -442,54 +454,3 @@ def _empty(path: Path) -> None:
                 one.unlink()
     except OSError as error:
         raise FileError(path, error) from error
-
-
-def _attributes(output: Output, engine: Engine, t_end: float, conditional: bool) -> dict[str, Any]:
-    known = versions()
-    return {
-        "Conventions": "CF-1.11",
-        "title": output.title,
-        "source": f"nonsmooth {known['nonsmooth']}",
-        "status": UNFINISHED,
-        "message": _MESSAGE,
-        "t_end_asked": t_end,
-        "conditional": int(conditional),
-        "engine": json.dumps(_table(engine)),
-        "records_contacts": int(engine.records_contacts),
-        "versions": json.dumps(dict(known)),
-        "request": json.dumps(dict(output.request)),
-        "parameters": json.dumps(dict(output.parameters)),
-    }
-
-
-def _table(engine: Engine) -> Table:
-    """Return an engine as a table; one that no file can name by its class in Python, and its options as words."""
-    try:
-        return table_of(engine, "engine")
-    except InvalidInput:
-        options = {name: repr(value) for name, value in vars(engine).items()}
-        return {TYPE: f"{type(engine).__module__}:{type(engine).__qualname__}", **options}
-
-
-def named_elsewhere(table: Table) -> bool:
-    """Tell whether the table of an engine names a class in Python, which is none that is installed."""
-    return ":" in str(table.get(TYPE))
-
-
-def _text(system: System, output: Output, engine: Engine, t_end: float, attributes: dict[str, Any]) -> Variable:
-    """Return the system as a scenario file; where it cannot be one, an attribute says why.
-
-    An engine that no file can name costs its own table only: an attribute has what it was.
-    """
-    named = None if named_elsewhere(_table(engine)) else engine
-    try:
-        text = text_of_system(system, t_end=t_end, engine=named, title=output.title)
-    except InvalidInput as error:
-        text, attributes["system_missing"] = "", f"{error.thing} {error.rule}; it is {error.value!r}"
-    return Variable("system", (), np.array(text), {"long_name": "the system as a scenario file, TOML"})
-
-
-def _energy(state: State) -> dict[str, float]:
-    """Return the account of energy, as far as JSON has its numbers."""
-    account = {**vars(state.energy), "energy_residual": state.energy.residual}
-    return {name: value for name, value in account.items() if math.isfinite(value)}

@@ -328,7 +328,7 @@ class Model:
             self._records = records = Records(laid, (folder.events(), folder.rows()))
             restore(laid, self._blank, state, self._changing)
             energy = state.energy.kinetic_start, state.energy.potential_start
-            wall = float(folder.said("checkpoint")["wall_seconds"])
+            wall = folder.wall_seconds
             keeper = Writer(folder, records, self._states_from(energy), wall)
             return self._complete(records, Image.of(laid.memory), energy, progress, keeper, wall, until)
         finally:

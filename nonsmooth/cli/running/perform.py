@@ -15,8 +15,9 @@ from nonsmooth.cli.telling.messages import complain, tell
 from nonsmooth.errors import PluginError, RunFailed
 from nonsmooth.interfaces import Scenario
 from nonsmooth.progress import Pace, TimeReached, on_standard_error
+from nonsmooth.results.description import UNFINISHED
 from nonsmooth.results.output import Output
-from nonsmooth.results.solution_folder import UNFINISHED, SolutionFolder
+from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.solution.draw_graph import draw
 from nonsmooth.solution.events_table import save_events
 from nonsmooth.solution.files import FileError
