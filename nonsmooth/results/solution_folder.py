@@ -83,6 +83,8 @@ class SolutionFolder:
         """
         path = output.solution
         check_ours(path)
+        # not with the lock at first, for which whoever has just ended would have to wait
+        _check_may_be_emptied(output)
         # from here on nobody else writes there: what another run has begun meanwhile is not removed
         lock = Lock(path)
         try:
