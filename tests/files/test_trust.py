@@ -325,11 +325,18 @@ for words in json.loads(sys.argv[1]):
 
 
 def _commands(text: str) -> list[list[str]]:
+    """Return commands on a file, a folder and two studies that name code, the second one in its stored request."""
+    import zarr
+
+    shutil.copytree("study.zarr", "words.zarr")
+    group = zarr.open_group("words.zarr", mode="r+")
+    group.attrs["request"] = json.dumps(json.loads(str(group.attrs["request"])) | {"engine": "evil.py:Engine"})
     return [
         ["run", _as_file("system.toml", text)],
         ["view", _as_folder(text), "--html", "page.html", "--overwrite"],
         ["export", "run", "out.csv", "--overwrite"],
         ["resume", "run"],
+        ["study", "resume", "words.zarr"],
         ["study", "resume", _as_study(text)],
     ]
 

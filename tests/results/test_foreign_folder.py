@@ -119,7 +119,7 @@ def test_a_pipe_is_not_read(name: str, theirs: Path) -> None:
         ns.load_system(theirs.parent / "system.toml")
 
 
-REQUEST = {"scenario": "bouncing_ball", "set": [], "law": [], "engine": None}
+REQUEST: dict[str, Any] = {"scenario": "bouncing_ball", "set": [], "law": [], "engine": None}
 SAID: dict[str, tuple[Any, ...]] = {
     "engine": ('"evil.py:E"', "[]", "5", "null", '{"type": 5}', "[" * 100_000),
     "counters": ("[]", "5", "{"),
