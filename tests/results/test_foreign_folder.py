@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import shutil
+import zipfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -168,6 +169,23 @@ def test_few_bytes_do_not_become_all_of_the_memory(theirs: Path) -> None:
         SolutionFolder.opened(Output(theirs.parent))._arrays.read("body")
     with pytest.raises(ValueError, match="as its head says"):
         unpacked(content[:-1], float)
+
+
+def test_a_state_larger_than_the_memory_is_refused(theirs: Path) -> None:
+    head = b"{'descr': '<f8', 'fortran_order': False, 'shape': (1000000000000,), }"
+    with zipfile.ZipFile(theirs / "state" / "0.npz", "w") as file:
+        file.writestr("time.npy", b"\x93NUMPY\x01\x00v\x00" + head.ljust(117) + b"\n")
+    with pytest.raises(ns.InvalidInput, match="must hold a state"):
+        ns.open_solution(theirs.parent)
+
+
+def test_a_terminal_obeys_no_name_of_a_folder(theirs: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """As one that would change the title of its window."""
+    _say(theirs, request=json.dumps(REQUEST | {"scenario": "\x1b]0;theirs\x07"}))
+    assert main(["resume", str(theirs.parent)]) == 0
+    said = "".join(capsys.readouterr())
+    assert "\\x1b]0;theirs\\x07: done" in said
+    assert "\x1b" not in said
 
 
 def test_a_run_that_ended_meanwhile_is_not_resumed(theirs: Path) -> None:
