@@ -12,6 +12,10 @@ CODEC = {"id": "blosc", "cname": "lz4", "clevel": 5, "shuffle": 1, "blocksize": 
 """What packs them, in the words of Zarr."""
 _CHECKSUM = 4
 """Bytes of a CRC-32."""
+_SIZE = slice(4, 8)
+"""Where the head of what Blosc has packed says how many bytes it becomes."""
+_LENGTH = slice(12, 16)
+"""Where it says how many bytes it has."""
 
 
 def packed(values: NDArray[Any]) -> bytes:
@@ -42,8 +46,8 @@ def without_checksum(content: bytes) -> bytes:
     return found
 
 
-def unpacked(content: bytes, dtype: DTypeLike) -> NDArray[Any]:
-    """Return what was packed, as a row of numbers.
+def unpacked(content: bytes, dtype: DTypeLike, count: int | None = None) -> NDArray[Any]:
+    """Return what was packed, as a row of numbers, of which there must be ``count`` where that is given.
 
     Raises
     ------
@@ -53,6 +57,12 @@ def unpacked(content: bytes, dtype: DTypeLike) -> NDArray[Any]:
     from numcodecs import Blosc
 
     try:
+        # checked before it is unpacked: a few bytes may become all of the memory, and Blosc reads as many as they say
+        size, length = (int.from_bytes(content[part], "little") for part in (_SIZE, _LENGTH))
+        if length != len(content):
+            raise ValueError(f"it has {len(content)} bytes, and not {length} as its head says")
+        if count is not None and size != count * np.dtype(dtype).itemsize:
+            raise ValueError(f"it holds {size} bytes, and not {count} numbers")
         return np.frombuffer(Blosc().decode(content), dtype).copy()
     except RuntimeError as error:
         raise ValueError(str(error)) from error

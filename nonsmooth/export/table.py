@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import itertools
+import math
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 from nonsmooth.errors import InvalidInput
@@ -40,7 +41,8 @@ def table(series: Series) -> str:
         axes = [str(axis) for axis in variable.dims if axis != "time"]
         values = variable.transpose("time", *axes).to_numpy()
         places = itertools.product(*(range(data.sizes[axis]) for axis in axes))
-        for column, place in zip(values.reshape(len(values), -1).T, places, strict=True):
+        # a run that was cut off at once has no rows
+        for column, place in zip(values.reshape(len(values), math.prod(values.shape[1:])).T, places, strict=True):
             labels = [_label(data, axis, i) for axis, i in zip(axes, place, strict=True)]
             units = [str(data[f"{axis}_units"].to_numpy()[i]) for axis, i in zip(axes, place, strict=True)
                      if f"{axis}_units" in data.coords]  # fmt: skip

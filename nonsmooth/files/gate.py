@@ -85,7 +85,9 @@ class Gate:
         if self.trusted or not named.is_name(word):
             return
         module = word.partition(":")[0]
-        if not any(module == known or module.startswith(f"{known}.") for known in registry.packages()):
+        is_known = any(module == known or module.startswith(f"{known}.") for known in registry.packages())
+        # to import the main module of a package is to start its program
+        if not is_known or "__main__" in module.split("."):
             raise InvalidInput(thing, _RULE, word, _REMEDY)
 
 

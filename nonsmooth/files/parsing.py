@@ -11,6 +11,7 @@ from typing import Any
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files import formats
 from nonsmooth.files.components import Table
+from nonsmooth.solution.files import content_of
 
 
 def parse(path: Path) -> Table:
@@ -25,7 +26,7 @@ def parse(path: Path) -> Table:
     """
     form = formats.of(path)
     try:
-        return form.parse(path.read_text(encoding="utf-8"))
+        return form.parse(content_of(path).decode("utf-8"))
     except OSError as error:
         raise InvalidInput(
             "scenario file", "must be a file that can be read", str(path), f"{error.strerror}."

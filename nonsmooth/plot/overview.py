@@ -68,6 +68,8 @@ def _path(solution: Solution, body: Body, plane: str, ax: Axes) -> Axes:
 def _farthest(solution: Solution) -> tuple[Body, str] | None:
     """Return the body that goes farthest, and the plane in which it does; None if none goes anywhere."""
     times = solution.t[:: max(1, len(solution.t) // _LOOKS)]
+    if len(times) == 0:  # a run that was cut off at once
+        return None
     free = [body for body in solution.system.bodies if body.n_u > 0][:_BODIES]
     ways = [np.ptp(solution.poses(body, times).origin[:, 0], axis=0) for body in free]
     if not ways or np.max(ways) == 0.0:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import difflib
 import functools
 import importlib.util
 import inspect
 import site
+import sys
 import sysconfig
 import warnings
 from collections.abc import Iterable
@@ -95,25 +97,54 @@ def _points(group: str) -> dict[str, EntryPoint]:
 
 
 def _is_installed(point: EntryPoint) -> bool:
-    """Return whether a point is of an installed package, and not of metadata that lie in the working folder."""
+    """Return whether a point is of an installed package, and not of metadata beside the user's own files."""
     return point.dist is None or _is_installed_in(str(point.dist.locate_file("")))
 
 
 @functools.cache
 def _is_installed_in(place: str) -> bool:
-    try:
-        here = Path.cwd()
-    except FileNotFoundError:  # somebody has removed it
-        return True
     sites = (*sysconfig.get_paths().values(), *site.getsitepackages(), site.getusersitepackages())
-    return Path(place).resolve() != here or Path(place).resolve() in {Path(one).resolve() for one in sites}
+    found = Path(place).resolve()
+    return found not in _own_folders() or found in {Path(one).resolve() for one in sites}
+
+
+def _own_folders() -> set[Path]:
+    """Return where Python imports from although nobody installed what lies there: working folder, that of the script.
+
+    Files of other persons lie there, too.
+    """
+    script = vars(sys.modules["__main__"]).get("__file__")
+    return {*_BEGAN_IN, *_working_folder(), *([Path(script).resolve().parent] if script else [])}
+
+
+def _working_folder() -> tuple[Path, ...]:
+    """Return the working folder, nothing where somebody has removed it."""
+    with contextlib.suppress(FileNotFoundError):
+        return (Path.cwd(),)
+    return ()
+
+
+_BEGAN_IN = _working_folder()
+"""The working folder of ``python -m``, also after the process has gone to another one."""
 
 
 @functools.cache
 def packages() -> frozenset[str]:
-    """Return the packages and modules in which what is installed stands, importing nothing."""
+    """Return the packages and modules in which what is installed stands, importing nothing.
+
+    A namespace package is none of them: a folder of its name in the working folder is a part of it.
+    """
     modules = {point.module for group in GROUPS for point in _points(group).values()}
-    return frozenset(modules | {module.rpartition(".")[0] for module in modules if "." in module})
+    parents = {module.rpartition(".")[0] for module in modules if "." in module}
+    return frozenset(modules | {parent for parent in parents if not _is_namespace(parent.partition(".")[0])})
+
+
+def _is_namespace(package: str) -> bool:
+    try:
+        spec = importlib.util.find_spec(package)
+    except ValueError:  # a module put together by hand, without a specification
+        return True
+    return spec is None or spec.origin is None
 
 
 @functools.cache

@@ -12,8 +12,10 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.files.gate import Gate
 from nonsmooth.files.reading import Setup, engine_of, load_system
 from nonsmooth.interfaces import Engine, Measure
+from nonsmooth.results.damage import naming_damage
+from nonsmooth.results.description import named_elsewhere
 from nonsmooth.results.output import Output
-from nonsmooth.results.solution_folder import SolutionFolder, named_elsewhere
+from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.solution.end import Counters, End
 from nonsmooth.solution.recorded import Recorded
 from nonsmooth.solution.solution import Solution
@@ -62,8 +64,9 @@ def open_solution(
     said = folder.said("counters") if "counters" in folder.attributes else {}
     counters = {field.name: said.get(field.name, _NONE.get(field.name, 0)) for field in fields(Counters)}
     message, cause = str(folder.attributes.get("message")), str(folder.attributes.get("cause", ""))
-    measures = folder.said("verdict") if "verdict" in folder.attributes else []
-    verdict = {Measure(one["name"], one["unit"], one["meaning"]): float(one["value"]) for one in measures}
+    measures = folder.said("verdict", list) if "verdict" in folder.attributes else []
+    with naming_damage(f"{where.solution}: verdict"):
+        verdict = {Measure(one["name"], one["unit"], one["meaning"]): float(one["value"]) for one in measures}
     end = End(folder.state(), Counters(**counters), folder.status, message, cause, verdict)
     made = system or stored_setup(where, folder, trust).system
     recorded = Recorded.of(folder.events(), folder.rows(), engine or _engine_or_its_name(where, folder, trust))

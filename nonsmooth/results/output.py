@@ -33,12 +33,15 @@ class Output:
         The words by which the command line was asked for the scenario, its parameters and laws; empty elsewhere.
     parameters : mapping
         All parameters of the scenario, as JSON has them.
+    overwrite : bool
+        Whether a run that has ended there is replaced.
     """
 
     folder: Path
     title: str = ""
     request: Mapping[str, Any] = field(default_factory=dict)
     parameters: Mapping[str, Any] = field(default_factory=dict)
+    overwrite: bool = True
 
     def __post_init__(self) -> None:
         check_kind("Output.folder", self.folder, Path, 'For example pathlib.Path("results").')

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import shutil
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -12,18 +11,19 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.checks import check_kind
 from nonsmooth.datasets import described
 from nonsmooth.engine.memory.layout import BOOKED, N_ACCOUNTS
 from nonsmooth.errors import InvalidInput
-from nonsmooth.files.components import TYPE, Table, table_of
-from nonsmooth.files.writing import text_of_system
 from nonsmooth.interfaces import Engine
-from nonsmooth.results.lock import LOCK, Lock
-from nonsmooth.results.output import Output, versions
+from nonsmooth.results.damage import naming_damage
+from nonsmooth.results.description import MESSAGE, UNFINISHED, attributes_of, energies, system_variable
+from nonsmooth.results.lock import LOCK, Lock, check_no_links, is_marked
+from nonsmooth.results.output import Output
 from nonsmooth.results.state_file import state_bytes, state_from
 from nonsmooth.results.zarr_folder import ZarrFolder
 from nonsmooth.solution.events import Events
-from nonsmooth.solution.files import FileError
+from nonsmooth.solution.files import FileError, content_of
 from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
 from nonsmooth.solution.variable import Variable
@@ -40,9 +40,6 @@ from nonsmooth.solution.variables import (
 from nonsmooth.system.system import System
 
 Floats = NDArray[np.float64]
-UNFINISHED = "unfinished"
-"""Status of a run that goes on, or was cut off."""
-_MESSAGE = "the run goes on, or it was cut off and `nonsmooth resume` goes on with it"
 _STATES = ("state/0.npz", "state/1.npz")
 """By turns: the one that the last commit names is not touched."""
 _LAST = "state/end.npz"
@@ -86,17 +83,25 @@ class SolutionFolder:
         """
         path = output.solution
         check_ours(path)
+        # not with the lock at first, for which whoever has just ended would have to wait
+        _check_may_be_emptied(output)
         # from here on nobody else writes there: what another run has begun meanwhile is not removed
         lock = Lock(path)
         try:
             check_free(output)
+            _check_may_be_emptied(output)
+            lock.mark()
             _empty(path)
         except BaseException:
             lock.close()
             raise
-        made = ZarrFolder(path, _attributes(output, engine, t_end, conditional))
+        made = ZarrFolder(path, attributes_of(output, engine, t_end, conditional))
         found = cls(made, sum(body.n_q for body in system.bodies), sum(body.n_u for body in system.bodies), lock)
-        for variable in (*of_system(system), *of_memory(), _text(system, output, engine, t_end, made.attributes)):
+        for variable in (
+            *of_system(system),
+            *of_memory(),
+            system_variable(system, output, engine, t_end, made.attributes),
+        ):
             made.add(variable, grows=False)
         n_y = found._n_q + found._n_u + N_ACCOUNTS + n_states
         sizes = len(system.contacts), found._n_q, found._n_u, n_y
@@ -114,14 +119,39 @@ class SolutionFolder:
         InvalidInput
             If there is none.
         """
-        arrays = ZarrFolder.opened(output.solution)
+        return cls._of(ZarrFolder.opened(output.solution))
+
+    @classmethod
+    def held(cls, output: Output) -> SolutionFolder:
+        """Open the folder of a run to write to it; nobody else does until it is closed.
+
+        Raises
+        ------
+        InvalidInput
+            If there is none, it holds a link, or another run writes there.
+        FileError
+            If it cannot be written to.
+        """
+        # a folder without a run gets no lock
+        cls.opened(output)
+        check_no_links(output.solution)
+        lock = Lock(output.solution)
         try:
-            found = cls(arrays, arrays.length("coordinate"), arrays.length("velocity"))
+            # what another run has written until it gave the lock back counts
+            return cls._of(ZarrFolder.opened(output.solution), lock)
+        except BaseException:
+            lock.close()
+            raise
+
+    @classmethod
+    def _of(cls, arrays: ZarrFolder, lock: Lock | None = None) -> SolutionFolder:
+        try:
+            found = cls(arrays, arrays.length("coordinate"), arrays.length("velocity"), lock)
             found._lengths = {"time": arrays.length("time"), "event": arrays.length("event_time")}
             found._lengths["listing"] = arrays.length("listed_contact")
         except KeyError as error:
             raise InvalidInput(
-                str(output.solution), "must hold a solution", f"no {error}", "Name a folder that `run` wrote."
+                str(arrays.path), "must hold a solution", f"no {error}", "Name a folder that `run` wrote."
             ) from error
         return found
 
@@ -131,23 +161,30 @@ class SolutionFolder:
         return self._arrays.attributes
 
     @property
+    def place(self) -> Path:
+        """The folder of the results, in which that of the arrays is."""
+        return self._arrays.path.parent
+
+    @property
     def status(self) -> str:
         """That of the solution, or "unfinished"."""
         return str(self.attributes.get("status"))
 
-    def said(self, name: str) -> Any:
-        """Return an attribute that holds more than a number or a word.
+    def said(self, name: str, kind: type = dict) -> Any:
+        """Return an attribute that holds more than a number or a word: a table or, where asked for, a list.
 
         Raises
         ------
         InvalidInput
-            If it is not there.
+            If it is not there, or something else.
         """
+        thing = f"{self._arrays.path}: {name}"
         try:
-            return json.loads(self.attributes[name])
-        except (KeyError, TypeError, ValueError) as error:
-            thing = f"{self._arrays.path}: {name}"
+            found = json.loads(self.attributes[name])
+        except (KeyError, TypeError, ValueError, RecursionError) as error:
             raise InvalidInput(thing, "must be there", None, "Name a folder that `run` wrote.") from error
+        check_kind(thing, found, kind, "It is damaged.")
+        return found
 
     def system_text(self) -> str:
         """Return the system as a scenario file, "" where it could not be written."""
@@ -155,7 +192,8 @@ class SolutionFolder:
 
     def events(self) -> Events:
         """Return all events."""
-        return events_of(self._arrays.read, self._arrays.length("contact"))
+        with naming_damage(f"{self._arrays.path}: events"):
+            return events_of(self._arrays.read, self._arrays.length("contact"))
 
     def rows(self) -> Floats:
         """Return all samples: time, q, u, accounts, inner states of laws, what is booked, shape [n, 1 + n_y + 4]."""
@@ -172,25 +210,42 @@ class SolutionFolder:
             raise InvalidInput(f"{self._arrays.path}: state", "must name a state", name, "It is damaged.")
         return self._state(name)
 
+    @property
+    def wall_seconds(self) -> float:
+        """How long the run took until its last checkpoint [s]."""
+        with naming_damage(f"{self._arrays.path}: checkpoint"):
+            return float(self.said("checkpoint")["wall_seconds"])
+
+    def check_cut_off(self) -> None:
+        """Raise InvalidInput unless it holds a run that was cut off."""
+        if "checkpoint" not in self.attributes:
+            raise InvalidInput(
+                f"{self.place}",
+                "must hold a run that was cut off",
+                self.status,
+                "To go on behind its end, run its model from the `state` of nonsmooth.open_solution.",
+            )
+
     def cut_to_checkpoint(self) -> State:
         """Leave what the run had done when its last checkpoint was made, and return the state there.
 
         Raises
         ------
         InvalidInput
-            If there is none, or the run goes on in another process.
+            If there is none.
         """
-        self._lock = Lock(self._arrays.path)
         checkpoint = self.said("checkpoint")
-        name = checkpoint["state"]
+        name, own = str(checkpoint.get("state")), str(self.attributes.pop(_OWN, ""))
         if name not in _STATES:
             raise InvalidInput(f"{self._arrays.path}: checkpoint", "must name a state", name, "It is damaged.")
         state = self._state(name)
-        for coordinate in self.attributes.pop(_OWN, "").split():
+        for coordinate in own.split():
             self._arrays.remove(coordinate)
-        for dimension in GROWING:
-            self._lengths[dimension] = min(int(checkpoint[dimension]), self._lengths[dimension])
-            self._arrays.cut(dimension, self._lengths[dimension])
+        with naming_damage(f"{self._arrays.path}: checkpoint"):
+            lengths = {one: min(max(0, int(checkpoint[one])), self._lengths[one]) for one in GROWING}
+        for dimension, length in lengths.items():
+            self._lengths[dimension] = length
+            self._arrays.cut(dimension, length)
         self.attributes["state"], self._safe = name, True
         return state
 
@@ -234,7 +289,7 @@ class SolutionFolder:
         self._arrays.file(name, state_bytes(state))
         checkpoint = json.dumps({"state": name, "wall_seconds": wall, **lengths})
         self.attributes.update(
-            status=UNFINISHED, message=_MESSAGE, state=name, checkpoint=checkpoint, t_end=state.time, **_energy(state)
+            status=UNFINISHED, message=MESSAGE, state=name, checkpoint=checkpoint, t_end=state.time, **energies(state)
         )
         self._lengths = lengths
 
@@ -256,7 +311,7 @@ class SolutionFolder:
             counters=json.dumps(vars(solution.counters) | {"limits": dict(solution.counters.limits)}),
             cause=solution.cause,
             verdict=json.dumps([{**vars(one), "value": value} for one, value in solution.end.verdict.items()]),
-            **_energy(solution.state),
+            **energies(solution.state),
         )
         if solution.status in ("done", "suspect"):
             self.attributes.pop("checkpoint", None)
@@ -322,7 +377,7 @@ class SolutionFolder:
     def _state(self, name: str) -> State:
         path = self._arrays.path / name
         try:
-            return state_from(path.read_bytes(), str(path))
+            return state_from(content_of(path), str(path))
         except OSError as error:
             raise InvalidInput(str(path), "must be there", error.strerror, "It is damaged.") from error
 
@@ -365,13 +420,20 @@ def check_ours(path: Path) -> None:
         names = sorted(one.name for one in path.iterdir()) if path.exists() else []
     except OSError as error:
         raise FileError(path, error) from error
-    if names and LOCK not in names and not _is_solution(path):
+    if names not in ([], [LOCK]) and not is_marked(path) and not _is_solution(path):
         raise InvalidInput(
             str(path),
             "must be a folder that a run has made, as it would be emptied",
             f"a folder with {', '.join(map(repr, names[:3]))}",
             "Name another folder.",
         )
+
+
+def _check_may_be_emptied(output: Output) -> None:
+    """Raise InvalidInput if another run has ended there that this one must not replace."""
+    if not output.overwrite and _is_solution(output.solution):
+        rule, remedy = "must be a folder that is empty or new", "Another run has ended there meanwhile: name another."
+        raise InvalidInput(str(output.folder), rule, "a folder with results", remedy)
 
 
 def _is_solution(path: Path) -> bool:
@@ -394,54 +456,3 @@ def _empty(path: Path) -> None:
                 one.unlink()
     except OSError as error:
         raise FileError(path, error) from error
-
-
-def _attributes(output: Output, engine: Engine, t_end: float, conditional: bool) -> dict[str, Any]:
-    known = versions()
-    return {
-        "Conventions": "CF-1.11",
-        "title": output.title,
-        "source": f"nonsmooth {known['nonsmooth']}",
-        "status": UNFINISHED,
-        "message": _MESSAGE,
-        "t_end_asked": t_end,
-        "conditional": int(conditional),
-        "engine": json.dumps(_table(engine)),
-        "records_contacts": int(engine.records_contacts),
-        "versions": json.dumps(dict(known)),
-        "request": json.dumps(dict(output.request)),
-        "parameters": json.dumps(dict(output.parameters)),
-    }
-
-
-def _table(engine: Engine) -> Table:
-    """Return an engine as a table; one that no file can name by its class in Python, and its options as words."""
-    try:
-        return table_of(engine, "engine")
-    except InvalidInput:
-        options = {name: repr(value) for name, value in vars(engine).items()}
-        return {TYPE: f"{type(engine).__module__}:{type(engine).__qualname__}", **options}
-
-
-def named_elsewhere(table: Table) -> bool:
-    """Tell whether the table of an engine names a class in Python, which is none that is installed."""
-    return ":" in str(table.get(TYPE))
-
-
-def _text(system: System, output: Output, engine: Engine, t_end: float, attributes: dict[str, Any]) -> Variable:
-    """Return the system as a scenario file; where it cannot be one, an attribute says why.
-
-    An engine that no file can name costs its own table only: an attribute has what it was.
-    """
-    named = None if named_elsewhere(_table(engine)) else engine
-    try:
-        text = text_of_system(system, t_end=t_end, engine=named, title=output.title)
-    except InvalidInput as error:
-        text, attributes["system_missing"] = "", f"{error.thing} {error.rule}; it is {error.value!r}"
-    return Variable("system", (), np.array(text), {"long_name": "the system as a scenario file, TOML"})
-
-
-def _energy(state: State) -> dict[str, float]:
-    """Return the account of energy, as far as JSON has its numbers."""
-    account = {**vars(state.energy), "energy_residual": state.energy.residual}
-    return {name: value for name, value in account.items() if math.isfinite(value)}

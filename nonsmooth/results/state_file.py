@@ -39,6 +39,7 @@ _DAMAGES = (
     IndexError,
     TypeError,
     EOFError,
+    MemoryError,
     zipfile.BadZipFile,
     zlib.error,
 )

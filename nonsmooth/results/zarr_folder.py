@@ -11,6 +11,7 @@ from __future__ import annotations
 import contextlib
 import errno
 import json
+import math
 import os
 import re
 import shutil
@@ -25,7 +26,7 @@ from numpy.typing import NDArray
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.packing import CODEC, packed, unpacked, with_checksum, without_checksum
-from nonsmooth.solution.files import FileError
+from nonsmooth.solution.files import FileError, content_of, remove_link
 from nonsmooth.solution.variable import Variable
 
 _GROUP = {"zarr_format": 2}
@@ -79,8 +80,8 @@ class ZarrFolder:
             If there is none, or it has another form.
         """
         try:
-            entries = json.loads((path / _CONSOLIDATED).read_text(encoding="utf-8"))["metadata"]
-            made = cls(path, entries[".zattrs"])
+            entries = json.loads(content_of(path / _CONSOLIDATED))["metadata"]
+            made = cls(path, dict(entries[".zattrs"]))
             for key, entry in entries.items():
                 name, _, kind = key.rpartition("/")
                 if kind == ".zarray":
@@ -89,7 +90,7 @@ class ZarrFolder:
             raise InvalidInput(
                 str(path), "must be a folder of results", "not there", "Name a folder that `run` wrote."
             ) from error
-        except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
             raise InvalidInput(
                 str(path), "must be a folder of results", f"{type(error).__name__}: {error}", "Name another."
             ) from error
@@ -156,8 +157,10 @@ class ZarrFolder:
         Raises
         ------
         InvalidInput
-            If a chunk is not there or broken.
+            If there is no such array, or a chunk is not there or broken.
         """
+        if name not in self._arrays:
+            raise InvalidInput(f"{self.path}: {name}", "must be there", None, "Results are damaged there.")
         array, length = self._arrays[name], self._lengths[name]
         numbers = range(-(-length // array.chunk)) if 0 not in array.inner else ()
         parts = [self._stored(name, number) for number in numbers]
@@ -174,9 +177,9 @@ class ZarrFolder:
         return self._lengths[name]
 
     def remove(self, name: str) -> None:
-        """Take an array out of the group; its files go at once."""
-        self._arrays.pop(name, None)
-        shutil.rmtree(self.path / name, ignore_errors=True)
+        """Take an array out of the group; its files go at once.  A name of no array removes nothing."""
+        if self._arrays.pop(name, None) is not None:
+            shutil.rmtree(self.path / name, ignore_errors=True)
 
     def cut(self, dimension: str, length: int) -> None:
         """Leave so many rows of all arrays over a dimension."""
@@ -286,7 +289,8 @@ class ZarrFolder:
     def _stored(self, name: str, number: int) -> NDArray[Any]:
         array, path = self._arrays[name], self._place(name, number)
         try:
-            return unpacked(without_checksum(path.read_bytes()), array.dtype).reshape((array.chunk, *array.inner))
+            values = unpacked(without_checksum(content_of(path)), array.dtype, array.chunk * math.prod(array.inner))
+            return values.reshape((array.chunk, *array.inner))
         except (OSError, ValueError) as error:
             raise InvalidInput(str(path), "must be a whole chunk", f"{error}", "Results are damaged there.") from error
 
@@ -303,6 +307,7 @@ class ZarrFolder:
             if not path.parent.exists():
                 path.parent.mkdir(parents=True)
             self._waiting[path] = part
+            remove_link(part)
             part.write_bytes(content)
         except OSError as error:
             self._discard()

@@ -316,10 +316,31 @@ class Model:
             As for :meth:`run`.
         """
         _check_calls("resume", until, progress)
-        folder = SolutionFolder.opened(Output.to(output))
+        folder = SolutionFolder.held(Output.to(output))
+        try:
+            state = self._checkpoint(folder, until)
+            self._seize("resume")
+        except BaseException:
+            folder.close()
+            raise
+        try:
+            laid = self._laid
+            self._records = records = Records(laid, (folder.events(), folder.rows()))
+            restore(laid, self._blank, state, self._changing)
+            energy = state.energy.kinetic_start, state.energy.potential_start
+            wall = folder.wall_seconds
+            keeper = Writer(folder, records, self._states_from(energy), wall)
+            return self._complete(records, Image.of(laid.memory), energy, progress, keeper, wall, until)
+        finally:
+            self._runs.release()
+            folder.close()
+
+    def _checkpoint(self, folder: SolutionFolder, until: Until | None) -> State:
+        """Return the state from which a run of this model goes on; errors as :meth:`resume`."""
+        folder.check_cut_off()
         if folder.attributes.get("conditional") and until is None:
             raise InvalidInput(
-                f"resume {Output.to(output).folder}: until",
+                f"resume {folder.place}: until",
                 "must be given for a run that was to end on a condition, which no file holds",
                 None,
                 "Give the same function: nonsmooth.resume(folder, until=...).",
@@ -327,23 +348,12 @@ class Model:
         state = folder.cut_to_checkpoint()
         if not self._goes_on(state):
             raise InvalidInput(
-                str(Output.to(output).folder),
+                str(folder.place),
                 "must hold a run of this model: same system, same numbers, same options",
                 "another",
                 "Assemble the system that ran.",
             )
-        self._seize("resume")
-        try:
-            laid = self._laid
-            self._records = records = Records(laid, (folder.events(), folder.rows()))
-            restore(laid, self._blank, state, self._changing)
-            energy = state.energy.kinetic_start, state.energy.potential_start
-            wall = float(folder.said("checkpoint")["wall_seconds"])
-            keeper = Writer(folder, records, self._states_from(energy), wall)
-            return self._complete(records, Image.of(laid.memory), energy, progress, keeper, wall, until)
-        finally:
-            self._runs.release()
-            folder.close()
+        return state
 
     def _states_from(self, energy: tuple[float, float]) -> Callable[[Image], State]:
         """Return what makes states of images, for the account of energy that begins with these [J]."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from pathlib import Path
 
-from nonsmooth.errors import InvalidInput, NonsmoothWarning
+from nonsmooth.errors import NonsmoothWarning
 from nonsmooth.interfaces import Engine
 from nonsmooth.results.opening import stored_engine, stored_setup
 from nonsmooth.results.output import Output, versions
@@ -76,13 +76,7 @@ def resume(
 def check_resumable(where: Output) -> SolutionFolder:
     """Return the folder of a run that can go on; warnings and errors as :func:`resume`."""
     folder = SolutionFolder.opened(where)
-    if "checkpoint" not in folder.attributes:
-        raise InvalidInput(
-            f"{where.folder}",
-            "must hold a run that was cut off",
-            folder.status,
-            "To go on behind its end, run its model from the `state` of nonsmooth.open_solution.",
-        )
+    folder.check_cut_off()
     began, now = folder.said("versions"), versions()
     other = [f"{name} {began.get(name)}, now {now.get(name)}" for name in now if began.get(name) != now.get(name)]
     if other:

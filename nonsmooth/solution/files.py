@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+import stat
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -49,6 +50,26 @@ def prepare(folder: Path) -> None:
         raise InvalidInput(str(folder), rule, error.strerror, _remedy(error)) from error
 
 
+def content_of(path: Path) -> bytes:
+    """Return the content of a regular file.
+
+    Raises
+    ------
+    OSError
+        If it cannot be read, or is a pipe or a device, whose content has no end.
+    """
+    mode = path.stat().st_mode
+    if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+        raise OSError(errno.EINVAL, "It is a pipe or a device", str(path))
+    return path.read_bytes()
+
+
+def remove_link(path: Path) -> None:
+    """Remove a symbolic link, through which a file elsewhere would be written."""
+    if path.is_symlink():
+        path.unlink()
+
+
 @contextlib.contextmanager
 def replacing(path: Path) -> Iterator[Path]:
     """Yield a path to write to; it becomes ``path`` when all is written, so that no half file takes that name.
@@ -63,6 +84,7 @@ def replacing(path: Path) -> Iterator[Path]:
     part = path.with_name(f".{path.name}.part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
+        remove_link(part)
         yield part
         os.replace(part, path)
     except OSError as error:

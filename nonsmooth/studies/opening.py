@@ -39,7 +39,9 @@ def open_study(path: Path | str) -> xarray.Dataset:
 
     require_store()
     store = Store(path_of("study", path))
-    with xarray.open_zarr(str(store.path), chunks=None, consolidated=False, mask_and_scale=False) as opened:
+    with xarray.open_zarr(
+        str(store.path), chunks=None, consolidated=False, mask_and_scale=False, zarr_format=3
+    ) as opened:
         flat = opened.load()
     said = json.loads(str(store.attributes["layout"]))
     flat = flat.set_coords(said["parameters"])[said["variables"]]

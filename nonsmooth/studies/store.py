@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.errors import InvalidInput
-from nonsmooth.results.lock import Lock
-from nonsmooth.solution.files import FileError, replacing
+from nonsmooth.results.lock import Lock, check_no_links
+from nonsmooth.solution.files import FileError, content_of, replacing
 from nonsmooth.studies.work import Block
 
 _JOURNAL, _LOCK = "failures", ".lock"
@@ -133,6 +133,8 @@ class Store:
     ) -> None:
         """Make the folder of a study that begins; it is one when its attributes are there, which come last.
 
+        One that another process has made meanwhile stays as it is.
+
         Raises
         ------
         InvalidInput
@@ -145,7 +147,10 @@ class Store:
 
         if path.exists() and (not path.is_dir() or (any(path.iterdir()) and not (path / _JOURNAL / _LOCK).exists())):
             raise InvalidInput(str(path), "must be a new or empty folder", "something else", "Choose another name.")
+        check_no_links(path)
         with _locked(path), _telling(path):
+            if is_study(path):
+                return
             _clear(path)
             codecs = (ZstdCodec(), Crc32cCodec())
             group = zarr.create_group(str(path), zarr_format=3, overwrite=False)
@@ -174,8 +179,9 @@ class Store:
         Raises
         ------
         InvalidInput
-            If another process writes there.
+            If another process writes there, or it holds a link.
         """
+        check_no_links(self.path)
         with _locked(self.path):
             with _telling(self.path):
                 for part in self.path.rglob("*.partial"):
@@ -237,7 +243,7 @@ class Store:
         """Return of all runs without records the sentence that says why."""
         found: dict[int, str] = {}
         for number in self.committed():
-            said = json.loads(self._texts(number).read_text(encoding="utf-8"))
+            said = json.loads(content_of(self._texts(number)))
             found |= {int(run): text for run, text in said.items()}
         return found
 
@@ -250,7 +256,7 @@ class Store:
                 if sentence := self._damage(name, number):
                     found.append(sentence)
             try:
-                json.loads(self._texts(number).read_text(encoding="utf-8"))
+                json.loads(content_of(self._texts(number)))
             except (OSError, ValueError) as error:
                 found.append(f"{self._texts(number)}: {error}")
         return found

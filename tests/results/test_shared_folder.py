@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import shutil
+import threading
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -73,3 +75,28 @@ def test_a_bit_that_turns_is_noticed(tmp_path: Path) -> None:
             ZarrFolder.opened(folder).read(path.parent.name)
         path.write_bytes(sound)
     assert ns.open_solution(tmp_path).status == "done"
+
+
+@pytest.mark.slow
+def test_of_two_runs_that_begin_at_once_one_is_done_and_the_other_refused(tmp_path: Path) -> None:
+    """A hundred times, in a new folder and in that of a finished run by turns."""
+    ends, gate = (0.05, 0.06), threading.Barrier(2)
+
+    def begin(t_end: float) -> str:
+        model = ns.assemble(balls())
+        gate.wait()
+        try:
+            return model.run(t_end, output=tmp_path).status
+        except ns.InvalidInput as error:
+            return str(error)
+
+    with ThreadPoolExecutor(2) as pool:
+        for n in range(100):
+            if n % 2:
+                shutil.rmtree(tmp_path / SOLUTION)
+            said = list(pool.map(begin, ends))
+            done = [end for end, one in zip(ends, said, strict=True) if one == "done"]
+            # one that ends before the other begins is replaced by that
+            assert len(done) == 2 or any("must have one run at a time that writes" in one for one in said)
+            found = ns.open_solution(tmp_path)
+            assert (found.status, found.t_end in done) == ("done", True)

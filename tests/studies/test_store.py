@@ -152,3 +152,30 @@ def test_an_array_that_is_gone_is_told(tmp_path: Path, capsys: pytest.CaptureFix
     for what in "status", "verify":
         assert main(["study", what, str(path)]) == 2
         assert "must have all of its arrays, but it is 'without impacts'" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("place", ["status/c", "failures", "", "q_end/c/0/0"])
+def test_nothing_is_written_through_a_link(place: str, tmp_path: Path) -> None:
+    """As in a study of another person."""
+    path, home = tmp_path / "s.zarr", tmp_path / "home"
+    ball.study(4).run(path, executor="serial", chunk=2)
+    shutil.rmtree(path / "status" / "c" / "0", ignore_errors=True)
+    (path / "status" / "c" / "0").unlink(missing_ok=True)
+    shutil.move(path / place, home)
+    (path / place).symlink_to(home)
+    before = {one: one.stat().st_mtime_ns for one in [home, *home.rglob("*")]}
+    with pytest.raises(ns.InvalidInput, match="must be a file or folder of its own to be written to"):
+        ball.study(4).run(path, executor="serial")
+    assert {one: one.stat().st_mtime_ns for one in [home, *home.rglob("*")]} == before
+
+
+def test_a_study_that_another_process_has_begun_meanwhile_stays(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As where two processes begin at once, and one has looked before the other one has made it."""
+    path = tmp_path / "s.zarr"
+    digest = ball.digest(ball.study(4).run(path, executor="serial", chunk=2))
+    before = {one: one.stat().st_mtime_ns for one in path.glob("status/c/*")}
+    monkeypatch.setattr(importlib.import_module("nonsmooth.studies.study"), "is_study", lambda path: False)
+    assert ball.digest(ball.study(4).run(path, executor="serial", chunk=2)) == digest
+    assert {one: one.stat().st_mtime_ns for one in path.glob("status/c/*")} == before != {}

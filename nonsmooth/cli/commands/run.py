@@ -69,7 +69,8 @@ def _perform(arguments: argparse.Namespace, troubles: list[str]) -> report.Repor
         extras.require(extras.PICTURES)
         asked = {name: getattr(arguments, name) for name in ("scenario", "set", "law", "engine")}
         folder = Output.to(arguments.out).folder
-        output = Output(folder, obtain.title_of(scenario), asked, json.loads(report.as_json(head)))
+        described = json.loads(report.as_json(head))
+        output = Output(folder, obtain.title_of(scenario), asked, described, arguments.overwrite)
         check_free(output)
         outputs.prepare_folder(folder, arguments.overwrite)
 

@@ -7,7 +7,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from nonsmooth.cli.asking import outputs
+from nonsmooth.cli.asking import outputs, stored
 from nonsmooth.cli.asking.study import add_executor_to, executor_asked, study_of
 from nonsmooth.cli.asking.trust import add_to as add_trust_to
 from nonsmooth.cli.running.study import perform
@@ -71,6 +71,7 @@ def resume(arguments: argparse.Namespace) -> bool:
     if not words:
         remedy = "Run the Python program again that began it: it goes on."
         raise InvalidInput(str(path), "must have been begun on the command line", "a study of a program", remedy)
+    stored.check(str(path), words, stored.STUDY)
     perform(study_of(words, trust=arguments.trust, typed=False), words, path, executor_asked(arguments))
     return True
 

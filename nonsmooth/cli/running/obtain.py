@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import final
 
-from nonsmooth.cli.asking import engine, law, request, trust
+from nonsmooth.cli.asking import engine, law, request, stored, trust
 from nonsmooth.cli.running.perform import computed
 from nonsmooth.cli.telling.messages import tell
 from nonsmooth.errors import InvalidInput
@@ -69,6 +69,8 @@ def job_of(output: Output, folder: SolutionFolder, is_trusted: bool) -> tuple[st
     """
     asked = folder.said("request")
     name = str(asked.get("scenario", output.folder))
+    if asked:
+        stored.check(f"{output.solution}", asked, stored.RUN)
     words = [("laws", str(word).partition("=")[2]) for word in asked.get("law", ())]
     words += [("engines", str(asked["engine"]))] if asked.get("engine") else []
     code = [first for group, word in words if (first := word.partition(",")[0].strip()) not in registry.names(group)]

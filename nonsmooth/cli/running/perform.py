@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import cast
@@ -14,8 +15,9 @@ from nonsmooth.cli.telling.messages import complain, tell
 from nonsmooth.errors import PluginError, RunFailed
 from nonsmooth.interfaces import Scenario
 from nonsmooth.progress import Pace, TimeReached, on_standard_error
+from nonsmooth.results.description import UNFINISHED
 from nonsmooth.results.output import Output
-from nonsmooth.results.solution_folder import UNFINISHED, SolutionFolder
+from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.solution.draw_graph import draw
 from nonsmooth.solution.events_table import save_events
 from nonsmooth.solution.files import FileError
@@ -96,10 +98,11 @@ def computed(compute: Compute) -> tuple[Solution | None, str, str]:
 def _save_solution(scenario: Scenario, solution: Solution, folder: Path, troubles: list[str]) -> None:
     """Add what belongs to the samples and events that the run has written."""
     with results.noting(troubles, f"{type(scenario).__name__}.coordinates"):
-        written = SolutionFolder.opened(Output(folder))
-        # where the disk was full there are fewer samples than there were
-        if written.status != UNFINISHED:
-            written.add_coordinates(scenario.coordinates(solution), scenario.unit_of)
+        written = SolutionFolder.held(Output(folder))
+        with contextlib.closing(written):
+            # where the disk was full there are fewer samples than there were
+            if written.status != UNFINISHED:
+                written.add_coordinates(scenario.coordinates(solution), scenario.unit_of)
     with results.noting(troubles, "saving the events"):
         save_events(solution, folder / "events.csv")
 

@@ -4,12 +4,21 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 import sys
 from collections.abc import Callable
 from typing import Any
 
 from nonsmooth.errors import NonsmoothWarning
 from nonsmooth.solution.files import FileError
+
+_CONTROLS = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
+"""Characters that a terminal obeys, apart from tabulators and line breaks."""
+
+
+def _printable(text: str) -> str:
+    """Return a text that a terminal only shows: names and titles may come from a file of another person."""
+    return _CONTROLS.sub(lambda found: repr(found[0])[1:-1], text)
 
 
 def say(text: str) -> None:
@@ -21,7 +30,7 @@ def say(text: str) -> None:
         If it does not take it: a full disk, a closed pipe.
     """
     try:
-        print(text, flush=True)
+        print(_printable(text), flush=True)
     except OSError as error:
         with contextlib.suppress(OSError):  # else the interpreter tries, and fails, once more when it ends
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -32,7 +41,7 @@ def tell(text: str) -> None:
     """Print a message to standard error, if that is open and takes it: a message lost must not cost a run."""
     if sys.stderr is not None:
         with contextlib.suppress(OSError):
-            print(text, file=sys.stderr, flush=True)
+            print(_printable(text), file=sys.stderr, flush=True)
 
 
 def complain(text: str) -> None:

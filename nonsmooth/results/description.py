@@ -1,0 +1,77 @@
+"""What the folder of a run says of it besides numbers: attributes, the engine, the system as a text."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import Any
+
+import numpy as np
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.files.components import TYPE, Table, table_of
+from nonsmooth.files.writing import text_of_system
+from nonsmooth.interfaces import Engine
+from nonsmooth.results.output import Output, versions
+from nonsmooth.solution.state import State
+from nonsmooth.solution.variable import Variable
+from nonsmooth.system.system import System
+
+UNFINISHED = "unfinished"
+"""Status of a run that goes on, or was cut off."""
+MESSAGE = "the run goes on, or it was cut off and `nonsmooth resume` goes on with it"
+"""What is said of it."""
+
+
+def attributes_of(output: Output, engine: Engine, t_end: float, conditional: bool) -> dict[str, Any]:
+    """Return the attributes of the folder of a run that begins."""
+    known = versions()
+    return {
+        "Conventions": "CF-1.11",
+        "title": output.title,
+        "source": f"nonsmooth {known['nonsmooth']}",
+        "status": UNFINISHED,
+        "message": MESSAGE,
+        "t_end_asked": t_end,
+        "conditional": int(conditional),
+        "engine": json.dumps(_table(engine)),
+        "records_contacts": int(engine.records_contacts),
+        "versions": json.dumps(dict(known)),
+        "request": json.dumps(dict(output.request)),
+        "parameters": json.dumps(dict(output.parameters)),
+    }
+
+
+def _table(engine: Engine) -> Table:
+    """Return an engine as a table; one that no file can name by its class in Python, and its options as words."""
+    try:
+        return table_of(engine, "engine")
+    except InvalidInput:
+        options = {name: repr(value) for name, value in vars(engine).items()}
+        return {TYPE: f"{type(engine).__module__}:{type(engine).__qualname__}", **options}
+
+
+def named_elsewhere(table: Table) -> bool:
+    """Tell whether the table of an engine names a class in Python, which is none that is installed."""
+    return ":" in str(table.get(TYPE))
+
+
+def system_variable(
+    system: System, output: Output, engine: Engine, t_end: float, attributes: dict[str, Any]
+) -> Variable:
+    """Return the system as a scenario file; where it cannot be one, an attribute says why.
+
+    An engine that no file can name costs its own table only: an attribute has what it was.
+    """
+    named = None if named_elsewhere(_table(engine)) else engine
+    try:
+        text = text_of_system(system, t_end=t_end, engine=named, title=output.title)
+    except InvalidInput as error:
+        text, attributes["system_missing"] = "", f"{error.thing} {error.rule}; it is {error.value!r}"
+    return Variable("system", (), np.array(text), {"long_name": "the system as a scenario file, TOML"})
+
+
+def energies(state: State) -> dict[str, float]:
+    """Return the account of energy [J], as far as JSON has its numbers."""
+    account = {**vars(state.energy), "energy_residual": state.energy.residual}
+    return {name: value for name, value in account.items() if math.isfinite(value)}
