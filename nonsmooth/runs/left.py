@@ -13,7 +13,7 @@ from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CLOSING_RATE, DIRECTION, N_ACCOUNTS
 from nonsmooth.engine.memory.limits import LIMITS
 from nonsmooth.engine.memory.tables import record_with
-from nonsmooth.interfaces import Engine
+from nonsmooth.interfaces import Engine, StatefulFrictionLaw, TractionLaw
 from nonsmooth.model.engine_parts import own_of
 from nonsmooth.model.image import Difference, Image
 from nonsmooth.model.laid_out import energies
@@ -96,6 +96,7 @@ class Left(NamedTuple):
                 self.engine,
                 worst,
                 (float(record["jump_t"]), float(record["jumped"])),
+                0.0 if self._stores() else known.friction_gain,
                 state.energy,
                 bodies,
                 moved,
@@ -110,6 +111,10 @@ class Left(NamedTuple):
         cause, own = cause_of(self.engine, code), self.now.parts[0].view(record_with(own_of(self.engine)))[0]
         verdict = {measure: float(own[measure.name]) for measure in self.engine.verdict}
         return End(state, counters, status, message, cause.name if cause else "", verdict)
+
+    def _stores(self) -> bool:
+        """Return whether some law of friction may store energy in its contact."""
+        return any(isinstance(one.friction, (StatefulFrictionLaw, TractionLaw)) for one in self.system.contacts)
 
     def _floor(self) -> float:
         """Return the work of the forces on all bodies, as they are now, on a way as long as the bodies [J]."""

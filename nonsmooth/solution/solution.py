@@ -19,6 +19,7 @@ from nonsmooth.notices import say
 from nonsmooth.solution.end import Counters, End
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events, words
+from nonsmooth.solution.gains import friction_gain
 from nonsmooth.solution.graph import TransitionGraph, transition_graph
 from nonsmooth.solution.recorded import Recorded
 from nonsmooth.solution.state import State
@@ -170,6 +171,14 @@ class Solution:
         speed = np.full(len(normal), np.nan)
         outside = beyond_cones(self.system.contacts, events.listed, events.first, normal, friction, speed)
         return int(np.count_nonzero(outside))
+
+    @functools.cached_property
+    def friction_gain(self) -> float:
+        """Energy that friction brought in [J], from one sample or event to the next.
+
+        It is none but where forces are averaged, or where a law of friction stores energy in its contact.
+        """
+        return friction_gain(self.track, self.events)
 
     def __repr__(self) -> str:
         """Return how it ended, and how much there is of it."""

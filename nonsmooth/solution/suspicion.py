@@ -27,6 +27,7 @@ def suspicions(
     engine: Engine,
     worst_event: tuple[float, float, float],
     jump: tuple[float, float],
+    rubbed: float,
     energy: EnergyAccount,
     bodies: Mapping[str, Body],
     samples: tuple[NDArray[np.float64], NDArray[np.float64]],
@@ -40,7 +41,8 @@ def suspicions(
 
     ``engine`` is what integrated it; what it promises takes the place of what tolerances explain.
     ``worst_event`` has time [s], energy [J] and share of what is explained, ``jump`` time [s] of the last spring that
-    began inside of a body and the energy [J] that springs gained so; ``bodies`` are those of the system by name;
+    began inside of a body and the energy [J] that springs gained so; ``rubbed`` is what friction brought in where no
+    law stores it [J]; ``bodies`` are those of the system by name;
     ``samples`` t and q; ``tolerances`` are those of a step and of an impact, ``steps`` their number; ``scale`` is
     the kinetic energy of velocities as large as their scales [J], ``floor`` an energy of which the bodies exchange a
     part where they hardly move, as weight times size [J].  ``span`` returns a sentence on when an open account of the
@@ -52,7 +54,8 @@ def suspicions(
         account, off = open_run(energy, tolerance, steps, scale, floor), _EXPLAINED * tolerances[0]
     else:
         account, off, remedy = broken_promise(energy, promised, name, floor), promised, _remedy_of(engine)
-    found = open_event(*worst_event), account, long_quaternion(bodies, *samples, off)
+    given = pushed(rubbed, energy, floor)
+    found = open_event(*worst_event), account, given, long_quaternion(bodies, *samples, off)
     said = "; ".join(filter(None, (jumped(*jump, energy, floor), *found)))
     # what springs gain in jumps names a remedy of its own
     more = span() if account else "", remedy if any(found) else ""
@@ -96,6 +99,15 @@ def jumped(time: float, gained: float, energy: EnergyAccount, floor: float = 0.0
     return (
         f"springs that began inside of bodies, the last one at t = {time:.9g} s, brought {gained:.3g} J that no work "
         "accounts for: bodies so deep in each other jump from feature to feature, stiffer or rounded ones do not"
+    )
+
+
+def pushed(gained: float, energy: EnergyAccount, floor: float = 0.0) -> str:
+    """Return what is wrong with friction that brought in so much energy [J], or ""."""
+    if gained <= _MOST * max(energy.scale, floor):
+        return ""
+    return (
+        f"friction brought in {gained:.3g} J, {gained / energy.scale:.3g} of what was exchanged, as averaged forces may"
     )
 
 

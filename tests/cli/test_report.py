@@ -72,6 +72,7 @@ def test_the_text_has_units_and_no_round_off() -> None:
         "contacts": ["plate - ball 1", "plate - ball 2", "tip"],
         "unseen_contacts": [],
         "impulses_beyond_cone": 0,
+        "friction_gain": 0.0,
         "mode_words": shares,
         "energy_residual": 1.2e-16,
         "cause": "",

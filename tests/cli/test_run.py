@@ -28,6 +28,7 @@ KEYS = {
     "contacts",
     "unseen_contacts",
     "impulses_beyond_cone",
+    "friction_gain",
     "mode_words",
     "energy_residual",
     "cause",

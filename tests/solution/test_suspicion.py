@@ -10,7 +10,15 @@ import pytest
 from bodies import Ball, Plate, Rest
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.solution.energy import EnergyAccount
-from nonsmooth.solution.suspicion import broken_promise, jumped, long_quaternion, open_event, open_run, suspicions
+from nonsmooth.solution.suspicion import (
+    broken_promise,
+    jumped,
+    long_quaternion,
+    open_event,
+    open_run,
+    pushed,
+    suspicions,
+)
 
 
 def _account(unexplained: float, potential: float = 0.0) -> EnergyAccount:
@@ -63,6 +71,13 @@ def test_springs_may_gain_a_thousandth_by_jumps() -> None:
     assert "at t = 0.5 s, brought 0.0021 J" in jumped(0.5, 2.1e-3, _account(0.0))
 
 
+def test_friction_may_bring_in_a_thousandth() -> None:
+    """Of what is exchanged, 2 J, or of a floor."""
+    assert pushed(1.9e-3, _account(0.0)) == ""
+    assert pushed(2.1e-3, _account(0.0), 3.0) == ""
+    assert "brought in 0.0021 J, 0.00105 of" in pushed(2.1e-3, _account(0.0))
+
+
 def test_an_event_is_named_with_time_and_energy() -> None:
     """From a share of one on."""
     assert open_event(0.5, 1e-3, 1.0) == ""
@@ -92,7 +107,7 @@ def test_all_that_is_found_is_said() -> None:
         samples, tolerances = (t, np.zeros((0, 0))), (1e-9, 1e-8)
         account = _account(unexplained)
         return suspicions(
-            EventDriven(), event, (0.0, 0.0), account, {}, samples, tolerances, 10, 0.0, 0.0, lambda: "At noon."
+            EventDriven(), event, (0.0, 0.0), 0.0, account, {}, samples, tolerances, 10, 0.0, 0.0, lambda: "At noon."
         )
 
     assert said((0.0, 0.0, 0.0), 0.0) == ""

@@ -33,12 +33,13 @@ _NUMBERS = (
     "contacts",
     "unseen_contacts",
     "impulses_beyond_cone",
+    "friction_gain",
     "mode_words",
     "energy_residual",
     "cause",
     "verdict",
 )
-UNITS = {"t_end": "s", "wall_seconds": "s"}
+UNITS = {"t_end": "s", "wall_seconds": "s", "friction_gain": "J"}
 """Of these numbers; others have none, or are those of the scenario."""
 
 
@@ -57,6 +58,7 @@ def of_solution(solution: Solution | None) -> Report:
         "contacts": list(solution.system.names.contacts),
         "unseen_contacts": list(solution.unseen),
         "impulses_beyond_cone": solution.impulses_beyond_cone,
+        "friction_gain": solution.friction_gain,
         "mode_words": solution.modes if solution.knows_modes else None,
         "energy_residual": solution.energy.residual,
         "cause": solution.cause,
@@ -103,6 +105,9 @@ def as_text(report: Report) -> str:
         ("outside of cones", plain["impulses_beyond_cone"]),
     )
     rows += [(f"{what} {name}", str(n)) for what, (name, n) in zip(("contacts", "impulses"), told, strict=True) if n]
+    given = _spell(plain["friction_gain"])
+    if given != "0":
+        rows.append(("friction gave", _with_unit(given, UNITS["friction_gain"])))
     judged = plain.get("acceptance")
     table = [] if judged is None else ["", *_judged(judged)]
     return "\n".join([head, *lines(rows), *table])
