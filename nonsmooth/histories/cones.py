@@ -55,13 +55,13 @@ def beyond_cones(
             most = max(coefficient(float(v)) for v in _SPEEDS)
             bound[entries] = [most if np.isnan(v) else coefficient(v) for v in speed[entries].tolist()]
     known = np.isfinite(bound)
-    slack = _ROUND_OFF * largest_of_instants(normal, first)
+    slack = _ROUND_OFF * _largest_of_instants(normal, first)
     allowed = np.where(known, bound, 0.0) * np.maximum(normal, 0.0) * (1.0 + _ROUND_OFF) + slack
     rubs = known & (np.linalg.norm(friction, axis=1) > allowed)
     return np.asarray(rubs | (normal < -slack) & ~may_pull)
 
 
-def largest_of_instants(normal: Floats, first: Integers) -> Floats:
+def _largest_of_instants(normal: Floats, first: Integers) -> Floats:
     """Return the largest size of the normal forces at the instant of each entry, shape [m]; ``first`` as above."""
     counts = np.diff(first)
     starts = first[:-1][counts > 0]

@@ -41,7 +41,7 @@ class PartPair:
     sides : tuple
         Body and frame of either part.
     parts : tuple of ConvexPart
-        The parts; a half-space comes first.
+        The parts; a half-space comes first, and the larger one of two discs.
     shapes : tuple of int
         Which shapes they are of, and which part of these.
     size : float
@@ -71,7 +71,8 @@ def find_part_pairs(contacts: Sequence[Contact], table: ContactTable) -> list[Pa
         for one, two in itertools.product(*choices):
             if is_looked_at(one[1], two[1], len(numbers)):
                 both = ((one, sides[0], id(contact.shapes[0])), (two, sides[1], id(contact.shapes[1])))
-                first, second = both[::-1] if two[1].is_half_space else both
+                larger = one[1].is_disc and two[1].is_disc and two[1].radius > one[1].radius
+                first, second = both[::-1] if two[1].is_half_space or larger else both
                 found.append(
                     PartPair(
                         group,

@@ -174,9 +174,9 @@ class Solution:
 
     @functools.cached_property
     def friction_gain(self) -> float:
-        """Energy that friction brought in [J], from one sample or event to the next.
+        """Energy that sustained friction added [J], summed over the intervals between samples and events.
 
-        It is none but where forces are averaged, or where a law of friction stores energy in its contact.
+        Zero unless forces are averaged, or a friction law stores energy in its contact.
         """
         return friction_gain(self.track, self.events)
 
@@ -185,6 +185,9 @@ class Solution:
         unseen = f", {len(self.unseen)} contacts seen by their gaps only" if self.unseen else ""
         outside = self.impulses_beyond_cone
         unseen += f", {outside} impulses outside of their friction cones" if outside else ""
+        # below what the account leaves open it is round-off
+        gained = self.friction_gain if self.friction_gain > self.energy.unexplained else 0.0
+        unseen += f", {gained:.1e} J added by friction" if gained else ""
         return (
             f"Solution({self.status} at t = {self.t_end:.9g} s: {self.message}; {len(self.t)} samples, "
             f"{len(self.events)} events, energy residual {self.energy.residual:.1e}{unseen})"

@@ -170,12 +170,27 @@ def test_springs_let_bodies_overlap_as_deep_as_their_contacts_say(kind: str) -> 
 def test_discs_without_thickness_do_not_pass_through_each_other_in_silence(
     way: tuple[float, float, float], turn: float, shift: float
 ) -> None:
-    """They never overlap by any depth: that one goes through the plane of the other within the disc is what tells."""
+    """They never overlap by a depth; one crosses the plane of the other within the disc."""
     disc, other = DiscBody(0.05, foot_height=0.0), DiscBody(0.05, foot_height=0.0)
     system = _system(disc, other)
     system.place(disc, velocity=way)
     start = 0.2 * np.array(way) + (0.0, shift, 0.0)
     system.place(other, position=tuple(start), orientation=ns.turned_about((1.0, 0.0, 0.0), turn))
+    with pytest.raises(ns.RunFailed, match="bodies passed into each other"):
+        ns.simulate(system, 0.4)
+
+
+@pytest.mark.usefixtures("blind")
+@pytest.mark.parametrize("radii", [(0.05, 0.01), (0.01, 0.05)])
+def test_a_small_disc_does_not_pass_through_a_large_one_in_silence(radii: tuple[float, float]) -> None:
+    """Far from the centre and tilted, whichever is declared first."""
+    disc, other = (DiscBody(radius, foot_height=0.0) for radius in radii)
+    system = _system(disc, other)
+    small = other if radii[1] < radii[0] else disc
+    large = disc if small is other else other
+    system.place(large)
+    tilted = ns.turned_about((1.0, 0.0, 0.0), 0.2)
+    system.place(small, position=(0.03, 0.0, 0.1), velocity=(0.0, 0.0, -1.0), orientation=tilted)
     with pytest.raises(ns.RunFailed, match="bodies passed into each other"):
         ns.simulate(system, 0.4)
 

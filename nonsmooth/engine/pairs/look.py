@@ -25,7 +25,7 @@ from nonsmooth.engine.native.kernel import (
     part_at,
 )
 from nonsmooth.engine.numerics.vectors import distance, dot
-from nonsmooth.engine.pairs.circles import crossed
+from nonsmooth.engine.pairs.circles import crossing_overlap
 from nonsmooth.engine.pairs.separation import direction_of, parting_direction
 from nonsmooth.engine.pairs.support import height_over, middle_of, separation_along
 
@@ -123,7 +123,7 @@ def look_at_pairs(S: Scalars, w: Floats, k: Integers) -> None:
         if apart < -pair.allowed and part_at(w, pair.part_a).rings >= 0.0:
             pair.direction = parting_direction(S, w, k, number, pair.direction)
             apart = separation_along(S, w, k, number, pair.direction)
-        inside = crossed(S, w, k, number) if pair.flat == 1 else -apart
+        inside = crossing_overlap(S, w, k, number) if pair.flat == 1 else -apart
         pair.room = way + apart + (0.0 if pair.flat == 1 else pair.allowed)
         if inside <= pair.allowed:
             continue
