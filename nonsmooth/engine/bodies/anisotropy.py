@@ -9,7 +9,7 @@ stay what they are.  The geometry keeps its own tangents, of unit length; ``skew
 from __future__ import annotations
 
 from nonsmooth.engine.memory.modes import SLIDE, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, contact_at, frame_at, kernel
+from nonsmooth.engine.native.kernel import Workspace, at, frame_at, kernel
 from nonsmooth.engine.numerics.vectors import Pair, Vector, dot, length
 
 _SIDE, _AXIS, _FORWARD, _BACKWARD, _ACROSS = 0, 1, 4, 5, 6
@@ -26,12 +26,12 @@ def _least(x: float, y: float, z: float) -> int:
     return 1 if abs(y) <= abs(z) else 2
 
 
-@kernel("void(S, F, I, i8, v3, v3)")
-def stretch_tangents(S: Scalars, w: Floats, k: Integers, c: int, t1: Vector, t2: Vector) -> None:
+@kernel("void(ws, i8, v3, v3)")
+def stretch_tangents(ws: Workspace, c: int, t1: Vector, t2: Vector) -> None:
     """Write the tangential rows of ``axes`` of contact ``c``, the slip along the unit tangents being known."""
-    contact = contact_at(S, w, k, c)
-    law, axis = at(w, contact.axis), at(w, contact.axis + _AXIS)
-    rotation = frame_at(w, contact.frame_a if law[_SIDE] == 0.0 else contact.frame_b).rotation
+    contact = ws.contacts[c]
+    law, axis = at(ws.floats, contact.axis), at(ws.floats, contact.axis + _AXIS)
+    rotation = frame_at(ws.floats, contact.frame_a if law[_SIDE] == 0.0 else contact.frame_b).rotation
     world = (
         rotation[0] * axis[0] + rotation[1] * axis[1] + rotation[2] * axis[2],
         rotation[3] * axis[0] + rotation[4] * axis[1] + rotation[5] * axis[2],
@@ -49,7 +49,7 @@ def stretch_tangents(S: Scalars, w: Floats, k: Integers, c: int, t1: Vector, t2:
     v1, v2 = contact.slip_of_tangents
     forward = e1 * v1 + e2 * v2
     # one that sticks faces against what holds it: in the stages of a step its slip is not quite none
-    if contact.mode != STICK and abs(forward) > S.velocity_tolerance:
+    if contact.mode != STICK and abs(forward) > ws.velocity_tolerance:
         contact.facing = 1 if forward > 0.0 else -1
     along, across = law[_FORWARD] if contact.facing == 1 else law[_BACKWARD], law[_ACROSS]
     contact.skew_1, contact.skew_2 = (along * e1, along * e2), (-across * e2, across * e1)
@@ -62,49 +62,49 @@ def _between(s: Pair, t1: Vector, t2: Vector) -> Vector:
     return s[0] * t1[0] + s[1] * t2[0], s[0] * t1[1] + s[1] * t2[1], s[0] * t1[2] + s[1] * t2[2]
 
 
-@kernel("void(S, F, I, i8)")
-def stretch_bias(S: Scalars, w: Floats, k: Integers, c: int) -> None:
+@kernel("void(ws, i8)")
+def stretch_bias(ws: Workspace, c: int) -> None:
     """Turn the tangential second-order terms of contact ``c`` from the unit tangents to the rows."""
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     b1, b2 = contact.bias[1], contact.bias[2]
     (s11, s12), (s21, s22) = contact.skew_1, contact.skew_2
     contact.bias[1], contact.bias[2] = s11 * b1 + s12 * b2, s21 * b1 + s22 * b2
 
 
-@kernel("v2(S, F, I, i8, v2)")
-def along_tangents(S: Scalars, w: Floats, k: Integers, c: int, friction: Pair) -> Pair:
+@kernel("v2(ws, i8, v2)")
+def along_tangents(ws: Workspace, c: int, friction: Pair) -> Pair:
     """Return a force or impulse of friction, given along the rows, along the unit tangents."""
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     (s11, s12), (s21, s22), (f1, f2) = contact.skew_1, contact.skew_2, friction
     return s11 * f1 + s21 * f2, s12 * f1 + s22 * f2
 
 
-@kernel("void(S, F, I)")
-def face_slips(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def face_slips(ws: Workspace) -> None:
     """Let contacts that stuck before an impact face against the slip that it leaves."""
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
+    for c in range(ws.n_contacts):
+        contact = ws.contacts[c]
         if contact.oriented == 1 and contact.mode == STICK:
             contact.mode = SLIDE
 
 
-@kernel("f8(S, F, I, i8, f8)")
-def facing_force(S: Scalars, w: Floats, k: Integers, c: int, f1: float) -> float:
+@kernel("f8(ws, i8, f8)")
+def facing_force(ws: Workspace, c: int, f1: float) -> float:
     """Return the first tangential force as it is along the row of the slip that it opposes."""
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     if contact.oriented == 0 or f1 * contact.facing <= 0.0:
         return f1
-    law = at(w, contact.axis)
+    law = at(ws.floats, contact.axis)
     ratio = law[_FORWARD] / law[_BACKWARD]
     return f1 * ratio if contact.facing == 1 else f1 / ratio
 
 
-@kernel("i8(S, F, I, i8, f8)")
-def turn_facing(S: Scalars, w: Floats, k: Integers, c: int, f1: float) -> int:
+@kernel("i8(ws, i8, f8)")
+def turn_facing(ws: Workspace, c: int, f1: float) -> int:
     """Let contact ``c`` face against its first tangential force; return 1 if it did not."""
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     if contact.oriented == 0 or f1 * contact.facing <= 0.0:
         return 0
-    law = at(w, contact.axis)
+    law = at(ws.floats, contact.axis)
     contact.facing = -contact.facing
     return 1 if law[_FORWARD] != law[_BACKWARD] else 0

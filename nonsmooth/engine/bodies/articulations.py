@@ -11,14 +11,10 @@ import math
 from nonsmooth.engine.bodies.kinematics import side_wrench
 from nonsmooth.engine.native.kernel import (
     Floats,
-    Integers,
-    Scalars,
-    articulation_at,
+    Workspace,
     at,
-    body_at,
     call_pair,
     frame_at,
-    joint_at,
     joint_row,
     kernel,
 )
@@ -43,48 +39,54 @@ def _speed(w: Floats, place: int, axis: Vector, point: Vector, moment: Vector) -
     )
 
 
-@kernel("void(S, F, I, i8, i8)")
-def _write_rows(S: Scalars, w: Floats, k: Integers, joint_number: int, number: int) -> None:
+@kernel("void(ws, i8, i8)")
+def _write_rows(ws: Workspace, joint_number: int, number: int) -> None:
     """Write rows, residuals, rates and biases of a joint of an articulation, behind those of the joints before."""
-    joint, articulation = joint_at(S, w, k, joint_number), articulation_at(S, w, k, number)
+    joint, articulation = ws.joints[joint_number], ws.articulations[number]
     frame_a, frame_b = joint.frame_a, joint.frame_b
-    call_pair(joint.function, at(w, frame_a), at(w, frame_b), at(w, joint.parameters), at(w, joint.out))
+    call_pair(
+        joint.function,
+        at(ws.floats, frame_a),
+        at(ws.floats, frame_b),
+        at(ws.floats, joint.parameters),
+        at(ws.floats, joint.out),
+    )
     for r in range(joint.rows):
-        row, i = joint_row(w, joint.out, r), joint.first + r
+        row, i = joint_row(ws.floats, joint.out, r), joint.first + r
         axis, moment = row.axis, row.moment
         line = articulation.jacobian + i * articulation.nu
         side_a, side_b = line + joint.shift_a, line + joint.shift_b
-        side_wrench(w, frame_a, row.point_a, opposite(axis), opposite(moment), joint.nu_a, side_a)
-        side_wrench(w, frame_b, row.point_b, axis, moment, joint.nu_b, side_b)
-        w[articulation.residual + i] = row.residual
-        w[articulation.bias + i] = row.bias
-        w[articulation.rate + i] = _speed(w, frame_b, axis, row.point_b, moment) - _speed(
-            w, frame_a, axis, row.point_a, moment
+        side_wrench(ws.floats, frame_a, row.point_a, opposite(axis), opposite(moment), joint.nu_a, side_a)
+        side_wrench(ws.floats, frame_b, row.point_b, axis, moment, joint.nu_b, side_b)
+        ws.floats[articulation.residual + i] = row.residual
+        ws.floats[articulation.bias + i] = row.bias
+        ws.floats[articulation.rate + i] = _speed(ws.floats, frame_b, axis, row.point_b, moment) - _speed(
+            ws.floats, frame_a, axis, row.point_a, moment
         )
 
 
-@kernel("void(S, F, I, i8)")
-def _inverse_masses(S: Scalars, w: Floats, k: Integers, number: int) -> None:
+@kernel("void(ws, i8)")
+def _inverse_masses(ws: Workspace, number: int) -> None:
     """Write M^-1 of the articulation's bodies to K and R = A M^-1."""
-    articulation = articulation_at(S, w, k, number)
+    articulation = ws.articulations[number]
     n, m = articulation.nu, articulation.rows
     matrix, jacobian, r = articulation.inverse, articulation.jacobian, articulation.r
     for i in range(n * n):
-        w[matrix + i] = 0.0
+        ws.floats[matrix + i] = 0.0
     for i in range(n * m):
-        w[r + i] = 0.0
+        ws.floats[r + i] = 0.0
     for one in range(articulation.body, articulation.body + articulation.bodies):
-        body = body_at(S, w, k, one)
+        body = ws.bodies[one]
         n_u = body.nu
         shift = body.u - articulation.u
         inverse = body.tail + body.nq + n_u
         for i in range(n_u):
             for j in range(n_u):
-                entry = w[inverse + i * n_u + j]
+                entry = ws.floats[inverse + i * n_u + j]
                 if entry != 0.0:
-                    w[matrix + (shift + i) * n + shift + j] = entry
+                    ws.floats[matrix + (shift + i) * n + shift + j] = entry
                     for line in range(m):
-                        w[r + line * n + shift + i] += entry * w[jacobian + line * n + shift + j]
+                        ws.floats[r + line * n + shift + i] += entry * ws.floats[jacobian + line * n + shift + j]
 
 
 @kernel("void(F, i8, i8)")
@@ -123,13 +125,13 @@ def substitute(w: Floats, a: int, n: int, x: int, stride: int) -> None:
         w[x + i * stride] = total / w[a + i * n + i] if w[a + i * n + i] > 0.0 else 0.0
 
 
-@kernel("void(S, F, I, i8)")
-def evaluate_articulation(S: Scalars, w: Floats, k: Integers, number: int) -> None:
+@kernel("void(ws, i8)")
+def evaluate_articulation(ws: Workspace, number: int) -> None:
     """Write K, Y, residuals and rates of the joints, the part of u that is not prescribed, and the driven power."""
-    articulation = articulation_at(S, w, k, number)
+    articulation = ws.articulations[number]
     for joint in range(articulation.joint, articulation.joint + articulation.joints):
-        _write_rows(S, w, k, joint, number)
-    _inverse_masses(S, w, k, number)
+        _write_rows(ws, joint, number)
+    _inverse_masses(ws, number)
     n, m = articulation.nu, articulation.rows
     jacobian, r, y = articulation.jacobian, articulation.r, articulation.y
     matrix, factor = articulation.inverse, articulation.factor
@@ -137,67 +139,67 @@ def evaluate_articulation(S: Scalars, w: Floats, k: Integers, number: int) -> No
         for j in range(i + 1):
             total = 0.0
             for c in range(n):
-                total += w[jacobian + i * n + c] * w[r + j * n + c]
-            w[factor + i * m + j] = total
-    _factorise(w, factor, m)
+                total += ws.floats[jacobian + i * n + c] * ws.floats[r + j * n + c]
+            ws.floats[factor + i * m + j] = total
+    _factorise(ws.floats, factor, m)
     for i in range(m * n):
-        w[y + i] = w[r + i]
+        ws.floats[y + i] = ws.floats[r + i]
     for c in range(n):
-        substitute(w, factor, m, y + c, n)
+        substitute(ws.floats, factor, m, y + c, n)
     for i in range(n):
         for line in range(m):
-            entry = w[r + line * n + i]
+            entry = ws.floats[r + line * n + i]
             if entry != 0.0:
                 for j in range(n):
-                    w[matrix + i * n + j] -= entry * w[y + line * n + j]
-    _prescribe(S, w, k, number)
+                    ws.floats[matrix + i * n + j] -= entry * ws.floats[y + line * n + j]
+    _prescribe(ws, number)
 
 
-@kernel("f8(S, F, I, i8)")
-def _power(S: Scalars, w: Floats, k: Integers, number: int) -> float:
+@kernel("f8(ws, i8)")
+def _power(ws: Workspace, number: int) -> float:
     """Return the power of the bodies' own forces on the velocities ``u_free``."""
-    articulation, power = articulation_at(S, w, k, number), 0.0
+    articulation, power = ws.articulations[number], 0.0
     for one in range(articulation.body, articulation.body + articulation.bodies):
-        body = body_at(S, w, k, one)
+        body = ws.bodies[one]
         for i in range(body.nu):
-            power += w[body.tail + body.nq + i] * w[S.u_free + body.u + i]
+            power += ws.floats[body.tail + body.nq + i] * ws.u_free[body.u + i]
     return power
 
 
-@kernel("void(S, F, I, i8)")
-def _prescribe(S: Scalars, w: Floats, k: Integers, number: int) -> None:
+@kernel("void(ws, i8)")
+def _prescribe(ws: Workspace, number: int) -> None:
     """Take off the velocities that driven bodies impose through joints, and book their power but for contact forces."""
-    articulation = articulation_at(S, w, k, number)
+    articulation = ws.articulations[number]
     if articulation.driven == 0:
         return
     n, m = articulation.nu, articulation.rows
-    u, x = S.u_free + articulation.u, articulation.x
-    S.driven_power -= _power(S, w, k, number)
+    u, x = ws.offsets.u_free + articulation.u, articulation.x
+    ws.driven_power -= _power(ws, number)
     for line in range(m):
         total = 0.0
         for c in range(n):
-            total += w[articulation.jacobian + line * n + c] * w[u + c]
-        w[x + line] = total
+            total += ws.floats[articulation.jacobian + line * n + c] * ws.floats[u + c]
+        ws.floats[x + line] = total
     for line in range(m):
         for c in range(n):
-            w[u + c] -= w[articulation.y + line * n + c] * w[x + line]
-    S.driven_power += _power(S, w, k, number)
-    substitute(w, articulation.factor, m, x, 1)
+            ws.floats[u + c] -= ws.floats[articulation.y + line * n + c] * ws.floats[x + line]
+    ws.driven_power += _power(ws, number)
+    substitute(ws.floats, articulation.factor, m, x, 1)
     for line in range(m):
-        S.driven_power -= w[x + line] * w[articulation.bias + line]
+        ws.driven_power -= ws.floats[x + line] * ws.floats[articulation.bias + line]
 
 
-@kernel("void(S, F, I, i8)")
-def constrain(S: Scalars, w: Floats, k: Integers, number: int) -> None:
+@kernel("void(ws, i8)")
+def constrain(ws: Workspace, number: int) -> None:
     """Subtract from the accelerations ``du`` of an articulation what its joints do not allow: Y^T (A du + bias)."""
-    articulation = articulation_at(S, w, k, number)
+    articulation = ws.articulations[number]
     n, m = articulation.nu, articulation.rows
-    du, x = S.du + articulation.u, articulation.x
+    du, x = ws.offsets.du + articulation.u, articulation.x
     for line in range(m):
-        total = w[articulation.bias + line]
+        total = ws.floats[articulation.bias + line]
         for c in range(n):
-            total += w[articulation.jacobian + line * n + c] * w[du + c]
-        w[x + line] = total
+            total += ws.floats[articulation.jacobian + line * n + c] * ws.floats[du + c]
+        ws.floats[x + line] = total
     for line in range(m):
         for c in range(n):
-            w[du + c] -= w[articulation.y + line * n + c] * w[x + line]
+            ws.floats[du + c] -= ws.floats[articulation.y + line * n + c] * ws.floats[x + line]

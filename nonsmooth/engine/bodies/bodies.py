@@ -8,178 +8,173 @@ from nonsmooth.engine.bodies.articulations import evaluate_articulation
 from nonsmooth.engine.bodies.kinematics import evaluate_contact
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.native.kernel import (
-    Floats,
-    Integers,
-    Scalars,
-    articulation_at,
+    Workspace,
     at,
-    body_at,
     call_body,
     call_load,
     entry_point,
     frame_at,
     kernel,
-    load_at,
     load_wrench,
 )
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.vectors import minus, opposite
 
 
-@kernel("void(S, F, I, f8, i8, i8)")
-def _write(S: Scalars, w: Floats, k: Integers, t: float, y: int, number: int) -> None:
+@kernel("void(ws, f8, i8, i8)")
+def _write(ws: Workspace, t: float, y: int, number: int) -> None:
     """Let one body write its output block at time ``t`` and the state at offset ``y``."""
-    body = body_at(S, w, k, number)
-    q, u = at(w, y + body.q), at(w, y + S.n_q + body.u)
-    call_body(body.function, t, q, u, at(w, body.parameters), at(w, body.out))
+    body = ws.bodies[number]
+    q, u = at(ws.floats, y + body.q), at(ws.floats, y + ws.n_q + body.u)
+    call_body(body.function, t, q, u, at(ws.floats, body.parameters), at(ws.floats, body.out))
 
 
-@kernel("void(S, F, I, f8, i8, i8)")
-def evaluate_body(S: Scalars, w: Floats, k: Integers, t: float, y: int, number: int) -> None:
+@kernel("void(ws, f8, i8, i8)")
+def evaluate_body(ws: Workspace, t: float, y: int, number: int) -> None:
     """Let one body write its output block at time ``t`` and the state at offset ``y``, which is a new version of it."""
-    body = body_at(S, w, k, number)
-    _write(S, w, k, t, y, number)
+    body = ws.bodies[number]
+    _write(ws, t, y, number)
     body.version += 1
     if body.nu > 0:
-        S.free_t = math.nan
+        ws.free_t = math.nan
 
 
-@kernel("i8(S, F, I, f8, i8, i8)")
-def _stands(S: Scalars, w: Floats, k: Integers, t: float, y: int, number: int) -> int:
+@kernel("i8(ws, f8, i8, i8)")
+def _stands(ws: Workspace, t: float, y: int, number: int) -> int:
     """Return 1 if a body was evaluated last at this time and state."""
-    body = body_at(S, w, k, number)
+    body = ws.bodies[number]
     if body.version == 0 or body.stood != body.version or body.stood_t != t:
         return 0
     for i in range(body.q, body.q + body.nq):
-        if w[S.y_stood + i] != w[y + i]:
+        if ws.y_stood[i] != ws.floats[y + i]:
             return 0
-    for i in range(S.n_q + body.u, S.n_q + body.u + body.nu):
-        if w[S.y_stood + i] != w[y + i]:
+    for i in range(ws.n_q + body.u, ws.n_q + body.u + body.nu):
+        if ws.y_stood[i] != ws.floats[y + i]:
             return 0
     return 1
 
 
-@kernel("void(S, F, I, f8, i8, i8)")
-def evaluate_once(S: Scalars, w: Floats, k: Integers, t: float, y: int, number: int) -> None:
+@kernel("void(ws, f8, i8, i8)")
+def evaluate_once(ws: Workspace, t: float, y: int, number: int) -> None:
     """Do the same, but leave the version that stands if it is that already.
 
     What joints and loads do to a block is undone: it is written again, unless the body has none of them.
     """
-    body = body_at(S, w, k, number)
-    if _stands(S, w, k, t, y, number) == 1:
+    body = ws.bodies[number]
+    if _stands(ws, t, y, number) == 1:
         if body.flight_function == 0:
-            _write(S, w, k, t, y, number)
+            _write(ws, t, y, number)
         return
-    evaluate_body(S, w, k, t, y, number)
+    evaluate_body(ws, t, y, number)
     body.stood, body.stood_t = body.version, t
     for i in range(body.q, body.q + body.nq):
-        w[S.y_stood + i] = w[y + i]
-    for i in range(S.n_q + body.u, S.n_q + body.u + body.nu):
-        w[S.y_stood + i] = w[y + i]
+        ws.y_stood[i] = ws.floats[y + i]
+    for i in range(ws.n_q + body.u, ws.n_q + body.u + body.nu):
+        ws.y_stood[i] = ws.floats[y + i]
 
 
-@kernel("i8(S, F, I, f8, i8)")
-def _all_stand(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> int:
+@kernel("i8(ws, f8, i8)")
+def _all_stand(ws: Workspace, t: float, y: int) -> int:
     """Return 1 if all bodies with coordinates were evaluated last at this time and state, and nothing acts on them.
 
     Most of what an instant asks for is asked of bodies that stand.
     """
-    if S.free_t != t or S.n_loads + S.n_joints > 0:
+    if ws.free_t != t or ws.n_loads + ws.n_joints > 0:
         return 0
     differ = 0
-    for i in range(S.n_q + S.n_u):
-        differ += 1 if w[S.y_stood + i] != w[y + i] else 0
+    for i in range(ws.n_q + ws.n_u):
+        differ += 1 if ws.y_stood[i] != ws.floats[y + i] else 0
     return 1 if differ == 0 else 0
 
 
-@kernel("void(S, F, I, f8, i8)")
-def evaluate_driven_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
+@kernel("void(ws, f8, i8)")
+def evaluate_driven_bodies(ws: Workspace, t: float, y: int) -> None:
     """Let the bodies without coordinates write their output blocks, unless they stand there already."""
-    if t == S.driven_t:
+    if t == ws.driven_t:
         return
-    S.driven_t = t
-    for number in range(S.n_bodies):
-        if body_at(S, w, k, number).nu == 0:
-            evaluate_body(S, w, k, t, y, number)
+    ws.driven_t = t
+    for number in range(ws.n_bodies):
+        if ws.bodies[number].nu == 0:
+            evaluate_body(ws, t, y, number)
 
 
-@kernel("void(S, F, I, f8, i8)")
-def evaluate_integrated_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
+@kernel("void(ws, f8, i8)")
+def evaluate_integrated_bodies(ws: Workspace, t: float, y: int) -> None:
     """Let the bodies that are integrated write their output blocks, where there are neither loads nor joints."""
-    interrupted(S, S.n_contacts + S.n_bodies)
-    S.free_velocities = y + S.n_q
-    S.driven_power = 0.0
-    S.load_power = 0.0
-    for i in range(S.n_integrated):
-        evaluate_body(S, w, k, t, y, k[S.integrated + i])
+    interrupted(ws, ws.n_contacts + ws.n_bodies)
+    ws.free_velocities = y + ws.n_q
+    ws.driven_power = 0.0
+    ws.load_power = 0.0
+    for i in range(ws.n_integrated):
+        evaluate_body(ws, t, y, ws.integrated[i])
 
 
-@entry_point("void(S, F, I, f8, i8, i8)")
-def evaluate_free_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int, every: int) -> None:
+@entry_point("void(ws, f8, i8, i8)")
+def evaluate_free_bodies(ws: Workspace, t: float, y: int, every: int) -> None:
     """Let the bodies that have coordinates write their output blocks, then loads and joints act on them.
 
     That is every one of them (1), or those that are integrated.
     """
-    if every == 0 and S.n_loads + S.n_joints == 0:
-        evaluate_integrated_bodies(S, w, k, t, y)
+    if every == 0 and ws.n_loads + ws.n_joints == 0:
+        evaluate_integrated_bodies(ws, t, y)
         return
-    interrupted(S, S.n_contacts + S.n_bodies)
-    S.free_velocities = y + S.n_q
-    S.driven_power = 0.0
-    S.load_power = 0.0
-    if S.n_loads + S.n_joints > 0:
-        evaluate_driven_bodies(S, w, k, t, y)
-    if every == 1 and _all_stand(S, w, k, t, y) == 1:
+    interrupted(ws, ws.n_contacts + ws.n_bodies)
+    ws.free_velocities = y + ws.n_q
+    ws.driven_power = 0.0
+    ws.load_power = 0.0
+    if ws.n_loads + ws.n_joints > 0:
+        evaluate_driven_bodies(ws, t, y)
+    if every == 1 and _all_stand(ws, t, y) == 1:
         return
-    for i in range(S.n_bodies if every == 1 else S.n_integrated):
-        number = i if every == 1 else k[S.integrated + i]
-        body = body_at(S, w, k, number)
+    for i in range(ws.n_bodies if every == 1 else ws.n_integrated):
+        number = i if every == 1 else ws.integrated[i]
+        body = ws.bodies[number]
         if body.nu == 0:
             continue
-        if S.n_loads > 0 and body.flight_function == 0:
+        if ws.n_loads > 0 and body.flight_function == 0:
             # loads add to what a body may leave unwritten
             force = body.tail + body.nq
             for j in range(body.nu):
-                w[force + j] = 0.0
+                ws.floats[force + j] = 0.0
         if every == 1:
-            evaluate_once(S, w, k, t, y, number)
+            evaluate_once(ws, t, y, number)
         else:
-            evaluate_body(S, w, k, t, y, number)
+            evaluate_body(ws, t, y, number)
     if every == 1:
-        S.free_t = t
-    for load in range(S.n_loads):
-        _apply(S, w, k, load, t, y)
-    if S.n_joints > 0:
-        for i in range(S.n_u):
-            w[S.u_free + i] = w[y + S.n_q + i]
-        S.free_velocities = S.u_free
-        for number in range(S.n_articulations):
-            if articulation_at(S, w, k, number).rows > 0:
-                evaluate_articulation(S, w, k, number)
+        ws.free_t = t
+    for load in range(ws.n_loads):
+        _apply(ws, load, t, y)
+    if ws.n_joints > 0:
+        for i in range(ws.n_u):
+            ws.u_free[i] = ws.floats[y + ws.n_q + i]
+        ws.free_velocities = ws.offsets.u_free
+        for number in range(ws.n_articulations):
+            if ws.articulations[number].rows > 0:
+                evaluate_articulation(ws, number)
 
 
-@kernel("void(S, F, I, f8, i8)")
-def evaluate_bodies(S: Scalars, w: Floats, k: Integers, t: float, y: int) -> None:
+@kernel("void(ws, f8, i8)")
+def evaluate_bodies(ws: Workspace, t: float, y: int) -> None:
     """Let every body write its output block at time ``t`` and the state at offset ``y``."""
-    evaluate_driven_bodies(S, w, k, t, y)
-    evaluate_free_bodies(S, w, k, t, y, 1)
+    evaluate_driven_bodies(ws, t, y)
+    evaluate_free_bodies(ws, t, y, 1)
 
 
-@kernel("void(S, F, I, i8, f8, i8)")
-def _apply(S: Scalars, w: Floats, k: Integers, number: int, t: float, y: int) -> None:
+@kernel("void(ws, i8, f8, i8)")
+def _apply(ws: Workspace, number: int, t: float, y: int) -> None:
     """Add the generalised forces of one load to those of its bodies, and its power."""
-    load = load_at(S, w, k, number)
-    frame_a, frame_b = at(w, load.frame_a), at(w, load.frame_b)
-    call_load(load.function, t, frame_a, frame_b, at(w, load.parameters), at(w, load.out))
-    wrench = load_wrench(w, load.out)
+    load = ws.loads[number]
+    frame_a, frame_b = at(ws.floats, load.frame_a), at(ws.floats, load.frame_b)
+    call_load(load.function, t, frame_a, frame_b, at(ws.floats, load.parameters), at(ws.floats, load.out))
+    wrench = load_wrench(ws.floats, load.out)
     for side in range(2):
-        body = body_at(S, w, k, load.body_a if side == 0 else load.body_b)
+        body = ws.bodies[load.body_a if side == 0 else load.body_b]
         frame = load.frame_a if side == 0 else load.frame_b
         n_u = body.nu
         generalised = body.tail + body.nq
         force = opposite(wrench.force) if side == 0 else wrench.force
         moment = opposite(wrench.moment) if side == 0 else wrench.moment
-        x, y_, z = minus(wrench.point, frame_at(w, frame).origin)
+        x, y_, z = minus(wrench.point, frame_at(ws.floats, frame).origin)
         fx, fy, fz = force
         mx = moment[0] + y_ * fz - z * fy
         my = moment[1] + z * fx - x * fz
@@ -188,15 +183,20 @@ def _apply(S: Scalars, w: Floats, k: Integers, number: int, t: float, y: int) ->
             v = frame + FRAME + j
             o = v + 3 * n_u
             added = (
-                fx * w[v] + fy * w[v + n_u] + fz * w[v + 2 * n_u] + mx * w[o] + my * w[o + n_u] + mz * w[o + 2 * n_u]
+                fx * ws.floats[v]
+                + fy * ws.floats[v + n_u]
+                + fz * ws.floats[v + 2 * n_u]
+                + mx * ws.floats[o]
+                + my * ws.floats[o + n_u]
+                + mz * ws.floats[o + 2 * n_u]
             )
-            w[generalised + j] += added
-            S.load_power += added * w[y + S.n_q + body.u + j]
+            ws.floats[generalised + j] += added
+            ws.load_power += added * ws.floats[y + ws.n_q + body.u + j]
 
 
 @entry_point()
-def evaluate_at(S: Scalars, w: Floats, k: Integers) -> None:
+def evaluate_at(ws: Workspace) -> None:
     """Evaluate all bodies and contacts at the present time and state."""
-    evaluate_bodies(S, w, k, S.t, S.y)
-    for c in range(S.n_contacts):
-        evaluate_contact(S, w, k, c, 3)
+    evaluate_bodies(ws, ws.t, ws.offsets.y)
+    for c in range(ws.n_contacts):
+        evaluate_contact(ws, c, 3)

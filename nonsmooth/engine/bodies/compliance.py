@@ -12,102 +12,99 @@ from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.modes import OPEN, STICK
 from nonsmooth.engine.native.kernel import (
     Floats,
-    Integers,
-    Scalars,
-    active_at,
+    Workspace,
     at,
     call_compliance,
     call_rates,
     call_traction,
-    contact_at,
     frame_at,
     kernel,
 )
 from nonsmooth.engine.numerics.vectors import Vector, dot, length, minus
 
 
-@kernel("void(S, F, I, i8)")
-def evaluate_compliant_force(S: Scalars, w: Floats, k: Integers, c: int) -> None:
+@kernel("void(ws, i8)")
+def evaluate_compliant_force(ws: Workspace, c: int) -> None:
     """Write the normal force of the compliant contact ``c``, its geometry and rates being known."""
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     contact.compliant_force = call_compliance(
         contact.normal_function,
         -contact.gap,
         -contact.rate[0],
         contact.closing_rate,
-        at(w, contact.normal_parameters),
+        at(ws.floats, contact.normal_parameters),
     )
 
 
-@kernel("void(S, F, I, i8)")
-def _evaluate_motion(S: Scalars, w: Floats, k: Integers, c: int) -> None:
+@kernel("void(ws, i8)")
+def _evaluate_motion(ws: Workspace, c: int) -> None:
     """Write slip velocity and relative angular velocity of contact ``c`` along its unit tangents and normal."""
-    contact, motion = contact_at(S, w, k, c), at(w, S.motion)
-    turning = minus(frame_at(w, contact.frame_b).spin, frame_at(w, contact.frame_a).spin)
+    contact, motion = ws.contacts[c], at(ws.floats, ws.offsets.motion)
+    turning = minus(frame_at(ws.floats, contact.frame_b).spin, frame_at(ws.floats, contact.frame_a).spin)
     motion[0], motion[1] = contact.slip
     motion[2] = dot(contact.axis_1, turning)
     motion[3] = dot(contact.axis_2, turning)
     motion[4] = dot(contact.axis_n, turning)
 
 
-@kernel("void(S, F, I, i8, i8)")
-def evaluate_traction(S: Scalars, w: Floats, k: Integers, c: int, y: int) -> None:
+@kernel("void(ws, i8, i8)")
+def evaluate_traction(ws: Workspace, c: int, y: int) -> None:
     """Let the law of traction of contact ``c`` write force, moment and rates of its states."""
-    contact = contact_at(S, w, k, c)
-    _evaluate_motion(S, w, k, c)
+    contact = ws.contacts[c]
+    _evaluate_motion(ws, c)
     out = contact.traction_out
     call_traction(
         contact.traction_function,
         contact.compliant_force,
-        at(w, S.motion),
-        at(w, state_at(S, w, k, c, y)),
-        at(w, contact.traction_parameters),
-        at(w, out),
+        at(ws.floats, ws.offsets.motion),
+        at(ws.floats, state_at(ws, c, y)),
+        at(ws.floats, contact.traction_parameters),
+        at(ws.floats, out),
     )
     contact.turned = 0.0
     for i in range(3):
-        contact.turned += w[out + TRACTION_MOMENT + i] * w[S.motion + 2 + i]
+        contact.turned += ws.floats[out + TRACTION_MOMENT + i] * ws.motion[2 + i]
 
 
-@kernel("i8(S, F, I, i8, i8)")
-def state_at(S: Scalars, w: Floats, k: Integers, c: int, y: int) -> int:
+@kernel("i8(ws, i8, i8)")
+def state_at(ws: Workspace, c: int, y: int) -> int:
     """Return where the inner states of the laws of contact ``c`` stand."""
-    return int(y + S.n_q + S.n_u + N_ACCOUNTS + contact_at(S, w, k, c).state)
+    return int(y + ws.n_q + ws.n_u + N_ACCOUNTS + ws.contacts[c].state)
 
 
-@kernel("void(S, F, I, i8)")
-def refresh_states(S: Scalars, w: Floats, k: Integers, y: int) -> None:
+@kernel("void(ws, i8)")
+def refresh_states(ws: Workspace, y: int) -> None:
     """Let the friction coefficients see the inner states as they are at ``y``."""
-    if S.n_states == 0:
+    if ws.n_states == 0:
         return
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
+    for c in range(ws.n_contacts):
+        contact = ws.contacts[c]
         if contact.state_copy > 0:
             for i in range(contact.n_state):
-                w[contact.state_copy + i] = w[state_at(S, w, k, c, y) + i]
+                ws.floats[contact.state_copy + i] = ws.floats[state_at(ws, c, y) + i]
 
 
-@kernel("void(S, F, I, i8)")
-def begin_contact(S: Scalars, w: Floats, k: Integers, c: int) -> None:
+@kernel("void(ws, i8)")
+def begin_contact(ws: Workspace, c: int) -> None:
     """Let the inner states of contact ``c``, which closes, start anew, and keep the rate at which it does.
 
     Of one that is closed from the start that rate is none: by what round-off leaves of it no damping is scaled.
     """
-    contact = contact_at(S, w, k, c)
-    contact.closing_rate = -contact.rate[0] if contact.rate[0] < -S.velocity_tolerance else 0.0
+    contact = ws.contacts[c]
+    contact.closing_rate = -contact.rate[0] if contact.rate[0] < -ws.velocity_tolerance else 0.0
     for i in range(contact.n_state):
-        w[state_at(S, w, k, c, S.y) + i] = w[contact.state_start + i]
+        ws.floats[state_at(ws, c, ws.offsets.y) + i] = ws.floats[contact.state_start + i]
 
 
-@kernel("void(S, F, I, i8, i8)")
-def write_state_rates(S: Scalars, w: Floats, k: Integers, y: int, out: int) -> None:
+@kernel("void(ws, i8, i8)")
+def write_state_rates(ws: Workspace, y: int, out: int) -> None:
     """Write the rates of the inner states of all contacts to the slope ``out``; those of open contacts are zero."""
-    if S.n_states == 0:
+    if ws.n_states == 0:
         return
-    for i in range(S.n_states):
-        w[out + S.n_q + S.n_u + N_ACCOUNTS + i] = 0.0
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
+    for i in range(ws.n_states):
+        ws.floats[out + ws.n_q + ws.n_u + N_ACCOUNTS + i] = 0.0
+    for c in range(ws.n_contacts):
+        contact = ws.contacts[c]
         n = contact.n_state
         if n == 0 or contact.mode == OPEN:
             continue
@@ -115,16 +112,16 @@ def write_state_rates(S: Scalars, w: Floats, k: Integers, y: int, out: int) -> N
         if contact.state_copy > 0:
             source = contact.rates_out
             speed = 0.0 if contact.mode == STICK else length(contact.slip)
-            states, parameters = at(w, state_at(S, w, k, c, y)), at(w, contact.rates_parameters)
-            call_rates(contact.rates_function, speed, states, parameters, at(w, source))
+            states, parameters = at(ws.floats, state_at(ws, c, y)), at(ws.floats, contact.rates_parameters)
+            call_rates(contact.rates_function, speed, states, parameters, at(ws.floats, source))
         for i in range(n):
-            w[state_at(S, w, k, c, out) + i] = w[source + i]
+            ws.floats[state_at(ws, c, out) + i] = ws.floats[source + i]
 
 
-@kernel("v3(S, F, I, i8, f8, f8, f8)")
-def _in_world(S: Scalars, w: Floats, k: Integers, c: int, x: float, y: float, z: float) -> Vector:
+@kernel("v3(ws, i8, f8, f8, f8)")
+def _in_world(ws: Workspace, c: int, x: float, y: float, z: float) -> Vector:
     """Return the world components of a vector given along the axes n, t1, t2 of contact ``c``."""
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     n, t1, t2 = contact.axis_n, contact.axis_1, contact.axis_2
     return (
         x * n[0] + y * t1[0] + z * t2[0],
@@ -133,62 +130,62 @@ def _in_world(S: Scalars, w: Floats, k: Integers, c: int, x: float, y: float, z:
     )
 
 
-@kernel("void(S, F, I, i8, F)")
-def write_wrench(S: Scalars, w: Floats, k: Integers, c: int, f: Floats) -> None:
+@kernel("void(ws, i8, F)")
+def write_wrench(ws: Workspace, c: int, f: Floats) -> None:
     """Write row 1 and response 0 of all that the compliant contact ``c`` does, its forces being ``active_forces``."""
-    contact = contact_at(S, w, k, c)
-    force, moment = _in_world(S, w, k, c, f[0], f[1], f[2]), (0.0, 0.0, 0.0)
+    contact = ws.contacts[c]
+    force, moment = _in_world(ws, c, f[0], f[1], f[2]), (0.0, 0.0, 0.0)
     if contact.traction_function != 0:
-        m = at(w, contact.traction_out + TRACTION_MOMENT)
-        moment = _in_world(S, w, k, c, m[2], m[0], m[1])
-    wrench_row(S, w, k, c, 1, force, moment)
-    evaluate_row_response(S, w, k, c, 1, 0)
+        m = at(ws.floats, contact.traction_out + TRACTION_MOMENT)
+        moment = _in_world(ws, c, m[2], m[0], m[1])
+    wrench_row(ws, c, 1, force, moment)
+    evaluate_row_response(ws, c, 1, 0)
 
 
-@kernel("void(S, F, I, i8, F, i8)")
-def rub_by_traction(S: Scalars, w: Floats, k: Integers, c: int, f: Floats, y: int) -> None:
+@kernel("void(ws, i8, F, i8)")
+def rub_by_traction(ws: Workspace, c: int, f: Floats, y: int) -> None:
     """Write the forces of a contact with a law of traction to ``active_forces``."""
-    evaluate_traction(S, w, k, c, y)
-    contact = contact_at(S, w, k, c)
-    traction = at(w, contact.traction_out + TRACTION)
+    evaluate_traction(ws, c, y)
+    contact = ws.contacts[c]
+    traction = at(ws.floats, contact.traction_out + TRACTION)
     f[0], f[1], f[2] = contact.compliant_force, traction[0], traction[1]
 
 
 @kernel()
-def push_compliant(S: Scalars, w: Floats, k: Integers) -> None:
+def push_compliant(ws: Workspace) -> None:
     """Add to ``du`` what the touching compliant contacts are known to do, all of it or the normal force alone."""
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
+    for c in range(ws.n_contacts):
+        contact = ws.contacts[c]
         if contact.normal_function == 0 or contact.touching == 0:
             continue
         if contact.traction_function != 0:
-            rub_by_traction(S, w, k, c, contact.force, S.y)
-            write_wrench(S, w, k, c, contact.force)
-            push_response(S, w, k, c, 0, 1.0, S.du)
+            rub_by_traction(ws, c, contact.force, ws.offsets.y)
+            write_wrench(ws, c, contact.force)
+            push_response(ws, c, 0, 1.0, ws.offsets.du)
         else:
-            push_response(S, w, k, c, 0, contact.compliant_force, S.du)
+            push_response(ws, c, 0, contact.compliant_force, ws.offsets.du)
 
 
-@kernel("i8(S, F, I, i8)")
-def rubs_unasked(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+@kernel("i8(ws, i8)")
+def rubs_unasked(ws: Workspace, c: int) -> int:
     """Return 1 if the friction of the compliant contact ``c`` is no question: by a law of traction, or without load."""
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     return 1 if contact.traction_function != 0 or contact.compliant_force <= 0.0 else 0
 
 
 @kernel()
-def decouple_normals(S: Scalars, w: Floats, k: Integers) -> None:
+def decouple_normals(ws: Workspace) -> None:
     """Leave of the normal forces of the active compliant contacts what the friction sees: a given load.
 
     What they do is in the free accelerations already.  Their rows and columns of G become those of contacts that
     nothing couples, whose forces come out as given.
     """
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        contact = contact_at(S, w, k, active.slot)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        contact = ws.contacts[active.slot]
         rigid = contact.normal_function == 0
         for block in range(active.first_block, active.end_block):
-            g, d = at(w, S.delassus + DELASSUS * block), k[S.block_column + block]
+            g, d = at(ws.floats, ws.offsets.delassus + DELASSUS * block), ws.block_column[block]
             if d == a and not rigid:
                 own = g[0] if g[0] > 0.0 else 1.0
                 active.free[0] = -own * contact.compliant_force
@@ -196,7 +193,7 @@ def decouple_normals(S: Scalars, w: Floats, k: Integers) -> None:
                     g[i] = g[3 * i] = 0.0
                 g[0] = own
                 continue
-            pushes = contact_at(S, w, k, active_at(S, w, k, d).slot).normal_function != 0
+            pushes = ws.contacts[ws.actives[d].slot].normal_function != 0
             for i in range(3):
                 if not rigid:
                     g[i] = 0.0

@@ -7,23 +7,23 @@ the interpolant of that step says, as long as nothing else touches it.
 from __future__ import annotations
 
 from nonsmooth.engine.memory.modes import OPEN
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, body_at, contact_at, kernel
+from nonsmooth.engine.native.kernel import Workspace, kernel
 
 
-@kernel("i8(S, F, I, i8)")
-def is_on_course(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+@kernel("i8(ws, i8)")
+def is_on_course(ws: Workspace, c: int) -> int:
     """Return 1 if contact ``c`` is the closed one of a body on its course, which has no other."""
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     if contact.mode == OPEN:
         return 0
-    return int(body_at(S, w, k, contact.body_a).course + body_at(S, w, k, contact.body_b).course)
+    return int(ws.bodies[contact.body_a].course + ws.bodies[contact.body_b].course)
 
 
-@kernel("i8(S, F, I, i8)")
-def end_courses_of(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+@kernel("i8(ws, i8)")
+def end_courses_of(ws: Workspace, c: int) -> int:
     """End the courses of the bodies of contact ``c``, which stay where they are; return how many."""
-    contact = contact_at(S, w, k, c)
-    one, two = body_at(S, w, k, contact.body_a), body_at(S, w, k, contact.body_b)
+    contact = ws.contacts[c]
+    one, two = ws.bodies[contact.body_a], ws.bodies[contact.body_b]
     ended = one.course + two.course
     one.course = two.course = 0
     return int(ended)

@@ -8,13 +8,9 @@ from nonsmooth.engine.bodies.anisotropy import stretch_bias, stretch_tangents
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.native.kernel import (
     Floats,
-    Integers,
-    Scalars,
-    articulation_at,
+    Workspace,
     at,
-    body_at,
     call_pair,
-    contact_at,
     entry_point,
     frame_at,
     kernel,
@@ -26,15 +22,15 @@ UNSEEN = -1
 """A contact that nothing was evaluated of has seen this version of its bodies, which none has."""
 
 
-@kernel("void(S, F, I, i8)")
-def evaluate_geometry(S: Scalars, w: Floats, k: Integers, c: int) -> None:
+@kernel("void(ws, i8)")
+def evaluate_geometry(ws: Workspace, c: int) -> None:
     """Write gap, witness points, curvature and the axes n, t1, t2 of contact ``c``."""
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     call_pair(
         contact.geometry_function,
-        at(w, contact.frame_a),
-        at(w, contact.frame_b),
-        at(w, contact.geometry_parameters),
+        at(ws.floats, contact.frame_a),
+        at(ws.floats, contact.frame_b),
+        at(ws.floats, contact.geometry_parameters),
         contact.geometry,
     )
     contact.axis_n, contact.axis_1 = contact.normal, contact.tangent
@@ -57,28 +53,30 @@ def _velocity(w: Floats, place: int, point: Vector) -> Vector:
     return ux + oy * z - oz * y, uy + oz * x - ox * z, uz + ox * y - oy * x
 
 
-@kernel("void(S, F, I, i8)")
-def evaluate_rates(S: Scalars, w: Floats, k: Integers, c: int) -> None:
+@kernel("void(ws, i8)")
+def evaluate_rates(ws: Workspace, c: int) -> None:
     """Write the gap rate and slip velocity of contact ``c``, Eqs. (11) and (12)."""
-    contact = contact_at(S, w, k, c)
-    v = minus(_velocity(w, contact.frame_b, contact.point_b), _velocity(w, contact.frame_a, contact.point_a))
+    contact = ws.contacts[c]
+    v = minus(
+        _velocity(ws.floats, contact.frame_b, contact.point_b), _velocity(ws.floats, contact.frame_a, contact.point_a)
+    )
     if contact.oriented == 1:
         t1, t2 = contact.tangent, cross(contact.normal, contact.tangent)
         contact.slip_of_tangents = dot(t1, v), dot(t2, v)
-        stretch_tangents(S, w, k, c, t1, t2)
+        stretch_tangents(ws, c, t1, t2)
     contact.velocity = dot(contact.axis_n, v), dot(contact.axis_1, v), dot(contact.axis_2, v)
 
 
-@kernel("void(S, F, I, i8)")
-def evaluate_kinematics(S: Scalars, w: Floats, k: Integers, c: int) -> None:
+@kernel("void(ws, i8)")
+def evaluate_kinematics(ws: Workspace, c: int) -> None:
     """Write geometry and rates of contact ``c``, unless they are those of its bodies as these stand."""
-    contact = contact_at(S, w, k, c)
-    version_a = body_at(S, w, k, contact.body_a).version
-    version_b = body_at(S, w, k, contact.body_b).version
+    contact = ws.contacts[c]
+    version_a = ws.bodies[contact.body_a].version
+    version_b = ws.bodies[contact.body_b].version
     if contact.seen_a == version_a and contact.seen_b == version_b:
         return
-    evaluate_geometry(S, w, k, c)
-    evaluate_rates(S, w, k, c)
+    evaluate_geometry(ws, c)
+    evaluate_rates(ws, c)
     # which way one faces hangs on more than its bodies
     contact.seen_a = version_a if contact.oriented == 0 else UNSEEN
     contact.seen_b = version_b
@@ -126,82 +124,82 @@ def side_wrench(w: Floats, frame: int, point: Vector, force: Vector, moment: Vec
         w[out + j] += moment[0] * w[o] + moment[1] * w[o + n_u] + moment[2] * w[o + 2 * n_u]
 
 
-@kernel("i8(S, F, I, i8, i8)")
-def _row_a(S: Scalars, w: Floats, k: Integers, c: int, r: int) -> int:
+@kernel("i8(ws, i8, i8)")
+def _row_a(ws: Workspace, c: int, r: int) -> int:
     """Return where row ``r`` of the first Jacobian of contact ``c`` has the coordinates of the body in contact."""
-    contact = contact_at(S, w, k, c)
-    return int(contact.jacobian_a + r * articulation_at(S, w, k, contact.articulation_a).nu + contact.shift_a)
+    contact = ws.contacts[c]
+    return int(contact.jacobian_a + r * ws.articulations[contact.articulation_a].nu + contact.shift_a)
 
 
-@kernel("i8(S, F, I, i8, i8)")
-def _row_b(S: Scalars, w: Floats, k: Integers, c: int, r: int) -> int:
+@kernel("i8(ws, i8, i8)")
+def _row_b(ws: Workspace, c: int, r: int) -> int:
     """Return the same of the second Jacobian."""
-    contact = contact_at(S, w, k, c)
-    return int(contact.jacobian_b + r * articulation_at(S, w, k, contact.articulation_b).nu + contact.shift_b)
+    contact = ws.contacts[c]
+    return int(contact.jacobian_b + r * ws.articulations[contact.articulation_b].nu + contact.shift_b)
 
 
-@kernel("void(S, F, I, i8, i8, v3, v3)")
-def wrench_row(S: Scalars, w: Floats, k: Integers, c: int, r: int, force: Vector, moment: Vector) -> None:
+@kernel("void(ws, i8, i8, v3, v3)")
+def wrench_row(ws: Workspace, c: int, r: int, force: Vector, moment: Vector) -> None:
     """Write row ``r`` of contact ``c``: what a force and a moment on the second body do, in world components."""
-    contact, row_a, row_b = contact_at(S, w, k, c), _row_a(S, w, k, c, r), _row_b(S, w, k, c, r)
-    side_wrench(w, contact.frame_a, contact.point_a, opposite(force), opposite(moment), contact.nu_a, row_a)
-    side_wrench(w, contact.frame_b, contact.point_b, force, moment, contact.nu_b, row_b)
+    contact, row_a, row_b = ws.contacts[c], _row_a(ws, c, r), _row_b(ws, c, r)
+    side_wrench(ws.floats, contact.frame_a, contact.point_a, opposite(force), opposite(moment), contact.nu_a, row_a)
+    side_wrench(ws.floats, contact.frame_b, contact.point_b, force, moment, contact.nu_b, row_b)
 
 
-@kernel("void(S, F, I, i8, i8, v3)")
-def evaluate_row(S: Scalars, w: Floats, k: Integers, c: int, r: int, axis: Vector) -> None:
+@kernel("void(ws, i8, i8, v3)")
+def evaluate_row(ws: Workspace, c: int, r: int, axis: Vector) -> None:
     """Write row ``r`` of the Jacobians of contact ``c``: of the relative velocity along the axis given."""
-    contact = contact_at(S, w, k, c)
-    side_row(w, contact.frame_a, contact.point_a, opposite(axis), contact.nu_a, _row_a(S, w, k, c, r))
-    side_row(w, contact.frame_b, contact.point_b, axis, contact.nu_b, _row_b(S, w, k, c, r))
+    contact = ws.contacts[c]
+    side_row(ws.floats, contact.frame_a, contact.point_a, opposite(axis), contact.nu_a, _row_a(ws, c, r))
+    side_row(ws.floats, contact.frame_b, contact.point_b, axis, contact.nu_b, _row_b(ws, c, r))
 
 
-@kernel("void(S, F, I, i8, i8, i8)")
-def evaluate_row_response(S: Scalars, w: Floats, k: Integers, c: int, r: int, s: int) -> None:
+@kernel("void(ws, i8, i8, i8)")
+def evaluate_row_response(ws: Workspace, c: int, r: int, s: int) -> None:
     """Write response ``s`` of contact ``c``: K times row ``r`` of its Jacobians, whose zeros are skipped.
 
     K is M^-1, less what the joints take.
     """
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     for side in range(2):
-        articulation = articulation_at(S, w, k, contact.articulation_a if side == 0 else contact.articulation_b)
+        articulation = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b]
         n_u = articulation.nu
         jacobian = (contact.jacobian_a if side == 0 else contact.jacobian_b) + r * n_u
         response = (contact.response_a if side == 0 else contact.response_b) + s * n_u
-        multiply(w, articulation.inverse, n_u, jacobian, response)
+        multiply(ws.floats, articulation.inverse, n_u, jacobian, response)
 
 
-@kernel("void(S, F, I, i8, i8, f8, i8)")
-def push_response(S: Scalars, w: Floats, k: Integers, c: int, s: int, force: float, du: int) -> None:
+@kernel("void(ws, i8, i8, f8, i8)")
+def push_response(ws: Workspace, c: int, s: int, force: float, du: int) -> None:
     """Add the accelerations that a force in column ``s`` of contact ``c`` gives to ``du``."""
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     for side in range(2):
-        articulation = articulation_at(S, w, k, contact.articulation_a if side == 0 else contact.articulation_b)
+        articulation = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b]
         response = contact.response_a if side == 0 else contact.response_b
         n_u = articulation.nu
         for i in range(n_u):
-            w[du + articulation.u + i] += w[response + s * n_u + i] * force
+            ws.floats[du + articulation.u + i] += ws.floats[response + s * n_u + i] * force
 
 
-@kernel("f8(S, F, I, i8, i8, i8)")
-def row(S: Scalars, w: Floats, k: Integers, c: int, r: int, du: int) -> float:
+@kernel("f8(ws, i8, i8, i8)")
+def row(ws: Workspace, c: int, r: int, du: int) -> float:
     """Return row ``r`` (n, t1, t2) of [W N]^T du of contact ``c``."""
-    contact = contact_at(S, w, k, c)
-    a, b = articulation_at(S, w, k, contact.articulation_a), articulation_at(S, w, k, contact.articulation_b)
-    total = product(w, 0.0, contact.jacobian_a + r * a.nu, du + a.u, a.nu)
-    return float(product(w, total, contact.jacobian_b + r * b.nu, du + b.u, b.nu))
+    contact = ws.contacts[c]
+    a, b = ws.articulations[contact.articulation_a], ws.articulations[contact.articulation_b]
+    total = product(ws.floats, 0.0, contact.jacobian_a + r * a.nu, du + a.u, a.nu)
+    return float(product(ws.floats, total, contact.jacobian_b + r * b.nu, du + b.u, b.nu))
 
 
-@kernel("void(S, F, I, i8)")
-def evaluate_jacobian(S: Scalars, w: Floats, k: Integers, c: int) -> None:
+@kernel("void(ws, i8)")
+def evaluate_jacobian(ws: Workspace, c: int) -> None:
     """Write W^T and N^T of contact ``c`` (rows n, t1, t2), K times them, and the prescribed rates."""
-    contact = contact_at(S, w, k, c)
-    evaluate_row(S, w, k, c, 0, contact.axis_n)
-    evaluate_row(S, w, k, c, 1, contact.axis_1)
-    evaluate_row(S, w, k, c, 2, contact.axis_2)
+    contact = ws.contacts[c]
+    evaluate_row(ws, c, 0, contact.axis_n)
+    evaluate_row(ws, c, 1, contact.axis_1)
+    evaluate_row(ws, c, 2, contact.axis_2)
     for r in range(3):
-        evaluate_row_response(S, w, k, c, r, r)
-        contact.prescribed_rate[r] = contact.rate[r] - row(S, w, k, c, r, S.free_velocities)
+        evaluate_row_response(ws, c, r, r)
+        contact.prescribed_rate[r] = contact.rate[r] - row(ws, c, r, ws.free_velocities)
 
 
 @kernel("v3(F, i8, v3, v3, v3)")
@@ -222,8 +220,8 @@ def _acceleration(w: Floats, place: int, point: Vector, slide_1: Vector, slide_2
     )
 
 
-@kernel("void(S, F, I, i8, i8)")
-def evaluate_bias(S: Scalars, w: Floats, k: Integers, c: int, rows: int) -> None:
+@kernel("void(ws, i8, i8)")
+def evaluate_bias(ws: Workspace, c: int, rows: int) -> None:
     """Write S_N and S_T of Eq. (13) with the prescribed accelerations: g'' and v' of contact ``c`` while u' = 0.
 
     Only the normal one with ``rows`` 1, all with 3.
@@ -233,11 +231,11 @@ def evaluate_bias(S: Scalars, w: Floats, k: Integers, c: int, rows: int) -> None
     relative turning of the bodies and d their relative velocity at the witness points, both in the
     tangent plane (physics of general shapes; for plane and sphere it gives the S terms of Eq. (13)).
     """
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     n, t1, t2, slip = contact.axis_n, contact.axis_1, contact.axis_2, contact.slip
     if contact.oriented == 1:
         t1, t2, slip = contact.tangent, cross(contact.normal, contact.tangent), contact.slip_of_tangents
-    a, b = frame_at(w, contact.frame_a), frame_at(w, contact.frame_b)
+    a, b = frame_at(ws.floats, contact.frame_a), frame_at(ws.floats, contact.frame_b)
     gap = contact.gap
     # turning of the normal with the first body, (omega_A x n) in the tangent plane; rho likewise for B - A
     turn_a1, turn_a2 = dot(a.spin, t2), -dot(a.spin, t1)
@@ -265,8 +263,8 @@ def evaluate_bias(S: Scalars, w: Floats, k: Integers, c: int, rows: int) -> None
     w1, w2 = u1 + gap * nu1 - d1, u2 + gap * nu2 - d2
     # the witness points' accelerations, second minus first, as the turning bodies carry the sliding points
     acceleration = minus(
-        _acceleration(w, contact.frame_b, contact.point_b, scaled(w1, t1), scaled(w2, t2)),
-        _acceleration(w, contact.frame_a, contact.point_a, scaled(u1, t1), scaled(u2, t2)),
+        _acceleration(ws.floats, contact.frame_b, contact.point_b, scaled(w1, t1), scaled(w2, t2)),
+        _acceleration(ws.floats, contact.frame_a, contact.point_a, scaled(u1, t1), scaled(u2, t2)),
     )
     # the axes themselves turn: n' = omega_A x n + nu, and the tangents spin about n with the first body
     n1, n2 = turn_a1 + nu1, turn_a2 + nu2
@@ -276,13 +274,13 @@ def evaluate_bias(S: Scalars, w: Floats, k: Integers, c: int, rows: int) -> None
         contact.bias[1] = dot(t1, acceleration) + spin * v2 - n1 * rate
         contact.bias[2] = dot(t2, acceleration) - spin * v1 - n2 * rate
         if contact.oriented == 1:
-            stretch_bias(S, w, k, c)
+            stretch_bias(ws, c)
 
 
-@entry_point("void(S, F, I, i8, i8)")
-def evaluate_contact(S: Scalars, w: Floats, k: Integers, c: int, rows: int) -> None:
+@entry_point("void(ws, i8, i8)")
+def evaluate_contact(ws: Workspace, c: int, rows: int) -> None:
     """Write everything about contact ``c``, the bodies being evaluated; ``rows`` of the bias."""
-    evaluate_geometry(S, w, k, c)
-    evaluate_rates(S, w, k, c)
-    evaluate_jacobian(S, w, k, c)
-    evaluate_bias(S, w, k, c, rows)
+    evaluate_geometry(ws, c)
+    evaluate_rates(ws, c)
+    evaluate_jacobian(ws, c)
+    evaluate_bias(ws, c, rows)

@@ -37,16 +37,11 @@ from nonsmooth.engine.memory.layout import (
 from nonsmooth.engine.memory.modes import NO_SLOT, RUNNING
 from nonsmooth.engine.native.kernel import (
     Floats,
-    Integers,
-    Scalars,
-    articulation_at,
+    Workspace,
     at,
-    contact_at,
     entry_point,
     frame_at,
     kernel,
-    unit_at,
-    wall_at,
 )
 from nonsmooth.engine.numerics.vectors import distance, dot, minus
 
@@ -60,19 +55,22 @@ _ACCELERATION = 2.0
 """By how much a unit is taken to speed up within a step; the step is checked afterwards."""
 
 
-@kernel("i8(S, F, I, i8)")
-def _enter(S: Scalars, w: Floats, k: Integers, declared: int) -> int:
+@kernel("i8(ws, i8)")
+def _enter(ws: Workspace, declared: int) -> int:
     """Put a declared contact into the next slot, unless it is empty; return 0 if there is no slot."""
-    if is_empty(S, w, k, declared) == 1:
+    if is_empty(ws, declared) == 1:
         return 1
-    if S.n_contacts == S.n_slots:
+    if ws.n_contacts == ws.n_slots:
         return 0
-    c = S.n_contacts
-    contact = contact_at(S, w, k, c)
-    row, floats = S.catalogue + _WIDTH * declared, at(w, S.catalogue_floats + CATALOGUE_FLOATS * declared)
+    c = ws.n_contacts
+    contact = ws.contacts[c]
+    row, floats = (
+        ws.offsets.catalogue + _WIDTH * declared,
+        at(ws.floats, ws.offsets.catalogue_floats + CATALOGUE_FLOATS * declared),
+    )
     # the arrays of the catalogue's entries follow one another
     for i in range(_WIDTH):
-        k[S.body_a + i * S.n_slots + c] = k[row + i]
+        ws.body_a[i * ws.n_slots + c] = ws.integers[row + i]
     contact.contact_time, contact.reach = floats[CONTACT_TIME], floats[REACH]
     contact.closing_rate, contact.size = floats[CLOSING_RATE], floats[SIZE]
     contact.lever_a, contact.lever_b = floats[LEVERS], floats[LEVERS + 1]
@@ -92,23 +90,23 @@ def _enter(S: Scalars, w: Floats, k: Integers, declared: int) -> int:
         contact.geometry[i] = 0.0
     # Jacobians keep zeros where other bodies of an articulation stand
     for side in range(2):
-        n_u = articulation_at(S, w, k, contact.articulation_a if side == 0 else contact.articulation_b).nu
+        n_u = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b].nu
         jacobian = contact.jacobian_a if side == 0 else contact.jacobian_b
         for i in range(3 * n_u):
-            w[jacobian + i] = 0.0
-    S.n_contacts += 1
+            ws.floats[jacobian + i] = 0.0
+    ws.n_contacts += 1
     return 1
 
 
-@kernel("void(S, F, I)")
-def _leave(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def _leave(ws: Workspace) -> None:
     """Empty all slots; modes, and what the last event left of the contacts, go back to the catalogue."""
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
+    for c in range(ws.n_contacts):
+        contact = ws.contacts[c]
         declared = contact.identity
-        floats = at(w, S.catalogue_floats + CATALOGUE_FLOATS * declared)
-        k[S.catalogue + _WIDTH * declared + _MODE] = contact.mode
-        k[S.catalogue + _WIDTH * declared + _AVERAGED] = contact.averaged
+        floats = at(ws.floats, ws.offsets.catalogue_floats + CATALOGUE_FLOATS * declared)
+        ws.catalogue[_WIDTH * declared + _MODE] = contact.mode
+        ws.catalogue[_WIDTH * declared + _AVERAGED] = contact.averaged
         floats[DIRECTION], floats[DIRECTION + 1] = contact.direction
         floats[CLOSING_RATE] = contact.closing_rate
         floats[MOBILITY], floats[SMALL_FORCE] = contact.mobility, contact.small_force_of
@@ -116,25 +114,25 @@ def _leave(S: Scalars, w: Floats, k: Integers) -> None:
         floats[MEAN_ASKED], floats[MEAN_WAIT] = contact.mean_asked, contact.mean_wait
         for r in range(3):
             floats[MEAN_FORCE + r] = contact.mean_force[r]
-    S.n_contacts = 0
+    ws.n_contacts = 0
 
 
-@kernel("i8(S, F, I, i8, i8)")
-def _enter_pair(S: Scalars, w: Floats, k: Integers, one: int, two: int) -> int:
+@kernel("i8(ws, i8, i8)")
+def _enter_pair(ws: Workspace, one: int, two: int) -> int:
     """Enter the contacts of two units, if there are any; return 0 if there is no slot."""
-    unit = unit_at(S, w, k, one)
+    unit = ws.units[one]
     low, high = unit.first_partner, unit.end_partner
     end = high
     while low < high:
         middle = (low + high) // 2
-        if k[S.partner_unit + middle] < two:
+        if ws.partner_unit[middle] < two:
             low = middle + 1
         else:
             high = middle
-    if low == end or k[S.partner_unit + low] != two:
+    if low == end or ws.partner_unit[low] != two:
         return 1
-    for i in range(k[S.partner_contact + low], k[S.partner_contact + low + 1]):
-        if _enter(S, w, k, k[S.paired_contact + i]) == 0:
+    for i in range(ws.partner_contact[low], ws.partner_contact[low + 1]):
+        if _enter(ws, ws.paired_contact[i]) == 0:
             return 0
     return 1
 
@@ -148,105 +146,105 @@ def _is_still(w: Floats, place: int) -> int:
     return 1 if moves == 0.0 else 0
 
 
-@kernel("i8(S, F, I, i8)")
-def _is_clear(S: Scalars, w: Floats, k: Integers, number: int) -> int:
+@kernel("i8(ws, i8)")
+def _is_clear(ws: Workspace, number: int) -> int:
     """Return 1 if the ball of a unit is farther above a wall at rest than the margin: a closed contact has none."""
-    wall = wall_at(S, w, k, number)
-    frame, unit = frame_at(w, wall.frame), unit_at(S, w, k, wall.unit)
+    wall = ws.walls[number]
+    frame, unit = frame_at(ws.floats, wall.frame), ws.units[wall.unit]
     third = frame.rotation[2], frame.rotation[5], frame.rotation[8]
     height = dot(third, minus(unit.place, frame.origin)) - wall.ceiling
-    return 1 if height - unit.radius > S.margin_of_list else 0
+    return 1 if height - unit.radius > ws.margin_of_list else 0
 
 
-@kernel("f8(S, F, I, i8, i8)")
-def _begin(S: Scalars, w: Floats, k: Integers, number: int, axis: int) -> float:
+@kernel("f8(ws, i8, i8)")
+def _begin(ws: Workspace, number: int, axis: int) -> float:
     """Return where the ball of a unit begins along an axis."""
-    unit = unit_at(S, w, k, number)
+    unit = ws.units[number]
     return float(unit.places[axis] - unit.radius)
 
 
-@kernel("void(S, F, I, i8)")
-def _sort_units(S: Scalars, w: Floats, k: Integers, axis: int) -> None:
+@kernel("void(ws, i8)")
+def _sort_units(ws: Workspace, axis: int) -> None:
     """Sort the units by where their balls begin along an axis; they nearly are, from the last time."""
-    for i in range(1, S.n_units):
-        unit = k[S.unit_order + i]
-        begin = _begin(S, w, k, unit, axis)
+    for i in range(1, ws.n_units):
+        unit = ws.unit_order[i]
+        begin = _begin(ws, unit, axis)
         j = i - 1
         while j >= 0:
-            other = k[S.unit_order + j]
-            if _begin(S, w, k, other, axis) <= begin:
+            other = ws.unit_order[j]
+            if _begin(ws, other, axis) <= begin:
                 break
-            k[S.unit_order + j + 1] = other
+            ws.unit_order[j + 1] = other
             j -= 1
-        k[S.unit_order + j + 1] = unit
+        ws.unit_order[j + 1] = unit
 
 
-@kernel("i8(S, F, I)")
-def _widest_axis(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _widest_axis(ws: Workspace) -> int:
     best, widest = 0, -1.0
     for axis in range(3):
         low, high = 1e300, -1e300
-        for number in range(S.n_units):
-            place = unit_at(S, w, k, number).places[axis]
+        for number in range(ws.n_units):
+            place = ws.units[number].places[axis]
             low, high = min(low, place), max(high, place)
         if high - low > widest:
             best, widest = axis, high - low
     return best
 
 
-@entry_point("i8(S, F, I)")
-def list_contacts(S: Scalars, w: Floats, k: Integers) -> int:
+@entry_point("i8(ws)")
+def list_contacts(ws: Workspace) -> int:
     """Fill the slots for the present state; return the status."""
-    _leave(S, w, k)
-    S.fresh = 0
-    S.listings += 1
-    if S.n_units == 0:
-        for declared in range(S.n_declared):
-            _enter(S, w, k, declared)
+    _leave(ws)
+    ws.fresh = 0
+    ws.listings += 1
+    if ws.n_units == 0:
+        for declared in range(ws.n_declared):
+            _enter(ws, declared)
         return RUNNING
-    evaluate_bodies(S, w, k, S.t, S.y)
-    for number in range(S.n_units):
-        unit = unit_at(S, w, k, number)
-        frame = frame_at(w, unit.frame)
+    evaluate_bodies(ws, ws.t, ws.offsets.y)
+    for number in range(ws.n_units):
+        unit = ws.units[number]
+        frame = frame_at(ws.floats, unit.frame)
         unit.place = frame.origin
         for i in range(9):
             unit.axes[i] = frame.rotation[i]
-    S.margin_of_list = min(S.widest_margin, 2.0 * S.margin_of_list)
-    status = fill_pools(S, w, k)
-    while status == NO_SLOT and S.margin_of_list > _NARROWEST * S.widest_margin:
-        S.margin_of_list *= 0.5
-        status = fill_pools(S, w, k)
+    ws.margin_of_list = min(ws.widest_margin, 2.0 * ws.margin_of_list)
+    status = fill_pools(ws)
+    while status == NO_SLOT and ws.margin_of_list > _NARROWEST * ws.widest_margin:
+        ws.margin_of_list *= 0.5
+        status = fill_pools(ws)
     if status != RUNNING:
         return status
     frame = still = -1
-    for i in range(S.n_walls):
-        wall = wall_at(S, w, k, i)
+    for i in range(ws.n_walls):
+        wall = ws.walls[i]
         # the walls of one frame follow one another
         if wall.frame != frame:
-            frame, still = wall.frame, _is_still(w, wall.frame)
-        clear = still == 1 and wall.steady == 1 and _is_clear(S, w, k, i) == 1
-        if not clear and _enter(S, w, k, wall.contact) == 0:
+            frame, still = wall.frame, _is_still(ws.floats, wall.frame)
+        clear = still == 1 and wall.steady == 1 and _is_clear(ws, i) == 1
+        if not clear and _enter(ws, wall.contact) == 0:
             return NO_SLOT
-    axis = _widest_axis(S, w, k)
-    _sort_units(S, w, k, axis)
-    for i in range(S.n_units):
-        one = k[S.unit_order + i]
-        unit = unit_at(S, w, k, one)
-        end = unit.places[axis] + unit.radius + S.margin_of_list
-        for j in range(i + 1, S.n_units):
-            two = k[S.unit_order + j]
-            if _begin(S, w, k, two, axis) > end:
+    axis = _widest_axis(ws)
+    _sort_units(ws, axis)
+    for i in range(ws.n_units):
+        one = ws.unit_order[i]
+        unit = ws.units[one]
+        end = unit.places[axis] + unit.radius + ws.margin_of_list
+        for j in range(i + 1, ws.n_units):
+            two = ws.unit_order[j]
+            if _begin(ws, two, axis) > end:
                 break
-            if are_near(S, w, k, one, two) == 1 and _enter_pair(S, w, k, min(one, two), max(one, two)) == 0:
+            if are_near(ws, one, two) == 1 and _enter_pair(ws, min(one, two), max(one, two)) == 0:
                 return NO_SLOT
     return RUNNING
 
 
-@kernel("f8(S, F, I, i8)")
-def _way(S: Scalars, w: Floats, k: Integers, number: int) -> float:
+@kernel("f8(ws, i8)")
+def _way(ws: Workspace, number: int) -> float:
     """Return how far a unit is from where it was listed, and its farthest point if turning counts."""
-    unit = unit_at(S, w, k, number)
-    frame = frame_at(w, unit.frame)
+    unit = ws.units[number]
+    frame = frame_at(ws.floats, unit.frame)
     way, lever = distance(frame.origin, unit.place), unit.lever
     if lever > 0.0:
         square = 0.0
@@ -256,40 +254,40 @@ def _way(S: Scalars, w: Floats, k: Integers, number: int) -> float:
     return float(way)
 
 
-@kernel("f8(S, F, I, i8)")
-def _unit_speed(S: Scalars, w: Floats, k: Integers, number: int) -> float:
-    unit = unit_at(S, w, k, number)
-    frame = frame_at(w, unit.frame)
+@kernel("f8(ws, i8)")
+def _unit_speed(ws: Workspace, number: int) -> float:
+    unit = ws.units[number]
+    frame = frame_at(ws.floats, unit.frame)
     speed = math.sqrt(dot(frame.velocity, frame.velocity))
     if unit.lever > 0.0:
         speed += unit.lever * math.sqrt(dot(frame.spin, frame.spin))
     return speed
 
 
-@kernel("f8(S, F, I)")
-def longest_step(S: Scalars, w: Floats, k: Integers) -> float:
+@kernel("f8(ws)")
+def longest_step(ws: Workspace) -> float:
     """Return for how long the list holds, the bodies being evaluated; 0 if it must be drawn anew."""
     longest = 1e300
-    for number in range(S.n_units):
-        unit, way, speed = unit_at(S, w, k, number), _way(S, w, k, number), _unit_speed(S, w, k, number)
-        left = 0.5 * S.margin_of_list - way
+    for number in range(ws.n_units):
+        unit, way, speed = ws.units[number], _way(ws, number), _unit_speed(ws, number)
+        left = 0.5 * ws.margin_of_list - way
         unit.way, unit.speed = way, speed
-        if left < 0.5 * (1.0 - _SPENT) * S.margin_of_list:
+        if left < 0.5 * (1.0 - _SPENT) * ws.margin_of_list:
             return 0.0
         if speed * longest * _ACCELERATION > left:
             longest = left / (_ACCELERATION * speed)
     return longest
 
 
-@kernel("i8(S, F, I, f8)")
-def overran_list(S: Scalars, w: Floats, k: Integers, h: float) -> int:
+@kernel("i8(ws, f8)")
+def overran_list(ws: Workspace, h: float) -> int:
     """Return 1 if some unit may have left its way in a step of ``h``, the bodies being evaluated at its end.
 
     No point of a path of length l between two points is farther off than half of l and of the ends' distances.
     """
-    for number in range(S.n_units):
-        unit = unit_at(S, w, k, number)
-        path = h * max(unit.speed, _unit_speed(S, w, k, number))
-        if unit.way + _way(S, w, k, number) + path > S.margin_of_list:
+    for number in range(ws.n_units):
+        unit = ws.units[number]
+        path = h * max(unit.speed, _unit_speed(ws, number))
+        if unit.way + _way(ws, number) + path > ws.margin_of_list:
             return 1
     return 0

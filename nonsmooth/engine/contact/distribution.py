@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 from nonsmooth.engine.contact.unknowns import force_of, set_force
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel, unknown_at
+from nonsmooth.engine.native.kernel import (
+    Workspace,
+    entry_point,
+    kernel,
+)
 from nonsmooth.engine.numerics.band_cholesky import factorise_band, substitute_band
 from nonsmooth.engine.numerics.linear import SINGULAR, band_row, eliminate, product, subtract_part
 from nonsmooth.engine.numerics.null_band import copy_shifted, largest_diagonal, project_on_null
@@ -19,174 +23,174 @@ _CHEAP = 1e-7
 """the Hessian counts by this, relative to H."""
 
 
-@kernel("f8(S, F, I, i8, i8)")
-def _disc_excess(S: Scalars, w: Floats, k: Integers, i: int, a: int) -> float:
+@kernel("f8(ws, i8, i8)")
+def _disc_excess(ws: Workspace, i: int, a: int) -> float:
     """Write the friction of a contact with a given normal force less its projection on the disc; return its square."""
-    active = active_at(S, w, k, a)
+    active = ws.actives[a]
     t1, t2 = active.friction
     bound, size = active.mu_static * active.normal_force, length(active.friction)
     out = max(0.0, size - bound)
-    w[S.right + i] = w[S.right + i + 1] = 0.0
+    ws.right[i] = ws.right[i + 1] = 0.0
     if out > 0.0:
-        w[S.right + i], w[S.right + i + 1] = out * t1 / size, out * t2 / size
+        ws.right[i], ws.right[i + 1] = out * t1 / size, out * t2 / size
     return float(out * out)
 
 
-@kernel("void(S, F, I, i8, i8, i8, i8, f8)")
-def _add_disc_curve(S: Scalars, w: Floats, k: Integers, i: int, a: int, line1: int, line2: int, factor: float) -> None:
+@kernel("void(ws, i8, i8, i8, i8, f8)")
+def _add_disc_curve(ws: Workspace, i: int, a: int, line1: int, line2: int, factor: float) -> None:
     """Add the Hessian of the half square of what :func:`_disc_excess` writes."""
-    active = active_at(S, w, k, a)
+    active = ws.actives[a]
     t1, t2 = active.friction
     bound, size = active.mu_static * active.normal_force, length(active.friction)
     if size > bound:
         c1, c2, round_ = t1 / size, t2 / size, 1.0 - bound / size
-        w[line1 + i] += factor * (c1 * c1 + round_ * c2 * c2)
-        w[line2 + i + 1] += factor * (c2 * c2 + round_ * c1 * c1)
-        w[line1 + i + 1] += factor * (1.0 - round_) * c1 * c2
-        w[line2 + i] += factor * (1.0 - round_) * c1 * c2
+        ws.floats[line1 + i] += factor * (c1 * c1 + round_ * c2 * c2)
+        ws.floats[line2 + i + 1] += factor * (c2 * c2 + round_ * c1 * c1)
+        ws.floats[line1 + i + 1] += factor * (1.0 - round_) * c1 * c2
+        ws.floats[line2 + i] += factor * (1.0 - round_) * c1 * c2
 
 
-@kernel("f8(S, F, I, i8, f8)")
-def _excess(S: Scalars, w: Floats, k: Integers, n: int, inset: float) -> float:
+@kernel("f8(ws, i8, f8)")
+def _excess(ws: Workspace, n: int, inset: float) -> float:
     """Write f less its projection on the cones to ``right``; return half its square."""
     square = 0.0
     for i in range(n):
-        unknown = unknown_at(S, w, k, i)
+        unknown = ws.unknowns[i]
         a = unknown.contact
-        active = active_at(S, w, k, a)
+        active = ws.actives[a]
         if unknown.direction == 1 and active.normal_held == 0:
-            square += _disc_excess(S, w, k, i, a)
+            square += _disc_excess(ws, i, a)
         if unknown.direction != 0:
             continue
         normal = active.normal_force - inset * active.redundant
-        w[S.right + i] = min(0.0, normal)
+        ws.right[i] = min(0.0, normal)
         if active.tangent_held == 1:
             t1, t2 = active.friction
             mu, size = active.mu_static, length(active.friction)
-            w[S.right + i + 1] = w[S.right + i + 2] = 0.0
+            ws.right[i + 1] = ws.right[i + 2] = 0.0
             if mu * size <= -normal:
-                w[S.right + i + 1], w[S.right + i + 2] = t1, t2
+                ws.right[i + 1], ws.right[i + 2] = t1, t2
             elif size > mu * normal:
                 out = (size - mu * normal) / (1.0 + mu * mu)
-                w[S.right + i] = -mu * out
-                w[S.right + i + 1], w[S.right + i + 2] = out * t1 / size, out * t2 / size
+                ws.right[i] = -mu * out
+                ws.right[i + 1], ws.right[i + 2] = out * t1 / size, out * t2 / size
             else:
-                w[S.right + i] = 0.0
-            square += w[S.right + i + 1] ** 2 + w[S.right + i + 2] ** 2
-        square += w[S.right + i] ** 2
+                ws.right[i] = 0.0
+            square += ws.right[i + 1] ** 2 + ws.right[i + 2] ** 2
+        square += ws.right[i] ** 2
     return 0.5 * square
 
 
-@kernel("void(S, F, I, i8, i8, i8, f8, f8)")
-def _add_curve(S: Scalars, w: Floats, k: Integers, n: int, matrix: int, half: int, factor: float, inset: float) -> None:
+@kernel("void(ws, i8, i8, i8, f8, f8)")
+def _add_curve(ws: Workspace, n: int, matrix: int, half: int, factor: float, inset: float) -> None:
     """Add the Hessian of the half square, block by block and times a factor, to the band at ``matrix``."""
     for i in range(n):
-        unknown = unknown_at(S, w, k, i)
+        unknown = ws.unknowns[i]
         a = unknown.contact
-        active = active_at(S, w, k, a)
+        active = ws.actives[a]
         if unknown.direction == 1 and active.normal_held == 0:
-            _add_disc_curve(S, w, k, i, a, band_row(matrix, i, n, half), band_row(matrix, i + 1, n, half), factor)
+            _add_disc_curve(ws, i, a, band_row(matrix, i, n, half), band_row(matrix, i + 1, n, half), factor)
         if unknown.direction != 0:
             continue
         normal, h = active.normal_force - inset * active.redundant, band_row(matrix, i, n, half) + i
         if active.tangent_held == 0:
-            w[h] += factor if normal < 0.0 else 0.0
+            ws.floats[h] += factor if normal < 0.0 else 0.0
             continue
         h1, h2 = band_row(matrix, i + 1, n, half) + i, band_row(matrix, i + 2, n, half) + i
         t1, t2 = active.friction
         mu, size = active.mu_static, length(active.friction)
         if mu * size <= -normal:
-            w[h] += factor
-            w[h1 + 1] += factor
-            w[h2 + 2] += factor
+            ws.floats[h] += factor
+            ws.floats[h1 + 1] += factor
+            ws.floats[h2 + 2] += factor
         elif size > mu * normal:
             s = (1.0 + mu * mu) / factor
             c1, c2 = t1 / size, t2 / size
             round_ = (size - mu * normal) / (s * size)
-            w[h] += mu * mu / s
-            w[h + 1] -= mu * c1 / s
-            w[h + 2] -= mu * c2 / s
-            w[h1] -= mu * c1 / s
-            w[h2] -= mu * c2 / s
-            w[h1 + 1] += c1 * c1 / s + round_ * c2 * c2
-            w[h2 + 2] += c2 * c2 / s + round_ * c1 * c1
-            w[h1 + 2] += c1 * c2 / s - round_ * c1 * c2
-            w[h2 + 1] += c1 * c2 / s - round_ * c1 * c2
+            ws.floats[h] += mu * mu / s
+            ws.floats[h + 1] -= mu * c1 / s
+            ws.floats[h + 2] -= mu * c2 / s
+            ws.floats[h1] -= mu * c1 / s
+            ws.floats[h2] -= mu * c2 / s
+            ws.floats[h1 + 1] += c1 * c1 / s + round_ * c2 * c2
+            ws.floats[h2 + 2] += c2 * c2 / s + round_ * c1 * c1
+            ws.floats[h1 + 2] += c1 * c2 / s - round_ * c1 * c2
+            ws.floats[h2 + 1] += c1 * c2 / s - round_ * c1 * c2
 
 
-@kernel("i8(S, F, I, i8, f8)")
-def _step(S: Scalars, w: Floats, k: Integers, n: int, inset: float) -> int:
+@kernel("i8(ws, i8, f8)")
+def _step(ws: Workspace, n: int, inset: float) -> int:
     """Write Newton's step along the basis of the null space to ``x``; return 0 if there is none."""
-    free, basis = n - S.held_rank, S.basis + S.held_rank * n
+    free, basis = n - ws.held_rank, ws.offsets.basis + ws.held_rank * n
     for i in range(n * n):
-        w[S.matrix + i] = 0.0
-    _add_curve(S, w, k, n, S.matrix, n, 1.0, inset)
+        ws.matrix[i] = 0.0
+    _add_curve(ws, n, ws.offsets.matrix, n, 1.0, inset)
     for c in range(free):
         row = basis + c * n
         for i in range(n):
-            active, total = active_at(S, w, k, unknown_at(S, w, k, i).contact), 0.0
+            active, total = ws.actives[ws.unknowns[i].contact], 0.0
             for j in range(active.first_unknown, active.end_unknown):
-                total += w[S.matrix + i * n + j] * w[row + j]
-            w[S.sigma + i] = total
+                total += ws.matrix[i * n + j] * ws.floats[row + j]
+            ws.sigma[i] = total
         for d in range(free):
-            w[S.reduced + c * free + d] = product(w, 0.0, S.sigma, basis + d * n, n)
-        w[S.reduced + c * free + c] += _FLOOR
-        w[S.x + c] = -product(w, 0.0, row, S.right, n)
-    if eliminate(w, S.reduced, free, free, S.x, SINGULAR) == 0:
+            ws.reduced[c * free + d] = product(ws.floats, 0.0, ws.offsets.sigma, basis + d * n, n)
+        ws.reduced[c * free + c] += _FLOOR
+        ws.x[c] = -product(ws.floats, 0.0, row, ws.offsets.right, n)
+    if eliminate(ws.floats, ws.offsets.reduced, free, free, ws.offsets.x, SINGULAR) == 0:
         return 0
     for c in range(free):
-        w[S.sigma + c] = w[S.x + c]
+        ws.sigma[c] = ws.x[c]
     for i in range(n):
-        w[S.x + i] = 0.0
+        ws.x[i] = 0.0
     for c in range(free):
-        subtract_part(w, S.x, -w[S.sigma + c], basis + c * n, n)
+        subtract_part(ws.floats, ws.offsets.x, -ws.sigma[c], basis + c * n, n)
     return 1
 
 
-@kernel("i8(S, F, I, i8, f8)")
-def _step_in_band(S: Scalars, w: Floats, k: Integers, n: int, inset: float) -> int:
+@kernel("i8(ws, i8, f8)")
+def _step_in_band(ws: Workspace, n: int, inset: float) -> int:
     """Write Newton's step to ``x``: what leaves the null space, by H in ``basis``, is made dear, and cut off then."""
-    weight = _CHEAP * largest_diagonal(w, S.basis, n, S.null_half)
-    copy_shifted(w, S.basis, n, S.null_half, S.matrix, weight * _FLOOR_IN_BAND)
-    _add_curve(S, w, k, n, S.matrix, S.null_half, weight, inset)
-    factorise_band(w, S.matrix, n, S.null_half, 0.1 * weight * _FLOOR_IN_BAND)
+    weight = _CHEAP * largest_diagonal(ws.floats, ws.offsets.basis, n, ws.null_half)
+    copy_shifted(ws.floats, ws.offsets.basis, n, ws.null_half, ws.offsets.matrix, weight * _FLOOR_IN_BAND)
+    _add_curve(ws, n, ws.offsets.matrix, ws.null_half, weight, inset)
+    factorise_band(ws.floats, ws.offsets.matrix, n, ws.null_half, 0.1 * weight * _FLOOR_IN_BAND)
     for i in range(n):
-        w[S.x + i] = -weight * w[S.right + i]
-    substitute_band(w, S.matrix, n, S.null_half, S.x)
-    project_on_null(S, w, n, S.x)
+        ws.x[i] = -weight * ws.right[i]
+    substitute_band(ws.floats, ws.offsets.matrix, n, ws.null_half, ws.offsets.x)
+    project_on_null(ws, n, ws.offsets.x)
     return 1
 
 
-@entry_point("i8(S, F, I, f8, f8)")
-def distribute(S: Scalars, w: Floats, k: Integers, inset: float, arrived: float) -> int:
+@entry_point("i8(ws, f8, f8)")
+def distribute(ws: Workspace, inset: float, arrived: float) -> int:
     """Move the forces along the null space into the cones; return 1 if they arrive.
 
     ``active_forces`` is the answer of least norm, ``null`` tells what may be added to it.  The half square of the
     distance to the cones, moved up by ``inset`` [N] where forces are not unique, is convex along the null space, and
     its smallest value is sought by Newton's method until no force is out by more than ``arrived`` [N].
     """
-    n = S.n_unknown
-    square = _excess(S, w, k, n, inset)
+    n = ws.n_unknown
+    square = _excess(ws, n, inset)
     for _round in range(_STEPS):
         worst = 0.0
         for i in range(n):
-            worst = max(worst, abs(w[S.right + i]))
+            worst = max(worst, abs(ws.right[i]))
         if worst <= arrived:
             return 1
-        if (_step_in_band(S, w, k, n, inset) if S.null_banded == 1 else _step(S, w, k, n, inset)) == 0:
+        if (_step_in_band(ws, n, inset) if ws.null_banded == 1 else _step(ws, n, inset)) == 0:
             return 0
         slope = 0.0
         for i in range(n):
-            slope += w[S.right + i] * w[S.x + i]
-            w[S.sigma + i] = force_of(S, w, k, i)
+            slope += ws.right[i] * ws.x[i]
+            ws.sigma[i] = force_of(ws, i)
         # where the distance has its smallest value, and it is not zero, there are no such forces
         if not slope < 0.0:
             return 0
         share, moved = 1.0, 0
         for _halving in range(30):
             for i in range(n):
-                set_force(S, w, k, i, w[S.sigma + i] + share * w[S.x + i])
-            new = _excess(S, w, k, n, inset)
+                set_force(ws, i, ws.sigma[i] + share * ws.x[i])
+            new = _excess(ws, n, inset)
             if new <= square + 1e-4 * share * slope:
                 square, moved = new, 1
                 break

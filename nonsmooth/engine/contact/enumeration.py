@@ -8,7 +8,7 @@ from nonsmooth.engine.contact.trial import hold_tried, verify
 from nonsmooth.engine.delassus.delassus import add_product
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.memory.solvers import MOST_ENUMERATED
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel
+from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.vectors import length
 
@@ -18,11 +18,11 @@ _ENDLESS = 1e30
 """Static coefficient of what is held whatever the friction: no ratio of forces is as large."""
 
 
-@kernel("i8(S, F, I, i8)")
-def _write_modes(S: Scalars, w: Floats, k: Integers, number: int) -> int:
+@kernel("i8(ws, i8)")
+def _write_modes(ws: Workspace, number: int) -> int:
     """Write the modes that the digits of ``number`` to base 3 mean; return 1 if they make sense."""
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         choice = number % 3
         number //= 3
         mode = STICK if choice == 0 else (SLIDE if choice == 1 else OPEN)
@@ -32,78 +32,78 @@ def _write_modes(S: Scalars, w: Floats, k: Integers, number: int) -> int:
     return 1
 
 
-@kernel("i8(S, F, I)")
-def _start_slips(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _start_slips(ws: Workspace) -> int:
     """Point the incipient slips along the accelerations without their friction; return how many there are."""
     count = 0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         if active.at_rest == 1 and active.mode_tried == SLIDE:
             count += 1
     if count == 0:
         return 0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         active.mu_kept = active.mu
         if active.at_rest == 1:
             active.mu = 0.0
-    hold_tried(S, w, k)
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    hold_tried(ws)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         active.mu = active.mu_kept
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         if active.at_rest == 0 or active.mode_tried != SLIDE:
             continue
-        a1 = add_product(S, w, k, active.free[1], a, 1, S.active_forces)
-        a2 = add_product(S, w, k, active.free[2], a, 2, S.active_forces)
+        a1 = add_product(ws, active.free[1], a, 1, ws.offsets.active_forces)
+        a2 = add_product(ws, active.free[2], a, 2, ws.offsets.active_forces)
         norm = length((a1, a2))
         active.direction = a1 / norm if norm > 0.0 else 1.0, a2 / norm if norm > 0.0 else 0.0
     return count
 
 
-@kernel("void(S, F, I)")
-def _sweep_slips(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def _sweep_slips(ws: Workspace) -> None:
     """Point the incipient slips by sweeps with the modes held: Newton's method may have gone to a slip backwards."""
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         mode = active.mode_tried
         active.normal_held = 0 if mode == OPEN else 1
         active.static_kept = active.mu_static
         active.mu_static = _ENDLESS if mode == STICK else 0.0
         for r in range(3):
             active.force[r] = 0.0
-    gauss_seidel(S, w, k, _SWEEPS)
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    gauss_seidel(ws, _SWEEPS)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         active.mu_static = active.static_kept
 
 
-@entry_point("i8(S, F, I, i8)")
-def enumerate_modes(S: Scalars, w: Floats, k: Integers, first: int) -> int:
+@entry_point("i8(ws, i8)")
+def enumerate_modes(ws: Workspace, first: int) -> int:
     """Try every combination of modes from number ``first`` on; return the number behind the first verified, or 0.
 
     The directions of incipient slip start from those without friction and, where Newton's method leads astray from
     there, from sweeps.
     """
-    if S.n_active > MOST_ENUMERATED:
+    if ws.n_active > MOST_ENUMERATED:
         return 0
     combinations = 1
-    for _a in range(S.n_active):
+    for _a in range(ws.n_active):
         combinations *= 3
     for number in range(first, combinations):
-        if interrupted(S, S.n_active) == 1:
+        if interrupted(ws, ws.n_active) == 1:
             return 0
-        if _write_modes(S, w, k, number) == 0:
+        if _write_modes(ws, number) == 0:
             continue
-        slips = _start_slips(S, w, k)
+        slips = _start_slips(ws)
         if slips > 0:
-            polish(S, w, k)
-        if verify(S, w, k, 0) == 1:
+            polish(ws)
+        if verify(ws, 0) == 1:
             return number + 1
         if slips > 0:
-            _sweep_slips(S, w, k)
-            polish(S, w, k)
-            if verify(S, w, k, 0) == 1:
+            _sweep_slips(ws)
+            polish(ws)
+            if verify(ws, 0) == 1:
                 return number + 1
     return 0

@@ -10,7 +10,12 @@ from __future__ import annotations
 from nonsmooth.engine.contact.unknowns import list_unknown, set_force
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, entry_point, kernel, unknown_at
+from nonsmooth.engine.native.kernel import (
+    Workspace,
+    at,
+    entry_point,
+    kernel,
+)
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.band import open_band
 from nonsmooth.engine.numerics.linear import (
@@ -35,99 +40,99 @@ _COUPLED = 1e-7
 
 
 @entry_point()
-def resolve(S: Scalars, w: Floats, k: Integers) -> None:
+def resolve(ws: Workspace) -> None:
     """Complete ``active_forces``; where the forces are not unique, take those of least norm and mark the contacts."""
-    n = _collect(S, w, k)
-    interrupted(S, n * S.n_active)
-    if S.n_active == 1 and n == 3 and _stick_alone(S, w, k) == 1:
+    n = _collect(ws)
+    interrupted(ws, n * ws.n_active)
+    if ws.n_active == 1 and n == 3 and _stick_alone(ws) == 1:
         return
-    if open_band(S, w, k, n, S.reduced) == 0:
+    if open_band(ws, n, ws.offsets.reduced) == 0:
         return
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         for i in range(active.first_unknown, active.end_unknown):
-            _write_row(S, w, k, a, i, n)
-    if solve_unknowns(S, w, k, n) == 0:
-        for a in range(S.n_active):
-            active = active_at(S, w, k, a)
+            _write_row(ws, a, i, n)
+    if solve_unknowns(ws, n) == 0:
+        for a in range(ws.n_active):
+            active = ws.actives[a]
             for i in range(active.first_unknown, active.end_unknown):
-                _write_frictionless_row(S, w, k, a, i, n)
-        solve_doubtful(S, w, k, n)
+                _write_frictionless_row(ws, a, i, n)
+        solve_doubtful(ws, n)
     for i in range(n):
-        set_force(S, w, k, i, w[S.x + i])
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+        set_force(ws, i, ws.x[i])
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         if active.normal_held == 1 and active.tangent_held == 0:
-            friction_of_slip(S, w, k, a)
+            friction_of_slip(ws, a)
 
 
-@kernel("i8(S, F, I)")
-def _stick_alone(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _stick_alone(ws: Workspace) -> int:
     """Complete the forces of an island of one contact that sticks; return 0, nothing done, where that is doubtful."""
-    active, own = active_at(S, w, k, 0), diagonal_block(S, w, k, 0).entries
+    active, own = ws.actives[0], diagonal_block(ws, 0).entries
     rows = (own[0], own[1], own[2]), (own[3], own[4], own[5]), (own[6], own[7], own[8])
     right = -active.free[0], -active.free[1], -active.free[2]
     forces = solve_three(rows[0], rows[1], rows[2], right, DOUBTFUL)
     if forces[0] != forces[0]:
         return 0
-    S.n_unknown, S.deficient, S.null_banded = 3, 0, 0
+    ws.n_unknown, ws.deficient, ws.null_banded = 3, 0, 0
     active.normal_force, active.friction = forces[0], (forces[1], forces[2])
     return 1
 
 
-@kernel("void(S, F, I, i8, i8, i8)")
-def _write_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
+@kernel("void(ws, i8, i8, i8)")
+def _write_row(ws: Workspace, a: int, i: int, n: int) -> None:
     """Write the row of unknown ``i``, one of contact ``a``: what the unknowns and the given forces do to it."""
-    active = active_at(S, w, k, a)
-    r = unknown_at(S, w, k, i).direction
-    w[S.right + i] = -add_product(S, w, k, active.free[r], a, r, S.active_forces)
-    line = band_row(S.reduced, i, n, S.half_band)
+    active = ws.actives[a]
+    r = ws.unknowns[i].direction
+    ws.right[i] = -add_product(ws, active.free[r], a, r, ws.offsets.active_forces)
+    line = band_row(ws.offsets.reduced, i, n, ws.half_band)
     for block in range(active.first_block, active.end_block):
-        pushing = active_at(S, w, k, k[S.block_column + block])
-        g = at(w, S.delassus + DELASSUS * block + 3 * r)
+        pushing = ws.actives[ws.block_column[block]]
+        g = at(ws.floats, ws.offsets.delassus + DELASSUS * block + 3 * r)
         out = line + pushing.first_unknown
         if pushing.normal_held == 1:
-            w[out] = g[0]
+            ws.floats[out] = g[0]
             if pushing.tangent_held == 0:
                 # the friction of a sliding contact moves with its normal force
-                w[out] -= pushing.mu * (pushing.direction[0] * g[1] + pushing.direction[1] * g[2])
+                ws.floats[out] -= pushing.mu * (pushing.direction[0] * g[1] + pushing.direction[1] * g[2])
             out += 1
         if pushing.tangent_held == 1:
-            w[out], w[out + 1] = g[1], g[2]
+            ws.floats[out], ws.floats[out + 1] = g[1], g[2]
 
 
-@kernel("void(S, F, I, i8, i8, i8)")
-def _write_frictionless_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
+@kernel("void(ws, i8, i8, i8)")
+def _write_frictionless_row(ws: Workspace, a: int, i: int, n: int) -> None:
     """Write row ``i`` of what the unknowns would do without the friction of sliding contacts to ``matrix``."""
-    active = active_at(S, w, k, a)
-    r = unknown_at(S, w, k, i).direction
-    line = band_row(S.matrix, i, n, S.half_band)
+    active = ws.actives[a]
+    r = ws.unknowns[i].direction
+    line = band_row(ws.offsets.matrix, i, n, ws.half_band)
     for block in range(active.first_block, active.end_block):
-        pushing = active_at(S, w, k, k[S.block_column + block])
+        pushing = ws.actives[ws.block_column[block]]
         for j in range(pushing.first_unknown, pushing.end_unknown):
-            w[line + j] = w[S.delassus + DELASSUS * block + 3 * r + unknown_at(S, w, k, j).direction]
+            ws.floats[line + j] = ws.delassus[DELASSUS * block + 3 * r + ws.unknowns[j].direction]
 
 
-@kernel("i8(S, F, I, i8)")
-def solve_unknowns(S: Scalars, w: Floats, k: Integers, n: int) -> int:
+@kernel("i8(ws, i8)")
+def solve_unknowns(ws: Workspace, n: int) -> int:
     """Solve ``reduced . x = right`` of the unknowns in ``column``; return 0 if the matrix is doubtfully regular.
 
     Then zeros are written over the band of ``matrix``, for :func:`solve_doubtful`.
     """
-    S.n_unknown = n
-    S.deficient = S.null_banded = 0
-    if n == 1 and w[S.reduced] != 0.0:
-        w[S.x] = w[S.right] / w[S.reduced]
+    ws.n_unknown = n
+    ws.deficient = ws.null_banded = 0
+    if n == 1 and ws.reduced[0] != 0.0:
+        ws.x[0] = ws.right[0] / ws.reduced[0]
         return 1
-    if eliminate_reduced(S, w, n, DOUBTFUL) == 1:
+    if eliminate_reduced(ws, n, DOUBTFUL) == 1:
         return 1
-    for i in range(n * band_width(n, S.half_band)):
-        w[S.matrix + i] = 0.0
+    for i in range(n * band_width(n, ws.half_band)):
+        ws.matrix[i] = 0.0
     return 0
 
 
-@entry_point("void(S, F, I, i8)")
-def solve_doubtful(S: Scalars, w: Floats, k: Integers, n: int) -> None:
+@entry_point("void(ws, i8)")
+def solve_doubtful(ws: Workspace, n: int) -> None:
     """Solve ``reduced . x = right`` for least norm if singular.
 
     In ``matrix`` stands what the unknowns would do if nothing slid with friction.  Its rank is that of the contacts'
@@ -135,131 +140,133 @@ def solve_doubtful(S: Scalars, w: Floats, k: Integers, n: int) -> None:
     friction gives that a small pivot of its own.  Least norm stays in the band, or is treated in full where the band
     fills it.
     """
-    full = band_width(n, S.half_band) == n
-    rank = rank_of_semidefinite(w, S.matrix, n) if full else n
-    if rank == n and eliminate_reduced(S, w, n, SINGULAR) == 1:
+    full = band_width(n, ws.half_band) == n
+    rank = rank_of_semidefinite(ws.floats, ws.offsets.matrix, n) if full else n
+    if rank == n and eliminate_reduced(ws, n, SINGULAR) == 1:
         return
-    S.deficient = 1
+    ws.deficient = 1
     if not full:
-        S.null_banded = 1
-        least_norm_in_band(S, w, n)
+        ws.null_banded = 1
+        least_norm_in_band(ws, n)
     else:
-        _least_norm(S, w, n, rank)
+        _least_norm(ws, n, rank)
     for i in range(n):
-        if null_entry(S, w, i, i) > _COUPLED:
-            active_at(S, w, k, unknown_at(S, w, k, i).contact).redundant = 1
+        if null_entry(ws, i, i) > _COUPLED:
+            ws.actives[ws.unknowns[i].contact].redundant = 1
 
 
-@kernel("void(S, F, i8, i8)")
-def _least_norm(S: Scalars, w: Floats, n: int, most: int) -> None:
+@kernel("void(ws, i8, i8)")
+def _least_norm(ws: Workspace, n: int, most: int) -> None:
     """Solve the singular system, stored in full, for least norm.
 
     A basis of its null space is kept in the last rows of ``basis``, and the projector on it in ``null``.
     """
-    transpose(w, S.reduced, n, S.matrix)
-    S.held_rank = minimum_norm(w, S.matrix, n, S.right, S.x, S.basis, S.sigma, most)
-    complete(w, S.basis, n, S.held_rank)
+    transpose(ws.floats, ws.offsets.reduced, n, ws.offsets.matrix)
+    ws.held_rank = minimum_norm(
+        ws.floats, ws.offsets.matrix, n, ws.offsets.right, ws.offsets.x, ws.offsets.basis, ws.offsets.sigma, most
+    )
+    complete(ws.floats, ws.offsets.basis, n, ws.held_rank)
     for i in range(n):
         for j in range(n):
-            w[S.null + i * n + j] = 0.0
-        for c in range(S.held_rank, n):
-            subtract_part(w, S.null + i * n, -w[S.basis + c * n + i], S.basis + c * n, n)
+            ws.null[i * n + j] = 0.0
+        for c in range(ws.held_rank, n):
+            subtract_part(ws.floats, ws.offsets.null + i * n, -ws.basis[c * n + i], ws.offsets.basis + c * n, n)
 
 
-@kernel("i8(S, F, i8, f8)")
-def eliminate_reduced(S: Scalars, w: Floats, n: int, least: float) -> int:
+@kernel("i8(ws, i8, f8)")
+def eliminate_reduced(ws: Workspace, n: int, least: float) -> int:
     """Solve ``reduced . x = right`` by elimination; return 0 if singular."""
     for i in range(n):
-        w[S.x + i] = w[S.right + i]
-    for i in range(n * band_width(n, S.half_band)):
-        w[S.matrix + i] = w[S.reduced + i]
-    return eliminate(w, S.matrix, n, S.half_band, S.x, least)
+        ws.x[i] = ws.right[i]
+    for i in range(n * band_width(n, ws.half_band)):
+        ws.matrix[i] = ws.reduced[i]
+    return eliminate(ws.floats, ws.offsets.matrix, n, ws.half_band, ws.offsets.x, least)
 
 
-@kernel("f8(S, F, i8, i8)")
-def null_entry(S: Scalars, w: Floats, i: int, j: int) -> float:
+@kernel("f8(ws, i8, i8)")
+def null_entry(ws: Workspace, i: int, j: int) -> float:
     """Return an entry of the projector on the null space; those outside of a band count as zero."""
-    if S.null_banded == 0:
-        return w[S.null + i * S.n_unknown + j]
-    if abs(i - j) > S.null_half:
+    if ws.null_banded == 0:
+        return ws.null[i * ws.n_unknown + j]
+    if abs(i - j) > ws.null_half:
         return 0.0
-    return w[band_row(S.reduced, i, S.n_unknown, S.null_half) + j]
+    return ws.floats[band_row(ws.offsets.reduced, i, ws.n_unknown, ws.null_half) + j]
 
 
-@kernel("i8(S, F, I)")
-def _collect(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _collect(ws: Workspace) -> int:
     """List the unknown components and write the given ones; return how many are unknown."""
     n = 0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         active.redundant = 0
         active.first_unknown = n
         if active.normal_held == 1:
-            list_unknown(S, w, k, n, a, 0, 0)
+            list_unknown(ws, n, a, 0, 0)
             n += 1
             active.normal_force = 0.0
         active.friction = 0.0, 0.0
         if active.tangent_held == 1:
-            list_unknown(S, w, k, n, a, 1, 0)
-            list_unknown(S, w, k, n + 1, a, 2, 0)
+            list_unknown(ws, n, a, 1, 0)
+            list_unknown(ws, n + 1, a, 2, 0)
             n += 2
         else:
-            friction_of_slip(S, w, k, a)
-    k[S.first_unknown + S.n_active] = n
+            friction_of_slip(ws, a)
+    ws.first_unknown[ws.n_active] = n
     return n
 
 
-@kernel("void(S, F, I, i8)")
-def friction_of_slip(S: Scalars, w: Floats, k: Integers, a: int) -> None:
+@kernel("void(ws, i8)")
+def friction_of_slip(ws: Workspace, a: int) -> None:
     """Write the friction of the sliding active contact ``a``, -mu f_N d."""
-    active = active_at(S, w, k, a)
+    active = ws.actives[a]
     pull = -active.mu * active.normal_force
     active.friction = pull * active.direction[0], pull * active.direction[1]
 
 
-@kernel("f8(S, F, I, i8)")
-def reduced_coefficient(S: Scalars, w: Floats, k: Integers, a: int) -> float:
+@kernel("f8(ws, i8)")
+def reduced_coefficient(ws: Workspace, a: int) -> float:
     """Return the gap acceleration per normal force of the sliding active contact ``a``, its friction included."""
-    active, own = active_at(S, w, k, a), diagonal_block(S, w, k, a)
+    active, own = ws.actives[a], diagonal_block(ws, a)
     return float(own.nn - active.mu * (active.direction[0] * own.n1 + active.direction[1] * own.n2))
 
 
 @kernel()
-def evaluate_margins(S: Scalars, w: Floats, k: Integers) -> None:
+def evaluate_margins(ws: Workspace) -> None:
     """Write, for every sticking active contact, how far its friction is from the static bound [N].
 
     A contact whose tangential force is not unique obeys two bounds: the sum rule of its group, Eq. (38),
     and the plain bound for the part of its force that is unique.
     """
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         if active.tangent_held == 0:
             active.margin = 0.0
             continue
         if active.redundant == 1:
-            _group_margin(S, w, k, a)
+            _group_margin(ws, a)
         else:
             active.margin = active.mu_static * active.normal_force - length(active.friction)
 
 
-@kernel("void(S, F, I, i8)")
-def _group_margin(S: Scalars, w: Floats, k: Integers, a: int) -> None:
-    active = active_at(S, w, k, a)
+@kernel("void(ws, i8)")
+def _group_margin(ws: Workspace, a: int) -> None:
+    active = ws.actives[a]
     own = active.first_unknown + active.normal_held
-    first, end = 0, S.n_unknown - 1
-    if S.null_banded == 1:
-        first, end = max(0, own - S.null_half), min(end, own + S.null_half)
+    first, end = 0, ws.n_unknown - 1
+    if ws.null_banded == 1:
+        first, end = max(0, own - ws.null_half), min(end, own + ws.null_half)
     bound = sum1 = sum2 = 0.0
     for i in range(first, end):
-        unknown = unknown_at(S, w, k, i)
-        sharing = active_at(S, w, k, unknown.contact)
+        unknown = ws.unknowns[i]
+        sharing = ws.actives[unknown.contact]
         if unknown.direction != 1 or sharing.redundant == 0:
             continue
         coupling = (
-            abs(null_entry(S, w, own, i))
-            + abs(null_entry(S, w, own, i + 1))
-            + abs(null_entry(S, w, own + 1, i))
-            + abs(null_entry(S, w, own + 1, i + 1))
+            abs(null_entry(ws, own, i))
+            + abs(null_entry(ws, own, i + 1))
+            + abs(null_entry(ws, own + 1, i))
+            + abs(null_entry(ws, own + 1, i + 1))
         )
         if coupling > _COUPLED or unknown.contact == a:
             bound += sharing.mu_static * sharing.normal_force
@@ -267,8 +274,8 @@ def _group_margin(S: Scalars, w: Floats, k: Integers, a: int) -> None:
             sum2 += sharing.friction[1]
     group = bound - length((sum1, sum2))
     # the part of the force orthogonal to this contact's share of the null space
-    p11, p12 = null_entry(S, w, own, own), null_entry(S, w, own, own + 1)
-    p22 = null_entry(S, w, own + 1, own + 1)
+    p11, p12 = null_entry(ws, own, own), null_entry(ws, own, own + 1)
+    p22 = null_entry(ws, own + 1, own + 1)
     t1, t2 = active.friction
     unique = 0.0
     if p11 * p22 - p12 * p12 < _COUPLED * (p11 + p22) * (p11 + p22):

@@ -15,35 +15,29 @@ from nonsmooth.engine.contact.null_space_forces import add_null_space_force, cho
 from nonsmooth.engine.contact.unknowns import list_unknown
 from nonsmooth.engine.memory.modes import SLIDE
 from nonsmooth.engine.native.kernel import (
-    Floats,
-    Integers,
-    Scalars,
-    active_at,
-    articulation_at,
-    contact_at,
+    Workspace,
     kernel,
-    unknown_at,
 )
 from nonsmooth.engine.numerics.band import open_band
 from nonsmooth.engine.numerics.linear import band_row, product, solve_three
 
 
-@kernel("void(S, F, I, i8)")
-def write_rows(S: Scalars, w: Floats, k: Integers, a: int) -> None:
+@kernel("void(ws, i8)")
+def write_rows(ws: Workspace, a: int) -> None:
     """Write rows and columns of the active contact ``a``: Jacobian rows 0 to 2, or 0 and that of the column, 1."""
-    active = active_at(S, w, k, a)
+    active = ws.actives[a]
     c = active.slot
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     n, t1, t2 = contact.axis_n, contact.axis_1, contact.axis_2
     if active.tangent_held == 1:
-        evaluate_row(S, w, k, c, 0, n)
-        evaluate_row(S, w, k, c, 1, t1)
-        evaluate_row(S, w, k, c, 2, t2)
+        evaluate_row(ws, c, 0, n)
+        evaluate_row(ws, c, 1, t1)
+        evaluate_row(ws, c, 2, t2)
         for r in range(3):
-            evaluate_row_response(S, w, k, c, r, r)
+            evaluate_row_response(ws, c, r, r)
         return
     if active.normal_held == 0:
-        write_wrench(S, w, k, c, active.force)
+        write_wrench(ws, c, active.force)
         return
     m1, m2 = active.mu * active.direction[0], active.mu * active.direction[1]
     push = (
@@ -51,194 +45,194 @@ def write_rows(S: Scalars, w: Floats, k: Integers, a: int) -> None:
         n[1] - m1 * t1[1] - m2 * t2[1],
         n[2] - m1 * t1[2] - m2 * t2[2],
     )
-    evaluate_row(S, w, k, c, 0, n)
-    evaluate_row(S, w, k, c, 1, push)
-    evaluate_row_response(S, w, k, c, 1, 0)
+    evaluate_row(ws, c, 0, n)
+    evaluate_row(ws, c, 1, push)
+    evaluate_row_response(ws, c, 1, 0)
 
 
-@kernel("f8(S, F, I, i8, i8, i8, i8)")
-def coupling(S: Scalars, w: Floats, k: Integers, c: int, r: int, d: int, s: int) -> float:
+@kernel("f8(ws, i8, i8, i8, i8)")
+def coupling(ws: Workspace, c: int, r: int, d: int, s: int) -> float:
     """Return what a unit force in column ``s`` of contact ``d`` does to row ``r`` of contact ``c``."""
-    contact, pushing = contact_at(S, w, k, c), contact_at(S, w, k, d)
+    contact, pushing = ws.contacts[c], ws.contacts[d]
     total = 0.0
     for side in range(2):
         articulation = contact.articulation_a if side == 0 else contact.articulation_b
-        n_u = articulation_at(S, w, k, articulation).nu
+        n_u = ws.articulations[articulation].nu
         jacobian = (contact.jacobian_a if side == 0 else contact.jacobian_b) + r * n_u
         if n_u > 0 and pushing.articulation_a == articulation:
-            total = product(w, total, jacobian, pushing.response_a + s * n_u, n_u)
+            total = product(ws.floats, total, jacobian, pushing.response_a + s * n_u, n_u)
         if n_u > 0 and pushing.articulation_b == articulation:
-            total = product(w, total, jacobian, pushing.response_b + s * n_u, n_u)
+            total = product(ws.floats, total, jacobian, pushing.response_b + s * n_u, n_u)
     return total
 
 
-@kernel("i8(S, F, I)")
-def _list_rows(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _list_rows(ws: Workspace) -> int:
     """List the rows of the active contacts; return how many there are."""
     n = 0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         active.redundant = 0
         active.first_unknown = n
         for r in range(1 - active.normal_held, 1 + 2 * active.tangent_held):
-            list_unknown(S, w, k, n, a, r, 0)
+            list_unknown(ws, n, a, r, 0)
             n += 1
-    k[S.first_unknown + S.n_active] = n
+    ws.first_unknown[ws.n_active] = n
     return n
 
 
-@kernel("void(S, F, I, i8, i8, i8)")
-def _reduce(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
+@kernel("void(ws, i8, i8, i8)")
+def _reduce(ws: Workspace, a: int, i: int, n: int) -> None:
     """Write row ``i`` of the reduced matrix, one of contact ``a``, and what it lacks to vanish without forces."""
-    active = active_at(S, w, k, a)
-    c, r = active.slot, unknown_at(S, w, k, i).direction
-    contact = contact_at(S, w, k, c)
-    w[S.right + i] = -contact.bias[r] - row(S, w, k, c, r, S.du)
-    line = band_row(S.reduced, i, n, S.half_band)
+    active = ws.actives[a]
+    c, r = active.slot, ws.unknowns[i].direction
+    contact = ws.contacts[c]
+    ws.right[i] = -contact.bias[r] - row(ws, c, r, ws.offsets.du)
+    line = band_row(ws.offsets.reduced, i, n, ws.half_band)
     for block in range(active.first_block, active.end_block):
-        pushing = active_at(S, w, k, k[S.block_column + block])
+        pushing = ws.actives[ws.block_column[block]]
         for j in range(pushing.first_unknown, pushing.end_unknown):
-            w[line + j] = coupling(S, w, k, c, r, pushing.slot, unknown_at(S, w, k, j).direction)
+            ws.floats[line + j] = coupling(ws, c, r, pushing.slot, ws.unknowns[j].direction)
     # a sliding contact on which more force gives more approach
-    if r == 0 and contact.mode == SLIDE and w[line + i] <= 0.0:
-        S.singular = c
+    if r == 0 and contact.mode == SLIDE and ws.floats[line + i] <= 0.0:
+        ws.singular = c
 
 
-@kernel("void(S, F, I, i8, i8, i8)")
-def _write_held_row(S: Scalars, w: Floats, k: Integers, a: int, i: int, n: int) -> None:
+@kernel("void(ws, i8, i8, i8)")
+def _write_held_row(ws: Workspace, a: int, i: int, n: int) -> None:
     """Write row ``i`` of what the unknowns would do without friction to ``matrix``, response 1 of slips being that."""
-    active = active_at(S, w, k, a)
-    c, r = active.slot, unknown_at(S, w, k, i).direction
-    line = band_row(S.matrix, i, n, S.half_band)
+    active = ws.actives[a]
+    c, r = active.slot, ws.unknowns[i].direction
+    line = band_row(ws.offsets.matrix, i, n, ws.half_band)
     for block in range(active.first_block, active.end_block):
-        pushing = active_at(S, w, k, k[S.block_column + block])
+        pushing = ws.actives[ws.block_column[block]]
         for j in range(pushing.first_unknown, pushing.end_unknown):
-            column = unknown_at(S, w, k, j).direction + 1 - pushing.tangent_held
-            w[line + j] = coupling(S, w, k, c, r, pushing.slot, column)
+            column = ws.unknowns[j].direction + 1 - pushing.tangent_held
+            ws.floats[line + j] = coupling(ws, c, r, pushing.slot, column)
 
 
 @kernel()
-def _push_compliant(S: Scalars, w: Floats, k: Integers) -> None:
+def _push_compliant(ws: Workspace) -> None:
     """Add to ``du`` what the active compliant contacts are known to do, and note the powers."""
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         if active.normal_held == 1:
             continue
         c, sticks = active.slot, active.tangent_held
-        contact = contact_at(S, w, k, c)
+        contact = ws.contacts[c]
         force = active.normal_force if sticks == 1 else 1.0
-        push_response(S, w, k, c, 0, force, S.du)
-        S.driven_power += force * row(S, w, k, c, 1 - sticks, S.free_velocities) - contact.turned
+        push_response(ws, c, 0, force, ws.offsets.du)
+        ws.driven_power += force * row(ws, c, 1 - sticks, ws.free_velocities) - contact.turned
         if contact.normal_function != 0:
-            S.load_power += active.normal_force * contact.rate[0]
+            ws.load_power += active.normal_force * contact.rate[0]
 
 
-@kernel("i8(S, F, I)")
-def _solve_held(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _solve_held(ws: Workspace) -> int:
     """Write the unknown forces to ``x``; return 0 if there is no room for that."""
-    n = _list_rows(S, w, k)
-    if open_band(S, w, k, n, S.reduced) == 0:
+    n = _list_rows(ws)
+    if open_band(ws, n, ws.offsets.reduced) == 0:
         return 0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         for i in range(active.first_unknown, active.end_unknown):
-            _reduce(S, w, k, a, i, n)
-    if solve_unknowns(S, w, k, n) == 0:
-        for a in range(S.n_active):
-            active = active_at(S, w, k, a)
+            _reduce(ws, a, i, n)
+    if solve_unknowns(ws, n) == 0:
+        for a in range(ws.n_active):
+            active = ws.actives[a]
             if active.tangent_held == 0 and active.normal_held == 1:
-                evaluate_row_response(S, w, k, active.slot, 0, 1)
-        for a in range(S.n_active):
-            active = active_at(S, w, k, a)
+                evaluate_row_response(ws, active.slot, 0, 1)
+        for a in range(ws.n_active):
+            active = ws.actives[a]
             for i in range(active.first_unknown, active.end_unknown):
-                _write_held_row(S, w, k, a, i, n)
-        solve_doubtful(S, w, k, n)
+                _write_held_row(ws, a, i, n)
+        solve_doubtful(ws, n)
     return 1
 
 
-@kernel("i8(S, F, I)")
-def _stick_alone(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _stick_alone(ws: Workspace) -> int:
     """Hold an island of one rigid contact that sticks; return 0, nothing done, where it is doubtful what holds it."""
-    active = active_at(S, w, k, 0)
+    active = ws.actives[0]
     c = active.slot
-    contact = contact_at(S, w, k, c)
-    row_0 = coupling(S, w, k, c, 0, c, 0), 0.0, 0.0
-    row_1 = coupling(S, w, k, c, 1, c, 0), coupling(S, w, k, c, 1, c, 1), 0.0
-    row_2 = coupling(S, w, k, c, 2, c, 0), coupling(S, w, k, c, 2, c, 1), coupling(S, w, k, c, 2, c, 2)
-    bias, du = contact.bias, S.du
+    contact = ws.contacts[c]
+    row_0 = coupling(ws, c, 0, c, 0), 0.0, 0.0
+    row_1 = coupling(ws, c, 1, c, 0), coupling(ws, c, 1, c, 1), 0.0
+    row_2 = coupling(ws, c, 2, c, 0), coupling(ws, c, 2, c, 1), coupling(ws, c, 2, c, 2)
+    bias, du = contact.bias, ws.offsets.du
     right = (
-        -bias[0] - row(S, w, k, c, 0, du),
-        -bias[1] - row(S, w, k, c, 1, du),
-        -bias[2] - row(S, w, k, c, 2, du),
+        -bias[0] - row(ws, c, 0, du),
+        -bias[1] - row(ws, c, 1, du),
+        -bias[2] - row(ws, c, 2, du),
     )
     forces = solve_three(row_0, row_1, row_2, right, DOUBTFUL)
     if forces[0] != forces[0]:
         return 0
-    S.n_unknown, S.deficient, S.null_banded, active.redundant = 3, 0, 0, 0
+    ws.n_unknown, ws.deficient, ws.null_banded, active.redundant = 3, 0, 0, 0
     active.normal_force, active.friction = forces[0], (forces[1], forces[2])
     for r in range(3):
-        push_response(S, w, k, c, r, active.force[r], du)
-        S.driven_power += active.force[r] * (row(S, w, k, c, r, S.free_velocities) - contact.rate[r])
+        push_response(ws, c, r, active.force[r], du)
+        ws.driven_power += active.force[r] * (row(ws, c, r, ws.free_velocities) - contact.rate[r])
     return 1
 
 
-@kernel("i8(S, F, I)")
-def _hold_alone(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _hold_alone(ws: Workspace) -> int:
     """Do the same for an island of one rigid contact.
 
     If it does not stick its only row is a division; return 0, nothing done, if its force moves nothing.
     """
-    active = active_at(S, w, k, 0)
+    active = ws.actives[0]
     if active.tangent_held == 1:
-        return int(_stick_alone(S, w, k))
+        return int(_stick_alone(ws))
     c = active.slot
-    contact = contact_at(S, w, k, c)
-    own = coupling(S, w, k, c, 0, c, 0)
+    contact = ws.contacts[c]
+    own = coupling(ws, c, 0, c, 0)
     if own == 0.0:
         return 0
     if contact.mode == SLIDE and own < 0.0:
-        S.singular = c
-    S.n_unknown, S.deficient, S.null_banded, active.redundant = 1, 0, 0, 0
-    force = (-contact.bias[0] - row(S, w, k, c, 0, S.du)) / own
+        ws.singular = c
+    ws.n_unknown, ws.deficient, ws.null_banded, active.redundant = 1, 0, 0, 0
+    force = (-contact.bias[0] - row(ws, c, 0, ws.offsets.du)) / own
     active.normal_force = force
-    push_response(S, w, k, c, 0, force, S.du)
-    friction_of_slip(S, w, k, 0)
+    push_response(ws, c, 0, force, ws.offsets.du)
+    friction_of_slip(ws, 0)
     (t1, t2), (v1, v2) = active.friction, contact.slip
-    on_coordinates = force * row(S, w, k, c, 1, S.free_velocities)
-    S.driven_power += on_coordinates - force * contact.rate[0] - t1 * v1 - t2 * v2
+    on_coordinates = force * row(ws, c, 1, ws.free_velocities)
+    ws.driven_power += on_coordinates - force * contact.rate[0] - t1 * v1 - t2 * v2
     return 1
 
 
-@kernel("i8(S, F, I, i8)")
-def hold_contacts(S: Scalars, w: Floats, k: Integers, choosing: int) -> int:
+@kernel("i8(ws, i8)")
+def hold_contacts(ws: Workspace, choosing: int) -> int:
     """Write the ``active_forces`` of the active contacts, add what they do to ``du``, note the driven bodies' power.
 
     Rows and columns must be laid, and the given forces; the free accelerations stand in ``du``.  With ``choosing`` (1)
     the null-space force of those not unique is chosen anew; return 0 if there is none that keeps every bound, else 1.
     """
     keeps = 1
-    if S.n_active == 1 and active_at(S, w, k, 0).normal_held == 1 and _hold_alone(S, w, k) == 1:
+    if ws.n_active == 1 and ws.actives[0].normal_held == 1 and _hold_alone(ws) == 1:
         return keeps
-    _push_compliant(S, w, k)
-    if _solve_held(S, w, k) == 0:
+    _push_compliant(ws)
+    if _solve_held(ws) == 0:
         return keeps
-    if S.deficient == 1:
+    if ws.deficient == 1:
         if choosing == 1:
-            keeps = choose_null_space_force(S, w, k)
-        add_null_space_force(S, w, k)
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+            keeps = choose_null_space_force(ws)
+        add_null_space_force(ws)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         c = active.slot
-        contact = contact_at(S, w, k, c)
+        contact = ws.contacts[c]
         sticks = active.tangent_held
         for i in range(active.first_unknown, active.end_unknown):
-            r, force = unknown_at(S, w, k, i).direction, w[S.x + i]
+            r, force = ws.unknowns[i].direction, ws.x[i]
             active.force[r] = force
-            push_response(S, w, k, c, r, force, S.du)
+            push_response(ws, c, r, force, ws.offsets.du)
             # the power of what the coordinates do not move: that of the force less that on them
-            S.driven_power += force * row(S, w, k, c, r + 1 - sticks, S.free_velocities)
+            ws.driven_power += force * row(ws, c, r + 1 - sticks, ws.free_velocities)
         if sticks == 0 and active.normal_held == 1:
-            friction_of_slip(S, w, k, a)
+            friction_of_slip(ws, a)
         for r in range(3):
-            S.driven_power -= active.force[r] * contact.rate[r]
+            ws.driven_power -= active.force[r] * contact.rate[r]
     return keeps

@@ -17,7 +17,7 @@ from nonsmooth.engine.contact.problem import friction_coefficient, slip_coeffici
 from nonsmooth.engine.contact.trial import hold_tried
 from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus, diagonal_block
 from nonsmooth.engine.memory.modes import SLIDE, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
+from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.vectors import length
 
 _FAINT = 1e-13
@@ -28,58 +28,58 @@ _TURNS = 8
 """Newton steps of the direction of a slip that is alone; from a step before three or four do."""
 
 
-@kernel("void(S, F, I, i8)")
-def _lay(S: Scalars, w: Floats, k: Integers, a: int) -> None:
+@kernel("void(ws, i8)")
+def _lay(ws: Workspace, a: int) -> None:
     """Write acceleration without forces, coefficients, mode and slip direction of active contact ``a``."""
-    active = active_at(S, w, k, a)
+    active = ws.actives[a]
     c = active.slot
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     contact.turned = 0.0
     if contact.mode == SLIDE:
-        active.mu = slip_coefficient(S, w, k, c, length(contact.slip))
+        active.mu = slip_coefficient(ws, c, length(contact.slip))
     else:
-        active.mu = friction_coefficient(S, w, k, c, 0.0)
+        active.mu = friction_coefficient(ws, c, 0.0)
     active.mu_static = active.mu
     active.mode_tried = active.mode_past = contact.mode
     active.given = 0
     active.at_rest = 1 if active.mu > 0.0 else 0
     active.direction = contact.direction
     for r in range(3):
-        free = row(S, w, k, c, r, S.du)
+        free = row(ws, c, r, ws.offsets.du)
         active.free[r] = free + contact.bias[r]
         if r > 0 and contact.mode == SLIDE:
-            active.free[r] = free + contact.rate[r] / S.ahead - row(S, w, k, c, r, S.guess)
-        S.acceleration_scale = max(S.acceleration_scale, abs(free), abs(contact.bias[r]))
+            active.free[r] = free + contact.rate[r] / ws.ahead - row(ws, c, r, ws.guess)
+        ws.acceleration_scale = max(ws.acceleration_scale, abs(free), abs(contact.bias[r]))
 
 
-@kernel("i8(S, F, I)")
-def _halts(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _halts(ws: Workspace) -> int:
     """Return 1 if a slip is held: whether others share its load, forces that are not unique tell."""
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         if active.mode_past == SLIDE and active.mode_tried == STICK:
             return 1
     return 0
 
 
-@kernel("i8(S, F, I)")
-def _stop_and_go(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _stop_and_go(ws: Workspace) -> int:
     """Hold the slips that friction would turn round, and let go those that it cannot hold; return how many."""
     largest = 0.0
-    for i in range(3 * S.n_active):
-        largest = max(largest, abs(w[S.active_forces + i]))
+    for i in range(3 * ws.n_active):
+        largest = max(largest, abs(ws.active_forces[i]))
     small = _FAINT * largest
-    if S.deficient == 1:
-        shift_forces(S, w, k)
-    if S.deficient == 1 and _halts(S, w, k) == 1:
+    if ws.deficient == 1:
+        shift_forces(ws)
+    if ws.deficient == 1 and _halts(ws) == 1:
         small = 2.0 * _ARRIVED * largest
-        distribute(S, w, k, 0.0, _ARRIVED * largest)
-        for a in range(S.n_active):
-            if active_at(S, w, k, a).mode_tried == SLIDE:
-                friction_of_slip(S, w, k, a)
+        distribute(ws, 0.0, _ARRIVED * largest)
+        for a in range(ws.n_active):
+            if ws.actives[a].mode_tried == SLIDE:
+                friction_of_slip(ws, a)
     changed = 0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         if active.mode_past != SLIDE or active.at_rest == 0:
             continue
         if active.mode_tried == STICK:
@@ -90,16 +90,16 @@ def _stop_and_go(S: Scalars, w: Floats, k: Integers) -> int:
                 active.direction = -t1 / norm, -t2 / norm
                 changed += 1
             continue
-        a1 = add_product(S, w, k, active.free[1], a, 1, S.active_forces)
-        a2 = add_product(S, w, k, active.free[2], a, 2, S.active_forces)
+        a1 = add_product(ws, active.free[1], a, 1, ws.offsets.active_forces)
+        a2 = add_product(ws, active.free[2], a, 2, ws.offsets.active_forces)
         if a1 * active.direction[0] + a2 * active.direction[1] < 0.0:
             active.mode_tried = STICK
             changed += 1
     return changed
 
 
-@kernel("i8(S, F, I)")
-def oppose_slips(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def oppose_slips(ws: Workspace) -> int:
     """Find forces whose friction opposes the slip of all that slides, or holds it at zero; return 1 if found.
 
     Of what slides ``mode_past`` is that and ``at_rest`` 1; the accelerations at which it would end without forces are
@@ -107,27 +107,27 @@ def oppose_slips(S: Scalars, w: Floats, k: Integers) -> int:
     held break away.
     """
     held = 0
-    for _round in range(2 * (2 + S.n_active)):
-        polished = polish(S, w, k)
+    for _round in range(2 * (2 + ws.n_active)):
+        polished = polish(ws)
         if polished == 0:
             if held == 1:
                 return 0
             held = 1
-            for a in range(S.n_active):
-                active = active_at(S, w, k, a)
+            for a in range(ws.n_active):
+                active = ws.actives[a]
                 active.mode_tried = STICK if active.at_rest == 1 else active.mode_past
-        if polished != 1 or S.deficient == 1:
-            hold_tried(S, w, k)
-        if _stop_and_go(S, w, k) == 0:
+        if polished != 1 or ws.deficient == 1:
+            hold_tried(ws)
+        if _stop_and_go(ws) == 0:
             return 1
     return 0
 
 
-@kernel("i8(S, F, I)")
-def _oppose_alone(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _oppose_alone(ws: Workspace) -> int:
     """Do the same for one contact that slides on, whose only unknown is a direction; return 1 if it is found."""
-    active, g = active_at(S, w, k, 0), diagonal_block(S, w, k, 0)
-    if S.n_active > 1 or active.mode_past != SLIDE or active.at_rest == 0 or active.given == 1:
+    active, g = ws.actives[0], diagonal_block(ws, 0)
+    if ws.n_active > 1 or active.mode_past != SLIDE or active.at_rest == 0 or active.given == 1:
         return 0
     mu, (d1, d2) = active.mu, active.direction
     for _turn in range(_TURNS):
@@ -138,12 +138,12 @@ def _oppose_alone(S: Scalars, w: Floats, k: Integers) -> int:
         p1, p2 = g.n1 - mu * (g.t11 * d1 + g.t12 * d2), g.n2 - mu * (g.t12 * d1 + g.t22 * d2)
         a1, a2 = active.free[1] + force * p1, active.free[2] + force * p2
         across, along = a1 * d2 - a2 * d1, a1 * d1 + a2 * d2
-        if abs(across) <= EXACT * max(S.acceleration_scale, abs(a1), abs(a2)):
+        if abs(across) <= EXACT * max(ws.acceleration_scale, abs(a1), abs(a2)):
             if not along > 0.0 or not force > 0.0:
                 return 0
             active.normal_force, active.direction = force, (d1, d2)
-            S.deficient, active.redundant = 0, 0
-            friction_of_slip(S, w, k, 0)
+            ws.deficient, active.redundant = 0, 0
+            friction_of_slip(ws, 0)
             return 1
         # what turning the direction does to the normal force, and to the acceleration
         change = mu * force * (g.n2 * d1 - g.n1 * d2) / reduced
@@ -157,64 +157,64 @@ def _oppose_alone(S: Scalars, w: Floats, k: Integers) -> int:
 
 
 @kernel()
-def _note(S: Scalars, w: Floats, k: Integers) -> None:
+def _note(ws: Workspace) -> None:
     """Add what the forces do to ``du``, and note power and what is held."""
-    add_response(S, w, k, S.active_forces, S.du)
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    add_response(ws, ws.offsets.active_forces, ws.offsets.du)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         c = active.slot
-        contact = contact_at(S, w, k, c)
+        contact = ws.contacts[c]
         slides = contact.mode == SLIDE
-        if slides and reduced_coefficient(S, w, k, a) <= 0.0:
-            S.singular = c
+        if slides and reduced_coefficient(ws, a) <= 0.0:
+            ws.singular = c
         active.tangent_held = 0 if slides else 1
         for r in range(3):
-            S.driven_power += active.force[r] * (row(S, w, k, c, r, S.free_velocities) - contact.rate[r])
+            ws.driven_power += active.force[r] * (row(ws, c, r, ws.free_velocities) - contact.rate[r])
         if slides and active.mode_tried == STICK:
             # whatever the state from which it was found has of it
             contact.slip = 0.0, 0.0
 
 
-@kernel("i8(S, F, I)")
-def _solve(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _solve(ws: Workspace) -> int:
     """Find the ``active_forces`` with which a stage ends, as the contacts face; return 1 if they are found."""
-    S.acceleration_scale = 0.0
-    for a in range(S.n_active):
-        evaluate_contact(S, w, k, active_at(S, w, k, a).slot, 3)
-    assemble_delassus(S, w, k)
-    for a in range(S.n_active):
-        _lay(S, w, k, a)
-    if not S.acceleration_scale > 0.0:
+    ws.acceleration_scale = 0.0
+    for a in range(ws.n_active):
+        evaluate_contact(ws, ws.actives[a].slot, 3)
+    assemble_delassus(ws)
+    for a in range(ws.n_active):
+        _lay(ws, a)
+    if not ws.acceleration_scale > 0.0:
         # a trial step far too long led to what is no number
         return 0
-    return 1 if _oppose_alone(S, w, k) == 1 else oppose_slips(S, w, k)
+    return 1 if _oppose_alone(ws) == 1 else oppose_slips(ws)
 
 
-@kernel("i8(S, F, I)")
-def _face(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _face(ws: Workspace) -> int:
     """Let slips that are held face against what holds them; return how many had another bound than it seemed."""
     turned = 0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        if contact_at(S, w, k, active.slot).mode == SLIDE and active.mode_tried == STICK:
-            turned += turn_facing(S, w, k, active.slot, active.force[1])
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        if ws.contacts[active.slot].mode == SLIDE and active.mode_tried == STICK:
+            turned += turn_facing(ws, active.slot, active.force[1])
     return turned
 
 
 @kernel()
-def hold_at_end(S: Scalars, w: Floats, k: Integers) -> None:
+def hold_at_end(ws: Workspace) -> None:
     """Write the ``active_forces`` of the active contacts with which a stage ends, and add what they do to ``du``.
 
     Geometry and rates are those of the state that the accelerations at ``guess`` lead to.  Where no forces are found
     ``unsettled`` is raised.
     """
     settled = 0
-    for _facing in range(1 + S.n_active):
-        if _solve(S, w, k) == 0:
+    for _facing in range(1 + ws.n_active):
+        if _solve(ws) == 0:
             break
-        if _face(S, w, k) == 0:
+        if _face(ws) == 0:
             settled = 1
             break
     if settled == 0:
-        S.unsettled = 1
-    _note(S, w, k)
+        ws.unsettled = 1
+    _note(ws)

@@ -18,7 +18,7 @@ import math
 
 from nonsmooth.engine.contact.forces import friction_of_slip
 from nonsmooth.engine.delassus.delassus import write_dense
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, entry_point, kernel
+from nonsmooth.engine.native.kernel import Workspace, at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
 
 STAGES = 12
@@ -29,23 +29,23 @@ _ZERO = 1e-11
 """Entries of the scaled tableau, and differences of ratios in it, below this are round-off."""
 
 
-@kernel("f8(S, F, I, i8, i8, i8)")
-def _corner(S: Scalars, w: Floats, k: Integers, a: int, j: int, r: int) -> float:
+@kernel("f8(ws, i8, i8, i8)")
+def _corner(ws: Workspace, a: int, j: int, r: int) -> float:
     """Return component ``r`` of corner ``j``; corner 0 points along the friction."""
-    d1, d2 = active_at(S, w, k, a).direction
+    d1, d2 = ws.actives[a].direction
     turn = 2.0 * math.pi * j / CORNERS
     if r == 1:
         return float(-d1 * math.cos(turn) + d2 * math.sin(turn))
     return float(-d2 * math.cos(turn) - d1 * math.sin(turn))
 
 
-@kernel("f8(S, F, I, i8, i8)")
-def _push(S: Scalars, w: Floats, k: Integers, line: int, column: int) -> float:
+@kernel("f8(ws, i8, i8)")
+def _push(ws: Workspace, line: int, column: int) -> float:
     """Return what the unknown of a column does to row ``line`` of G f, G standing in full in ``matrix``."""
-    a, j = k[S.lemke_contact + column], k[S.lemke_corner + column]
-    active, g = active_at(S, w, k, a), at(w, S.matrix + line * 3 * S.n_active + 3 * a)
+    a, j = ws.lemke_contact[column], ws.lemke_corner[column]
+    active, g = ws.actives[a], at(ws.floats, ws.offsets.matrix + line * 3 * ws.n_active + 3 * a)
     if j >= 0:
-        return g[1] * _corner(S, w, k, a, j, 1) + g[2] * _corner(S, w, k, a, j, 2)
+        return g[1] * _corner(ws, a, j, 1) + g[2] * _corner(ws, a, j, 2)
     if j == -2:
         return 0.0
     if active.at_rest == 1:
@@ -53,40 +53,40 @@ def _push(S: Scalars, w: Floats, k: Integers, line: int, column: int) -> float:
     return float(g[0] - active.mu * (active.direction[0] * g[1] + active.direction[1] * g[2]))
 
 
-@kernel("i8(S, F, I)")
-def _list_unknowns(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _list_unknowns(ws: Workspace) -> int:
     """List contact and corner of every unknown: -1 is a normal force, -2 a slip acceleration; return their number."""
     n = 0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         for j in range(-2 if active.at_rest == 1 else -1, CORNERS if active.at_rest == 1 else 0):
-            k[S.lemke_contact + n], k[S.lemke_corner + n] = a, j
+            ws.lemke_contact[n], ws.lemke_corner[n] = a, j
             n += 1
     return n
 
 
-@kernel("i8(S, i8, i8)")
-def _row(S: Scalars, n: int, i: int) -> int:
+@kernel("i8(ws, i8, i8)")
+def _row(ws: Workspace, n: int, i: int) -> int:
     """Return where row ``i`` of the tableau begins: factors of ``n`` unknowns, of the covering variable, constant."""
-    return int(S.tableau + i * (n + 2))
+    return int(ws.offsets.tableau + i * (n + 2))
 
 
-@kernel("void(S, F, I, i8, f8, f8)")
-def _lay(S: Scalars, w: Floats, k: Integers, n: int, g: float, size: float) -> None:
+@kernel("void(ws, i8, f8, f8)")
+def _lay(ws: Workspace, n: int, g: float, size: float) -> None:
     """Write the tableau: complementary quantities by unknowns, covering column, constant; ``g``, ``size``: scales."""
     for i in range(n):
-        a, corner = k[S.lemke_contact + i], k[S.lemke_corner + i]
-        active = active_at(S, w, k, a)
-        row = _row(S, n, i)
+        a, corner = ws.lemke_contact[i], ws.lemke_corner[i]
+        active = ws.actives[a]
+        row = _row(ws, n, i)
         # a cover that differs from row to row keeps pivots from being equal
-        w[row + n] = 1.0 + 0.3 * ((0.6180339887498949 * (i + 1)) % 1.0)
-        w[row + n + 1] = 0.0
-        k[S.lemke_row + i], k[S.lemke_column + i] = i, n + i
+        ws.floats[row + n] = 1.0 + 0.3 * ((0.6180339887498949 * (i + 1)) % 1.0)
+        ws.floats[row + n + 1] = 0.0
+        ws.lemke_row[i], ws.lemke_column[i] = i, n + i
         for j in range(n):
-            other, its = k[S.lemke_contact + j], k[S.lemke_corner + j]
+            other, its = ws.lemke_contact[j], ws.lemke_corner[j]
             entry = 0.0
             if corner == -1:
-                entry = _push(S, w, k, 3 * a, j) / g
+                entry = _push(ws, 3 * a, j) / g
             elif corner == -2:
                 if other == a and its >= 0:
                     entry = -1.0
@@ -94,118 +94,118 @@ def _lay(S: Scalars, w: Floats, k: Integers, n: int, g: float, size: float) -> N
                     entry = active.mu
             else:
                 for r in range(1, 3):
-                    entry += _corner(S, w, k, a, corner, r) * _push(S, w, k, 3 * a + r, j) / g
+                    entry += _corner(ws, a, corner, r) * _push(ws, 3 * a + r, j) / g
                 if other == a and its == -2:
                     entry = 1.0
-            w[row + j] = entry
+            ws.floats[row + j] = entry
         if corner == -1:
-            w[row + n + 1] = active.free[0] / size
+            ws.floats[row + n + 1] = active.free[0] / size
         elif corner >= 0:
             for r in range(1, 3):
-                w[row + n + 1] += _corner(S, w, k, a, corner, r) * active.free[r] / size
-    k[S.lemke_column + n] = 2 * n
+                ws.floats[row + n + 1] += _corner(ws, a, corner, r) * active.free[r] / size
+    ws.lemke_column[n] = 2 * n
 
 
-@kernel("void(S, F, I, i8, i8, i8)")
-def _pivot(S: Scalars, w: Floats, k: Integers, n: int, r: int, s: int) -> None:
+@kernel("void(ws, i8, i8, i8)")
+def _pivot(ws: Workspace, n: int, r: int, s: int) -> None:
     """Exchange the quantity of row ``r`` for that of column ``s``."""
-    row = _row(S, n, r)
-    pivot = w[row + s]
+    row = _row(ws, n, r)
+    pivot = ws.floats[row + s]
     for j in range(n + 2):
-        w[row + j] = -w[row + j] / pivot
-    w[row + s] = 1.0 / pivot
+        ws.floats[row + j] = -ws.floats[row + j] / pivot
+    ws.floats[row + s] = 1.0 / pivot
     for i in range(n):
         if i == r:
             continue
-        other = _row(S, n, i)
-        t = w[other + s]
+        other = _row(ws, n, i)
+        t = ws.floats[other + s]
         if t != 0.0:
             for j in range(n + 2):
-                w[other + j] += t * w[row + j]
-            w[other + s] = t / pivot
-    k[S.lemke_row + r], k[S.lemke_column + s] = k[S.lemke_column + s], k[S.lemke_row + r]
+                ws.floats[other + j] += t * ws.floats[row + j]
+            ws.floats[other + s] = t / pivot
+    ws.lemke_row[r], ws.lemke_column[s] = ws.lemke_column[s], ws.lemke_row[r]
 
 
-@kernel("i8(S, F, I, i8)")
-def _first_row(S: Scalars, w: Floats, k: Integers, n: int) -> int:
+@kernel("i8(ws, i8)")
+def _first_row(ws: Workspace, n: int) -> int:
     """Return the row that the covering variable enters at, or -1 if none is needed."""
     first, worst = -1, 0.0
     for i in range(n):
-        row = _row(S, n, i)
-        ratio = w[row + n + 1] / w[row + n]
+        row = _row(ws, n, i)
+        ratio = ws.floats[row + n + 1] / ws.floats[row + n]
         if ratio < worst:
             first, worst = i, ratio
     return first
 
 
-@kernel("i8(S, F, I, i8, i8)")
-def _leaving(S: Scalars, w: Floats, k: Integers, n: int, s: int) -> int:
+@kernel("i8(ws, i8, i8)")
+def _leaving(ws: Workspace, n: int, s: int) -> int:
     """Return the row that reaches zero first when column ``s`` grows, or -1; among equals the covering variable."""
     best, chosen = 1e300, -1
     for i in range(n):
-        row = _row(S, n, i)
-        entry = w[row + s]
+        row = _row(ws, n, i)
+        entry = ws.floats[row + s]
         if entry < -_ZERO:
-            ratio = max(0.0, w[row + n + 1]) / -entry
+            ratio = max(0.0, ws.floats[row + n + 1]) / -entry
             if ratio < best:
                 best = ratio
     pivot = 0.0
     for i in range(n):
-        row = _row(S, n, i)
-        entry = w[row + s]
-        if entry < -_ZERO and max(0.0, w[row + n + 1]) / -entry <= best + _ZERO:
-            if k[S.lemke_row + i] == 2 * n:
+        row = _row(ws, n, i)
+        entry = ws.floats[row + s]
+        if entry < -_ZERO and max(0.0, ws.floats[row + n + 1]) / -entry <= best + _ZERO:
+            if ws.lemke_row[i] == 2 * n:
                 return i
             if -entry > pivot:
                 pivot, chosen = -entry, i
     return chosen
 
 
-@entry_point("i8(S, F, I, i8)")
-def search_by_pivots(S: Scalars, w: Floats, k: Integers, stage: int) -> int:
+@entry_point("i8(ws, i8)")
+def search_by_pivots(ws: Workspace, stage: int) -> int:
     """Write ``active_forces`` of the faceted problem; return 1 if there are none, its path ending in a ray."""
-    m = S.n_active
-    if m > S.n_pivoted:
+    m = ws.n_active
+    if m > ws.n_pivoted:
         return 1
-    write_dense(S, w, k)
+    write_dense(ws)
     g = size = 0.0
     for i in range(3 * m):
-        g = max(g, w[S.matrix + i * 3 * m + i])
-        size = max(size, abs(w[S.free_accelerations + i]))
-        w[S.active_forces + i] = 0.0
+        g = max(g, ws.matrix[i * 3 * m + i])
+        size = max(size, abs(ws.free_accelerations[i]))
+        ws.active_forces[i] = 0.0
     if size == 0.0:
         return 0
-    n = _list_unknowns(S, w, k)
-    _lay(S, w, k, n, g, size)
-    row, column = _first_row(S, w, k, n), n
+    n = _list_unknowns(ws)
+    _lay(ws, n, g, size)
+    row, column = _first_row(ws, n), n
     for _pivots in range(50 * n):
-        if row < 0 or interrupted(S, m) == 1:
+        if row < 0 or interrupted(ws, m) == 1:
             break
-        left = k[S.lemke_row + row]
-        _pivot(S, w, k, n, row, column)
+        left = ws.lemke_row[row]
+        _pivot(ws, n, row, column)
         if left == 2 * n:
             break
         # what enters next is the partner of what has left
         partner = left - n if left >= n else left + n
         for j in range(n + 1):
-            if k[S.lemke_column + j] == partner:
+            if ws.lemke_column[j] == partner:
                 column = j
-        row = _leaving(S, w, k, n, column)
+        row = _leaving(ws, n, column)
         if row < 0:
             return 1
     for i in range(n):
-        unknown = k[S.lemke_row + i] - n
+        unknown = ws.lemke_row[i] - n
         if unknown < 0 or unknown >= n:
             continue
-        value = w[_row(S, n, i) + n + 1] * size / g
-        a, j = k[S.lemke_contact + unknown], k[S.lemke_corner + unknown]
-        active = active_at(S, w, k, a)
+        value = ws.floats[_row(ws, n, i) + n + 1] * size / g
+        a, j = ws.lemke_contact[unknown], ws.lemke_corner[unknown]
+        active = ws.actives[a]
         if j == -1:
             active.normal_force = value
         elif j >= 0:
             for r in range(1, 3):
-                active.force[r] += value * _corner(S, w, k, a, j, r)
+                active.force[r] += value * _corner(ws, a, j, r)
     for a in range(m):
-        if active_at(S, w, k, a).at_rest == 0:
-            friction_of_slip(S, w, k, a)
+        if ws.actives[a].at_rest == 0:
+            friction_of_slip(ws, a)
     return 0

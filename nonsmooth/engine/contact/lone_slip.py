@@ -11,32 +11,29 @@ from nonsmooth.engine.contact.problem import slip_coefficient, slip_direction
 from nonsmooth.engine.memory.modes import OPEN, SLIDE
 from nonsmooth.engine.native.kernel import (
     Floats,
-    Integers,
-    Scalars,
-    articulation_at,
-    contact_at,
+    Workspace,
     frame_at,
     kernel,
 )
 from nonsmooth.engine.numerics.vectors import Vector, cross, dot, length, minus
 
 
-@kernel("i8(S, F, I, i8)")
-def lone_slip(S: Scalars, w: Floats, k: Integers, group: int) -> int:
+@kernel("i8(ws, i8)")
+def lone_slip(ws: Workspace, group: int) -> int:
     """Return the contact of an island that is a rigid one which slides on a body without coordinates, or -1.
 
     The other body is a free one in space, of six velocities and no joint.
     """
-    first = k[S.group_start + group]
-    c = k[S.grouped + first]
-    contact = contact_at(S, w, k, c)
-    if k[S.group_start + group + 1] - first != 1 or contact.mode != SLIDE or S.ahead > 0.0:
+    first = ws.group_start[group]
+    c = ws.grouped[first]
+    contact = ws.contacts[c]
+    if ws.group_start[group + 1] - first != 1 or contact.mode != SLIDE or ws.ahead > 0.0:
         return -1
     special = contact.normal_function != 0 or contact.averaged != OPEN or contact.oriented != 0
     nu_a, nu_b = contact.nu_a, contact.nu_b
     if special or nu_a + nu_b != 6 or min(nu_a, nu_b) != 0:
         return -1
-    one, two = articulation_at(S, w, k, contact.articulation_a), articulation_at(S, w, k, contact.articulation_b)
+    one, two = ws.articulations[contact.articulation_a], ws.articulations[contact.articulation_b]
     return int(c if one.nu + two.nu == 6 and one.rows + two.rows == 0 else -1)
 
 
@@ -65,19 +62,19 @@ def _add(w: Floats, first: int, force: float, response: Vector) -> None:
     w[first + 2] += response[2] * force
 
 
-@kernel("i8(S, F, I, i8)")
-def hold_lone_slip(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+@kernel("i8(ws, i8)")
+def hold_lone_slip(ws: Workspace, c: int) -> int:
     """Evaluate contact ``c``, write its force, add what that does to ``du``, and note the driven body's power.
 
     The free acceleration stands in ``du``.  Return 0, nothing of this done, if its force moves nothing.
     """
-    contact = contact_at(S, w, k, c)
-    evaluate_geometry(S, w, k, c)
-    evaluate_rates(S, w, k, c)
-    evaluate_bias(S, w, k, c, 1)
+    contact = ws.contacts[c]
+    evaluate_geometry(ws, c)
+    evaluate_rates(ws, c)
+    evaluate_bias(ws, c, 1)
     n, t1, t2, slip = contact.axis_n, contact.axis_1, contact.axis_2, contact.slip
-    d1, d2 = slip_direction(S, w, k, c, slip, S.velocity_tolerance)
-    mu = slip_coefficient(S, w, k, c, length(slip))
+    d1, d2 = slip_direction(ws, c, slip, ws.velocity_tolerance)
+    mu = slip_coefficient(ws, c, length(slip))
     m1, m2 = mu * d1, mu * d2
     push = (
         n[0] - m1 * t1[0] - m2 * t2[0],
@@ -87,25 +84,31 @@ def hold_lone_slip(S: Scalars, w: Floats, k: Integers, c: int) -> int:
     second = contact.nu_b > 0
     sign = 1.0 if second else -1.0
     frame = contact.frame_b if second else contact.frame_a
-    moving = articulation_at(S, w, k, contact.articulation_b if second else contact.articulation_a)
-    inverse, du, u = moving.inverse, S.du + moving.u, S.free_velocities + moving.u
-    arm = minus(contact.point_b if second else contact.point_a, frame_at(w, frame).origin)
+    moving = ws.articulations[contact.articulation_b if second else contact.articulation_a]
+    inverse, du, u = moving.inverse, ws.offsets.du + moving.u, ws.free_velocities + moving.u
+    arm = minus(contact.point_b if second else contact.point_a, frame_at(ws.floats, frame).origin)
     held, pushed = cross(arm, n), cross(arm, push)
-    held_1, held_2 = side_entries(w, frame, 0, n, held), side_entries(w, frame, 3, n, held)
-    pushed_1, pushed_2 = side_entries(w, frame, 0, push, pushed), side_entries(w, frame, 3, push, pushed)
-    response_1, response_2 = _times(w, inverse, pushed_1, pushed_2), _times(w, inverse + 18, pushed_1, pushed_2)
+    held_1, held_2 = side_entries(ws.floats, frame, 0, n, held), side_entries(ws.floats, frame, 3, n, held)
+    pushed_1, pushed_2 = (
+        side_entries(ws.floats, frame, 0, push, pushed),
+        side_entries(ws.floats, frame, 3, push, pushed),
+    )
+    response_1, response_2 = (
+        _times(ws.floats, inverse, pushed_1, pushed_2),
+        _times(ws.floats, inverse + 18, pushed_1, pushed_2),
+    )
     own = dot(held_1, response_1) + dot(held_2, response_2)
     if own == 0.0:
         return 0
     # on which more force gives more approach
     if own < 0.0:
-        S.singular = c
-    free = sign * (dot(held_1, _three(w, du)) + dot(held_2, _three(w, du + 3)))
-    on_coordinates = sign * (dot(pushed_1, _three(w, u)) + dot(pushed_2, _three(w, u + 3)))
+        ws.singular = c
+    free = sign * (dot(held_1, _three(ws.floats, du)) + dot(held_2, _three(ws.floats, du + 3)))
+    on_coordinates = sign * (dot(pushed_1, _three(ws.floats, u)) + dot(pushed_2, _three(ws.floats, u + 3)))
     force = (-contact.bias[0] - free) / own
-    _add(w, du, sign * force, response_1)
-    _add(w, du + 3, sign * force, response_2)
+    _add(ws.floats, du, sign * force, response_1)
+    _add(ws.floats, du + 3, sign * force, response_2)
     contact.turned, contact.redundant, contact.holds = 0.0, 0, 0
     contact.force[0], contact.force[1], contact.force[2] = force, -m1 * force, -m2 * force
-    S.driven_power += force * (on_coordinates - contact.rate[0] + m1 * slip[0] + m2 * slip[1])
+    ws.driven_power += force * (on_coordinates - contact.rate[0] + m1 * slip[0] + m2 * slip[1])
     return 1

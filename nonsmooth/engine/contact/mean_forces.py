@@ -16,156 +16,156 @@ from nonsmooth.engine.contact.inelastic import inelastic_impulses
 from nonsmooth.engine.contact.trial import slope_of_slip
 from nonsmooth.engine.delassus.delassus import add_product, assemble_delassus
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
+from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.vectors import length
 
 _LONGEST = 50.0
 """Forces are averaged over so many contact times at most."""
 
 
-@kernel("i8(S, F, I)")
-def is_averaged(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def is_averaged(ws: Workspace) -> int:
     """Return 1 if the forces of the active contacts are averaged."""
-    for a in range(S.n_active):
-        if contact_at(S, w, k, active_at(S, w, k, a).slot).averaged != OPEN:
+    for a in range(ws.n_active):
+        if ws.contacts[ws.actives[a].slot].averaged != OPEN:
             return 1
     return 0
 
 
-@kernel("f8(S, F, I)")
-def averaging_time(S: Scalars, w: Floats, k: Integers) -> float:
+@kernel("f8(ws)")
+def averaging_time(ws: Workspace) -> float:
     """Return over what time the forces of the active contacts may be averaged [s]: the shortest contact time.
 
     It is 0 where one has none, or all give way.
     """
     time = 1e300
-    for a in range(S.n_active):
-        contact = contact_at(S, w, k, active_at(S, w, k, a).slot)
+    for a in range(ws.n_active):
+        contact = ws.contacts[ws.actives[a].slot]
         if contact.normal_function == 0:
             time = min(time, contact.contact_time)
     return time if time < 1e300 else 0.0
 
 
-@kernel("i8(S, F, I)")
-def is_settled(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def is_settled(ws: Workspace) -> int:
     """Return 1 if no active contact slips so slowly that its friction would stop it within a contact time."""
-    for a in range(S.n_active):
-        contact = contact_at(S, w, k, active_at(S, w, k, a).slot)
+    for a in range(ws.n_active):
+        contact = ws.contacts[ws.actives[a].slot]
         speed = length(contact.slip)
         friction = length((contact.force[1], contact.force[2]))
         slow = speed <= contact.contact_time * contact.mobility * friction
-        if slow and speed > S.velocity_tolerance and contact.force[0] > 0.0:
+        if slow and speed > ws.velocity_tolerance and contact.force[0] > 0.0:
             return 0
     return 1
 
 
-@kernel("f8(S, F, I, i8)")
-def averaging_span(S: Scalars, w: Floats, k: Integers, follows: int) -> float:
+@kernel("f8(ws, i8)")
+def averaging_span(ws: Workspace, follows: int) -> float:
     """Return over what time the forces of the active contacts are averaged next [s]; as long as they can if it follows.
 
     That is what the last averaging, to the end of which they came, left of accuracy.
     """
-    least = averaging_time(S, w, k)
+    least = averaging_time(ws)
     if follows == 0:
         return float(least)
     span = _LONGEST * least
-    for a in range(S.n_active):
-        contact = contact_at(S, w, k, active_at(S, w, k, a).slot)
+    for a in range(ws.n_active):
+        contact = ws.contacts[ws.actives[a].slot]
         if contact.averaged != OPEN:
             span = min(span, contact.mean_span if contact.mean_span > 0.0 else least)
     return float(span)
 
 
-@kernel("void(S, F, I)")
-def measure_spans(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def measure_spans(ws: Workspace) -> None:
     """Write how long the next averaging may be: the rates of gaps that one leaves grow with its square.
 
     One that was shorter than a contact time for the way of gaps may be twice as long.
     """
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
+    for c in range(ws.n_contacts):
+        contact = ws.contacts[c]
         if contact.averaged != OPEN:
-            left = max(abs(contact.rate[0]), 0.25 * S.velocity_tolerance)
-            accurate = contact.mean_span * math.sqrt(S.velocity_tolerance / left)
+            left = max(abs(contact.rate[0]), 0.25 * ws.velocity_tolerance)
+            accurate = contact.mean_span * math.sqrt(ws.velocity_tolerance / left)
             contact.mean_span = max(accurate, min(2.0 * contact.mean_span, contact.contact_time))
 
 
-@kernel("void(S, F, I, f8)")
-def _keep_span(S: Scalars, w: Floats, k: Integers, span: float) -> None:
+@kernel("void(ws, f8)")
+def _keep_span(ws: Workspace, span: float) -> None:
     """Keep the span of this averaging if all active contacts end it as they ended the last, else half of it.
 
     A contact time is not halved: what happens within it is not told apart.
     """
     kept = span
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        if contact_at(S, w, k, active.slot).averaged != active.mode_tried:
-            kept = max(0.5 * span, min(span, averaging_time(S, w, k)))
-    for a in range(S.n_active):
-        contact_at(S, w, k, active_at(S, w, k, a).slot).mean_span = kept
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        if ws.contacts[active.slot].averaged != active.mode_tried:
+            kept = max(0.5 * span, min(span, averaging_time(ws)))
+    for a in range(ws.n_active):
+        ws.contacts[ws.actives[a].slot].mean_span = kept
 
 
-@kernel("i8(S, F, I, f8)")
-def _solve(S: Scalars, w: Floats, k: Integers, time: float) -> int:
+@kernel("i8(ws, f8)")
+def _solve(ws: Workspace, time: float) -> int:
     """Write the impulses of the active contacts in a ``time`` to ``active_forces``; return 1 if they are found."""
-    assemble_delassus(S, w, k)
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        contact = contact_at(S, w, k, active.slot)
-        contact.mobility = slope_of_slip(S, w, k, a)
+    assemble_delassus(ws)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        contact = ws.contacts[active.slot]
+        contact.mobility = slope_of_slip(ws, a)
         for r in range(3):
-            active.free[r] = contact.bias[r] + row(S, w, k, active.slot, r, S.du)
+            active.free[r] = contact.bias[r] + row(ws, active.slot, r, ws.offsets.du)
             active.force[r] = time * contact.mean_force[r] if contact.averaged != OPEN else 0.0
         # what is left of a gap may close
         active.free[0] += max(0.0, contact.gap) / (time * time)
-    decouple_normals(S, w, k)
-    return int(inelastic_impulses(S, w, k, time))
+    decouple_normals(ws)
+    return int(inelastic_impulses(ws, time))
 
 
-@kernel("f8(S, F, I, f8)")
-def find_mean_impulses(S: Scalars, w: Floats, k: Integers, time: float) -> float:
+@kernel("f8(ws, f8)")
+def find_mean_impulses(ws: Workspace, time: float) -> float:
     """Write the impulses of the active contacts to ``active_forces``; return in what time: the ``time``, or a shorter.
 
     Their rates and the accelerations without forces must be written.
     """
-    if _solve(S, w, k, time) == 0 and time > averaging_time(S, w, k):
-        time = averaging_time(S, w, k)
-        _solve(S, w, k, time)
+    if _solve(ws, time) == 0 and time > averaging_time(ws):
+        time = averaging_time(ws)
+        _solve(ws, time)
     return time
 
 
-@kernel("f8(S, F, I, i8, f8)")
-def gap_after(S: Scalars, w: Floats, k: Integers, a: int, time: float) -> float:
+@kernel("f8(ws, i8, f8)")
+def gap_after(ws: Workspace, a: int, time: float) -> float:
     """Return the gap of an active contact after its impulses in a ``time``, as if no row of a Jacobian changed [m]."""
-    active = active_at(S, w, k, a)
-    contact = contact_at(S, w, k, active.slot)
-    rate = add_product(S, w, k, active.free[0], a, 0, S.active_forces)
+    active = ws.actives[a]
+    contact = ws.contacts[active.slot]
+    rate = add_product(ws, active.free[0], a, 0, ws.offsets.active_forces)
     # of these rates those that close the gap are part
     closing = max(0.0, contact.gap)
     return float(contact.gap - 0.5 * closing + 0.5 * time * (contact.rate[0] + rate))
 
 
-@kernel("void(S, F, I, f8)")
-def take_mean_forces(S: Scalars, w: Floats, k: Integers, time: float) -> None:
+@kernel("void(ws, f8)")
+def take_mean_forces(ws: Workspace, time: float) -> None:
     """Let the impulses of the active contacts be given in a ``time`` from now on; write what they do at its end.
 
     The ``active_forces`` become mean forces, too.
     """
-    S.mean_until = min(S.mean_until, S.t + time)
-    S.strayed = 0.0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        v1 = add_product(S, w, k, active.free[1], a, 1, S.active_forces)
-        v2 = add_product(S, w, k, active.free[2], a, 2, S.active_forces)
+    ws.mean_until = min(ws.mean_until, ws.t + time)
+    ws.strayed = 0.0
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        v1 = add_product(ws, active.free[1], a, 1, ws.offsets.active_forces)
+        v2 = add_product(ws, active.free[2], a, 2, ws.offsets.active_forces)
         speed = length((v1, v2))
         active.mode_tried = OPEN
         if active.normal_force > 0.0:
-            active.mode_tried = SLIDE if speed > S.velocity_tolerance else STICK
+            active.mode_tried = SLIDE if speed > ws.velocity_tolerance else STICK
         active.direction = v1 / speed if speed > 0.0 else 1.0, v2 / speed if speed > 0.0 else 0.0
-    _keep_span(S, w, k, time)
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        contact = contact_at(S, w, k, active.slot)
+    _keep_span(ws, time)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        contact = ws.contacts[active.slot]
         # a gap that opens comes to rest there
         way = time * max(0.0, contact.rate[0])
         contact.mean_way = way + (contact.mean_way if contact.averaged != OPEN else 0.0)

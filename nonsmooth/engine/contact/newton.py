@@ -15,7 +15,7 @@ from nonsmooth.engine.contact.gauss_seidel import sweep
 from nonsmooth.engine.contact.trial import slope_of_slip
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, at, entry_point, kernel
+from nonsmooth.engine.native.kernel import Workspace, at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.band import open_band
 from nonsmooth.engine.numerics.linear import SINGULAR, band_row, eliminate
@@ -37,24 +37,24 @@ _SETTLED = 1e-11
 """Length of the natural map, relative to that of the forces, at which they are left to be made exact."""
 
 
-@kernel("v2(S, F, I, i8)")
-def _aim(S: Scalars, w: Floats, k: Integers, a: int) -> tuple[float, float]:
+@kernel("v2(ws, i8)")
+def _aim(ws: Workspace, a: int) -> tuple[float, float]:
     """Return where the friction of the active contact ``a`` would go if nothing cut it."""
-    active, slope = active_at(S, w, k, a), slope_of_slip(S, w, k, a)
+    active, slope = ws.actives[a], slope_of_slip(ws, a)
     y1 = active.friction[0] - active.slip_acceleration[0] / slope
     return y1, active.friction[1] - active.slip_acceleration[1] / slope
 
 
-@kernel("f8(S, F, I)")
-def write_natural_map(S: Scalars, w: Floats, k: Integers) -> float:
+@kernel("f8(ws)")
+def write_natural_map(ws: Workspace) -> float:
     """Write the natural map to ``right``; return its square."""
     square = 0.0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        right = at(w, S.right + 3 * a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        right = at(ws.floats, ws.offsets.right + 3 * a)
         for r in range(3):
-            active.acceleration[r] = add_product(S, w, k, active.free[r], a, r, S.active_forces)
-        y = active.normal_force - active.normal_acceleration / diagonal_block(S, w, k, a).nn
+            active.acceleration[r] = add_product(ws, active.free[r], a, r, ws.offsets.active_forces)
+        y = active.normal_force - active.normal_acceleration / diagonal_block(ws, a).nn
         right[0] = active.normal_force - max(0.0, y)
         radius = active.mu * max(0.0, y)
         t1, t2 = active.friction
@@ -62,7 +62,7 @@ def write_natural_map(S: Scalars, w: Floats, k: Integers) -> float:
             pull = active.mu * active.normal_force
             right[1], right[2] = t1 + pull * active.direction[0], t2 + pull * active.direction[1]
         else:
-            y1, y2 = _aim(S, w, k, a)
+            y1, y2 = _aim(ws, a)
             size = length((y1, y2))
             cut = radius / size if size > radius else 1.0
             right[1], right[2] = t1 - cut * y1, t2 - cut * y2
@@ -71,119 +71,122 @@ def write_natural_map(S: Scalars, w: Floats, k: Integers) -> float:
     return square
 
 
-@kernel("void(S, F, I, i8, i8, f8)")
-def _add_row(S: Scalars, w: Floats, k: Integers, a: int, r: int, slope: float) -> None:
+@kernel("void(ws, i8, i8, f8)")
+def _add_row(ws: Workspace, a: int, r: int, slope: float) -> None:
     """Add a row of G, that is of contact ``a``, over a slope to the same row of ``matrix``."""
-    active = active_at(S, w, k, a)
-    line = band_row(S.matrix, 3 * a + r, 3 * S.n_active, S.half_band)
+    active = ws.actives[a]
+    line = band_row(ws.offsets.matrix, 3 * a + r, 3 * ws.n_active, ws.half_band)
     for block in range(active.first_block, active.end_block):
         for s in range(3):
-            w[line + 3 * k[S.block_column + block] + s] += w[S.delassus + DELASSUS * block + 3 * r + s] / slope
+            ws.floats[line + 3 * ws.block_column[block] + s] += ws.delassus[DELASSUS * block + 3 * r + s] / slope
 
 
-@kernel("void(S, F, I, i8, f8, f8, f8)")
-def _add_cut(S: Scalars, w: Floats, k: Integers, a: int, cut: float, c1: float, c2: float) -> None:
+@kernel("void(ws, i8, f8, f8, f8)")
+def _add_cut(ws: Workspace, a: int, cut: float, c1: float, c2: float) -> None:
     """Add the derivative of the friction that is cut to the disc, along (c1, c2), to its two rows of ``matrix``."""
-    active = active_at(S, w, k, a)
-    own, slope = diagonal_block(S, w, k, a).nn, slope_of_slip(S, w, k, a)
-    n = 3 * S.n_active
-    first, second = band_row(S.matrix, 3 * a + 1, n, S.half_band), band_row(S.matrix, 3 * a + 2, n, S.half_band)
+    active = ws.actives[a]
+    own, slope = diagonal_block(ws, a).nn, slope_of_slip(ws, a)
+    n = 3 * ws.n_active
+    first, second = (
+        band_row(ws.offsets.matrix, 3 * a + 1, n, ws.half_band),
+        band_row(ws.offsets.matrix, 3 * a + 2, n, ws.half_band),
+    )
     for block in range(active.first_block, active.end_block):
         for s in range(3):
-            g, j = at(w, S.delassus + DELASSUS * block + s), 3 * k[S.block_column + block] + s
+            g, j = at(ws.floats, ws.offsets.delassus + DELASSUS * block + s), 3 * ws.block_column[block] + s
             z1, z2 = -g[3] / slope, -g[6] / slope
             z1 += 1.0 if j == 3 * a + 1 else 0.0
             z2 += 1.0 if j == 3 * a + 2 else 0.0
             across = c2 * z1 - c1 * z2
             grown = active.mu * ((1.0 if j == 3 * a else 0.0) - g[0] / own)
-            w[first + j] -= cut * c2 * across + c1 * grown
-            w[second + j] += cut * c1 * across - c2 * grown
+            ws.floats[first + j] -= cut * c2 * across + c1 * grown
+            ws.floats[second + j] += cut * c1 * across - c2 * grown
 
 
-@kernel("i8(S, F, I)")
-def _write_jacobian(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _write_jacobian(ws: Workspace) -> int:
     """Write the derivative of the natural map at the forces at hand to ``matrix``; return 0 if it is too wide."""
-    n = 3 * S.n_active
-    for a in range(S.n_active + 1):
-        active_at(S, w, k, a).first_unknown = 3 * a
-    if open_band(S, w, k, n, S.matrix) == 0:
+    n = 3 * ws.n_active
+    for a in range(ws.n_active + 1):
+        ws.actives[a].first_unknown = 3 * a
+    if open_band(ws, n, ws.offsets.matrix) == 0:
         return 0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         line = 3 * a
-        own = diagonal_block(S, w, k, a).nn
+        own = diagonal_block(ws, a).nn
         y = active.normal_force - active.normal_acceleration / own
-        row = band_row(S.matrix, line, n, S.half_band)
+        row = band_row(ws.offsets.matrix, line, n, ws.half_band)
         if y > 0.0:
-            _add_row(S, w, k, a, 0, own)
-            w[row + line] += _FLOOR
+            _add_row(ws, a, 0, own)
+            ws.floats[row + line] += _FLOOR
         else:
-            w[row + line] = 1.0
+            ws.floats[row + line] = 1.0
         for r in range(1, 3):
-            row = band_row(S.matrix, line + r, n, S.half_band)
-            w[row + line + r] = 1.0
+            row = band_row(ws.offsets.matrix, line + r, n, ws.half_band)
+            ws.floats[row + line + r] = 1.0
             if active.at_rest == 0:
-                w[row + line] = active.mu * active.direction[r - 1]
+                ws.floats[row + line] = active.mu * active.direction[r - 1]
         if active.at_rest == 0:
             continue
-        slope = slope_of_slip(S, w, k, a)
-        y1, y2 = _aim(S, w, k, a)
+        slope = slope_of_slip(ws, a)
+        y1, y2 = _aim(ws, a)
         size, radius = length((y1, y2)), active.mu * max(0.0, y)
         if size <= radius:
             for r in range(1, 3):
-                row = band_row(S.matrix, line + r, n, S.half_band)
-                w[row + line + r] = 0.0
-                _add_row(S, w, k, a, r, slope)
-                w[row + line + r] += _FLOOR
+                row = band_row(ws.offsets.matrix, line + r, n, ws.half_band)
+                ws.floats[row + line + r] = 0.0
+                _add_row(ws, a, r, slope)
+                ws.floats[row + line + r] += _FLOOR
         elif radius > 0.0:
-            _add_cut(S, w, k, a, radius / size, y1 / size, y2 / size)
+            _add_cut(ws, a, radius / size, y1 / size, y2 / size)
     return 1
 
 
-@entry_point("i8(S, F, I, i8)")
-def search_by_newton(S: Scalars, w: Floats, k: Integers, stage: int) -> int:
+@entry_point("i8(ws, i8)")
+def search_by_newton(ws: Workspace, stage: int) -> int:
     """Improve the forces by sweeps, ten times more of them in every stage, and Newton steps; return 1 if settled."""
     sweeps = _SWEEPS
     for _stage in range(stage):
         sweeps *= 10
-    sweep(S, w, k, sweeps)
-    return step_by_newton(S, w, k, STEPS)
+    sweep(ws, sweeps)
+    return step_by_newton(ws, STEPS)
 
 
-@kernel("i8(S, F, I, i8)")
-def step_by_newton(S: Scalars, w: Floats, k: Integers, steps: int) -> int:
+@kernel("i8(ws, i8)")
+def step_by_newton(ws: Workspace, steps: int) -> int:
     """Improve the forces by so many Newton steps at most; return 1 if settled."""
-    width = 3 * S.n_active
-    square = write_natural_map(S, w, k)
+    width = 3 * ws.n_active
+    square = write_natural_map(ws)
     mean, weight = square, 1.0
     for _step in range(steps):
-        if interrupted(S, S.n_active * S.half_band) == 1:
+        if interrupted(ws, ws.n_active * ws.half_band) == 1:
             return 0
         size = 0.0
         for i in range(width):
-            size += w[S.active_forces + i] * w[S.active_forces + i]
+            size += ws.active_forces[i] * ws.active_forces[i]
         if square <= _SETTLED * _SETTLED * size:
             return 1
-        if _write_jacobian(S, w, k) == 0:
+        if _write_jacobian(ws) == 0:
             return 0
         for i in range(width):
-            w[S.x + i] = -w[S.right + i]
-        if eliminate(w, S.matrix, width, S.half_band, S.x, SINGULAR) == 0:
+            ws.x[i] = -ws.right[i]
+        if eliminate(ws.floats, ws.offsets.matrix, width, ws.half_band, ws.offsets.x, SINGULAR) == 0:
             return 0
         for i in range(width):
-            w[S.active_forces_kept + i] = w[S.active_forces + i]
+            ws.active_forces_kept[i] = ws.active_forces[i]
         share, better = 1.0, 0
         for _halving in range(_HALVINGS):
             for i in range(width):
-                w[S.active_forces + i] = w[S.active_forces_kept + i] + share * w[S.x + i]
-            new = write_natural_map(S, w, k)
+                ws.active_forces[i] = ws.active_forces_kept[i] + share * ws.x[i]
+            new = write_natural_map(ws)
             if new < (1.0 - 1e-4 * share) * mean:
                 square, better = new, 1
                 break
             share *= 0.5
         if better == 0:
             for i in range(width):
-                w[S.active_forces + i] = w[S.active_forces_kept + i]
+                ws.active_forces[i] = ws.active_forces_kept[i]
             return 0
         mean = (_MEMORY * weight * mean + square) / (_MEMORY * weight + 1.0)
         weight = _MEMORY * weight + 1.0

@@ -13,14 +13,9 @@ from nonsmooth.engine.contact.distribution import distribute
 from nonsmooth.engine.contact.trial import NO_FORCE
 from nonsmooth.engine.contact.unknowns import force_of, set_force
 from nonsmooth.engine.native.kernel import (
-    Floats,
-    Integers,
-    Scalars,
-    active_at,
-    contact_at,
+    Workspace,
     entry_point,
     kernel,
-    unknown_at,
 )
 from nonsmooth.engine.numerics.null_band import project_on_null
 from nonsmooth.engine.numerics.vectors import length
@@ -35,13 +30,13 @@ _SLACK = 2.0 * NO_FORCE
 """Then a bound that is passed by this part of the largest force holds, as it does to the contact problem."""
 
 
-@kernel("f8(S, F, I, i8)")
-def _least_distance(S: Scalars, w: Floats, k: Integers, n: int) -> float:
+@kernel("f8(ws, i8)")
+def _least_distance(ws: Workspace, n: int) -> float:
     """Return how far the forces that are not unique are from their bounds at least [N]."""
     least = 1e300
     for i in range(n):
-        unknown = unknown_at(S, w, k, i)
-        active = active_at(S, w, k, unknown.contact)
+        unknown = ws.unknowns[i]
+        active = ws.actives[unknown.contact]
         if unknown.direction == 1 and active.normal_held == 0 and active.redundant == 1:
             least = min(least, active.mu_static * active.normal_force - length(active.friction))
         if unknown.direction != 0 or active.redundant == 0:
@@ -53,93 +48,93 @@ def _least_distance(S: Scalars, w: Floats, k: Integers, n: int) -> float:
     return least
 
 
-@kernel("void(S, F, I, i8)")
-def _keep_null_space_force(S: Scalars, w: Floats, k: Integers, n: int) -> None:
+@kernel("void(ws, i8)")
+def _keep_null_space_force(ws: Workspace, n: int) -> None:
     """Keep by how much the ``active_forces`` differ from ``x``, those of least norm."""
     for i in range(n):
-        unknown = unknown_at(S, w, k, i)
-        contact = contact_at(S, w, k, active_at(S, w, k, unknown.contact).slot)
-        contact.null_space_force[unknown.direction] = force_of(S, w, k, i) - w[S.active_forces_first + i]
+        unknown = ws.unknowns[i]
+        contact = ws.contacts[ws.actives[unknown.contact].slot]
+        contact.null_space_force[unknown.direction] = force_of(ws, i) - ws.active_forces_first[i]
 
 
-@kernel("i8(S, F, I, f8, i8)")
-def _choose(S: Scalars, w: Floats, k: Integers, largest: float, rung: int) -> int:
+@kernel("i8(ws, f8, i8)")
+def _choose(ws: Workspace, largest: float, rung: int) -> int:
     """Choose forces off every bound by so many quarterings of the largest, from those of least norm; 1 if there are."""
-    for i in range(S.n_unknown):
-        set_force(S, w, k, i, w[S.active_forces_first + i])
-    return int(distribute(S, w, k, 0.25**rung * largest, _ARRIVED * largest))
+    for i in range(ws.n_unknown):
+        set_force(ws, i, ws.active_forces_first[i])
+    return int(distribute(ws, 0.25**rung * largest, _ARRIVED * largest))
 
 
-@kernel("i8(S, F, I, f8)")
-def _choose_farthest(S: Scalars, w: Floats, k: Integers, largest: float) -> int:
+@kernel("i8(ws, f8)")
+def _choose_farthest(ws: Workspace, largest: float) -> int:
     """Choose forces as far off every bound as can be, within a factor; return 1 if there are any."""
     near, far = 1, 0
-    while _choose(S, w, k, largest, near) == 0:
+    while _choose(ws, largest, near) == 0:
         if near == _RUNGS:
             return 0
         far, near = near, min(2 * near, _RUNGS)
     rung = near
     while near - far > 1:
         rung = (near + far) // 2
-        if _choose(S, w, k, largest, rung) == 1:
+        if _choose(ws, largest, rung) == 1:
             near = rung
         else:
             far = rung
-    return int(rung == near or _choose(S, w, k, largest, near) == 1)
+    return int(rung == near or _choose(ws, largest, near) == 1)
 
 
-@entry_point("i8(S, F, I)")
-def choose_null_space_force(S: Scalars, w: Floats, k: Integers) -> int:
+@entry_point("i8(ws)")
+def choose_null_space_force(ws: Workspace) -> int:
     """Choose the null-space force, ``x`` being the forces of least norm; return 1 if it keeps off every bound."""
-    n = S.n_unknown
+    n = ws.n_unknown
     largest = 0.0
-    for a in range(S.n_active):
-        contact = contact_at(S, w, k, active_at(S, w, k, a).slot)
+    for a in range(ws.n_active):
+        contact = ws.contacts[ws.actives[a].slot]
         contact.slack = 0.0
         for r in range(3):
             contact.null_space_force[r] = 0.0
     for i in range(n):
-        w[S.active_forces_first + i] = w[S.x + i]
-        set_force(S, w, k, i, w[S.x + i])
-        largest = max(largest, abs(w[S.x + i]))
-    if _least_distance(S, w, k, n) >= _AMPLE * largest:
+        ws.active_forces_first[i] = ws.x[i]
+        set_force(ws, i, ws.x[i])
+        largest = max(largest, abs(ws.x[i]))
+    if _least_distance(ws, n) >= _AMPLE * largest:
         return 1
-    found = _choose_farthest(S, w, k, largest)
+    found = _choose_farthest(ws, largest)
     if found == 0:
         for i in range(n):
-            set_force(S, w, k, i, w[S.active_forces_first + i])
-        distribute(S, w, k, 0.0, _ARRIVED * largest)
-        for a in range(S.n_active):
-            contact_at(S, w, k, active_at(S, w, k, a).slot).slack = _SLACK * largest
-    _keep_null_space_force(S, w, k, n)
+            set_force(ws, i, ws.active_forces_first[i])
+        distribute(ws, 0.0, _ARRIVED * largest)
+        for a in range(ws.n_active):
+            ws.contacts[ws.actives[a].slot].slack = _SLACK * largest
+    _keep_null_space_force(ws, n)
     for i in range(n):
-        w[S.x + i] = w[S.active_forces_first + i]
+        ws.x[i] = ws.active_forces_first[i]
     return found
 
 
-@kernel("void(S, F, I)")
-def add_null_space_force(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def add_null_space_force(ws: Workspace) -> None:
     """Add what of the null-space force lies in the present null space to the unknowns ``x``."""
-    n = S.n_unknown
+    n = ws.n_unknown
     for i in range(n):
-        unknown = unknown_at(S, w, k, i)
-        contact = contact_at(S, w, k, active_at(S, w, k, unknown.contact).slot)
-        w[S.sigma + i] = contact.null_space_force[unknown.direction]
-    if S.null_banded == 1:
-        project_on_null(S, w, n, S.sigma)
+        unknown = ws.unknowns[i]
+        contact = ws.contacts[ws.actives[unknown.contact].slot]
+        ws.sigma[i] = contact.null_space_force[unknown.direction]
+    if ws.null_banded == 1:
+        project_on_null(ws, n, ws.offsets.sigma)
         for i in range(n):
-            w[S.x + i] += w[S.sigma + i]
+            ws.x[i] += ws.sigma[i]
         return
     for i in range(n):
         for j in range(n):
-            w[S.x + i] += w[S.null + i * n + j] * w[S.sigma + j]
+            ws.x[i] += ws.null[i * n + j] * ws.sigma[j]
 
 
 @kernel()
-def shift_forces(S: Scalars, w: Floats, k: Integers) -> None:
+def shift_forces(ws: Workspace) -> None:
     """Add what of the null-space force lies in the present null space to the ``active_forces``, those of least norm."""
-    for i in range(S.n_unknown):
-        w[S.x + i] = force_of(S, w, k, i)
-    add_null_space_force(S, w, k)
-    for i in range(S.n_unknown):
-        set_force(S, w, k, i, w[S.x + i])
+    for i in range(ws.n_unknown):
+        ws.x[i] = force_of(ws, i)
+    add_null_space_force(ws)
+    for i in range(ws.n_unknown):
+        set_force(ws, i, ws.x[i])

@@ -17,7 +17,7 @@ from nonsmooth.engine.contact.polish import polish
 from nonsmooth.engine.contact.trial import EQUAL, identify, judge, set_scales, verify
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.memory.solvers import ENUMERATION, GAUSS_SEIDEL, LEMKE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel
+from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.vectors import length
 
@@ -27,20 +27,20 @@ _SAME = 1e-6
 """Contacts that pull alike, but for this part, open together."""
 
 
-@kernel("i8(S, F, I, i8, i8)")
-def _improve(S: Scalars, w: Floats, k: Integers, solver: int, stage: int) -> int:
+@kernel("i8(ws, i8, i8)")
+def _improve(ws: Workspace, solver: int, stage: int) -> int:
     if solver == GAUSS_SEIDEL:
-        return search_by_sweeps(S, w, k, stage)
+        return search_by_sweeps(ws, stage)
     if solver == LEMKE:
-        return search_by_pivots(S, w, k, stage)
-    return search_by_newton(S, w, k, stage)
+        return search_by_pivots(ws, stage)
+    return search_by_newton(ws, stage)
 
 
-@kernel("void(S, F, I)")
-def _write_cones(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def _write_cones(ws: Workspace) -> None:
     """Give every contact at rest one cone: the static one, or the kinetic one where it may not stick."""
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         active.mu_kept, active.static_kept = active.mu, active.mu_static
         if active.at_rest == 1:
             if active.freed == 1:
@@ -49,20 +49,20 @@ def _write_cones(S: Scalars, w: Floats, k: Integers) -> None:
                 active.mu = active.mu_static
 
 
-@kernel("void(S, F, I)")
-def _restore_cones(S: Scalars, w: Floats, k: Integers) -> None:
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+@kernel()
+def _restore_cones(ws: Workspace) -> None:
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         active.mu, active.mu_static = active.mu_kept, active.static_kept
 
 
-@kernel("i8(S, F, I)")
-def _guess_by_motion(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _guess_by_motion(ws: Workspace) -> int:
     """Try the modes that the accelerations tell, but for those of the past; return 1 if they differ."""
     differ = 0
-    small = EQUAL * S.small_acceleration
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    small = EQUAL * ws.small_acceleration
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         if active.mode_tried == active.mode_past or active.normal_acceleration > small:
             continue
         mode = SLIDE
@@ -78,168 +78,168 @@ def _guess_by_motion(S: Scalars, w: Floats, k: Integers) -> int:
     return differ
 
 
-@kernel("void(S, F, I)")
-def _keep_found(S: Scalars, w: Floats, k: Integers) -> None:
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+@kernel()
+def _keep_found(ws: Workspace) -> None:
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         active.mode_found = active.mode_tried
         active.direction_found = active.direction
 
 
-@kernel("void(S, F, I)")
-def _take_found(S: Scalars, w: Floats, k: Integers) -> None:
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+@kernel()
+def _take_found(ws: Workspace) -> None:
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         active.mode_tried = active.mode_found
         active.direction = active.direction_found
 
 
-@kernel("i8(S, F, I)")
-def _open_pulling(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _open_pulling(ws: Workspace) -> int:
     """Open the closed contacts that pull most; return how many."""
-    worst = -S.small_force
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    worst = -ws.small_force
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         if active.mode_tried != OPEN:
             worst = min(worst, active.normal_force)
     opened = 0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        pulls = active.normal_force <= (1.0 - _SAME) * worst and active.normal_force < -S.small_force
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        pulls = active.normal_force <= (1.0 - _SAME) * worst and active.normal_force < -ws.small_force
         if active.mode_tried != OPEN and pulls:
             active.mode_tried = OPEN
             opened += 1
     return opened
 
 
-@kernel("i8(S, F, I)")
-def _accept(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _accept(ws: Workspace) -> int:
     """Verify the modes under trial; where the forces of least norm pull, open who pulls; return 1 if all is well."""
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         active.mode_closed = active.mode_tried
         active.direction_closed = active.direction
-    if verify(S, w, k, 0) == 1:
+    if verify(ws, 0) == 1:
         return 1
-    if S.deficient == 0:
+    if ws.deficient == 0:
         return 0
-    while S.effort < _MOST_EFFORT and _open_pulling(S, w, k) > 0:
-        polish(S, w, k)
-        if verify(S, w, k, 0) == 1:
+    while ws.effort < _MOST_EFFORT and _open_pulling(ws) > 0:
+        polish(ws)
+        if verify(ws, 0) == 1:
             return 1
     # without the share of those opened the others may not hold: forces that press, though not of least norm
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         active.mode_tried = active.mode_closed
         active.direction = active.direction_closed
-    return int(verify(S, w, k, 1))
+    return int(verify(ws, 1))
 
 
-@kernel("i8(S, F, I)")
-def _rubs(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _rubs(ws: Workspace) -> int:
     """Return 1 if all that slides has the friction of slip."""
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         pull = active.mu * active.normal_force
         if active.mode_tried != SLIDE:
             continue
         (t1, t2), (d1, d2) = active.friction, active.direction
-        if not (abs(t1 + pull * d1) <= S.small_force and abs(t2 + pull * d2) <= S.small_force):
+        if not (abs(t1 + pull * d1) <= ws.small_force and abs(t2 + pull * d2) <= ws.small_force):
             return 0
     return 1
 
 
-@kernel("i8(S, F, I)")
-def _hasty(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _hasty(ws: Workspace) -> int:
     """Return 1 if a contact seems to slide that, once the forces have settled, its static bound may still hold."""
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         held = active.at_rest == 1 and active.freed == 0 and active.mu_static != active.mu
         if held and active.mode_tried == SLIDE:
             return 1
     return 0
 
 
-@kernel("void(S, F, I)")
-def _take_raw(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def _take_raw(ws: Workspace) -> None:
     """Go back to the forces of the solver, its modes and directions."""
-    _take_found(S, w, k)
-    for i in range(3 * S.n_active):
-        w[S.active_forces + i] = w[S.active_forces_first + i]
+    _take_found(ws)
+    for i in range(3 * ws.n_active):
+        ws.active_forces[i] = ws.active_forces_first[i]
 
 
-@kernel("i8(S, F, I)")
-def _try_by_motion(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _try_by_motion(ws: Workspace) -> int:
     """Let stick who seems to slide without acceleration, its friction being on the bound by chance; return 1 if right.
 
     Where forces are not unique a solver may well put the friction of some on the bound and let others do with less.
     """
-    set_scales(S, w, k)
-    if _guess_by_motion(S, w, k) == 1:
-        polish(S, w, k)
-        if _accept(S, w, k) == 1:
+    set_scales(ws)
+    if _guess_by_motion(ws) == 1:
+        polish(ws)
+        if _accept(ws) == 1:
             return 1
-        _take_raw(S, w, k)
+        _take_raw(ws)
     return 0
 
 
-@kernel("i8(S, F, I)")
-def _accept_raw(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _accept_raw(ws: Workspace) -> int:
     """Take the forces of the solver as they are; return 1 if they are lawful.
 
     Where sliding contacts share their load at will, the motion hangs on the share, and least norm need not be lawful.
     """
-    _take_raw(S, w, k)
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    _take_raw(ws)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         active.redundant = 0
-    S.deficient = 0
-    return 1 if judge(S, w, k, 0) == 1 and _rubs(S, w, k) == 1 else 0
+    ws.deficient = 0
+    return 1 if judge(ws, 0) == 1 and _rubs(ws) == 1 else 0
 
 
-@kernel("i8(S, F, I, i8)")
-def _search_round(S: Scalars, w: Floats, k: Integers, solver: int) -> int:
+@kernel("i8(ws, i8)")
+def _search_round(ws: Workspace, solver: int) -> int:
     """Search with the freed contacts kept from sticking; return 1 if the answer is verified."""
     stages = newton.STAGES
     if solver == GAUSS_SEIDEL:
         stages = gauss_seidel.STAGES
     elif solver == LEMKE:
         stages = lemke.STAGES
-    for i in range(3 * S.n_active):
-        w[S.active_forces_first + i] = 0.0
+    for i in range(3 * ws.n_active):
+        ws.active_forces_first[i] = 0.0
     for stage in range(stages):
-        if S.effort >= _MOST_EFFORT or interrupted(S, S.n_active) == 1:
+        if ws.effort >= _MOST_EFFORT or interrupted(ws, ws.n_active) == 1:
             return 0
-        for i in range(3 * S.n_active):
-            w[S.active_forces + i] = w[S.active_forces_first + i]
-        _write_cones(S, w, k)
-        settled = _improve(S, w, k, solver, stage)
-        for i in range(3 * S.n_active):
-            w[S.active_forces_first + i] = w[S.active_forces + i]
-        identify(S, w, k)
-        _restore_cones(S, w, k)
-        if settled == 0 and stage < stages - 1 and _hasty(S, w, k) == 1:
+        for i in range(3 * ws.n_active):
+            ws.active_forces[i] = ws.active_forces_first[i]
+        _write_cones(ws)
+        settled = _improve(ws, solver, stage)
+        for i in range(3 * ws.n_active):
+            ws.active_forces_first[i] = ws.active_forces[i]
+        identify(ws)
+        _restore_cones(ws)
+        if settled == 0 and stage < stages - 1 and _hasty(ws) == 1:
             continue
-        _keep_found(S, w, k)
-        if _try_by_motion(S, w, k) == 1:
+        _keep_found(ws)
+        if _try_by_motion(ws) == 1:
             return 1
-        polish(S, w, k)
-        if _accept(S, w, k) == 1:
+        polish(ws)
+        if _accept(ws) == 1:
             return 1
-        if S.deficient == 1 and _accept_raw(S, w, k) == 1:
+        if ws.deficient == 1 and _accept_raw(ws) == 1:
             return 1
-        _take_found(S, w, k)
+        _take_found(ws)
         if settled == 1:
             return 0
     return 0
 
 
-@kernel("i8(S, F, I)")
-def _free_sliding(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _free_sliding(ws: Workspace) -> int:
     """Keep the contacts at rest that were found to slide from sticking; return how many that are new."""
     new = 0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         if active.at_rest == 1 and active.mode_found == SLIDE and active.freed == 0:
             active.freed = 1
             if active.mu_static != active.mu:
@@ -247,85 +247,85 @@ def _free_sliding(S: Scalars, w: Floats, k: Integers) -> int:
     return new
 
 
-@kernel("i8(S, F, I, i8)")
-def _search_from(S: Scalars, w: Floats, k: Integers, solver: int) -> int:
+@kernel("i8(ws, i8)")
+def _search_from(ws: Workspace, solver: int) -> int:
     """Search, and again while contacts are found to slide that the higher static bound might still hold."""
-    for _round in range(1 + S.n_active):
-        if _search_round(S, w, k, solver) == 1:
+    for _round in range(1 + ws.n_active):
+        if _search_round(ws, solver) == 1:
             return 1
-        if _free_sliding(S, w, k) == 0:
+        if _free_sliding(ws) == 0:
             return 0
     return 0
 
 
-@kernel("void(S, F, I)")
-def _keep_answer(S: Scalars, w: Floats, k: Integers) -> None:
-    _keep_found(S, w, k)
-    for i in range(3 * S.n_active):
-        w[S.active_forces_first + i] = w[S.active_forces + i]
+@kernel()
+def _keep_answer(ws: Workspace) -> None:
+    _keep_found(ws)
+    for i in range(3 * ws.n_active):
+        ws.active_forces_first[i] = ws.active_forces[i]
 
 
-@kernel("void(S, F, I)")
-def _take_answer(S: Scalars, w: Floats, k: Integers) -> None:
-    _take_raw(S, w, k)
-    set_scales(S, w, k)
+@kernel()
+def _take_answer(ws: Workspace) -> None:
+    _take_raw(ws)
+    set_scales(ws)
 
 
-@kernel("void(S, F, I)")
-def _close_idle(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def _close_idle(ws: Workspace) -> None:
     """Of several sets of forces for the motion found take that of all contacts that it leaves closed."""
-    _keep_answer(S, w, k)
-    if _guess_by_motion(S, w, k) == 0:
+    _keep_answer(ws)
+    if _guess_by_motion(ws) == 0:
         return
-    polish(S, w, k)
-    if _accept(S, w, k) == 1:
+    polish(ws)
+    if _accept(ws) == 1:
         return
-    _take_answer(S, w, k)
+    _take_answer(ws)
 
 
-@kernel("void(S, F, I)")
-def _prefer_stick(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def _prefer_stick(ws: Workspace) -> None:
     """Between the two bounds a contact at rest may stick and may slide: what is at rest stays so if all can."""
-    _keep_answer(S, w, k)
+    _keep_answer(ws)
     changed = 0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         undecided = active.at_rest == 1 and active.mode_past != SLIDE and active.mu_static != active.mu
         if undecided and active.mode_tried == SLIDE:
             active.mode_tried = STICK
             changed = 1
     if changed == 0:
         return
-    polish(S, w, k)
-    if _accept(S, w, k) == 0:
-        _take_answer(S, w, k)
+    polish(ws)
+    if _accept(ws) == 0:
+        _take_answer(ws)
 
 
-@entry_point("i8(S, F, I, i8)")
-def find_modes(S: Scalars, w: Floats, k: Integers, solver: int) -> int:
+@entry_point("i8(ws, i8)")
+def find_modes(ws: Workspace, solver: int) -> int:
     """Search by one solver, ``mode_past`` holding the past modes; return 1 if a verified answer is found."""
     found = 0
     if solver == ENUMERATION:
-        found = 1 if enumerate_modes(S, w, k, 0) > 0 else 0
+        found = 1 if enumerate_modes(ws, 0) > 0 else 0
     else:
-        for a in range(S.n_active):
-            active = active_at(S, w, k, a)
+        for a in range(ws.n_active):
+            active = ws.actives[a]
             active.freed = 0
         # where a contact has just broken away it must not stick again at the higher static bound
         broken = 0
-        for a in range(S.n_active):
-            active = active_at(S, w, k, a)
+        for a in range(ws.n_active):
+            active = ws.actives[a]
             if active.at_rest == 1 and active.mode_past == SLIDE:
                 active.freed = 1
                 broken += 1
         if broken > 0:
-            found = _search_from(S, w, k, solver)
-            for a in range(S.n_active):
-                active = active_at(S, w, k, a)
+            found = _search_from(ws, solver)
+            for a in range(ws.n_active):
+                active = ws.actives[a]
                 active.freed = 0
         if found == 0:
-            found = _search_from(S, w, k, solver)
+            found = _search_from(ws, solver)
     if found == 1:
-        _prefer_stick(S, w, k)
-        _close_idle(S, w, k)
+        _prefer_stick(ws)
+        _close_idle(ws)
     return found

@@ -7,7 +7,7 @@ from nonsmooth.engine.contact.forces import friction_of_slip, reduced_coefficien
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, entry_point, kernel
+from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
 
 NO_FORCE = 1e-9
@@ -21,82 +21,82 @@ EQUAL = 1e3
 many times what counts as zero."""
 
 
-@kernel("void(S, F, I)")
-def hold_tried(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def hold_tried(ws: Workspace) -> None:
     """Translate the modes under trial into what is held, and find the forces that hold it."""
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         mode = active.mode_tried
         active.normal_held = 0 if mode == OPEN or active.given == 1 else 1
         # nothing holds what has no friction: it is at rest by chance
         active.tangent_held = 1 if mode == STICK and active.mu_static > 0.0 else 0
         if mode == OPEN:
             active.normal_force = 0.0
-    resolve(S, w, k)
-    S.evaluations += 1
-    S.effort += float(S.n_unknown) ** 3
+    resolve(ws)
+    ws.evaluations += 1
+    ws.effort += float(ws.n_unknown) ** 3
 
 
-@kernel("void(S, F, I)")
-def set_scales(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def set_scales(ws: Workspace) -> None:
     """Write the accelerations and what counts as zero among them and among the forces."""
     # the accelerations that may cancel one another in b set the scale, not b itself
-    scale = S.acceleration_scale
+    scale = ws.acceleration_scale
     force_scale = 0.0
-    for i in range(3 * S.n_active):
-        force_scale = max(force_scale, abs(w[S.active_forces + i]))
-    for a in range(S.n_active):
-        own = diagonal_block(S, w, k, a).nn
+    for i in range(3 * ws.n_active):
+        force_scale = max(force_scale, abs(ws.active_forces[i]))
+    for a in range(ws.n_active):
+        own = diagonal_block(ws, a).nn
         if own > 0.0:
             force_scale = max(force_scale, scale / own)
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         for r in range(3):
             total = active.free[r]
             for block in range(active.first_block, active.end_block):
-                force = active_at(S, w, k, k[S.block_column + block]).force
+                force = ws.actives[ws.block_column[block]].force
                 for s in range(3):
-                    part = w[S.delassus + DELASSUS * block + 3 * r + s] * force[s]
+                    part = ws.delassus[DELASSUS * block + 3 * r + s] * force[s]
                     total += part
                     scale = max(scale, abs(part))
             active.acceleration[r] = total
-    S.small_acceleration, S.small_force = NO_FORCE * scale, NO_FORCE * force_scale
+    ws.small_acceleration, ws.small_force = NO_FORCE * scale, NO_FORCE * force_scale
 
 
-@kernel("f8(S, F, I, i8)")
-def small_force(S: Scalars, w: Floats, k: Integers, a: int) -> float:
+@kernel("f8(ws, i8)")
+def small_force(ws: Workspace, a: int) -> float:
     """Return what counts as zero among the forces of one contact: beside a heavy body a light one has its own scale."""
-    active = active_at(S, w, k, a)
-    own, size = diagonal_block(S, w, k, a).nn, 0.0
+    active = ws.actives[a]
+    own, size = diagonal_block(ws, a).nn, 0.0
     for r in range(3):
         size = max(size, abs(active.force[r]))
     if own > 0.0:
-        size = max(size, S.acceleration_scale / own)
-    return float(NO_FORCE * size + _SOLVED * S.small_force)
+        size = max(size, ws.acceleration_scale / own)
+    return float(NO_FORCE * size + _SOLVED * ws.small_force)
 
 
-@entry_point("i8(S, F, I, i8)")
-def verify(S: Scalars, w: Floats, k: Integers, lenient: int) -> int:
+@entry_point("i8(ws, i8)")
+def verify(ws: Workspace, lenient: int) -> int:
     """Find the forces of the modes under trial; return 1 if modes and forces fulfil the laws themselves.
 
     Where the forces are not unique those of least norm are found; where they break Coulomb's bound, others that
     give the same motion and keep it are looked for, and the modes pass iff there are such; a lenient look (1) does so
     where they pull, too.
     """
-    hold_tried(S, w, k)
-    return judge(S, w, k, lenient)
+    hold_tried(ws)
+    return judge(ws, lenient)
 
 
-@kernel("i8(S, F, I, i8)")
-def _compare(S: Scalars, w: Floats, k: Integers, lenient: int) -> int:
+@kernel("i8(ws, i8)")
+def _compare(ws: Workspace, lenient: int) -> int:
     """Return 1 if the forces fulfil the laws, 2 if others that are as good may, 0 if not."""
-    set_scales(S, w, k)
-    small = S.small_acceleration
-    held = small if S.deficient == 0 else EQUAL * small
+    set_scales(ws)
+    small = ws.small_acceleration
+    held = small if ws.deficient == 0 else EQUAL * small
     result = 1
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        mode, faint = active.mode_tried, small_force(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        mode, faint = active.mode_tried, small_force(ws, a)
         normal = active.normal_acceleration
         if mode == OPEN:
             if not normal >= -small:
@@ -105,10 +105,10 @@ def _compare(S: Scalars, w: Floats, k: Integers, lenient: int) -> int:
         if not abs(normal) <= held:
             return 0
         # sliding on which more force gives more approach is balanced on an edge, and falls off either side
-        if mode == SLIDE and active.at_rest == 0 and reduced_coefficient(S, w, k, a) <= 0.0:
+        if mode == SLIDE and active.at_rest == 0 and reduced_coefficient(ws, a) <= 0.0:
             return 0
         if not active.normal_force >= -faint:
-            if lenient == 0 or S.deficient == 0:
+            if lenient == 0 or ws.deficient == 0:
                 return 0
             result = 2
         a1, a2 = active.slip_acceleration
@@ -127,33 +127,33 @@ def _compare(S: Scalars, w: Floats, k: Integers, lenient: int) -> int:
     return result
 
 
-@kernel("i8(S, F, I, i8)")
-def judge(S: Scalars, w: Floats, k: Integers, lenient: int) -> int:
+@kernel("i8(ws, i8)")
+def judge(ws: Workspace, lenient: int) -> int:
     """Return 1 if the ``active_forces`` fulfil the laws in the modes under trial, distributed where not unique."""
-    result = _compare(S, w, k, lenient)
-    if result == 2 and distribute(S, w, k, 0.0, _ARRIVED * S.small_force) == 1:
+    result = _compare(ws, lenient)
+    if result == 2 and distribute(ws, 0.0, _ARRIVED * ws.small_force) == 1:
         # the share of sliding contacts may have moved with their normal forces: all is looked at again
-        for a in range(S.n_active):
-            if active_at(S, w, k, a).mode_tried == SLIDE:
-                friction_of_slip(S, w, k, a)
-        result = _compare(S, w, k, lenient)
+        for a in range(ws.n_active):
+            if ws.actives[a].mode_tried == SLIDE:
+                friction_of_slip(ws, a)
+        result = _compare(ws, lenient)
     return 1 if result == 1 else 0
 
 
-@kernel("void(S, F, I)")
-def identify(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def identify(ws: Workspace) -> None:
     """Guess modes and directions from the ``active_forces``, by the side of the natural map on which they stand."""
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         push = 0.0
         for r in range(3):
-            total = add_product(S, w, k, active.free[r], a, r, S.active_forces)
+            total = add_product(ws, active.free[r], a, r, ws.offsets.active_forces)
             if r == 0:
-                push = active.normal_force * diagonal_block(S, w, k, a).nn - total
+                push = active.normal_force * diagonal_block(ws, a).nn - total
             active.acceleration[r] = total
         active.mode_tried = SLIDE
         if active.at_rest == 1:
-            g = slope_of_slip(S, w, k, a)
+            g = slope_of_slip(ws, a)
             y1 = g * active.friction[0] - active.slip_acceleration[0]
             y2 = g * active.friction[1] - active.slip_acceleration[1]
             norm = length((y1, y2))
@@ -165,9 +165,9 @@ def identify(S: Scalars, w: Floats, k: Integers) -> None:
             active.mode_tried = OPEN
 
 
-@kernel("f8(S, F, I, i8)")
-def slope_of_slip(S: Scalars, w: Floats, k: Integers, a: int) -> float:
+@kernel("f8(ws, i8)")
+def slope_of_slip(ws: Workspace, a: int) -> float:
     """Return how fast contact ``a`` slips under a unit of its own friction, or a number like it where it cannot."""
-    own = diagonal_block(S, w, k, a)
+    own = diagonal_block(ws, a)
     largest = max(own.t11, own.t22)
     return float(largest if largest > 0.0 else own.nn)

@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, kernel, unknown_at
+from nonsmooth.engine.native.kernel import Workspace, kernel
 
 
-@kernel("void(S, F, I, i8, i8, i8, i8)")
-def list_unknown(S: Scalars, w: Floats, k: Integers, i: int, a: int, r: int, turn: int) -> None:
+@kernel("void(ws, i8, i8, i8, i8)")
+def list_unknown(ws: Workspace, i: int, a: int, r: int, turn: int) -> None:
     """Let unknown ``i`` be the force of the active contact ``a`` along direction ``r``, or its turn (1)."""
-    unknown = unknown_at(S, w, k, i)
+    unknown = ws.unknowns[i]
     unknown.contact, unknown.direction, unknown.turn = a, r, turn
 
 
-@kernel("f8(S, F, I, i8)")
-def force_of(S: Scalars, w: Floats, k: Integers, i: int) -> float:
+@kernel("f8(ws, i8)")
+def force_of(ws: Workspace, i: int) -> float:
     """Return the force that unknown ``i`` is."""
-    unknown = unknown_at(S, w, k, i)
-    return float(active_at(S, w, k, unknown.contact).force[unknown.direction])
+    unknown = ws.unknowns[i]
+    return float(ws.actives[unknown.contact].force[unknown.direction])
 
 
-@kernel("void(S, F, I, i8, f8)")
-def set_force(S: Scalars, w: Floats, k: Integers, i: int, value: float) -> None:
+@kernel("void(ws, i8, f8)")
+def set_force(ws: Workspace, i: int, value: float) -> None:
     """Set the force that unknown ``i`` is."""
-    unknown = unknown_at(S, w, k, i)
-    active_at(S, w, k, unknown.contact).force[unknown.direction] = value
+    unknown = ws.unknowns[i]
+    ws.actives[unknown.contact].force[unknown.direction] = value

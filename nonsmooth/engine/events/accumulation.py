@@ -18,268 +18,268 @@ from nonsmooth.engine.events.twins import closed_twin, take_over
 from nonsmooth.engine.flow.projection import project_rates
 from nonsmooth.engine.flow.self_check import EXPLAINED, NOUGHT
 from nonsmooth.engine.memory.modes import CLOSING, FEATURE_CHANGE, OPEN, SLIDE, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
+from nonsmooth.engine.native.kernel import Workspace, kernel
 
 _RESTS = 1.0 - 1e-6
 """What comes to rest this near the end of an averaging, in parts of it, is not told from what does not."""
 
 
-@kernel("void(S, F, I, i8)")
-def provisional_mode(S: Scalars, w: Floats, k: Integers, c: int) -> None:
+@kernel("void(ws, i8)")
+def provisional_mode(ws: Workspace, c: int) -> None:
     """Give contact ``c`` the mode that its rates tell, until the instant is settled."""
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     rigid = contact.normal_function == 0
-    if is_on_course(S, w, k, c) == 1:
+    if is_on_course(ws, c) == 1:
         return
-    if contact.touching == 0 or contact.released == 1 or (rigid and contact.rate[0] > S.velocity_tolerance):
+    if contact.touching == 0 or contact.released == 1 or (rigid and contact.rate[0] > ws.velocity_tolerance):
         contact.mode = OPEN
         return
     if contact.mode == OPEN:
-        begin_contact(S, w, k, c)
-    speed = slip_speed(S, w, k, c)
-    contact.mode = SLIDE if speed > S.velocity_tolerance else STICK
-    if speed > S.velocity_tolerance:
+        begin_contact(ws, c)
+    speed = slip_speed(ws, c)
+    contact.mode = SLIDE if speed > ws.velocity_tolerance else STICK
+    if speed > ws.velocity_tolerance:
         contact.direction = contact.slip[0] / speed, contact.slip[1] / speed
 
 
-@kernel("i8(S, F, I, i8, f8)")
-def _is_short(S: Scalars, w: Floats, k: Integers, c: int, time: float) -> int:
+@kernel("i8(ws, i8, f8)")
+def _is_short(ws: Workspace, c: int, time: float) -> int:
     """Return 1 if contact ``c`` separates, but no faster than it approaches after a ``time``.
 
     How fast the next step may not be, lest it fly over the touch-down, is kept.
     """
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     rate = contact.rate[0]
-    approach = -(contact.bias[0] + row(S, w, k, c, 0, S.du))
-    if rate <= S.velocity_tolerance or approach <= 0.0:
+    approach = -(contact.bias[0] + row(ws, c, 0, ws.offsets.du))
+    if rate <= ws.velocity_tolerance or approach <= 0.0:
         return 0
     # the touch-down is due after 2 rate / approach
-    S.h_first = min(S.h_first, 3.0 * rate / approach)
+    ws.h_first = min(ws.h_first, 3.0 * rate / approach)
     # (a gap that is left closes first)
     short = (rate - approach * time) * time <= -max(0.0, contact.gap)
-    return 1 if short and closed_twin(S, w, k, c) < 0 else 0
+    return 1 if short and closed_twin(ws, c) < 0 else 0
 
 
-@kernel("i8(S, F, I)")
-def close_contacts(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def close_contacts(ws: Workspace) -> int:
     """End the bounces that have become shorter than their contact time; return how many contacts or islands have one.
 
     One of a contact by itself is left out.  Where several touch, the forces of their island are averaged, so that all
     land together.  The modes must be those agreed on for this instant.
     """
-    S.h_first = 1e300
-    group_touching(S, w, k)
+    ws.h_first = 1e300
+    group_touching(ws)
     closing = 0
-    for group in range(S.n_groups):
-        activate_group(S, w, k, group)
-        time, fastest = averaging_time(S, w, k), 1e300
-        if S.n_active > 1:
+    for group in range(ws.n_groups):
+        activate_group(ws, group)
+        time, fastest = averaging_time(ws), 1e300
+        if ws.n_active > 1:
             # what is averaged comes to rest within that time, on its way up, which is none that can be told
             time *= _RESTS
-            fastest = EXPLAINED * S.gap_tolerance / max(time, S.time_tolerance)
+            fastest = EXPLAINED * ws.gap_tolerance / max(time, ws.time_tolerance)
         which = -1
-        for a in range(S.n_active):
-            c = active_at(S, w, k, a).slot
-            if contact_at(S, w, k, c).rate[0] <= fastest and _is_short(S, w, k, c, time) == 1:
+        for a in range(ws.n_active):
+            c = ws.actives[a].slot
+            if ws.contacts[c].rate[0] <= fastest and _is_short(ws, c, time) == 1:
                 which = c
-        if which >= 0 and S.n_active == 1:
-            _close(S, w, k, which)
+        if which >= 0 and ws.n_active == 1:
+            _close(ws, which)
             closing += 1
         elif which >= 0:
-            closing += average_active(S, w, k)
+            closing += average_active(ws)
     return closing
 
 
-@kernel("void(S, F, I, i8)")
-def _close(S: Scalars, w: Floats, k: Integers, c: int) -> None:
+@kernel("void(ws, i8)")
+def _close(ws: Workspace, c: int) -> None:
     """Leave out the last bounce of contact ``c``, the only active one, and record that."""
-    remember(S, w, k)
-    contact = contact_at(S, w, k, c)
-    contact.mode = SLIDE if slip_speed(S, w, k, c) > S.velocity_tolerance else STICK
-    before = S.driven_work
-    _book(S, w, k, project_rates(S, w, k, 1), before)
-    record_event(S, w, k, CLOSING, c, 0)
+    remember(ws)
+    contact = ws.contacts[c]
+    contact.mode = SLIDE if slip_speed(ws, c) > ws.velocity_tolerance else STICK
+    before = ws.driven_work
+    _book(ws, project_rates(ws, 1), before)
+    record_event(ws, CLOSING, c, 0)
 
 
-@kernel("void(S, F, I, f8, f8)")
-def _book(S: Scalars, w: Floats, k: Integers, loss: float, work_before: float) -> None:
+@kernel("void(ws, f8, f8)")
+def _book(ws: Workspace, loss: float, work_before: float) -> None:
     """Book what a closing takes."""
-    w[S.event_head + CLOSING_LOSS] += loss
-    w[S.event_head + DRIVEN_WORK] += S.driven_work - work_before
-    S.closing_loss += loss
+    ws.event_head[CLOSING_LOSS] += loss
+    ws.event_head[DRIVEN_WORK] += ws.driven_work - work_before
+    ws.closing_loss += loss
 
 
-@kernel("void(S, F, I)")
-def _stop_active(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def _stop_active(ws: Workspace) -> None:
     """Give the active contacts the impulses of an inelastic impact, of which none pulls, and book what they take."""
-    assemble_delassus(S, w, k)
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    assemble_delassus(ws)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         for r in range(3):
             active.free[r] = active.force[r] = 0.0
-    inelastic_impulses(S, w, k, 0.0)
-    add_response(S, w, k, S.active_forces, S.y + S.n_q)
-    loss, before = 0.0, S.driven_work
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        contact = contact_at(S, w, k, active.slot)
+    inelastic_impulses(ws, 0.0)
+    add_response(ws, ws.offsets.active_forces, ws.offsets.y + ws.n_q)
+    loss, before = 0.0, ws.driven_work
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        contact = ws.contacts[active.slot]
         for r in range(3):
             impulse, rate = active.force[r], contact.rate[r]
-            loss -= 0.5 * impulse * add_product(S, w, k, 2.0 * rate, a, r, S.active_forces)
-            S.driven_work -= impulse * contact.prescribed_rate[r]
+            loss -= 0.5 * impulse * add_product(ws, 2.0 * rate, a, r, ws.offsets.active_forces)
+            ws.driven_work -= impulse * contact.prescribed_rate[r]
             contact.event_impulse[r] = impulse
-    _book(S, w, k, loss, before)
+    _book(ws, loss, before)
 
 
-@kernel("i8(S, F, I)")
-def _fastest_of_active(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _fastest_of_active(ws: Workspace) -> int:
     """Return the active contact that approaches most, or -1 where none does."""
-    which, worst = -1, -S.velocity_tolerance
-    for a in range(S.n_active):
-        c = active_at(S, w, k, a).slot
-        rate = contact_at(S, w, k, c).rate[0]
+    which, worst = -1, -ws.velocity_tolerance
+    for a in range(ws.n_active):
+        c = ws.actives[a].slot
+        rate = ws.contacts[c].rate[0]
         if rate < worst:
             which, worst = c, rate
     return which
 
 
-@kernel("f8(S, F, I)")
-def slow_speed(S: Scalars, w: Floats, k: Integers) -> float:
+@kernel("f8(ws)")
+def slow_speed(ws: Workspace) -> float:
     """Return the speed of a gap below which nothing bounces among the active contacts [m/s].
 
     It is what the greatest approach of the free accelerations, which must be written, makes of it in the shortest
     contact time: Eq. (33), of an island in place of a contact.
     """
     time, approach = 1e300, 0.0
-    for a in range(S.n_active):
-        c = active_at(S, w, k, a).slot
-        contact = contact_at(S, w, k, c)
+    for a in range(ws.n_active):
+        c = ws.actives[a].slot
+        contact = ws.contacts[c]
         time = min(time, contact.contact_time)
-        approach = max(approach, -(contact.bias[0] + row(S, w, k, c, 0, S.du)))
+        approach = max(approach, -(contact.bias[0] + row(ws, c, 0, ws.offsets.du)))
     return float(approach * time)
 
 
-@kernel("i8(S, F, I)")
-def stop_slow(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def stop_slow(ws: Workspace) -> int:
     """Stop islands in which what approaches is slow, in place of a collision; return how many.
 
     So it is, however fast, where an impact has been cut short: another one would be, too.
     """
-    accelerate_touching(S, w, k)
-    push_compliant(S, w, k)
-    group_touching(S, w, k)
+    accelerate_touching(ws)
+    push_compliant(ws)
+    group_touching(ws)
     stopped, which = 0, -1
-    for group in range(S.n_groups):
-        activate_group(S, w, k, group)
-        fastest = _fastest_of_active(S, w, k)
+    for group in range(ws.n_groups):
+        activate_group(ws, group)
+        fastest = _fastest_of_active(ws)
         if fastest < 0:
             continue
-        if S.truncated == 0 and -contact_at(S, w, k, fastest).rate[0] > slow_speed(S, w, k):
+        if ws.truncated == 0 and -ws.contacts[fastest].rate[0] > slow_speed(ws):
             continue
         if stopped == 0:
-            remember(S, w, k)
+            remember(ws)
         stopped, which = stopped + 1, fastest
-        _stop_active(S, w, k)
+        _stop_active(ws)
     if stopped > 0:
-        touch(S, w, k)
-        for c in range(S.n_contacts):
-            provisional_mode(S, w, k, c)
-        _rest_closed(S, w, k)
-        record_event(S, w, k, CLOSING, which, 0)
+        touch(ws)
+        for c in range(ws.n_contacts):
+            provisional_mode(ws, c)
+        _rest_closed(ws)
+        record_event(ws, CLOSING, which, 0)
     return stopped
 
 
-@kernel("i8(S, F, I)")
-def average_slow(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def average_slow(ws: Workspace) -> int:
     """Let the forces of islands be averaged that approach slowly though they were stopped; return 1 if others approach.
 
     Where contacts had to give way for impulses to be found, these may leave an approach for ever.
     """
-    accelerate_touching(S, w, k)
-    push_compliant(S, w, k)
-    group_touching(S, w, k)
+    accelerate_touching(ws)
+    push_compliant(ws)
+    group_touching(ws)
     others = 0
-    for group in range(S.n_groups):
-        activate_group(S, w, k, group)
-        fastest = _fastest_of_active(S, w, k)
+    for group in range(ws.n_groups):
+        activate_group(ws, group)
+        fastest = _fastest_of_active(ws)
         if fastest < 0:
             continue
-        slow = -contact_at(S, w, k, fastest).rate[0] <= slow_speed(S, w, k)
-        if not slow or (is_averaged(S, w, k) == 0 and average_active(S, w, k) == 0):
+        slow = -ws.contacts[fastest].rate[0] <= slow_speed(ws)
+        if not slow or (is_averaged(ws) == 0 and average_active(ws) == 0):
             others = 1
     return others
 
 
-@kernel("void(S, F, I)")
-def _rest_closed(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def _rest_closed(ws: Workspace) -> None:
     """Take the approach that impulses leave where contacts had to give way a little for any to be found."""
-    group_closed(S, w, k)
-    for group in range(S.n_groups):
-        activate_group(S, w, k, group)
-        fastest = _fastest_of_active(S, w, k)
-        if fastest >= 0 and -contact_at(S, w, k, fastest).rate[0] <= slow_speed(S, w, k):
-            before = S.driven_work
-            _book(S, w, k, project_rates(S, w, k, 1), before)
+    group_closed(ws)
+    for group in range(ws.n_groups):
+        activate_group(ws, group)
+        fastest = _fastest_of_active(ws)
+        if fastest >= 0 and -ws.contacts[fastest].rate[0] <= slow_speed(ws):
+            before = ws.driven_work
+            _book(ws, project_rates(ws, 1), before)
 
 
-@kernel("f8(S, F, I)")
-def stop_creeping(S: Scalars, w: Floats, k: Integers) -> float:
+@kernel("f8(ws)")
+def stop_creeping(ws: Workspace) -> float:
     """Stop the open contacts that touch and approach, if no faster than what counts as zero; return the energy [J].
 
     Nothing collides so slowly, but in time the bodies would overlap.  The impulses press and do not rub: so little is
     no friction.
     """
     creeping = 0
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
+    for c in range(ws.n_contacts):
+        contact = ws.contacts[c]
         rests = contact.touching == 1 and contact.normal_function == 0 and contact.mode == OPEN
-        if rests and contact.rate[0] < -NOUGHT * S.velocity_tolerance:
+        if rests and contact.rate[0] < -NOUGHT * ws.velocity_tolerance:
             creeping += 1
     if creeping == 0:
         return 0.0
     loss = 0.0
-    touch(S, w, k)
-    group_touching(S, w, k)
-    for group in range(S.n_groups):
-        activate_group(S, w, k, group)
-        assemble_delassus(S, w, k)
-        for a in range(S.n_active):
-            active = active_at(S, w, k, a)
-            contact = contact_at(S, w, k, active.slot)
+    touch(ws)
+    group_touching(ws)
+    for group in range(ws.n_groups):
+        activate_group(ws, group)
+        assemble_delassus(ws)
+        for a in range(ws.n_active):
+            active = ws.actives[a]
+            contact = ws.contacts[active.slot]
             active.at_rest, active.normal_held = 0, 1
             active.mu = active.normal_force = 0.0
             for r in range(3):
                 active.free[r] = contact.rate[r]
-        gauss_seidel(S, w, k, SWEEPS)
-        add_response(S, w, k, S.active_forces, S.y + S.n_q)
-        for a in range(S.n_active):
-            active = active_at(S, w, k, a)
-            contact = contact_at(S, w, k, active.slot)
-            loss -= 0.5 * active.normal_force * add_product(S, w, k, 2.0 * contact.rate[0], a, 0, S.active_forces)
-            S.driven_work -= active.normal_force * contact.prescribed_rate[0]
+        gauss_seidel(ws, SWEEPS)
+        add_response(ws, ws.offsets.active_forces, ws.offsets.y + ws.n_q)
+        for a in range(ws.n_active):
+            active = ws.actives[a]
+            contact = ws.contacts[active.slot]
+            loss -= 0.5 * active.normal_force * add_product(ws, 2.0 * contact.rate[0], a, 0, ws.offsets.active_forces)
+            ws.driven_work -= active.normal_force * contact.prescribed_rate[0]
     return loss
 
 
-@kernel("i8(S, F, I)")
-def hand_over(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def hand_over(ws: Workspace) -> int:
     """Let contacts that approach take the place of closed ones where they are; return 1, or 0 where others collide."""
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
+    for c in range(ws.n_contacts):
+        contact = ws.contacts[c]
         rigid = contact.normal_function == 0
-        approaches = rigid and contact.touching == 1 and contact.rate[0] < -S.velocity_tolerance
+        approaches = rigid and contact.touching == 1 and contact.rate[0] < -ws.velocity_tolerance
         contact.closes = 1 if approaches else 0
-        if approaches and closed_twin(S, w, k, c) < 0:
+        if approaches and closed_twin(ws, c) < 0:
             return 0
-    remember(S, w, k)
+    remember(ws)
     which = -1
-    for c in range(S.n_contacts):
-        if contact_at(S, w, k, c).closes == 1 and take_over(S, w, k, c) == 1:
+    for c in range(ws.n_contacts):
+        if ws.contacts[c].closes == 1 and take_over(ws, c) == 1:
             # unless another one that approaches more has taken its twin's place
             which = c
-    group_touching(S, w, k)
-    for group in range(S.n_groups):
-        activate_group(S, w, k, group)
-        if _fastest_of_active(S, w, k) >= 0:
-            _stop_active(S, w, k)
-    record_event(S, w, k, FEATURE_CHANGE, which, 0)
+    group_touching(ws)
+    for group in range(ws.n_groups):
+        activate_group(ws, group)
+        if _fastest_of_active(ws) >= 0:
+            _stop_active(ws)
+    record_event(ws, FEATURE_CHANGE, which, 0)
     return 1

@@ -13,26 +13,26 @@ from nonsmooth.engine.flow.mean_motion import find_mean_forces
 from nonsmooth.engine.flow.mean_work import book_mean_forces
 from nonsmooth.engine.flow.projection import project_closed
 from nonsmooth.engine.memory.modes import OPEN, SLIDE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, kernel
+from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.vectors import length
 
 _BURST = 20000.0
 """Evaluations of forces beyond one in a contact time: so many are the stop of a slip, not yet a crowd of them."""
 
 
-@kernel("i8(S, F, I)")
-def average_active(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def average_active(ws: Workspace) -> int:
     """Let the forces of the active contacts be averaged from now on; return 0 where they cannot be, or are.
 
     A contact by itself has a solution of its own.  Where forces of the instant led nowhere when they were asked for
     last, or not for as long as they had not been asked for, they are asked for again after twice that.
     """
-    time = averaging_time(S, w, k)
-    if S.n_active == 1 or time == 0.0 or is_averaged(S, w, k) == 1:
+    time = averaging_time(ws)
+    if ws.n_active == 1 or time == 0.0 or is_averaged(ws) == 1:
         return 0
-    for a in range(S.n_active):
-        contact = contact_at(S, w, k, active_at(S, w, k, a).slot)
-        again = S.t - contact.mean_asked <= max(time, contact.mean_wait)
+    for a in range(ws.n_active):
+        contact = ws.contacts[ws.actives[a].slot]
+        again = ws.t - contact.mean_asked <= max(time, contact.mean_wait)
         contact.mean_wait = max(time, 2.0 * contact.mean_wait) if again else 0.0
         contact.averaged = SLIDE
         contact.mean_span = 0.0
@@ -41,87 +41,87 @@ def average_active(S: Scalars, w: Floats, k: Integers) -> int:
     return 1
 
 
-@kernel("i8(S, F, I, i8)")
-def average_island_of(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+@kernel("i8(ws, i8)")
+def average_island_of(ws: Workspace, c: int) -> int:
     """Let the forces of the island of closed contact ``c`` be averaged from now on; return 0 where they cannot be."""
-    if contact_at(S, w, k, c).mode == OPEN:
+    if ws.contacts[c].mode == OPEN:
         return 0
-    group_closed(S, w, k)
-    activate_group(S, w, k, contact_at(S, w, k, c).group_of)
-    return average_active(S, w, k)
+    group_closed(ws)
+    activate_group(ws, ws.contacts[c].group_of)
+    return average_active(ws)
 
 
-@kernel("i8(S, F, I, i8)")
-def keeps_averaging(S: Scalars, w: Floats, k: Integers, ends: int) -> int:
+@kernel("i8(ws, i8)")
+def keeps_averaging(ws: Workspace, ends: int) -> int:
     """Return 1 if the forces of the active contacts are averaged, and stay so where the last ones end (1)."""
-    if is_averaged(S, w, k) == 0:
+    if is_averaged(ws) == 0:
         return 0
     if ends == 0:
         return 1
     # a contact by itself has forces of its own
-    if S.n_active == 1:
+    if ws.n_active == 1:
         return 0
-    if is_settled(S, w, k) == 0:
+    if is_settled(ws) == 0:
         return 1
-    for a in range(S.n_active):
-        contact = contact_at(S, w, k, active_at(S, w, k, a).slot)
-        if S.t < contact.mean_asked + contact.mean_wait:
+    for a in range(ws.n_active):
+        contact = ws.contacts[ws.actives[a].slot]
+        if ws.t < contact.mean_asked + contact.mean_wait:
             return 1
     return 0
 
 
-@kernel("void(S, F, I)")
-def end_averaging(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def end_averaging(ws: Workspace) -> None:
     """Put the contacts whose forces are averaged on their constraints before the averaging is over.
 
     What it pushed too much is taken back by that, and what its forces did on the way is booked.
     """
-    touch(S, w, k)
-    book_mean_forces(S, w, k)
-    S.closing_loss += project_closed(S, w, k, 1, 1)
-    S.mean_until = 1e300
+    touch(ws)
+    book_mean_forces(ws)
+    ws.closing_loss += project_closed(ws, 1, 1)
+    ws.mean_until = 1e300
 
 
-@kernel("void(S, F, I, i8)")
-def average(S: Scalars, w: Floats, k: Integers, follows: int) -> None:
+@kernel("void(ws, i8)")
+def average(ws: Workspace, follows: int) -> None:
     """Agree on the modes of the active contacts, whose forces are averaged: slips are those at hand."""
-    find_mean_forces(S, w, k, follows)
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        contact = contact_at(S, w, k, active.slot)
+    find_mean_forces(ws, follows)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        contact = ws.contacts[active.slot]
         speed = length(contact.slip)
         contact.mode_agreed = active.mode_tried
         contact.direction_agreed = active.direction
-        if speed > S.velocity_tolerance and active.mode_tried != OPEN:
+        if speed > ws.velocity_tolerance and active.mode_tried != OPEN:
             contact.mode_agreed = SLIDE
             contact.direction_agreed = contact.slip[0] / speed, contact.slip[1] / speed
 
 
-@kernel("i8(S, F, I)")
-def holds_time_up(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def holds_time_up(ws: Workspace) -> int:
     """Return the contact whose slow slip, or else whose events, let time hardly pass, or -1.
 
     Evaluations of forces fill a store that empties with time.
     """
     time = 1e300
-    for i in range(S.n_grouped):
-        time = min(time, contact_at(S, w, k, k[S.grouped + i]).contact_time)
+    for i in range(ws.n_grouped):
+        time = min(time, ws.contacts[ws.grouped[i]].contact_time)
     if time == 0.0:
         return -1
-    S.crowd = max(0.0, S.crowd - (S.t - S.crowd_t) / time) + float(S.evaluations - S.evaluated)
-    S.crowd_t, S.evaluated = S.t, S.evaluations
-    if S.crowd <= _BURST:
+    ws.crowd = max(0.0, ws.crowd - (ws.t - ws.crowd_t) / time) + float(ws.evaluations - ws.evaluated)
+    ws.crowd_t, ws.evaluated = ws.t, ws.evaluations
+    if ws.crowd <= _BURST:
         return -1
     which, fastest = -1, 1.0
     busiest, events = -1, 1
-    for i in range(S.n_grouped):
-        c = k[S.grouped + i]
-        contact = contact_at(S, w, k, c)
+    for i in range(ws.n_grouped):
+        c = ws.grouped[i]
+        contact = ws.contacts[c]
         speed, friction = length(contact.slip_end), length((contact.force[1], contact.force[2]))
-        turns = contact.contact_time * contact.mobility * friction / max(speed, S.velocity_tolerance)
+        turns = contact.contact_time * contact.mobility * friction / max(speed, ws.velocity_tolerance)
         if contact.mode == SLIDE and contact.averaged == OPEN and turns > fastest:
             which, fastest = c, turns
-        recent = S.t - contact.crowd_start <= contact.contact_time
+        recent = ws.t - contact.crowd_start <= contact.contact_time
         if contact.averaged == OPEN and recent and contact.crowd_events > events:
             busiest, events = c, contact.crowd_events
     return which if which >= 0 else busiest

@@ -6,7 +6,7 @@ from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.engine.memory.modes import AFTER, BEFORE, DURING, GUARD, OPEN, SLIDE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, kernel
+from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
 
 TIME, DRIVEN_WORK, RESTITUTION_LOSS, FRICTION_LOSS, CLOSING_LOSS = range(5)
@@ -32,152 +32,152 @@ MOST_EVENTS = 204
 """Events that one instant may record: one for every attempt to settle it, and those before and after."""
 
 
-@kernel("i8(S, F, I, i8)")
-def code(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+@kernel("i8(ws, i8)")
+def code(ws: Workspace, c: int) -> int:
     """Return the bits a + 2 b + 4 c of Eq. (29) of contact ``c`` in its present mode."""
-    mode = contact_at(S, w, k, c).mode
+    mode = ws.contacts[c].mode
     if mode == OPEN:
         return 0
     return 5 if mode == SLIDE else 1
 
 
-@kernel("i8(S, F, I, i8)")
-def impact_code(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+@kernel("i8(ws, i8)")
+def impact_code(ws: Workspace, c: int) -> int:
     """Return the bits of contact ``c`` at the start of an impact, from its rates."""
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     if contact.touching == 0:
         return 0
     bits = 1
-    if contact.rate[0] < -S.velocity_tolerance:
+    if contact.rate[0] < -ws.velocity_tolerance:
         bits += 2
-    if length(contact.slip) > S.velocity_tolerance:
+    if length(contact.slip) > ws.velocity_tolerance:
         bits += 4
     return bits
 
 
 @entry_point()
-def remember(S: Scalars, w: Floats, k: Integers) -> None:
+def remember(ws: Workspace) -> None:
     """Keep modes and velocities as they are before an event, and clear its account."""
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        contact.code_before = code(S, w, k, c)
+    for c in range(ws.n_contacts):
+        contact = ws.contacts[c]
+        contact.code_before = code(ws, c)
         contact.code_during = contact.code_before
         contact.averaged_before = contact.averaged
         for r in range(3):
             contact.event_impulse[r] = 0.0
-    for i in range(S.n_u):
-        w[S.u_before + i] = w[S.y + S.n_q + i]
+    for i in range(ws.n_u):
+        ws.u_before[i] = ws.y[ws.n_q + i]
     for i in range(1, EVENT_HEAD):
-        w[S.event_head + i] = 0.0
+        ws.event_head[i] = 0.0
 
 
-@kernel("i8(S, F, I, i8)")
-def _list_event(S: Scalars, w: Floats, k: Integers, which: int) -> int:
+@kernel("i8(ws, i8)")
+def _list_event(ws: Workspace, which: int) -> int:
     """List the contacts that an event is about: all that are or were closed, and the one that caused it."""
     n = 0
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        if c == which or contact.code_before + contact.code_during + code(S, w, k, c) > 0:
-            k[S.listed + n] = c
+    for c in range(ws.n_contacts):
+        contact = ws.contacts[c]
+        if c == which or contact.code_before + contact.code_during + code(ws, c) > 0:
+            ws.listed[n] = c
             n += 1
     return n
 
 
-@kernel("void(S, F, i8)")
-def _write_booked(S: Scalars, w: Floats, out: int) -> None:
+@kernel("void(ws, i8)")
+def _write_booked(ws: Workspace, out: int) -> None:
     """Write the energies booked so far that are not integrated with the state."""
-    w[out], w[out + 1] = S.driven_work, S.restitution_loss
-    w[out + 2], w[out + 3] = S.friction_loss, S.closing_loss
+    ws.floats[out], ws.floats[out + 1] = ws.driven_work, ws.restitution_loss
+    ws.floats[out + 2], ws.floats[out + 3] = ws.friction_loss, ws.closing_loss
 
 
-@kernel("void(S, F, I, i8, i8)")
-def _list_contact(S: Scalars, w: Floats, k: Integers, c: int, out: int) -> None:
+@kernel("void(ws, i8, i8)")
+def _list_contact(ws: Workspace, c: int, out: int) -> None:
     """Write the impulses of contact ``c`` and what it needs to go on from here."""
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     for r in range(3):
-        w[out + IMPULSES + r] = contact.event_impulse[r]
-    w[out + SLIP_DIRECTION], w[out + SLIP_DIRECTION + 1] = contact.direction
-    w[out + CLOSED_WITH], w[out + FACING] = contact.closing_rate, float(contact.facing)
-    w[out + AVERAGED] = float(contact.averaged)
+        ws.floats[out + IMPULSES + r] = contact.event_impulse[r]
+    ws.floats[out + SLIP_DIRECTION], ws.floats[out + SLIP_DIRECTION + 1] = contact.direction
+    ws.floats[out + CLOSED_WITH], ws.floats[out + FACING] = contact.closing_rate, float(contact.facing)
+    ws.floats[out + AVERAGED] = float(contact.averaged)
     candidate = contact.candidate
     for r in range(CANDIDATE):
-        w[out + FEATURES + r] = w[candidate + r] if candidate > 0 else 0.0
+        ws.floats[out + FEATURES + r] = ws.floats[candidate + r] if candidate > 0 else 0.0
 
 
-@entry_point("void(S, F, I, i8, i8, i8)")
-def record_event(S: Scalars, w: Floats, k: Integers, cause: int, which: int, phases: int) -> None:
+@entry_point("void(ws, i8, i8, i8)")
+def record_event(ws: Workspace, cause: int, which: int, phases: int) -> None:
     """Append an event with what was remembered before it and the modes after it."""
-    S.recorded += 1
-    n = _list_event(S, w, k, -1 if cause == GUARD else which)
-    width = EVENT_HEAD + S.n_u + S.n_y + BOOKED + LISTED * n
-    S.last_floats, S.last_integers = S.floats_used, S.integers_used
-    row = S.events + S.floats_used
-    w[S.event_head + TIME] = S.t
+    ws.recorded += 1
+    n = _list_event(ws, -1 if cause == GUARD else which)
+    width = EVENT_HEAD + ws.n_u + ws.n_y + BOOKED + LISTED * n
+    ws.last_floats, ws.last_integers = ws.floats_used, ws.integers_used
+    row = ws.offsets.events + ws.floats_used
+    ws.event_head[TIME] = ws.t
     for i in range(EVENT_HEAD):
-        w[row + i] = w[S.event_head + i]
+        ws.floats[row + i] = ws.event_head[i]
     row += EVENT_HEAD
-    for i in range(S.n_q):
-        w[row + i] = w[S.y + i]
-    row += S.n_q
-    for i in range(S.n_u):
-        w[row + i] = w[S.u_before + i]
-        w[row + S.n_u + i] = w[S.y + S.n_q + i]
-    row += 2 * S.n_u
-    for i in range(S.n_q + S.n_u, S.n_y):
-        w[row] = w[S.y + i]
+    for i in range(ws.n_q):
+        ws.floats[row + i] = ws.y[i]
+    row += ws.n_q
+    for i in range(ws.n_u):
+        ws.floats[row + i] = ws.u_before[i]
+        ws.floats[row + ws.n_u + i] = ws.y[ws.n_q + i]
+    row += 2 * ws.n_u
+    for i in range(ws.n_q + ws.n_u, ws.n_y):
+        ws.floats[row] = ws.y[i]
         row += 1
-    _write_booked(S, w, row)
+    _write_booked(ws, row)
     row += BOOKED
-    codes = S.event_codes + S.integers_used
-    k[codes + CAUSE], k[codes + CONTACT], k[codes + PHASES] = cause, which, phases
+    codes = ws.offsets.event_codes + ws.integers_used
+    ws.integers[codes + CAUSE], ws.integers[codes + CONTACT], ws.integers[codes + PHASES] = cause, which, phases
     if which >= 0 and cause != GUARD:
-        k[codes + CONTACT] = contact_at(S, w, k, which).identity
-    k[codes + TRUNCATED] = 1 if S.truncated > 0 and phases > 0 else 0
-    k[codes + N_LISTED] = n
+        ws.integers[codes + CONTACT] = ws.contacts[which].identity
+    ws.integers[codes + TRUNCATED] = 1 if ws.truncated > 0 and phases > 0 else 0
+    ws.integers[codes + N_LISTED] = n
     for i in range(n):
-        c = k[S.listed + i]
-        contact = contact_at(S, w, k, c)
-        _list_contact(S, w, k, c, row + LISTED * i)
-        k[codes + CODE_HEAD + 2 * i] = contact.identity
-        before, during, after = contact.code_before << BEFORE, contact.code_during << DURING, code(S, w, k, c) << AFTER
-        k[codes + CODE_HEAD + 2 * i + 1] = before | during | after
-    S.last_contact = which
-    if S.told > 0:
+        c = ws.listed[i]
+        contact = ws.contacts[c]
+        _list_contact(ws, c, row + LISTED * i)
+        ws.integers[codes + CODE_HEAD + 2 * i] = contact.identity
+        before, during, after = contact.code_before << BEFORE, contact.code_during << DURING, code(ws, c) << AFTER
+        ws.integers[codes + CODE_HEAD + 2 * i + 1] = before | during | after
+    ws.last_contact = which
+    if ws.told > 0:
         # a run that is continued repeats what led to its state, and has told of it
-        S.told -= 1
+        ws.told -= 1
         return
-    S.floats_used += width
-    S.integers_used += CODE_HEAD + 2 * n
-    S.n_events += 1
+    ws.floats_used += width
+    ws.integers_used += CODE_HEAD + 2 * n
+    ws.n_events += 1
 
 
 @kernel()
-def amend_last(S: Scalars, w: Floats, k: Integers) -> None:
+def amend_last(ws: Workspace) -> None:
     """Write the last event anew, with the modes that the instant ended in and its final velocities."""
-    if S.n_events == 0 or S.floats_used == S.last_floats:
+    if ws.n_events == 0 or ws.floats_used == ws.last_floats:
         return
-    S.floats_used, S.integers_used = S.last_floats, S.last_integers
-    S.n_events -= 1
-    S.recorded -= 1
-    codes = S.event_codes + S.last_integers
-    record_event(S, w, k, k[codes + CAUSE], S.last_contact, k[codes + PHASES])
+    ws.floats_used, ws.integers_used = ws.last_floats, ws.last_integers
+    ws.n_events -= 1
+    ws.recorded -= 1
+    codes = ws.offsets.event_codes + ws.last_integers
+    record_event(ws, ws.integers[codes + CAUSE], ws.last_contact, ws.integers[codes + PHASES])
 
 
-@entry_point("i8(S, F, I)")
-def begin_sample(S: Scalars, w: Floats, k: Integers) -> int:
+@entry_point("i8(ws)")
+def begin_sample(ws: Workspace) -> int:
     """Append a sample of the time ``next_sample``, and set the next; return where in ``w`` its state is to be put."""
-    row = S.samples + S.n_samples * (1 + S.n_y + BOOKED)
-    w[row] = S.next_sample
-    _write_booked(S, w, row + 1 + S.n_y)
-    S.n_samples += 1
-    S.sample_index += 1
-    S.next_sample = S.sample_start + S.sample_index * S.sample_interval
+    row = ws.offsets.samples + ws.n_samples * (1 + ws.n_y + BOOKED)
+    ws.floats[row] = ws.next_sample
+    _write_booked(ws, row + 1 + ws.n_y)
+    ws.n_samples += 1
+    ws.sample_index += 1
+    ws.next_sample = ws.sample_start + ws.sample_index * ws.sample_interval
     return int(row + 1)
 
 
-@kernel("void(S, F, I, f8)")
-def record_samples(S: Scalars, w: Floats, k: Integers, h: float) -> None:
+@kernel("void(ws, f8)")
+def record_samples(ws: Workspace, h: float) -> None:
     """Append the samples that fall into the part ``h`` of the step from ``t`` whose slopes are at hand."""
-    while S.next_sample <= S.t + h and S.n_samples < S.sample_capacity:
-        theta = (S.next_sample - S.t) / S.h
-        state_within(S, w, k, S.h, min(1.0, max(0.0, theta)), begin_sample(S, w, k))
+    while ws.next_sample <= ws.t + h and ws.n_samples < ws.sample_capacity:
+        theta = (ws.next_sample - ws.t) / ws.h
+        state_within(ws, ws.h, min(1.0, max(0.0, theta)), begin_sample(ws))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel
+from nonsmooth.engine.native.kernel import Workspace, kernel
 
 _EVENTS = 100
 """More events of one contact than these"""
@@ -10,14 +10,14 @@ _TIME = 1e-2
 """within this part of its contact time are a stall: bounces close where they become as short as twice that time."""
 
 
-@kernel("i8(S, F, I, i8)")
-def stalls(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+@kernel("i8(ws, i8)")
+def stalls(ws: Workspace, c: int) -> int:
     """Count an event of contact ``c``; return 1 if it has so many that time hardly passes.
 
     Counted are those of each contact for itself, so that what happens elsewhere tells nothing of it.
     """
-    contact = contact_at(S, w, k, c)
-    if abs(S.t - contact.crowd_start) > max(S.time_tolerance, _TIME * contact.contact_time):
-        contact.crowd_start, contact.crowd_events = S.t, 0
+    contact = ws.contacts[c]
+    if abs(ws.t - contact.crowd_start) > max(ws.time_tolerance, _TIME * contact.contact_time):
+        contact.crowd_start, contact.crowd_events = ws.t, 0
     contact.crowd_events += 1
     return 1 if contact.crowd_events > _EVENTS else 0

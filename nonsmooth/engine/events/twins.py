@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.compliance import begin_contact
 from nonsmooth.engine.memory.modes import OPEN
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel
+from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.vectors import dot, minus
 
 _SAME = 1e-5
@@ -17,10 +17,10 @@ _SAME = 1e-5
 approach that its square is of an energy is less than what is promised of one."""
 
 
-@kernel("i8(S, F, I, i8, i8)")
-def _is_twin(S: Scalars, w: Floats, k: Integers, c: int, other: int) -> int:
+@kernel("i8(ws, i8, i8)")
+def _is_twin(ws: Workspace, c: int, other: int) -> int:
     """Return 1 if two rigid contacts of the same frames are at one place."""
-    one, two = contact_at(S, w, k, c), contact_at(S, w, k, other)
+    one, two = ws.contacts[c], ws.contacts[other]
     if c == other or one.frame_a != two.frame_a or one.frame_b != two.frame_b:
         return 0
     if one.normal_function != 0 or two.normal_function != 0:
@@ -29,44 +29,44 @@ def _is_twin(S: Scalars, w: Floats, k: Integers, c: int, other: int) -> int:
     return 1 if dot(turned, turned) <= _SAME**2 and dot(moved, moved) <= (_SAME * one.size) ** 2 else 0
 
 
-@kernel("i8(S, F, I, i8)")
-def closed_twin(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+@kernel("i8(ws, i8)")
+def closed_twin(ws: Workspace, c: int) -> int:
     """Return a closed contact at the place of ``c`` that does not approach, or -1."""
-    for other in range(S.n_contacts):
-        contact = contact_at(S, w, k, other)
-        closed = contact.mode != OPEN and contact.rate[0] >= -S.velocity_tolerance
-        if closed and _is_twin(S, w, k, c, other) == 1:
+    for other in range(ws.n_contacts):
+        contact = ws.contacts[other]
+        closed = contact.mode != OPEN and contact.rate[0] >= -ws.velocity_tolerance
+        if closed and _is_twin(ws, c, other) == 1:
             return other
     return -1
 
 
-@kernel("i8(S, F, I, i8)")
-def has_replaced(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+@kernel("i8(ws, i8)")
+def has_replaced(ws: Workspace, c: int) -> int:
     """Return 1 if ``c``, or another at its place, is closed where one was before, without a collision.
 
     That one may stand on: where margins overlap, both do for a moment.
     """
     stood = stands = 0
-    for other in range(S.n_contacts):
-        contact = contact_at(S, w, k, other)
-        if other == c or _is_twin(S, w, k, c, other) == 1:
+    for other in range(ws.n_contacts):
+        contact = ws.contacts[other]
+        if other == c or _is_twin(ws, c, other) == 1:
             stands = 1 if contact.mode != OPEN else stands
             stood = 1 if contact.code_before != 0 else stood
     return stood * stands
 
 
-@kernel("i8(S, F, I, i8)")
-def take_over(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+@kernel("i8(ws, i8)")
+def take_over(ws: Workspace, c: int) -> int:
     """Close a contact in place of those at its place; return 1, or 0 if there are none."""
-    contact = contact_at(S, w, k, c)
-    twin, taken = closed_twin(S, w, k, c), 0
+    contact = ws.contacts[c]
+    twin, taken = closed_twin(ws, c), 0
     while twin >= 0:
         if taken == 0:
             if contact.mode == OPEN:
-                begin_contact(S, w, k, c)
-            contact.mode = contact_at(S, w, k, twin).mode
+                begin_contact(ws, c)
+            contact.mode = ws.contacts[twin].mode
             taken = 1
-        contact_at(S, w, k, twin).mode = OPEN
-        contact_at(S, w, k, twin).member = 0
-        twin = closed_twin(S, w, k, c)
+        ws.contacts[twin].mode = OPEN
+        ws.contacts[twin].member = 0
+        twin = closed_twin(ws, c)
     return taken

@@ -13,90 +13,90 @@ from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.flow.flow import right_hand_side
 from nonsmooth.engine.flow.guard_numbers import first_own_guard
 from nonsmooth.engine.flow.guards import first_fired, has_fired, is_of_choice, write_guards
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, kernel
+from nonsmooth.engine.native.kernel import Workspace, kernel
 
 
-@kernel("i8(S, F, I)")
-def choose_anew(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def choose_anew(ws: Workspace) -> int:
     """Choose the forces that are not unique anew; return 1 if all closed contacts can keep their bounds.
 
     A second time within the time tolerance there is no choice: then all forces vanish.
     """
-    if S.t - S.chosen_t <= S.time_tolerance:
+    if ws.t - ws.chosen_t <= ws.time_tolerance:
         return 0
-    S.chosen_t = S.t
-    group_closed(S, w, k)
-    return int(right_hand_side(S, w, k, S.t, S.y, 1, 1))
+    ws.chosen_t = ws.t
+    group_closed(ws)
+    return int(right_hand_side(ws, ws.t, ws.offsets.y, 1, 1))
 
 
-@kernel("void(S, F, I, f8)")
-def blend_choices(S: Scalars, w: Floats, k: Integers, theta: float) -> None:
+@kernel("void(ws, f8)")
+def blend_choices(ws: Workspace, theta: float) -> None:
     """Take the forces between those chosen at the start and the end of the step at the fraction ``theta`` of it."""
-    if S.blended == 0:
+    if ws.blended == 0:
         return
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
+    for c in range(ws.n_contacts):
+        contact = ws.contacts[c]
         for r in range(3):
             first, end = contact.choice_first[r], contact.choice_end[r]
             contact.null_space_force[r] = first + theta * (end - first)
 
 
-@kernel("i8(S, F, I, f8, i8)")
-def _choose_at(S: Scalars, w: Floats, k: Integers, elapsed: float, y: int) -> int:
+@kernel("i8(ws, f8, i8)")
+def _choose_at(ws: Workspace, elapsed: float, y: int) -> int:
     """Choose forces at the time ``elapsed`` in the step and the state ``y``; return 1 if there are any.
 
     Where there are none, what lets forces hold that were chosen would let their end be late.
     """
-    if right_hand_side(S, w, k, S.t + elapsed, y, 1, 0) == 1:
+    if right_hand_side(ws, ws.t + elapsed, y, 1, 0) == 1:
         return 1
-    for c in range(S.n_contacts):
-        contact_at(S, w, k, c).slack = 0.0
+    for c in range(ws.n_contacts):
+        ws.contacts[c].slack = 0.0
     return 0
 
 
-@kernel("i8(S, F, I)")
-def _passes_bound(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _passes_bound(ws: Workspace) -> int:
     """Return 1 if a force that is chosen has passed its bound."""
-    for i in range(first_own_guard(S)):
-        if is_of_choice(S, w, k, i) == 1 and has_fired(S, w, k, i) == 1:
+    for i in range(first_own_guard(ws)):
+        if is_of_choice(ws, i) == 1 and has_fired(ws, i) == 1:
             return 1
     return 0
 
 
-@kernel("void(S, F, I, f8)")
-def choose_at_end(S: Scalars, w: Floats, k: Integers, h: float) -> None:
+@kernel("void(ws, f8)")
+def choose_at_end(ws: Workspace, h: float) -> None:
     """Choose forces at the end of the step of ``h`` where those of its start, chosen there, pass a bound.
 
     The guards must be written there, and are for the choice.
     """
-    S.blended = 0
-    if S.chosen_t != S.t or S.stage_time > 0.0 or _passes_bound(S, w, k) == 0:
+    ws.blended = 0
+    if ws.chosen_t != ws.t or ws.stage_time > 0.0 or _passes_bound(ws) == 0:
         return
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
+    for c in range(ws.n_contacts):
+        contact = ws.contacts[c]
         for r in range(3):
             contact.choice_first[r] = contact.null_space_force[r]
-    S.blended = 1
-    if _choose_at(S, w, k, h, S.y_new) == 0:
-        right_hand_side(S, w, k, S.t + h, S.y_new, 0, 0)
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
+    ws.blended = 1
+    if _choose_at(ws, h, ws.offsets.y_new) == 0:
+        right_hand_side(ws, ws.t + h, ws.offsets.y_new, 0, 0)
+    for c in range(ws.n_contacts):
+        contact = ws.contacts[c]
         for r in range(3):
             contact.choice_end[r] = contact.null_space_force[r]
-    write_guards(S, w, k, S.t + h, S.y_new, 1)
+    write_guards(ws, ws.t + h, ws.offsets.y_new, 1)
 
 
-@kernel("i8(S, F, I, f8)")
-def choices_bend(S: Scalars, w: Floats, k: Integers, high: float) -> int:
+@kernel("i8(ws, f8)")
+def choices_bend(ws: Workspace, high: float) -> int:
     """Return 1 if forces can be chosen at the fraction ``high`` of the step though those in between pass a bound there.
 
     Where they have no room but that of one value the motion bends it, the less the shorter the step is; within the time
     tolerance that is an event.
     """
-    if S.blended == 0 or high == 1.0 or S.h <= S.time_tolerance:
+    if ws.blended == 0 or high == 1.0 or ws.h <= ws.time_tolerance:
         return 0
-    fired = first_fired(S, w, k, 1, -1)
-    if not 0 <= fired < first_own_guard(S) or is_of_choice(S, w, k, fired) == 0:
+    fired = first_fired(ws, 1, -1)
+    if not 0 <= fired < first_own_guard(ws) or is_of_choice(ws, fired) == 0:
         return 0
-    state_within(S, w, k, S.h, high, S.y_stage)
-    return int(_choose_at(S, w, k, high * S.h, S.y_stage))
+    state_within(ws, ws.h, high, ws.offsets.y_stage)
+    return int(_choose_at(ws, high * ws.h, ws.offsets.y_stage))

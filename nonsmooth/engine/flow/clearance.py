@@ -24,13 +24,9 @@ from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.memory.modes import OPEN
 from nonsmooth.engine.native.kernel import (
     Floats,
-    Integers,
-    Scalars,
-    body_at,
-    contact_at,
+    Workspace,
     entry_point,
     frame_at,
-    guard_at,
     kernel,
 )
 from nonsmooth.engine.numerics.vectors import Vector, cross, dot, minus, scaled
@@ -54,11 +50,11 @@ def _speed_seen(w: Floats, frame_a: int, frame_b: int) -> float:
     return math.sqrt(dot(seen, seen))
 
 
-@kernel("v3(S, F, I, i8)")
-def _axis(S: Scalars, w: Floats, k: Integers, c: int) -> Vector:
+@kernel("v3(ws, i8)")
+def _axis(ws: Workspace, c: int) -> Vector:
     """Return the axis in space about which the shape with the smaller lever may spin unseen, or zero."""
-    contact = contact_at(S, w, k, c)
-    frame = frame_at(w, contact.frame_b if contact.lever_b <= contact.lever_a else contact.frame_a)
+    contact = ws.contacts[c]
+    frame = frame_at(ws.floats, contact.frame_b if contact.lever_b <= contact.lever_a else contact.frame_a)
     r, v = frame.rotation, contact.revolution
     return dot((r[0], r[1], r[2]), v), dot((r[3], r[4], r[5]), v), dot((r[6], r[7], r[8]), v)
 
@@ -69,8 +65,8 @@ def _across(v: Vector, axis: Vector) -> Vector:
     return minus(v, scaled(dot(v, axis), axis))
 
 
-@kernel("void(S, F, I)")
-def bound_speeds(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def bound_speeds(ws: Workspace) -> None:
     """Write how fast the gaps of the open contacts can change where the bodies stand, to ``speed_end``.
 
     Seen from one body the other's surface moves along a normal no faster than its origin, and its lever by turning.
@@ -79,9 +75,9 @@ def bound_speeds(S: Scalars, w: Floats, k: Integers) -> None:
     """
     last_a = last_b = -1
     speed, spin, whole, own = 0.0, (0.0, 0.0, 0.0), 0.0, 0.0
-    S.fastest_turn = 0.0
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
+    ws.fastest_turn = 0.0
+    for c in range(ws.n_contacts):
+        contact = ws.contacts[c]
         if contact.mode != OPEN:
             continue
         a, b, lever, larger = contact.frame_a, contact.frame_b, contact.lever_b, contact.lever_a
@@ -89,52 +85,52 @@ def bound_speeds(S: Scalars, w: Floats, k: Integers) -> None:
             a, b, lever, larger = b, a, larger, lever
         # the contacts of two bodies follow one another
         if a != last_a or b != last_b:
-            seen_from = frame_at(w, a).spin
-            speed, spin = _speed_seen(w, a, b), minus(frame_at(w, b).spin, seen_from)
+            seen_from = frame_at(ws.floats, a).spin
+            speed, spin = _speed_seen(ws.floats, a, b), minus(frame_at(ws.floats, b).spin, seen_from)
             whole, own = math.sqrt(dot(spin, spin)), math.sqrt(dot(seen_from, seen_from))
             last_a, last_b = a, b
         contact.speed_end = speed
-        flies = body_at(S, w, k, contact.body_a).flies + body_at(S, w, k, contact.body_b).flies > 0
+        flies = ws.bodies[contact.body_a].flies + ws.bodies[contact.body_b].flies > 0
         if flies and larger > 0.0:
-            S.fastest_turn = max(S.fastest_turn, own)
+            ws.fastest_turn = max(ws.fastest_turn, own)
         if lever > 0.0:
             turning = whole
             if dot(contact.revolution, contact.revolution) > 0.0:
-                across = _across(spin, _axis(S, w, k, c))
+                across = _across(spin, _axis(ws, c))
                 turning = math.sqrt(dot(across, across))
             if flies:
-                S.fastest_turn = max(S.fastest_turn, turning)
+                ws.fastest_turn = max(ws.fastest_turn, turning)
             contact.speed_end = speed + turning * lever
-            contact.arm_end = arm_of(S, w, k, c)
+            contact.arm_end = arm_of(ws, c)
 
 
-@kernel("v3(S, F, I, i8)")
-def arm_of(S: Scalars, w: Floats, k: Integers, c: int) -> Vector:
+@kernel("v3(ws, i8)")
+def arm_of(ws: Workspace, c: int) -> Vector:
     """Return where the witness point of the body with the smaller lever is from its origin; its geometry is known."""
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     if contact.lever_b <= contact.lever_a:
-        return minus(contact.point_b, frame_at(w, contact.frame_b).origin)
-    return minus(contact.point_a, frame_at(w, contact.frame_a).origin)
+        return minus(contact.point_b, frame_at(ws.floats, contact.frame_b).origin)
+    return minus(contact.point_a, frame_at(ws.floats, contact.frame_a).origin)
 
 
-@kernel("v3(S, F, I, i8, i8, i8, i8)")
-def _acceleration(S: Scalars, w: Floats, k: Integers, c: int, side: int, angular: int, du: int) -> Vector:
+@kernel("v3(ws, i8, i8, i8, i8)")
+def _acceleration(ws: Workspace, c: int, side: int, angular: int, du: int) -> Vector:
     """Return the acceleration of the origin of a frame, or (1) its angular acceleration."""
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     frame = contact.frame_a if side == 0 else contact.frame_b
     n_u = contact.nu_a if side == 0 else contact.nu_b
-    first = du + body_at(S, w, k, contact.body_a if side == 0 else contact.body_b).u
-    x, y, z = frame_at(w, frame).spin_acceleration if angular == 1 else frame_at(w, frame).acceleration
+    first = du + ws.bodies[contact.body_a if side == 0 else contact.body_b].u
+    x, y, z = frame_at(ws.floats, frame).spin_acceleration if angular == 1 else frame_at(ws.floats, frame).acceleration
     row = frame + FRAME + 3 * angular * n_u
     for j in range(n_u):
-        x += w[row + j] * w[first + j]
-        y += w[row + n_u + j] * w[first + j]
-        z += w[row + 2 * n_u + j] * w[first + j]
+        x += ws.floats[row + j] * ws.floats[first + j]
+        y += ws.floats[row + n_u + j] * ws.floats[first + j]
+        z += ws.floats[row + 2 * n_u + j] * ws.floats[first + j]
     return x, y, z
 
 
-@kernel("v3(S, F, I, i8, i8)")
-def fall_of(S: Scalars, w: Floats, k: Integers, c: int, du: int) -> Vector:
+@kernel("v3(ws, i8, i8)")
+def fall_of(ws: Workspace, c: int, du: int) -> Vector:
     """Return how fast the rate of the gap of ``c`` can fall, where the bodies stand and ``du`` are their accelerations.
 
     The second number is by how much more for every second of a step, the third how fast the bodies turn; what spins
@@ -142,17 +138,17 @@ def fall_of(S: Scalars, w: Floats, k: Integers, c: int, du: int) -> Vector:
     than along this normal, whatever the normal does; the terms of the turning bodies hold for all points of its
     surface.
     """
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     second = contact.lever_b <= contact.lever_a
     one, other = (0, 1) if second else (1, 0)
-    a = frame_at(w, contact.frame_a if second else contact.frame_b)
-    b = frame_at(w, contact.frame_b if second else contact.frame_a)
+    a = frame_at(ws.floats, contact.frame_a if second else contact.frame_b)
+    b = frame_at(ws.floats, contact.frame_b if second else contact.frame_a)
     spin, way, turning = a.spin, minus(b.origin, a.origin), minus(b.spin, a.spin)
     velocity = minus(minus(b.velocity, a.velocity), cross(spin, way))
-    linear = minus(_acceleration(S, w, k, c, other, 0, du), _acceleration(S, w, k, c, one, 0, du))
-    alpha = _acceleration(S, w, k, c, one, 1, du)
-    angular = minus(minus(_acceleration(S, w, k, c, other, 1, du), alpha), cross(spin, turning))
-    axis = _axis(S, w, k, c)
+    linear = minus(_acceleration(ws, c, other, 0, du), _acceleration(ws, c, one, 0, du))
+    alpha = _acceleration(ws, c, one, 1, du)
+    angular = minus(minus(_acceleration(ws, c, other, 1, du), alpha), cross(spin, turning))
+    axis = _axis(ws, c)
     own, turning = dot(turning, axis), _across(turning, axis)
     # what is across the axis changes as that turns, too
     angular = minus(_across(angular, axis), scaled(own, cross(turning, axis)))
@@ -173,108 +169,108 @@ def fall_of(S: Scalars, w: Floats, k: Integers, c: int, du: int) -> Vector:
     return fall, grows, rate
 
 
-@kernel("f8(S, F, I, i8, i8)")
-def _expected_closing(S: Scalars, w: Floats, k: Integers, c: int, du: int) -> float:
+@kernel("f8(ws, i8, i8)")
+def _expected_closing(ws: Workspace, c: int, du: int) -> float:
     """Return after what time the gap of ``c`` closes if its bodies go on as they accelerate now [s].
 
     That is for balls to tell: where the surfaces turn with the bodies, gaps that do not close would shorten steps.
     """
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     if min(contact.lever_a, contact.lever_b) > 0.0:
         return 1e300
     gap, rate = contact.gap_end, contact.gap_rate_end
-    one, other = _acceleration(S, w, k, c, 0, 0, du), _acceleration(S, w, k, c, 1, 0, du)
+    one, other = _acceleration(ws, c, 0, 0, du), _acceleration(ws, c, 1, 0, du)
     square = rate * rate - 2.0 * dot(contact.normal, minus(other, one)) * gap
-    if gap <= S.gap_tolerance or square < 0.0 or math.sqrt(square) <= rate:
+    if gap <= ws.gap_tolerance or square < 0.0 or math.sqrt(square) <= rate:
         return 1e300
     return float(2.0 * gap / (math.sqrt(square) - rate))
 
 
-@kernel("i8(S, F, I, i8, f8)")
-def _will_be_doubtful(S: Scalars, w: Floats, k: Integers, c: int, h: float) -> int:
+@kernel("i8(ws, i8, f8)")
+def _will_be_doubtful(ws: Workspace, c: int, h: float) -> int:
     """Return 1 if the gap of ``c`` may close within the time ``h`` as far as the speeds at its start tell."""
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     faces = contact.mode == OPEN and contact.past_first <= 0.0
-    return 1 if faces and guard_at(S, w, k, normal_guard(c)).end <= 2.0 * h * contact.speed_first else 0
+    return 1 if faces and ws.guards[normal_guard(c)].end <= 2.0 * h * contact.speed_first else 0
 
 
-@kernel("f8(S, F, I, f8)")
-def foresee(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+@kernel("f8(ws, f8)")
+def foresee(ws: Workspace, h: float) -> float:
     """Return when the first of the gaps that will be doubtful after a step of ``h`` is expected to close [s].
 
     When each of them is stays with it.
     """
     soonest = 1e300
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
+    for c in range(ws.n_contacts):
+        contact = ws.contacts[c]
         contact.due = 1e300
-        if _will_be_doubtful(S, w, k, c, min(h, soonest)) == 1:
-            contact.due = _expected_closing(S, w, k, c, S.slopes + S.n_q)
+        if _will_be_doubtful(ws, c, min(h, soonest)) == 1:
+            contact.due = _expected_closing(ws, c, ws.offsets.slopes + ws.n_q)
             soonest = min(soonest, contact.due)
     return soonest
 
 
-@kernel("i8(S, F, I, i8)")
-def _flies(S: Scalars, w: Floats, k: Integers, number: int) -> int:
+@kernel("i8(ws, i8)")
+def _flies(ws: Workspace, number: int) -> int:
     """Return 1 if it is known without a step where a body will be."""
-    body = body_at(S, w, k, number)
+    body = ws.bodies[number]
     return 1 if body.nu == 0 or body.flies == 1 else 0
 
 
-@kernel("f8(S, F, I, i8)")
-def _closing_of_flying(S: Scalars, w: Floats, k: Integers, c: int) -> float:
+@kernel("f8(ws, i8)")
+def _closing_of_flying(ws: Workspace, c: int) -> float:
     """Return when the gap of ``c`` is next to none, but open, if its bodies fly on [s]; 1e300 if that is not found.
 
     Newton's method, from when it is due.
     """
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     elapsed = contact.due
     for _iteration in range(_CLOSINGS):
         for side in range(2):
             number = contact.body_a if side == 0 else contact.body_b
-            if body_at(S, w, k, number).nu == 0:
-                evaluate_driven_bodies(S, w, k, S.t + elapsed, S.y)
+            if ws.bodies[number].nu == 0:
+                evaluate_driven_bodies(ws, ws.t + elapsed, ws.offsets.y)
             else:
-                fly(S, w, k, elapsed, number, S.y_stage)
-                evaluate_body(S, w, k, S.t + elapsed, S.y_stage, number)
-        evaluate_geometry(S, w, k, c)
-        evaluate_rates(S, w, k, c)
+                fly(ws, elapsed, number, ws.offsets.y_stage)
+                evaluate_body(ws, ws.t + elapsed, ws.offsets.y_stage, number)
+        evaluate_geometry(ws, c)
+        evaluate_rates(ws, c)
         rate = contact.rate[0]
         # a step that ends at the closing leaves so little of the gap
-        aim = NOUGHT * min(S.gap_tolerance, S.time_tolerance * abs(rate))
+        aim = NOUGHT * min(ws.gap_tolerance, ws.time_tolerance * abs(rate))
         left = contact.gap - aim
         if abs(left) <= 0.5 * aim:
             return float(elapsed)
-        if not rate < -S.velocity_tolerance or contact.beyond > 0.0 or not elapsed > left / rate:
+        if not rate < -ws.velocity_tolerance or contact.beyond > 0.0 or not elapsed > left / rate:
             return 1e300
         elapsed -= left / rate
     return 1e300
 
 
-@kernel("f8(S, F, I, f8)")
-def first_of_flying(S: Scalars, w: Floats, k: Integers, soonest: float) -> float:
+@kernel("f8(ws, f8)")
+def first_of_flying(ws: Workspace, soonest: float) -> float:
     """Return when the first gap between bodies that fly is closed, those being due that are due about ``soonest`` [s].
 
     The bodies do not stand at the start any more.
     """
     first = 1e300
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        fly_both = _flies(S, w, k, contact.body_a) == 1 and _flies(S, w, k, contact.body_b) == 1
+    for c in range(ws.n_contacts):
+        contact = ws.contacts[c]
+        fly_both = _flies(ws, contact.body_a) == 1 and _flies(ws, contact.body_b) == 1
         if contact.due <= min(ABOUT * soonest, first) and fly_both:
-            first = min(first, _closing_of_flying(S, w, k, c))
+            first = min(first, _closing_of_flying(ws, c))
     return first
 
 
-@kernel("void(S, F, I, f8)")
-def keep_falls(S: Scalars, w: Floats, k: Integers, h: float) -> None:
+@kernel("void(ws, f8)")
+def keep_falls(ws: Workspace, h: float) -> None:
     """Keep how fast the rates of gaps that will be doubtful after a step of ``h`` can fall where it starts.
 
     The bodies stand there; later they would have to be put there.
     """
-    for c in range(S.n_contacts):
-        if _will_be_doubtful(S, w, k, c, h) == 1:
-            contact_at(S, w, k, c).fall_first = fall_of(S, w, k, c, S.slopes + S.n_q)
+    for c in range(ws.n_contacts):
+        if _will_be_doubtful(ws, c, h) == 1:
+            ws.contacts[c].fall_first = fall_of(ws, c, ws.offsets.slopes + ws.n_q)
 
 
 @kernel("i8(f8, f8, f8, f8, f8)")
@@ -288,27 +284,27 @@ def too_far(g0: float, past0: float, g1: float, past1: float, way: float) -> int
     return 1 if (g0 if past1 > 0.0 else g0 + g1) > way else 0
 
 
-@entry_point("void(S, F, I, f8)")
-def find_doubtful(S: Scalars, w: Floats, k: Integers, h: float) -> None:
+@entry_point("void(ws, f8)")
+def find_doubtful(ws: Workspace, h: float) -> None:
     """List the open contacts whose gaps may close within the step by the speeds alone; the bodies stand at its end.
 
     Those whose features do not face each other at an end of the step are a list of their own.  How fast the rates of
     the others can fall there is kept, for this step and the next one.
     """
-    S.n_doubtful = S.n_astray = 0
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
+    ws.n_doubtful = ws.n_astray = 0
+    for c in range(ws.n_contacts):
+        contact = ws.contacts[c]
         contact.fall_end = UNKNOWN_FALL
         if contact.mode != OPEN:
             continue
-        start = 0.0 if guard_at(S, w, k, normal_guard(c)).deflated == 1 else guard_at(S, w, k, normal_guard(c)).first
+        start = 0.0 if ws.guards[normal_guard(c)].deflated == 1 else ws.guards[normal_guard(c)].first
         way = h * (contact.speed_first + contact.speed_end)
         if too_far(start, contact.past_first, contact.gap_end, contact.past_end, way) == 1:
             continue
         if contact.past_first > 0.0 or contact.past_end > 0.0:
-            k[S.astray + S.n_astray] = c
-            S.n_astray += 1
+            ws.astray[ws.n_astray] = c
+            ws.n_astray += 1
             continue
-        contact.fall_end = fall_of(S, w, k, c, S.slopes + LAST_STAGE * S.n_y + S.n_q)
-        k[S.doubtful + S.n_doubtful] = c
-        S.n_doubtful += 1
+        contact.fall_end = fall_of(ws, c, ws.offsets.slopes + LAST_STAGE * ws.n_y + ws.n_q)
+        ws.doubtful[ws.n_doubtful] = c
+        ws.n_doubtful += 1

@@ -11,28 +11,28 @@ from __future__ import annotations
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry
 from nonsmooth.engine.flow.guards import feature_guard
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.native.kernel import Workspace, kernel
 
 _DOUBLINGS = 3
 """Steps shrink by a factor of five at once, so that the last one that failed is up to five tolerances long."""
 
 
-@kernel("i8(S, F, I)")
-def end_features(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def end_features(ws: Workspace) -> int:
     """Return a closed contact whose features end or change within the least times, the state there ``y_new``, or -1.
 
     So short a way, the time ``h``, is straight.  ``slopes`` must hold the slope at ``y``, and the closed contacts be
     grouped.
     """
-    S.h = S.time_tolerance
+    ws.h = ws.time_tolerance
     for _doubling in range(_DOUBLINGS + 1):
-        for i in range(S.n_y):
-            w[S.y_new + i] = w[S.y + i] + S.h * w[S.slopes + i]
-        evaluate_bodies(S, w, k, S.t + S.h, S.y_new)
-        for i in range(S.n_grouped):
-            c = k[S.grouped + i]
-            evaluate_geometry(S, w, k, c)
-            if feature_guard(S, w, k, c) < 0.0:
+        for i in range(ws.n_y):
+            ws.y_new[i] = ws.y[i] + ws.h * ws.slopes[i]
+        evaluate_bodies(ws, ws.t + ws.h, ws.offsets.y_new)
+        for i in range(ws.n_grouped):
+            c = ws.grouped[i]
+            evaluate_geometry(ws, c)
+            if feature_guard(ws, c) < 0.0:
                 return c
-        S.h *= 2.0
+        ws.h *= 2.0
     return -1

@@ -15,190 +15,195 @@ from nonsmooth.engine.contact.problem import accelerate_freely
 from nonsmooth.engine.flow.spins import spin_within
 from nonsmooth.engine.memory.layout import EXCHANGED, LAST_STAGE
 from nonsmooth.engine.native.kernel import (
-    Floats,
-    Integers,
-    Scalars,
+    Workspace,
     at,
-    body_at,
     call_body,
-    contact_at,
     kernel,
 )
 from nonsmooth.engine.numerics.runge_kutta import dense_part, dense_weights
 
 
-@kernel("void(S, I, i8, i8)")
-def _add_span(S: Scalars, k: Integers, first: int, length: int) -> None:
+@kernel("void(ws, i8, i8)")
+def _add_span(ws: Workspace, first: int, length: int) -> None:
     """Add a part of the state to what is integrated, joined to the one before if it stands next to that."""
-    last = S.n_spans - 1
-    if last >= 0 and k[S.span_first + last] + k[S.span_length + last] == first:
-        k[S.span_length + last] += length
+    last = ws.n_spans - 1
+    if last >= 0 and ws.span_first[last] + ws.span_length[last] == first:
+        ws.span_length[last] += length
         return
-    k[S.span_first + S.n_spans], k[S.span_length + S.n_spans] = first, length
-    S.n_spans += 1
+    ws.span_first[ws.n_spans], ws.span_length[ws.n_spans] = first, length
+    ws.n_spans += 1
 
 
 @kernel()
-def choose_integrated(S: Scalars, w: Floats, k: Integers) -> None:
+def choose_integrated(ws: Workspace) -> None:
     """List the bodies that fly in the modes at hand, those that are integrated, and their parts of the state.
 
     The closed contacts must be grouped.
     """
-    for number in range(S.n_bodies):
-        body = body_at(S, w, k, number)
+    for number in range(ws.n_bodies):
+        body = ws.bodies[number]
         body.flies = 1 if body.flight_function != 0 or body.course == 1 else 0
-    for i in range(S.n_grouped):
-        contact = contact_at(S, w, k, k[S.grouped + i])
-        one, two = body_at(S, w, k, contact.body_a), body_at(S, w, k, contact.body_b)
+    for i in range(ws.n_grouped):
+        contact = ws.contacts[ws.grouped[i]]
+        one, two = ws.bodies[contact.body_a], ws.bodies[contact.body_b]
         one.flies = two.flies = 0
-    S.n_flying = S.n_integrated = S.n_spans = 0
-    for number in range(S.n_bodies):
-        body = body_at(S, w, k, number)
+    ws.n_flying = ws.n_integrated = ws.n_spans = 0
+    for number in range(ws.n_bodies):
+        body = ws.bodies[number]
         if body.flies == 1:
-            k[S.flying + S.n_flying] = number
-            S.n_flying += 1
+            ws.flying[ws.n_flying] = number
+            ws.n_flying += 1
         elif body.nu > 0:
-            integrate(S, w, k, number)
-    if S.n_integrated > 0:
-        integrate_velocities(S, w, k)
+            integrate(ws, number)
+    if ws.n_integrated > 0:
+        integrate_velocities(ws)
 
 
-@kernel("void(S, F, I, i8)")
-def integrate(S: Scalars, w: Floats, k: Integers, number: int) -> None:
+@kernel("void(ws, i8)")
+def integrate(ws: Workspace, number: int) -> None:
     """Add a body to those that are integrated, and its coordinates to the parts of the state."""
-    body = body_at(S, w, k, number)
-    k[S.integrated + S.n_integrated] = number
-    S.n_integrated += 1
-    _add_span(S, k, body.q, body.nq)
+    body = ws.bodies[number]
+    ws.integrated[ws.n_integrated] = number
+    ws.n_integrated += 1
+    _add_span(ws, body.q, body.nq)
 
 
 @kernel()
-def integrate_velocities(S: Scalars, w: Floats, k: Integers) -> None:
+def integrate_velocities(ws: Workspace) -> None:
     """Add the velocities of all bodies that are integrated to these parts, and what else is."""
-    for i in range(S.n_integrated):
-        body = body_at(S, w, k, k[S.integrated + i])
-        _add_span(S, k, S.n_q + body.u, body.nu)
-    _add_span(S, k, S.n_q + S.n_u, S.n_y - S.n_q - S.n_u)
+    for i in range(ws.n_integrated):
+        body = ws.bodies[ws.integrated[i]]
+        _add_span(ws, ws.n_q + body.u, body.nu)
+    _add_span(ws, ws.n_q + ws.n_u, ws.n_y - ws.n_q - ws.n_u)
 
 
-@kernel("f8(S, F, I, i8)")
-def _power(S: Scalars, w: Floats, k: Integers, velocities: int) -> float:
+@kernel("f8(ws, i8)")
+def _power(ws: Workspace, velocities: int) -> float:
     """Return the power of the own forces of all that flies, the bodies being evaluated with these velocities [W]."""
     total = 0.0
-    for i in range(S.n_flying):
-        body = body_at(S, w, k, k[S.flying + i])
+    for i in range(ws.n_flying):
+        body = ws.bodies[ws.flying[i]]
         force = body.tail + body.nq
         for j in range(body.nu):
-            total += w[force + j] * w[velocities + body.u + j]
+            total += ws.floats[force + j] * ws.floats[velocities + body.u + j]
     return abs(total)
 
 
 @kernel()
-def take_off(S: Scalars, w: Floats, k: Integers) -> None:
+def take_off(ws: Workspace) -> None:
     """Keep the power of the own forces of all that flies where a step begins, the bodies being evaluated there."""
-    S.power_first = _power(S, w, k, S.y + S.n_q)
+    ws.power_first = _power(ws, ws.offsets.y + ws.n_q)
 
 
-@kernel("void(S, F, I, f8, i8, i8)")
-def _go_on(S: Scalars, w: Floats, k: Integers, t: float, number: int, out: int) -> None:
+@kernel("void(ws, f8, i8, i8)")
+def _go_on(ws: Workspace, t: float, number: int, out: int) -> None:
     """Write the state of a body on its course to the state at ``out``, its quaternion of unit length, as rates ask."""
-    body = body_at(S, w, k, number)
+    body = ws.bodies[number]
     theta = (t - body.course_t) / body.course_h
-    early, late = dense_weights(S, w, body.course_h, theta, 0), dense_weights(S, w, body.course_h, theta, 1)
-    i, j, turn = body.q, S.n_q + body.u, out + body.q + body.quaternion
-    dense_part(w, S.course_start + i, S.course_slopes + i, body.nq, S.n_y, early, late, out + i)
-    dense_part(w, S.course_start + j, S.course_slopes + j, body.nu, S.n_y, early, late, out + j)
+    early, late = dense_weights(ws, body.course_h, theta, 0), dense_weights(ws, body.course_h, theta, 1)
+    i, j, turn = body.q, ws.n_q + body.u, out + body.q + body.quaternion
+    dense_part(
+        ws.floats, ws.offsets.course_start + i, ws.offsets.course_slopes + i, body.nq, ws.n_y, early, late, out + i
+    )
+    dense_part(
+        ws.floats, ws.offsets.course_start + j, ws.offsets.course_slopes + j, body.nu, ws.n_y, early, late, out + j
+    )
     if body.quaternion >= 0:
-        square = w[turn] * w[turn] + w[turn + 1] * w[turn + 1] + w[turn + 2] * w[turn + 2] + w[turn + 3] * w[turn + 3]
+        square = (
+            ws.floats[turn] * ws.floats[turn]
+            + ws.floats[turn + 1] * ws.floats[turn + 1]
+            + ws.floats[turn + 2] * ws.floats[turn + 2]
+            + ws.floats[turn + 3] * ws.floats[turn + 3]
+        )
         factor = 1.0 / math.sqrt(square)
         for r in range(4):
-            w[turn + r] *= factor
+            ws.floats[turn + r] *= factor
 
 
-@kernel("void(S, F, I, f8, i8, i8)")
-def fly(S: Scalars, w: Floats, k: Integers, elapsed: float, number: int, out: int) -> None:
+@kernel("void(ws, f8, i8, i8)")
+def fly(ws: Workspace, elapsed: float, number: int, out: int) -> None:
     """Write the state of one body after a time of its flight from ``y``, or on its course, to the state at ``out``."""
-    body = body_at(S, w, k, number)
+    body = ws.bodies[number]
     if body.course == 1:
-        _go_on(S, w, k, S.t + elapsed, number, out)
+        _go_on(ws, ws.t + elapsed, number, out)
         return
     found = body.flight_out
-    q, u = at(w, S.y + body.q), at(w, S.y + S.n_q + body.u)
-    call_body(body.flight_function, elapsed, q, u, at(w, body.flight_parameters), at(w, found))
+    q, u = at(ws.floats, ws.offsets.y + body.q), at(ws.floats, ws.offsets.y + ws.n_q + body.u)
+    call_body(body.flight_function, elapsed, q, u, at(ws.floats, body.flight_parameters), at(ws.floats, found))
     for i in range(body.nq):
-        w[out + body.q + i] = w[found + i]
+        ws.floats[out + body.q + i] = ws.floats[found + i]
     for i in range(body.nu):
-        w[out + S.n_q + body.u + i] = w[found + body.nq + i]
+        ws.floats[out + ws.n_q + body.u + i] = ws.floats[found + body.nq + i]
 
 
-@kernel("void(S, F, I, f8, i8)")
-def accelerate_in_flight(S: Scalars, w: Floats, k: Integers, t: float, number: int) -> None:
+@kernel("void(ws, f8, i8)")
+def accelerate_in_flight(ws: Workspace, t: float, number: int) -> None:
     """Write the acceleration of a body that flies to ``du``; on its course it is linear in time: only bounds ask."""
-    body = body_at(S, w, k, number)
+    body = ws.bodies[number]
     if body.course == 0:
-        accelerate_freely(S, w, k, number)
+        accelerate_freely(ws, number)
         return
     part = (t - body.course_t) / body.course_h
-    first = S.course_slopes + S.n_q + body.u
-    last = first + LAST_STAGE * S.n_y
+    first = ws.offsets.course_slopes + ws.n_q + body.u
+    last = first + LAST_STAGE * ws.n_y
     for j in range(body.nu):
-        w[S.du + body.u + j] = w[first + j] + part * (w[last + j] - w[first + j])
+        ws.du[body.u + j] = ws.floats[first + j] + part * (ws.floats[last + j] - ws.floats[first + j])
 
 
-@kernel("f8(S, F, I, f8)")
-def land(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+@kernel("f8(ws, f8)")
+def land(ws: Workspace, h: float) -> float:
     """Write what flies to ``y_new`` and its slope to the last one, and evaluate it there.
 
     Return 0, or what is not a number if that holds of a velocity.
     """
     error = 0.0
-    end = S.slopes + LAST_STAGE * S.n_y
-    for i in range(S.n_flying):
-        number = k[S.flying + i]
-        body = body_at(S, w, k, number)
-        fly(S, w, k, h, number, S.y_new)
-        evaluate_once(S, w, k, S.t + h, S.y_new, number)
-        accelerate_in_flight(S, w, k, S.t + h, number)
+    end = ws.offsets.slopes + LAST_STAGE * ws.n_y
+    for i in range(ws.n_flying):
+        number = ws.flying[i]
+        body = ws.bodies[number]
+        fly(ws, h, number, ws.offsets.y_new)
+        evaluate_once(ws, ws.t + h, ws.offsets.y_new, number)
+        accelerate_in_flight(ws, ws.t + h, number)
         for j in range(body.nq):
-            w[end + body.q + j] = w[body.tail + j]
+            ws.floats[end + body.q + j] = ws.floats[body.tail + j]
         for j in range(body.nu):
-            w[end + S.n_q + body.u + j] = w[S.du + body.u + j]
-            error += 0.0 * w[S.y_new + S.n_q + body.u + j]
-    if S.n_integrated == 0:
-        S.free_t = S.t + h
-    S.power_end = _power(S, w, k, S.y_new + S.n_q)
-    S.exchanged_in_flight = 0.5 * h * (S.power_first + S.power_end)
-    w[S.y_new + S.n_q + S.n_u + EXCHANGED] += S.exchanged_in_flight
+            ws.floats[end + ws.n_q + body.u + j] = ws.du[body.u + j]
+            error += 0.0 * ws.y_new[ws.n_q + body.u + j]
+    if ws.n_integrated == 0:
+        ws.free_t = ws.t + h
+    ws.power_end = _power(ws, ws.offsets.y_new + ws.n_q)
+    ws.exchanged_in_flight = 0.5 * h * (ws.power_first + ws.power_end)
+    ws.y_new[ws.n_q + ws.n_u + EXCHANGED] += ws.exchanged_in_flight
     return error
 
 
-@kernel("void(S, F, I, f8, f8, i8, i8)")
-def body_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, number: int, out: int) -> None:
+@kernel("void(ws, f8, f8, i8, i8)")
+def body_within(ws: Workspace, h: float, theta: float, number: int, out: int) -> None:
     """Write the state of one body at a fraction of the step to the state at ``out``."""
-    body = body_at(S, w, k, number)
+    body = ws.bodies[number]
     if body.flies == 1:
-        fly(S, w, k, theta * h, number, out)
+        fly(ws, theta * h, number, out)
         return
-    q, u = body.q, S.n_q + body.u
-    early, late = dense_weights(S, w, h, theta, 0), dense_weights(S, w, h, theta, 1)
-    dense_part(w, S.y + q, S.slopes + q, body.nq, S.n_y, early, late, out + q)
-    dense_part(w, S.y + u, S.slopes + u, body.nu, S.n_y, early, late, out + u)
-    spin_within(S, w, k, number, early, late, out)
+    q, u = body.q, ws.n_q + body.u
+    early, late = dense_weights(ws, h, theta, 0), dense_weights(ws, h, theta, 1)
+    dense_part(ws.floats, ws.offsets.y + q, ws.offsets.slopes + q, body.nq, ws.n_y, early, late, out + q)
+    dense_part(ws.floats, ws.offsets.y + u, ws.offsets.slopes + u, body.nu, ws.n_y, early, late, out + u)
+    spin_within(ws, number, early, late, out)
 
 
-@kernel("void(S, F, I, f8, f8, i8)")
-def state_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, out: int) -> None:
+@kernel("void(ws, f8, f8, i8)")
+def state_within(ws: Workspace, h: float, theta: float, out: int) -> None:
     """Write the state at a fraction of the step."""
-    early, late = dense_weights(S, w, h, theta, 0), dense_weights(S, w, h, theta, 1)
-    for span in range(S.n_spans):
-        i, n = k[S.span_first + span], k[S.span_length + span]
-        dense_part(w, S.y + i, S.slopes + i, n, S.n_y, early, late, out + i)
-    for i in range(S.n_turning):
-        spin_within(S, w, k, k[S.turning_body + i], early, late, out)
-    if S.n_spans == 0:
-        for i in range(S.n_q + S.n_u, S.n_y):
-            w[out + i] = w[S.y + i]
-    if S.n_flying > 0:
-        for i in range(S.n_flying):
-            fly(S, w, k, theta * h, k[S.flying + i], out)
-        w[out + S.n_q + S.n_u + EXCHANGED] += theta * S.exchanged_in_flight
+    early, late = dense_weights(ws, h, theta, 0), dense_weights(ws, h, theta, 1)
+    for span in range(ws.n_spans):
+        i, n = ws.span_first[span], ws.span_length[span]
+        dense_part(ws.floats, ws.offsets.y + i, ws.offsets.slopes + i, n, ws.n_y, early, late, out + i)
+    for i in range(ws.n_turning):
+        spin_within(ws, ws.turning_body[i], early, late, out)
+    if ws.n_spans == 0:
+        for i in range(ws.n_q + ws.n_u, ws.n_y):
+            ws.floats[out + i] = ws.y[i]
+    if ws.n_flying > 0:
+        for i in range(ws.n_flying):
+            fly(ws, theta * h, ws.flying[i], out)
+        ws.floats[out + ws.n_q + ws.n_u + EXCHANGED] += theta * ws.exchanged_in_flight

@@ -27,12 +27,7 @@ from nonsmooth.engine.flow.flight import accelerate_in_flight
 from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS, LOADS
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.native.kernel import (
-    Floats,
-    Integers,
-    Scalars,
-    active_at,
-    body_at,
-    contact_at,
+    Workspace,
     entry_point,
     kernel,
 )
@@ -43,8 +38,8 @@ WRONG_FORCE = -2.0
 """A force below so many times what its contact problem took for zero violates its mode."""
 
 
-@entry_point("i8(S, F, I, f8, i8, i8, i8)")
-def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosing: int, every: int) -> int:
+@entry_point("i8(ws, f8, i8, i8, i8)")
+def right_hand_side(ws: Workspace, t: float, y: int, choosing: int, every: int) -> int:
     """Evaluate bodies, closed contacts, their forces and the accelerations ``du`` at ``t`` and ``y``.
 
     That is of every body (1), or of those that are integrated.  The closed contacts are grouped into islands.  In free
@@ -53,59 +48,59 @@ def right_hand_side(S: Scalars, w: Floats, k: Integers, t: float, y: int, choosi
     the stage ends with.
     """
     keeps = 1
-    S.singular = -1
-    if every == 0 and S.n_loads + S.n_joints == 0:
+    ws.singular = -1
+    if every == 0 and ws.n_loads + ws.n_joints == 0:
         # no call: most right-hand sides are of these
-        evaluate_integrated_bodies(S, w, k, t, y)
+        evaluate_integrated_bodies(ws, t, y)
     else:
-        evaluate_free_bodies(S, w, k, t, y, every)
-    free_acceleration(S, w, k, every)
-    if S.n_grouped == 0:
+        evaluate_free_bodies(ws, t, y, every)
+    free_acceleration(ws, every)
+    if ws.n_grouped == 0:
         return keeps
-    evaluate_driven_bodies(S, w, k, t, y)
-    refresh_states(S, w, k, y)
-    for group in range(S.n_groups):
-        c = lone_slip(S, w, k, group)
-        if c >= 0 and hold_lone_slip(S, w, k, c) == 1:
+    evaluate_driven_bodies(ws, t, y)
+    refresh_states(ws, y)
+    for group in range(ws.n_groups):
+        c = lone_slip(ws, group)
+        if c >= 0 and hold_lone_slip(ws, c) == 1:
             continue
-        activate_group(S, w, k, group)
-        implicit = S.ahead > 0.0 and _slides(S, w, k) == 1
-        for a in range(S.n_active):
-            active = active_at(S, w, k, a)
+        activate_group(ws, group)
+        implicit = ws.ahead > 0.0 and _slides(ws) == 1
+        for a in range(ws.n_active):
+            active = ws.actives[a]
             c = active.slot
             if implicit:
                 continue
-            contact = contact_at(S, w, k, c)
-            evaluate_geometry(S, w, k, c)
-            evaluate_rates(S, w, k, c)
+            contact = ws.contacts[c]
+            evaluate_geometry(ws, c)
+            evaluate_rates(ws, c)
             if contact.normal_function != 0:
-                evaluate_compliant_force(S, w, k, c)
-            _set_friction(S, w, k, a, y)
-            evaluate_bias(S, w, k, c, 1 + 2 * active.tangent_held)
-            write_rows(S, w, k, a)
+                evaluate_compliant_force(ws, c)
+            _set_friction(ws, a, y)
+            evaluate_bias(ws, c, 1 + 2 * active.tangent_held)
+            write_rows(ws, a)
         if implicit:
-            hold_at_end(S, w, k)
+            hold_at_end(ws)
         else:
-            keeps = min(keeps, hold_contacts(S, w, k, choosing))
-        for a in range(S.n_active):
-            active = active_at(S, w, k, a)
+            keeps = min(keeps, hold_contacts(ws, choosing))
+        for a in range(ws.n_active):
+            active = ws.actives[a]
             c = active.slot
-            contact = contact_at(S, w, k, c)
+            contact = ws.contacts[c]
             contact.redundant = active.redundant
             contact.holds = active.tangent_held
             if contact.mode == STICK:
-                contact.static_margin = _static_margin(S, w, k, a)
+                contact.static_margin = _static_margin(ws, a)
             for r in range(3):
                 contact.force[r] = active.force[r]
     return keeps
 
 
-@kernel("i8(S, F, I)")
-def _slides(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _slides(ws: Workspace) -> int:
     """Return 1 if one of the active contacts slides, and their forces are none that are averaged."""
     slides = 0
-    for a in range(S.n_active):
-        contact = contact_at(S, w, k, active_at(S, w, k, a).slot)
+    for a in range(ws.n_active):
+        contact = ws.contacts[ws.actives[a].slot]
         if contact.averaged != OPEN:
             return 0
         if contact.mode == SLIDE:
@@ -113,27 +108,27 @@ def _slides(S: Scalars, w: Floats, k: Integers) -> int:
     return slides
 
 
-@kernel("f8(S, F, I, i8)")
-def _static_margin(S: Scalars, w: Floats, k: Integers, a: int) -> float:
+@kernel("f8(ws, i8)")
+def _static_margin(ws: Workspace, a: int) -> float:
     """Return how far the friction of an active contact is from its bound [N]; without any, its slip from one [m/s]."""
-    active = active_at(S, w, k, a)
+    active = ws.actives[a]
     c = active.slot
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     if contact.averaged != OPEN:
         return 1.0
     if active.tangent_held == 0:
-        return float(S.velocity_tolerance - length(contact.slip))
-    friction = facing_force(S, w, k, c, active.force[1]), active.force[2]
+        return float(ws.velocity_tolerance - length(contact.slip))
+    friction = facing_force(ws, c, active.force[1]), active.force[2]
     slack = contact.slack * active.redundant
     return float(active.mu_static * active.normal_force - length(friction) + slack)
 
 
-@kernel("void(S, F, I, i8, i8)")
-def _set_friction(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> None:
+@kernel("void(ws, i8, i8)")
+def _set_friction(ws: Workspace, a: int, y: int) -> None:
     """Set what the active contact ``a`` holds, and its slip direction and friction where it slides."""
-    active = active_at(S, w, k, a)
+    active = ws.actives[a]
     c = active.slot
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     active.normal_held = 1
     active.tangent_held = 0
     contact.turned = 0.0
@@ -141,7 +136,7 @@ def _set_friction(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> None:
         active.normal_held = 0
         active.normal_force = contact.compliant_force
         if contact.traction_function != 0:
-            rub_by_traction(S, w, k, c, active.force, y)
+            rub_by_traction(ws, c, active.force, y)
             return
     elif contact.averaged != OPEN:
         active.normal_held = 0
@@ -150,25 +145,25 @@ def _set_friction(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> None:
         active.friction = contact.mean_force[1], contact.mean_force[2]
         return
     if contact.mode == STICK:
-        active.mu_static = friction_coefficient(S, w, k, c, 0.0)
+        active.mu_static = friction_coefficient(ws, c, 0.0)
         if active.mu_static > 0.0:
             active.tangent_held = 1
             return
-    follow_slip(S, w, k, a, contact.slip, S.velocity_tolerance)
+    follow_slip(ws, a, contact.slip, ws.velocity_tolerance)
     if active.normal_held == 0:
         # what pulls does not rub
         active.mu *= 1.0 if contact.compliant_force > 0.0 else 0.0
-        friction_of_slip(S, w, k, a)
+        friction_of_slip(ws, a)
 
 
-@kernel("f8(S, F, I, i8)")
-def hold_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
+@kernel("f8(ws, i8)")
+def hold_guard(ws: Workspace, c: int) -> float:
     """Return what is positive while contact ``c`` stays closed: its normal force, if compliant the way to its reach.
 
     Forces that are averaged end nothing, nor does what stands for a gap past the end of features, which is an event of
     its own: bodies may still overlap there.
     """
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     if contact.averaged != OPEN or (contact.normal_function != 0 and contact.beyond > 0.0):
         return 1.0
     if contact.normal_function != 0:
@@ -176,86 +171,90 @@ def hold_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
     return float(contact.force[0])
 
 
-@kernel("i8(S, F, I, i8)")
-def is_violated(S: Scalars, w: Floats, k: Integers, c: int) -> int:
+@kernel("i8(ws, i8)")
+def is_violated(ws: Workspace, c: int) -> int:
     """Return 1 if the force of closed contact ``c`` violates its mode by more than what it takes for zero."""
-    contact = contact_at(S, w, k, c)
-    least = hold_guard(S, w, k, c)
+    contact = ws.contacts[c]
+    least = hold_guard(ws, c)
     if contact.holds == 1:
         least = min(least, contact.static_margin)
     return 1 if least < WRONG_FORCE * contact.small_force_of else 0
 
 
-@kernel("f8(S, F, I, i8)")
-def slip_guard(S: Scalars, w: Floats, k: Integers, c: int) -> float:
+@kernel("f8(ws, i8)")
+def slip_guard(ws: Workspace, c: int) -> float:
     """Return the slip along its direction at the start of the step, or 1 where nothing depends on its sign.
 
     In an implicit step, which stops and turns slips itself, it is the slip.
     """
-    contact = contact_at(S, w, k, c)
+    contact = ws.contacts[c]
     if contact.traction_function != 0 or contact.averaged != OPEN:
         return 1.0
     speed = length(contact.slip)
-    if contact.normal_function != 0 and slip_coefficient(S, w, k, c, speed) == 0.0:
+    if contact.normal_function != 0 and slip_coefficient(ws, c, speed) == 0.0:
         return 1.0
-    if S.stage_time > 0.0:
+    if ws.stage_time > 0.0:
         return speed
     return float(contact.slip[0] * contact.direction[0] + contact.slip[1] * contact.direction[1])
 
 
-@entry_point("void(S, F, I, f8, i8, i8, i8, i8)")
-def slope(S: Scalars, w: Floats, k: Integers, t: float, y: int, out: int, choosing: int, every: int) -> None:
+@entry_point("void(ws, f8, i8, i8, i8, i8)")
+def slope(ws: Workspace, t: float, y: int, out: int, choosing: int, every: int) -> None:
     """Write dy/dt: coordinate rates, accelerations, and four powers.
 
     These are of the driven bodies, lost to friction, exchanged in all by what is integrated, and of the loads.  For
     ``choosing`` and ``every`` see :func:`right_hand_side`.
     """
-    S.evaluations += 1
-    right_hand_side(S, w, k, t, y, choosing, every)
+    ws.evaluations += 1
+    right_hand_side(ws, t, y, choosing, every)
     if every == 1:
-        for i in range(S.n_flying):
-            if body_at(S, w, k, k[S.flying + i]).course == 1:
-                accelerate_in_flight(S, w, k, t, k[S.flying + i])
+        for i in range(ws.n_flying):
+            if ws.bodies[ws.flying[i]].course == 1:
+                accelerate_in_flight(ws, t, ws.flying[i])
     lost = own = 0.0
-    for i in range(S.n_bodies if every == 1 else S.n_integrated):
-        body = body_at(S, w, k, i if every == 1 else k[S.integrated + i])
+    for i in range(ws.n_bodies if every == 1 else ws.n_integrated):
+        body = ws.bodies[i if every == 1 else ws.integrated[i]]
         rates, n_q, n_u = body.tail, body.nq, body.nu
-        accelerations, velocities = S.du + body.u, S.n_q + body.u
+        accelerations, velocities = ws.offsets.du + body.u, ws.n_q + body.u
         for j in range(n_q):
-            w[out + body.q + j] = w[rates + j]
+            ws.floats[out + body.q + j] = ws.floats[rates + j]
         for j in range(n_u):
-            w[out + velocities + j] = w[accelerations + j]
+            ws.floats[out + velocities + j] = ws.floats[accelerations + j]
         if body.flies == 0:
-            own = product(w, own, rates + n_q, y + velocities, n_u)
-    for i in range(S.n_grouped):
-        c = k[S.grouped + i]
-        contact = contact_at(S, w, k, c)
+            own = product(ws.floats, own, rates + n_q, y + velocities, n_u)
+    for i in range(ws.n_grouped):
+        c = ws.grouped[i]
+        contact = ws.contacts[c]
         sticks = contact.mode == STICK and contact.averaged == OPEN
         if not sticks:
             for r in range(1, 3):
                 lost -= contact.force[r] * contact.rate[r]
         lost -= contact.turned
-        hold = hold_guard(S, w, k, c)
+        hold = hold_guard(ws, c)
         contact.least_force = min(contact.least_force, hold)
-        if sticks or hold < 0.0 or slip_guard(S, w, k, c) < 0.0:
-            S.suspect = 1
-    powers = out + S.n_q + S.n_u
-    w[powers + DRIVEN], w[powers + FRICTION_LOSS], w[powers + LOADS] = S.driven_power, lost, S.load_power
-    w[powers + EXCHANGED] = abs(own) + abs(S.driven_power) + abs(lost)
-    write_state_rates(S, w, k, y, out)
+        if sticks or hold < 0.0 or slip_guard(ws, c) < 0.0:
+            ws.suspect = 1
+    powers = out + ws.n_q + ws.n_u
+    ws.floats[powers + DRIVEN], ws.floats[powers + FRICTION_LOSS], ws.floats[powers + LOADS] = (
+        ws.driven_power,
+        lost,
+        ws.load_power,
+    )
+    ws.floats[powers + EXCHANGED] = abs(own) + abs(ws.driven_power) + abs(lost)
+    write_state_rates(ws, y, out)
 
 
-@kernel("i8(S, F, I, i8)")
-def hardest_pressed(S: Scalars, w: Floats, k: Integers, sliding: int) -> int:
+@kernel("i8(ws, i8)")
+def hardest_pressed(ws: Workspace, sliding: int) -> int:
     """Return the closed contact of the greatest normal force, or -1; of those only that slide (1), or all (0)."""
-    group_closed(S, w, k)
-    evaluate_bodies(S, w, k, S.t, S.y)
-    right_hand_side(S, w, k, S.t, S.y, 0, 1)
+    group_closed(ws)
+    evaluate_bodies(ws, ws.t, ws.offsets.y)
+    right_hand_side(ws, ws.t, ws.offsets.y, 0, 1)
     hardest, most = -1, 0.0
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
+    for c in range(ws.n_contacts):
+        contact = ws.contacts[c]
         takes_part = contact.mode == SLIDE if sliding == 1 else contact.mode != OPEN
-        takes_part = takes_part and is_on_course(S, w, k, c) == 0
+        takes_part = takes_part and is_on_course(ws, c) == 0
         force = contact.force[0] if sliding == 1 else abs(contact.force[0])
         if takes_part and contact.normal_function == 0 and force > most:
             hardest, most = c, force

@@ -6,7 +6,7 @@ guards of the contacts.
 
 from __future__ import annotations
 
-from nonsmooth.engine.native.kernel import Scalars, kernel
+from nonsmooth.engine.native.kernel import Workspace, kernel
 
 
 @kernel("i8(i8)")
@@ -15,37 +15,37 @@ def normal_guard(c: int) -> int:
     return c
 
 
-@kernel("i8(S, i8)")
-def friction_guard(S: Scalars, c: int) -> int:
+@kernel("i8(ws, i8)")
+def friction_guard(ws: Workspace, c: int) -> int:
     """Return the guard of contact ``c`` that is the distance to its static bound, or its slip."""
-    return int(S.n_contacts + c)
+    return int(ws.n_contacts + c)
 
 
-@kernel("i8(S, i8)")
-def is_friction_guard(S: Scalars, i: int) -> int:
+@kernel("i8(ws, i8)")
+def is_friction_guard(ws: Workspace, i: int) -> int:
     """Return 1 if guard ``i`` of a contact is that of its friction."""
-    return 1 if i >= S.n_contacts else 0
+    return 1 if i >= ws.n_contacts else 0
 
 
-@kernel("i8(S, i8)")
-def contact_of(S: Scalars, i: int) -> int:
+@kernel("i8(ws, i8)")
+def contact_of(ws: Workspace, i: int) -> int:
     """Return the contact whose normal or friction guard ``i`` is."""
-    return int(i - S.n_contacts) if i >= S.n_contacts else i
+    return int(i - ws.n_contacts) if i >= ws.n_contacts else i
 
 
-@kernel("i8(S)")
-def first_own_guard(S: Scalars) -> int:
+@kernel("i8(ws)")
+def first_own_guard(ws: Workspace) -> int:
     """Return the first guard of the scenario's own; before it are the normal and friction guards."""
-    return int(2 * S.n_contacts)
+    return int(2 * ws.n_contacts)
 
 
-@kernel("i8(S)")
-def first_end_guard(S: Scalars) -> int:
+@kernel("i8(ws)")
+def first_end_guard(ws: Workspace) -> int:
     """Return the end guard of the first contact; those of the others follow."""
-    return int(first_own_guard(S) + S.n_own_guards)
+    return int(first_own_guard(ws) + ws.n_own_guards)
 
 
-@kernel("i8(S)")
-def number_of_guards(S: Scalars) -> int:
+@kernel("i8(ws)")
+def number_of_guards(ws: Workspace) -> int:
     """Return how many guards there are."""
-    return int(first_end_guard(S) + S.n_contacts)
+    return int(first_end_guard(ws) + ws.n_contacts)

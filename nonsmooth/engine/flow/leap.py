@@ -21,7 +21,7 @@ from nonsmooth.engine.flow.flow import right_hand_side
 from nonsmooth.engine.flow.self_check import EXPLAINED
 from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS
 from nonsmooth.engine.memory.modes import LIFT_OFF, OPEN, STICK, STICK_TO_SLIP
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, frame_at, kernel
+from nonsmooth.engine.native.kernel import Workspace, frame_at, kernel
 from nonsmooth.engine.numerics.vectors import dot, length, minus
 
 _PART = 0.01
@@ -32,12 +32,12 @@ _FASTER = 3.0
 """A point that runs is so many times as fast as the bodies at least."""
 
 
-@kernel("i8(S, F, I)")
-def _stretches(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _stretches(ws: Workspace) -> int:
     """Keep the ways of the contact points from where they were to where they are; return in how many stretches."""
     longest = 0.0
-    for i in range(S.n_grouped):
-        contact = contact_at(S, w, k, k[S.grouped + i])
+    for i in range(ws.n_grouped):
+        contact = ws.contacts[ws.grouped[i]]
         way_a = minus(contact.point_a, contact.start_a)
         way_b = minus(contact.point_b, contact.start_b)
         contact.way_a, contact.way_b = way_a, way_b
@@ -45,43 +45,43 @@ def _stretches(S: Scalars, w: Floats, k: Integers) -> int:
     return min(_MOST, 1 + int(longest**0.5 / _PART))
 
 
-@kernel("void(S, F, I, f8)")
-def _set_up(S: Scalars, w: Floats, k: Integers, part: float) -> None:
+@kernel("void(ws, f8)")
+def _set_up(ws: Workspace, part: float) -> None:
     """Put the active contacts at a ``part`` of their ways, and write what they hold, how they rub, and the rates."""
-    S.acceleration_scale = 0.0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    ws.acceleration_scale = 0.0
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         c = active.slot
-        contact = contact_at(S, w, k, c)
+        contact = ws.contacts[c]
         (ax, ay, az), (bx, by, bz) = contact.way_a, contact.way_b
         contact.point_a = contact.start_a[0] + part * ax, contact.start_a[1] + part * ay, contact.start_a[2] + part * az
         contact.point_b = contact.start_b[0] + part * bx, contact.start_b[1] + part * by, contact.start_b[2] + part * bz
         contact.seen_a = UNSEEN
-        evaluate_rates(S, w, k, c)
-        evaluate_jacobian(S, w, k, c)
+        evaluate_rates(ws, c)
+        evaluate_jacobian(ws, c)
         speed = length(contact.slip)
-        active.mu_static = friction_coefficient(S, w, k, c, 0.0)
-        active.mu = slip_coefficient(S, w, k, c, speed)
+        active.mu_static = friction_coefficient(ws, c, 0.0)
+        active.mu = slip_coefficient(ws, c, speed)
         sticks = contact.mode == STICK and contact.released == 0
         active.normal_held = 0 if contact.released == LIFT_OFF else 1
         active.tangent_held = 1 if sticks and active.mu_static > 0.0 else 0
         active.direction = contact.direction
-        if speed > S.velocity_tolerance:
+        if speed > ws.velocity_tolerance:
             active.direction = contact.slip[0] / speed, contact.slip[1] / speed
         for r in range(3):
             active.free[r] = contact.rate[r]
-            S.acceleration_scale = max(S.acceleration_scale, abs(contact.rate[r]))
-    assemble_delassus(S, w, k)
+            ws.acceleration_scale = max(ws.acceleration_scale, abs(contact.rate[r]))
+    assemble_delassus(ws)
 
 
-@kernel("i8(S, F, I)")
-def _release(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _release(ws: Workspace) -> int:
     """Release the contacts that pull from all, and those past their static bound from sticking; return how many."""
     released = 0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        contact = contact_at(S, w, k, active.slot)
-        faint = small_force(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        contact = ws.contacts[active.slot]
+        faint = small_force(ws, a)
         if active.normal_held == 1 and active.normal_force < -faint:
             contact.released, active.normal_held, active.tangent_held = LIFT_OFF, 0, 0
             released += 1
@@ -93,60 +93,60 @@ def _release(S: Scalars, w: Floats, k: Integers) -> int:
     return released
 
 
-@kernel("void(S, F, I, f8)")
-def _reflect(S: Scalars, w: Floats, k: Integers, part: float) -> None:
+@kernel("void(ws, f8)")
+def _reflect(ws: Workspace, part: float) -> None:
     """Let the active contacts act at a ``part`` of their ways, without loss but by friction.
 
     What they hold of the velocities changes its sign in the middle of a stretch, at whose ends nothing is left of it.
     """
-    _set_up(S, w, k, part)
-    for _round in range(2 * S.n_active + 1):
-        for i in range(3 * S.n_active):
-            w[S.active_forces + i] = 0.0
-        resolve(S, w, k)
-        if _release(S, w, k) == 0:
+    _set_up(ws, part)
+    for _round in range(2 * ws.n_active + 1):
+        for i in range(3 * ws.n_active):
+            ws.active_forces[i] = 0.0
+        resolve(ws)
+        if _release(ws) == 0:
             break
-    for i in range(3 * S.n_active):
-        w[S.active_forces + i] *= 2.0
-    add_response(S, w, k, S.active_forces, S.y_new + S.n_q)
-    powers = S.y_new + S.n_q + S.n_u
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        contact = contact_at(S, w, k, active.slot)
+    for i in range(3 * ws.n_active):
+        ws.active_forces[i] *= 2.0
+    add_response(ws, ws.offsets.active_forces, ws.offsets.y_new + ws.n_q)
+    powers = ws.offsets.y_new + ws.n_q + ws.n_u
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        contact = ws.contacts[active.slot]
         for r in range(3):
             impulse = active.force[r]
-            w[powers + DRIVEN] -= impulse * contact.prescribed_rate[r]
-            w[powers + EXCHANGED] += abs(impulse * contact.prescribed_rate[r])
+            ws.floats[powers + DRIVEN] -= impulse * contact.prescribed_rate[r]
+            ws.floats[powers + EXCHANGED] += abs(impulse * contact.prescribed_rate[r])
             if r > 0 and active.tangent_held == 0:
-                lost = -impulse * 0.5 * add_product(S, w, k, 2.0 * contact.rate[r], a, r, S.active_forces)
-                w[powers + FRICTION_LOSS] += lost
-                w[powers + EXCHANGED] += abs(lost)
+                lost = -impulse * 0.5 * add_product(ws, 2.0 * contact.rate[r], a, r, ws.offsets.active_forces)
+                ws.floats[powers + FRICTION_LOSS] += lost
+                ws.floats[powers + EXCHANGED] += abs(lost)
 
 
-@kernel("void(S, F, I)")
-def _keep_points(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def _keep_points(ws: Workspace) -> None:
     """Keep where the contact points are at ``y``."""
-    evaluate_bodies(S, w, k, S.t, S.y)
-    for i in range(S.n_grouped):
-        c = k[S.grouped + i]
-        contact = contact_at(S, w, k, c)
-        evaluate_geometry(S, w, k, c)
+    evaluate_bodies(ws, ws.t, ws.offsets.y)
+    for i in range(ws.n_grouped):
+        c = ws.grouped[i]
+        contact = ws.contacts[c]
+        evaluate_geometry(ws, c)
         contact.start_a, contact.start_b = contact.point_a, contact.point_b
 
 
-@kernel("i8(S, F, I, f8, f8)")
-def _runs(S: Scalars, w: Floats, k: Integers, h: float, rate: float) -> int:
+@kernel("i8(ws, f8, f8)")
+def _runs(ws: Workspace, h: float, rate: float) -> int:
     """Return a contact whose point has run in the time ``h``, faster than the bodies go, to where they approach, or -1.
 
     That is by more than a gap ``rate``, the bodies being evaluated at its end.
     """
     runs = -1
-    for i in range(S.n_grouped):
-        c = k[S.grouped + i]
-        evaluate_geometry(S, w, k, c)
-        evaluate_rates(S, w, k, c)
-        contact = contact_at(S, w, k, c)
-        spin_a, spin_b = frame_at(w, contact.frame_a).spin, frame_at(w, contact.frame_b).spin
+    for i in range(ws.n_grouped):
+        c = ws.grouped[i]
+        evaluate_geometry(ws, c)
+        evaluate_rates(ws, c)
+        contact = ws.contacts[c]
+        spin_a, spin_b = frame_at(ws.floats, contact.frame_a).spin, frame_at(ws.floats, contact.frame_b).spin
         turning, way = minus(spin_b, spin_a), minus(contact.point_b, contact.start_b)
         speed = length(contact.slip) + contact.size * math.sqrt(dot(turning, turning))
         if contact.rate[0] < rate and dot(way, way) > (_FASTER * h * speed) ** 2:
@@ -155,61 +155,61 @@ def _runs(S: Scalars, w: Floats, k: Integers, h: float, rate: float) -> int:
 
 
 @kernel()
-def measure_noise(S: Scalars, w: Floats, k: Integers) -> None:
+def measure_noise(ws: Workspace) -> None:
     """Write what counts as no force behind a leap: before it, next to the flat place, forces may have had no bound."""
-    right_hand_side(S, w, k, S.t, S.y, 0, 1)
+    right_hand_side(ws, ws.t, ws.offsets.y, 0, 1)
     largest = 0.0
-    for i in range(S.n_grouped):
-        contact = contact_at(S, w, k, k[S.grouped + i])
+    for i in range(ws.n_grouped):
+        contact = ws.contacts[ws.grouped[i]]
         largest = max(largest, abs(contact.force[0]))
         if contact.mobility > 0.0:
             largest = max(largest, abs(contact.bias[0]) / contact.mobility)
-    for i in range(S.n_grouped):
-        contact_at(S, w, k, k[S.grouped + i]).small_force_of = NO_FORCE * largest
+    for i in range(ws.n_grouped):
+        ws.contacts[ws.grouped[i]].small_force_of = NO_FORCE * largest
 
 
-@kernel("i8(S, F, I, f8)")
-def leap(S: Scalars, w: Floats, k: Integers, h: float) -> int:
+@kernel("i8(ws, f8)")
+def leap(ws: Workspace, h: float) -> int:
     """Write the state after the time ``h``, too short for steps, to ``y_new``; return 1 if contact points run in it.
 
     ``slopes`` must hold the slope at ``y``, and the closed contacts be grouped.  What the impulses let go is
     ``released``, by the cause that it means.
     """
-    for i in range(S.n_grouped):
-        contact = contact_at(S, w, k, k[S.grouped + i])
+    for i in range(ws.n_grouped):
+        contact = ws.contacts[ws.grouped[i]]
         if contact.normal_function != 0:
             return 0
         contact.released = 0
-    _keep_points(S, w, k)
-    for i in range(S.n_y):
-        w[S.y_new + i] = w[S.y + i] + (h * w[S.slopes + i] if i < S.n_q else 0.0)
-    evaluate_bodies(S, w, k, S.t + h, S.y_new)
-    if _runs(S, w, k, h, 0.0) < 0:
+    _keep_points(ws)
+    for i in range(ws.n_y):
+        ws.y_new[i] = ws.y[i] + (h * ws.slopes[i] if i < ws.n_q else 0.0)
+    evaluate_bodies(ws, ws.t + h, ws.offsets.y_new)
+    if _runs(ws, h, 0.0) < 0:
         return 0
-    n = _stretches(S, w, k)
+    n = _stretches(ws)
     for stretch in range(n):
-        for group in range(S.n_groups):
-            activate_group(S, w, k, group)
-            _reflect(S, w, k, (stretch + 0.5) / n)
-        evaluate_bodies(S, w, k, S.t + h, S.y_new)
+        for group in range(ws.n_groups):
+            activate_group(ws, group)
+            _reflect(ws, (stretch + 0.5) / n)
+        evaluate_bodies(ws, ws.t + h, ws.offsets.y_new)
     return 1
 
 
-@kernel("i8(S, F, I)")
-def passed_flat(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def passed_flat(ws: Workspace) -> int:
     """Return a held contact whose point ran along a body within the step that was taken, or -1.
 
     Behind it they approach faster than tolerances explain of what is held: a face has fallen flat, and the other side
     of its rim is the lower one.
     """
-    approaches, explained = 0, EXPLAINED * S.velocity_tolerance
-    for i in range(S.n_grouped):
-        contact = contact_at(S, w, k, k[S.grouped + i])
+    approaches, explained = 0, EXPLAINED * ws.velocity_tolerance
+    for i in range(ws.n_grouped):
+        contact = ws.contacts[ws.grouped[i]]
         held = contact.normal_function == 0 and contact.averaged == OPEN and contact.past_end <= 0.0
         if held and contact.rate_end[0] < -explained:
             approaches = 1
     if approaches == 0:
         return -1
-    _keep_points(S, w, k)
-    evaluate_bodies(S, w, k, S.t + S.h, S.y_new)
-    return _runs(S, w, k, S.h, -explained)
+    _keep_points(ws)
+    evaluate_bodies(ws, ws.t + ws.h, ws.offsets.y_new)
+    return _runs(ws, ws.h, -explained)

@@ -36,7 +36,11 @@ from nonsmooth.engine.flow.self_check import EXPLAINED, NEAR, explained_gap
 from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.layout import LAST_STAGE, PARTS
 from nonsmooth.engine.memory.modes import OPEN, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, contact_at, entry_point, guard_at, kernel
+from nonsmooth.engine.native.kernel import (
+    Workspace,
+    entry_point,
+    kernel,
+)
 from nonsmooth.engine.numerics.roots import SHORT, TRUSTED, weakened
 
 _MIDDLE = 0.5
@@ -71,38 +75,38 @@ _BEHIND = 1e-3
 """later by this part of the time that it takes."""
 
 
-@kernel("i8(S, F, I)")
-def _asks_forces(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _asks_forces(ws: Workspace) -> int:
     """Return 1 if forces are looked at within a step: an implicit one has forces where its stages end only."""
-    return 1 if S.n_grouped > 0 and S.stage_time == 0.0 else 0
+    return 1 if ws.n_grouped > 0 and ws.stage_time == 0.0 else 0
 
 
-@entry_point("void(S, F, I, f8, f8, i8)")
-def guards_within(S: Scalars, w: Floats, k: Integers, h: float, theta: float, forces: int) -> None:
+@entry_point("void(ws, f8, f8, i8)")
+def guards_within(ws: Workspace, h: float, theta: float, forces: int) -> None:
     """Evaluate the motion and write the guards at the fraction ``theta`` of the step, on the interpolant."""
-    state_within(S, w, k, h, theta, S.y_stage)
-    blend_choices(S, w, k, theta)
-    evaluate_guards(S, w, k, S.t + theta * h, S.y_stage, theta * h, forces)
+    state_within(ws, h, theta, ws.offsets.y_stage)
+    blend_choices(ws, theta)
+    evaluate_guards(ws, ws.t + theta * h, ws.offsets.y_stage, theta * h, forces)
 
 
-@kernel("f8(S, F, I, f8, f8, i8, i8)")
-def _guard_at(S: Scalars, w: Floats, k: Integers, h: float, theta: float, i: int, forces: int) -> float:
+@kernel("f8(ws, f8, f8, i8, i8)")
+def _guard_at(ws: Workspace, h: float, theta: float, i: int, forces: int) -> float:
     """Return guard ``i`` at the fraction ``theta`` of the step; of a gap and of a slip nothing else is evaluated."""
-    alone = kinematic(S, w, k, i)
+    alone = kinematic(ws, i)
     if alone == 1:
-        look_at_gap(S, w, k, h, theta, i)
+        look_at_gap(ws, h, theta, i)
     elif alone == 2:
-        look_at_slip(S, w, k, h, theta, contact_of(S, i))
+        look_at_slip(ws, h, theta, contact_of(ws, i))
     else:
-        guards_within(S, w, k, h, theta, forces)
-    return float(guard_at(S, w, k, i).value)
+        guards_within(ws, h, theta, forces)
+    return float(ws.guards[i].value)
 
 
-@kernel("f8(S, F, I, f8, i8)")
-def _lowest(S: Scalars, w: Floats, k: Integers, h: float, i: int) -> float:
+@kernel("f8(ws, f8, i8)")
+def _lowest(ws: Workspace, h: float, i: int) -> float:
     """Return a fraction of the step where guard ``i`` dips below zero between its samples, or 0, by parabolas."""
     low, middle, high = 0.0, _MIDDLE, 1.0
-    g_low, g_middle, g_high = guard_at(S, w, k, i).first, guard_at(S, w, k, i).middle, guard_at(S, w, k, i).end
+    g_low, g_middle, g_high = ws.guards[i].first, ws.guards[i].middle, ws.guards[i].end
     for _iteration in range(8):
         left, right = (g_middle - g_low) / (middle - low), (g_high - g_middle) / (high - middle)
         bend = (right - left) / (high - low)
@@ -114,7 +118,7 @@ def _lowest(S: Scalars, w: Floats, k: Integers, h: float, i: int) -> float:
             return 0.0
         if abs(vertex - middle) < SHORT:
             return 0.0
-        g = _guard_at(S, w, k, h, vertex, i, 1)
+        g = _guard_at(ws, h, vertex, i, 1)
         if g < 0.0:
             return float(vertex)
         if vertex > middle:
@@ -126,43 +130,43 @@ def _lowest(S: Scalars, w: Floats, k: Integers, h: float, i: int) -> float:
     return 0.0
 
 
-@kernel("f8(S, F, I, f8)")
-def _force_dip(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+@kernel("f8(ws, f8)")
+def _force_dip(ws: Workspace, h: float) -> float:
     """Look for a dip of a normal force or a static margin between the samples."""
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
+    for c in range(ws.n_contacts):
+        contact = ws.contacts[c]
         if contact.mode != OPEN:
-            for i in (normal_guard(c), friction_guard(S, c)):
-                if guard_at(S, w, k, i).armed == 1 and (i == normal_guard(c) or contact.mode == STICK):
-                    theta = _lowest(S, w, k, h, i)
+            for i in (normal_guard(c), friction_guard(ws, c)):
+                if ws.guards[i].armed == 1 and (i == normal_guard(c) or contact.mode == STICK):
+                    theta = _lowest(ws, h, i)
                     if theta > 0.0:
                         return theta
     return 0.0
 
 
-@kernel("f8(S, F, I)")
-def _soonest(S: Scalars, w: Floats, k: Integers) -> float:
+@kernel("f8(ws)")
+def _soonest(ws: Workspace) -> float:
     """Return after what time the first of the open gaps is closed if they go on closing as at present [s]."""
     soonest = 1e300
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
+    for c in range(ws.n_contacts):
+        contact = ws.contacts[c]
         gap, rate = contact.gap, contact.gap_rate
         if contact.mode == OPEN and contact.beyond <= 0.0 and gap > 0.0 and rate < 0.0:
             soonest = min(soonest, -gap / rate)
     return soonest
 
 
-@kernel("f8(S, F, I, f8)")
-def _advance(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+@kernel("f8(ws, f8)")
+def _advance(ws: Workspace, h: float) -> float:
     """Return for how long the features that do not face each other need not be looked at, as they are now [s].
 
     What they report as their gap closes no faster than their speed as long as they do, and may be less than it says.
     """
     longest = h / _SAMPLES
     least = longest
-    for i in range(S.n_astray):
-        c = k[S.astray + i]
-        contact = contact_at(S, w, k, c)
+    for i in range(ws.n_astray):
+        c = ws.astray[i]
+        contact = ws.contacts[c]
         speed = contact.speed_first + contact.speed_end
         way = min(_FARTHEST * contact.size, max(contact.gap, WAY * contact.size))
         if way < least * speed:
@@ -170,138 +174,138 @@ def _advance(S: Scalars, w: Floats, k: Integers, h: float) -> float:
     return float(max(least, _SHORTEST * h))
 
 
-@kernel("f8(S, F, I, f8, f8)")
-def _sampled(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
+@kernel("f8(ws, f8, f8)")
+def _sampled(ws: Workspace, h: float, high: float) -> float:
     """Return the first of some fractions below ``high`` at which a gap has closed, its guards in ``guard``, or 0.
 
     Features that face each other only from one sample to the next are looked at when their gap is to close.
     """
     theta, looks = 0.0, 0
     while theta < high:
-        S.gap_looks += 1
+        ws.gap_looks += 1
         # right at the start nothing has grown yet
-        guards_within(S, w, k, h, max(theta, _FAINT), 0)
+        guards_within(ws, h, max(theta, _FAINT), 0)
         if theta > 0.0:
-            if first_fired(S, w, k, 0, -1) >= 0:
-                guards_within(S, w, k, h, theta, _asks_forces(S, w, k))
+            if first_fired(ws, 0, -1) >= 0:
+                guards_within(ws, h, theta, _asks_forces(ws))
                 return theta
-            arm_further(S, w, k, 0)
-        way, soonest = _advance(S, w, k, h), (1.0 + _BEHIND) * _soonest(S, w, k)
+            arm_further(ws, 0)
+        way, soonest = _advance(ws, h), (1.0 + _BEHIND) * _soonest(ws)
         looks = looks + 1 if soonest < way and looks < _LOOKS else 0
         theta += (soonest if looks > 0 else way) / h
     return 0.0
 
 
-@kernel("f8(S, F, I, f8, f8, i8)")
-def _closed_before(S: Scalars, w: Floats, k: Integers, h: float, theta: float, asked: int) -> float:
+@kernel("f8(ws, f8, f8, i8)")
+def _closed_before(ws: Workspace, h: float, theta: float, asked: int) -> float:
     """Return a fraction of the step up to ``theta`` by which an open gap has closed, its guards in ``guard``, or 0.
 
     If none has, the contact ``asked`` stands at ``theta``.
     """
-    if S.n_astray > 0:
-        found = _sampled(S, w, k, h, theta)
+    if ws.n_astray > 0:
+        found = _sampled(ws, h, theta)
         if found > 0.0:
             return found
-    if S.n_doubtful > 0:
-        found = first_closing(S, w, k, h, theta, asked)
+    if ws.n_doubtful > 0:
+        found = first_closing(ws, h, theta, asked)
         if found > 0.0:
-            guards_within(S, w, k, h, found, _asks_forces(S, w, k))
+            guards_within(ws, h, found, _asks_forces(ws))
             return found
     return 0.0
 
 
-@entry_point("f8(S, F, I, f8)")
-def first_crossing(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+@entry_point("f8(ws, f8)")
+def first_crossing(ws: Workspace, h: float) -> float:
     """Return a fraction of the step by which some guard has fired, its guards in ``guard``, or 0 if none does.
 
     Called right after the step, when bodies and forces stand at its end.
     """
-    closed = _asks_forces(S, w, k)
-    write_guards(S, w, k, S.t + h, S.y_new, 1)
-    choose_at_end(S, w, k, h)
-    keep_end(S, w, k)
-    bound_speeds(S, w, k)
-    find_doubtful(S, w, k, h)
-    deflate(S, w, k, h)
-    fired = first_fired(S, w, k, 1, -1)
+    closed = _asks_forces(ws)
+    write_guards(ws, ws.t + h, ws.offsets.y_new, 1)
+    choose_at_end(ws, h)
+    keep_end(ws)
+    bound_speeds(ws)
+    find_doubtful(ws, h)
+    deflate(ws, h)
+    fired = first_fired(ws, 1, -1)
     # where no stage saw a force or slip that violates its mode or dips, the middle is not looked at
-    suspect = S.suspect == 1
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
+    suspect = ws.suspect == 1
+    for c in range(ws.n_contacts):
+        contact = ws.contacts[c]
         i = normal_guard(c)
-        if contact.mode != OPEN and contact.least_force < min(guard_at(S, w, k, i).first, guard_at(S, w, k, i).end):
+        if contact.mode != OPEN and contact.least_force < min(ws.guards[i].first, ws.guards[i].end):
             suspect = True
     forces = closed if suspect else 0
-    looks = forces + S.n_own_guards
+    looks = forces + ws.n_own_guards
     if looks > 0:
-        guards_within(S, w, k, h, _MIDDLE, forces)
-        if first_fired(S, w, k, forces, -1) >= 0:
+        guards_within(ws, h, _MIDDLE, forces)
+        if first_fired(ws, forces, -1) >= 0:
             if forces != closed:
-                guards_within(S, w, k, h, _MIDDLE, closed)
+                guards_within(ws, h, _MIDDLE, closed)
             return _MIDDLE
-        arm_further(S, w, k, forces)
-        for i in range(number_of_guards(S)):
-            guard_at(S, w, k, i).middle = guard_at(S, w, k, i).value
+        arm_further(ws, forces)
+        for i in range(number_of_guards(ws)):
+            ws.guards[i].middle = ws.guards[i].value
         if forces == 1 and fired < 0:
-            theta = _force_dip(S, w, k, h)
+            theta = _force_dip(ws, h)
             if theta > 0.0:
                 return theta
     # what has fired at the end is located first, and what closes before it searched then
-    if fired < 0 and S.n_astray + S.n_doubtful > 0:
-        looks += S.n_astray
-        theta = _closed_before(S, w, k, h, 1.0, -1)
+    if fired < 0 and ws.n_astray + ws.n_doubtful > 0:
+        looks += ws.n_astray
+        theta = _closed_before(ws, h, 1.0, -1)
         if theta > 0.0:
             return theta
-    blend_choices(S, w, k, 1.0)
+    blend_choices(ws, 1.0)
     if looks > 0:
-        stand_at(S, w, k, S.t + h, S.y_new)
-        for i in range(number_of_guards(S)):
-            guard_at(S, w, k, i).value = guard_at(S, w, k, i).end
-        for c in range(S.n_contacts):
-            contact = contact_at(S, w, k, c)
+        stand_at(ws, ws.t + h, ws.offsets.y_new)
+        for i in range(number_of_guards(ws)):
+            ws.guards[i].value = ws.guards[i].end
+        for c in range(ws.n_contacts):
+            contact = ws.contacts[c]
             contact.gap_rate = contact.gap_rate_end
             contact.beyond = contact.past_end
-        deflate(S, w, k, h)
-    elif fired >= 0 or S.n_doubtful == 0:
+        deflate(ws, h)
+    elif fired >= 0 or ws.n_doubtful == 0:
         return 1.0 if fired >= 0 else 0.0
     # guards armed only within the step count as well
-    return 1.0 if first_fired(S, w, k, 1, -1) >= 0 else 0.0
+    return 1.0 if first_fired(ws, 1, -1) >= 0 else 0.0
 
 
-@kernel("f8(S, F, I, f8, f8, i8, i8)")
-def _event_fraction(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, forces: int) -> float:
+@kernel("f8(ws, f8, f8, i8, i8)")
+def _event_fraction(ws: Workspace, h: float, high: float, i: int, forces: int) -> float:
     """Return the fraction of the step at which guard ``i``, now evaluated at ``high``, vanishes on the interpolant.
 
     The guards are left evaluated there, the slope of guard ``i`` in ``guard_slope``: infinite, right behind it, where
     the guard jumps.
     """
-    theta = _vanishing(S, w, k, h, high, i, forces)
-    if kinematic(S, w, k, i) > 0:
-        guards_within(S, w, k, h, theta, forces)
+    theta = _vanishing(ws, h, high, i, forces)
+    if kinematic(ws, i) > 0:
+        guards_within(ws, h, theta, forces)
     return theta
 
 
-@kernel("f8(S, F, I, f8, f8, i8, i8)")
-def _vanishing(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int, forces: int) -> float:
+@kernel("f8(ws, f8, f8, i8, i8)")
+def _vanishing(ws: Workspace, h: float, high: float, i: int, forces: int) -> float:
     """Return the same; of the guards ``i`` is evaluated there, those that are no gaps together with it.
 
     Anderson-Bjorck, with Newton's step where the guard is a gap, whose rate is known.
     """
-    fine = _FINE * S.time_tolerance
-    low, g_low = 0.0, guard_at(S, w, k, i).first
-    g_high = guard_at(S, w, k, i).value
-    S.guard_slope = 0.0
-    rises = guard_at(S, w, k, i).first <= 0.0 or guard_at(S, w, k, i).deflated == 1
-    while g_low <= _FAINT * abs(g_high) and (rises or is_gap(S, w, k, i) == 1):
+    fine = _FINE * ws.time_tolerance
+    low, g_low = 0.0, ws.guards[i].first
+    g_high = ws.guards[i].value
+    ws.guard_slope = 0.0
+    rises = ws.guards[i].first <= 0.0 or ws.guards[i].deflated == 1
+    while g_low <= _FAINT * abs(g_high) and (rises or is_gap(ws, i) == 1):
         # it was armed inside the step, or rises from zero with no rate: look for where it is positive
         low = 0.5 * high if low == 0.0 else 0.5 * low
-        g_low = _guard_at(S, w, k, h, low, i, forces)
+        g_low = _guard_at(ws, h, low, i, forces)
         if low < _SHORTEST * high:
             if g_low > 0.0 or rises:
                 return low
             # it vanishes next to the start, where it was still positive
             high, g_high = low, g_low
-            low, g_low = 0.0, guard_at(S, w, k, i).first
+            low, g_low = 0.0, ws.guards[i].first
             break
     left = g_first = abs(g_low)
     theta = high - g_high * (high - low) / (g_high - g_low)
@@ -311,24 +315,24 @@ def _vanishing(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int
         # next to a huge value the secant does not leave the other end
         if not low < theta <= high or slow > _SLOW:
             theta = 0.5 * (low + high)
-        g = _guard_at(S, w, k, h, theta, i, forces)
+        g = _guard_at(ws, h, theta, i, forces)
         if theta != theta_before:
-            S.guard_slope = (g - g_before) / ((theta - theta_before) * h)
+            ws.guard_slope = (g - g_before) / ((theta - theta_before) * h)
         theta_before, g_before = theta, g
-        if is_gap(S, w, k, i) == 1:
-            S.guard_slope = contact_at(S, w, k, contact_of(S, i)).gap_rate
-            if guard_at(S, w, k, i).deflated == 1:
-                S.guard_slope = (S.guard_slope - g) / (theta * h)
+        if is_gap(ws, i) == 1:
+            ws.guard_slope = ws.contacts[contact_of(ws, i)].gap_rate
+            if ws.guards[i].deflated == 1:
+                ws.guard_slope = (ws.guard_slope - g) / (theta * h)
         # the slope across a jump says nothing of a value that is as it was at the start
-        near = abs(g) <= -fine * S.guard_slope and (abs(g) <= _NEARER * g_first or is_gap(S, w, k, i) == 1)
+        near = abs(g) <= -fine * ws.guard_slope and (abs(g) <= _NEARER * g_first or is_gap(ws, i) == 1)
         if g == 0.0 or (high - low) * h <= fine or near:
             left, span = (g, high - theta) if g > 0.0 else (left, theta - low)
-            if left <= _JUMP * g_first or span * h > S.time_tolerance or is_gap(S, w, k, i) == 1:
+            if left <= _JUMP * g_first or span * h > ws.time_tolerance or is_gap(ws, i) == 1:
                 return float(theta)
-            S.guard_slope = -math.inf
+            ws.guard_slope = -math.inf
             if g <= 0.0:
                 return float(theta)
-            guards_within(S, w, k, h, high, forces)
+            guards_within(ws, h, high, forces)
             return high
         way = high - low
         if g < 0.0:
@@ -340,62 +344,62 @@ def _vanishing(S: Scalars, w: Floats, k: Integers, h: float, high: float, i: int
             left = g
         slow = slow + 1 if high - low > 0.5 * way else max(slow - 1, 0)
         following = high - g_high * (high - low) / (g_high - g_low)
-        if is_gap(S, w, k, i) == 1 and S.guard_slope < 0.0:
-            newton = theta - g / (S.guard_slope * h)
+        if is_gap(ws, i) == 1 and ws.guard_slope < 0.0:
+            newton = theta - g / (ws.guard_slope * h)
             if low < newton < high:
                 following = newton
         theta = following
     return float(theta)
 
 
-@kernel("f8(S, F, I, f8, i8)")
-def _behind_jump(S: Scalars, w: Floats, k: Integers, step: float, i: int) -> float:
+@kernel("f8(ws, f8, i8)")
+def _behind_jump(ws: Workspace, step: float, i: int) -> float:
     """Step to right behind the jump of guard ``i`` that the interpolant has at ``step``; return the step."""
-    S.h = step
-    if not try_step(S, w, k, step) <= TRUSTED:
+    ws.h = step
+    if not try_step(ws, step) <= TRUSTED:
         return -1.0
-    way = _FINE * S.time_tolerance
-    while way <= EXPLAINED * S.time_tolerance:
-        evaluate_guards(S, w, k, S.t + step, S.y_new, step, 1)
-        if guard_at(S, w, k, i).value < 0.0:
+    way = _FINE * ws.time_tolerance
+    while way <= EXPLAINED * ws.time_tolerance:
+        evaluate_guards(ws, ws.t + step, ws.offsets.y_new, step, 1)
+        if ws.guards[i].value < 0.0:
             return step
         # so short a way is straight
-        for j in range(S.n_y):
-            w[S.y_new + j] += way * w[S.slopes + LAST_STAGE * S.n_y + j]
+        for j in range(ws.n_y):
+            ws.y_new[j] += way * ws.slopes[LAST_STAGE * ws.n_y + j]
         step += way
         way *= 2.0
     return -1.0
 
 
-@kernel("f8(S, F, I, f8, i8)")
-def _corrected(S: Scalars, w: Floats, k: Integers, root: float, i: int) -> float:
+@kernel("f8(ws, f8, i8)")
+def _corrected(ws: Workspace, root: float, i: int) -> float:
     """Step to where guard ``i`` vanishes, on the interpolant after the time ``root``; return the step."""
-    h, step = S.h, root
+    h, step = ws.h, root
     # the guard is positive before the first and not after the second of these steps
     early, late = 0.0, 1e300
     # two or three do unless the guard is not smooth
     for _halving in range(PARTS):
-        S.h = step
-        blend_choices(S, w, k, step / h)
-        if not try_step(S, w, k, step) <= TRUSTED:
+        ws.h = step
+        blend_choices(ws, step / h)
+        if not try_step(ws, step) <= TRUSTED:
             return -1.0
-        write_guards(S, w, k, S.t + step, S.y_new, 1)
-        value = guard_at(S, w, k, i).value
-        slope = S.guard_slope
-        if guard_at(S, w, k, i).deflated == 1:
-            value -= guard_at(S, w, k, i).start
-        if is_gap(S, w, k, i) == 1:
-            slope = contact_at(S, w, k, contact_of(S, i)).gap_rate
-        elif guard_at(S, w, k, i).deflated == 1:
+        write_guards(ws, ws.t + step, ws.offsets.y_new, 1)
+        value = ws.guards[i].value
+        slope = ws.guard_slope
+        if ws.guards[i].deflated == 1:
+            value -= ws.guards[i].start
+        if is_gap(ws, i) == 1:
+            slope = ws.contacts[contact_of(ws, i)].gap_rate
+        elif ws.guards[i].deflated == 1:
             value /= step
         # a gap that closes slower than what counts as rest does not tell where
-        if not slope < (-S.velocity_tolerance if is_gap(S, w, k, i) == 1 else 0.0):
+        if not slope < (-ws.velocity_tolerance if is_gap(ws, i) == 1 else 0.0):
             return step
         correction = min(0.2 * root, max(-0.2 * root, -value / slope))
         if abs(correction) <= SHORT * h:
             # so short a way is straight
-            for j in range(S.n_y):
-                w[S.y_new + j] += correction * w[S.slopes + LAST_STAGE * S.n_y + j]
+            for j in range(ws.n_y):
+                ws.y_new[j] += correction * ws.slopes[LAST_STAGE * ws.n_y + j]
             return float(step + correction)
         if value > 0.0:
             early = step
@@ -409,92 +413,90 @@ def _corrected(S: Scalars, w: Floats, k: Integers, root: float, i: int) -> float
     return -1.0
 
 
-@kernel("i8(S, F, I, i8)")
-def _overtaken(S: Scalars, w: Floats, k: Integers, i: int) -> int:
+@kernel("i8(ws, i8)")
+def _overtaken(ws: Workspace, i: int) -> int:
     """Return 1 if a correction went past the closing of another contact than that of guard ``i``."""
-    for c in range(S.n_contacts):
-        contact = contact_at(S, w, k, c)
-        if contact.mode == OPEN and c != contact_of(S, i) and contact.beyond <= 0.0:
-            start = min(0.0, guard_at(S, w, k, normal_guard(c)).start)
+    for c in range(ws.n_contacts):
+        contact = ws.contacts[c]
+        if contact.mode == OPEN and c != contact_of(ws, i) and contact.beyond <= 0.0:
+            start = min(0.0, ws.guards[normal_guard(c)].start)
             # what closes at one instant does to round-off
-            if contact.gap < start - NEAR * S.gap_tolerance and contact.gap_rate < 0.0:
+            if contact.gap < start - NEAR * ws.gap_tolerance and contact.gap_rate < 0.0:
                 return 1
     return 0
 
 
-@kernel("i8(S, F, I, f8, i8)")
-def _hides_another(S: Scalars, w: Floats, k: Integers, step: float, i: int) -> int:
+@kernel("i8(ws, f8, i8)")
+def _hides_another(ws: Workspace, step: float, i: int) -> int:
     """Return 1 if the gap of guard ``i``, which jumps, is so deep behind the jump that another one closed before.
 
     It was between two looks that the features of that one came to face each other, and ceased to.  In a step in which
     no gap can become so deep it is the jump of an evaluator.
     """
-    if i >= first_own_guard(S) or is_friction_guard(S, i) == 1:
+    if i >= first_own_guard(ws) or is_friction_guard(ws, i) == 1:
         return 0
-    c = contact_of(S, i)
-    contact = contact_at(S, w, k, c)
+    c = contact_of(ws, i)
+    contact = ws.contacts[c]
     if contact.mode != OPEN or contact.normal_function != 0:
         return 0
     reached = step * (contact.speed_first + contact.speed_end)
-    return 1 if explained_gap(S, w, k, c) < -contact.gap < reached else 0
+    return 1 if explained_gap(ws, c) < -contact.gap < reached else 0
 
 
-@entry_point("f8(S, F, I, f8, f8)")
-def locate(S: Scalars, w: Floats, k: Integers, h: float, high: float) -> float:
+@entry_point("f8(ws, f8, f8)")
+def locate(ws: Workspace, h: float, high: float) -> float:
     """Step to the first event before the fraction ``high`` of the step; return the step, guard in ``trigger``.
 
     The step is negative where its error, or a crowd of guards, shows that the motion is not as smooth as it seemed.
     Where the tolerance limits the step, the root on the interpolant is corrected on the step itself, whose order is
     higher.
     """
-    closed = _asks_forces(S, w, k)
-    first = first_fired(S, w, k, 1, -1)
-    of_contact = 0 <= first < first_own_guard(S)
-    if S.stage_time > 0.0 and of_contact and contact_at(S, w, k, contact_of(S, first)).mode != OPEN:
+    closed = _asks_forces(ws)
+    first = first_fired(ws, 1, -1)
+    of_contact = 0 <= first < first_own_guard(ws)
+    if ws.stage_time > 0.0 and of_contact and ws.contacts[contact_of(ws, first)].mode != OPEN:
         # explicit steps, which are short enough then, find out when
         return -1.0
     theta = high
     fired = max(0, first)
     roots = 0
-    while first >= 0 and roots < number_of_guards(S):
+    while first >= 0 and roots < number_of_guards(ws):
         if closed == 1 and roots == _MOST_ROOTS:
             return -1.0
-        if closed == 1 and roots > _FEW_ROOTS and guard_at(S, w, k, first).first < 0.0:
+        if closed == 1 and roots > _FEW_ROOTS and ws.guards[first].first < 0.0:
             return -1.0
         roots += 1
         later = theta
-        theta = _event_fraction(S, w, k, h, later, first, closed)
-        if roots > 1 and S.guard_slope == -math.inf and (later - theta) * h <= S.time_tolerance:
+        theta = _event_fraction(ws, h, later, first, closed)
+        if roots > 1 and ws.guard_slope == -math.inf and (later - theta) * h <= ws.time_tolerance:
             # it jumps where the one before does
             first = -1
         else:
             fired = first
-            first = first_fired(S, w, k, closed, fired)
-        if first < 0 and S.n_astray + S.n_doubtful > 0:
-            earlier = _closed_before(S, w, k, h, theta, contact_of(S, fired))
+            first = first_fired(ws, closed, fired)
+        if first < 0 and ws.n_astray + ws.n_doubtful > 0:
+            earlier = _closed_before(ws, h, theta, contact_of(ws, fired))
             if earlier > 0.0:
-                theta, first = earlier, first_fired(S, w, k, closed, -1)
-            elif S.n_astray > 0:
-                guards_within(S, w, k, h, theta, closed)
+                theta, first = earlier, first_fired(ws, closed, -1)
+            elif ws.n_astray > 0:
+                guards_within(ws, h, theta, closed)
     if first >= 0:
         # guards that go on firing one before the other hide what closed before them
         return -1.0
-    S.trigger = fired
+    ws.trigger = fired
     step = theta * h
-    if S.guard_slope == -math.inf and _hides_another(S, w, k, step, fired) == 1:
+    if ws.guard_slope == -math.inf and _hides_another(ws, step, fired) == 1:
         return -1.0
     # a gap without a rate jumps where features come to face each other: there is nothing to follow on the step
     jumps = (
         1
-        if fired < first_own_guard(S)
-        and contact_at(S, w, k, contact_of(S, fired)).mode == OPEN
-        and is_gap(S, w, k, fired) == 0
+        if fired < first_own_guard(ws) and ws.contacts[contact_of(ws, fired)].mode == OPEN and is_gap(ws, fired) == 0
         else 0
     )
-    if S.step_error <= NEGLIGIBLE or jumps == 1:
-        state_within(S, w, k, h, theta, S.y_new)
+    if ws.step_error <= NEGLIGIBLE or jumps == 1:
+        state_within(ws, h, theta, ws.offsets.y_new)
         return step
-    if S.guard_slope == -math.inf:
-        return _behind_jump(S, w, k, step, fired)
-    step = _corrected(S, w, k, step, fired)
-    return -1.0 if step > 0.0 and _overtaken(S, w, k, fired) == 1 else step
+    if ws.guard_slope == -math.inf:
+        return _behind_jump(ws, step, fired)
+    step = _corrected(ws, step, fired)
+    return -1.0 if step > 0.0 and _overtaken(ws, fired) == 1 else step

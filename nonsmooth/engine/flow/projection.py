@@ -28,13 +28,7 @@ from nonsmooth.engine.memory.modes import (
     STICK,
 )
 from nonsmooth.engine.native.kernel import (
-    Floats,
-    Integers,
-    Scalars,
-    active_at,
-    articulation_at,
-    body_at,
-    contact_at,
+    Workspace,
     entry_point,
     frame_at,
     kernel,
@@ -52,306 +46,306 @@ _MOST_ITERATIONS = 5
 """Of Newton's method, which is quadratic: two or three do within the tolerances of a step."""
 
 
-@entry_point("f8(S, F, I, i8)")
-def project_rates(S: Scalars, w: Floats, k: Integers, at_event: int) -> float:
+@entry_point("f8(ws, i8)")
+def project_rates(ws: Workspace, at_event: int) -> float:
     """Bring gap rates of the active contacts, and slip velocities of those that do not slip, to zero.
 
     At an event (1) a slip that is only about to start counts as none: its direction would be that of round-off.  The
     correction is the damped impulse of least kinetic energy, without friction on sliding contacts.
     Returns the kinetic energy it removes [J]; the work of the driven bodies is booked.
     """
-    m = S.n_active
+    m = ws.n_active
     if m == 0:
         return 0.0
-    assemble_delassus(S, w, k)
+    assemble_delassus(ws)
     for a in range(m):
-        active = active_at(S, w, k, a)
+        active = ws.actives[a]
         c = active.slot
-        contact = contact_at(S, w, k, c)
+        contact = ws.contacts[c]
         active.normal_held = 1 if contact.normal_function == 0 else 0
         active.normal_force = 0.0
-        slow = max(abs(contact.rate[1]), abs(contact.rate[2])) <= S.velocity_tolerance
+        slow = max(abs(contact.rate[1]), abs(contact.rate[2])) <= ws.velocity_tolerance
         rubs = contact.traction_function != 0
         active.tangent_held = 1 if contact.mode == STICK or (at_event == 1 and slow and not rubs) else 0
         active.mu = 0.0
         for r in range(3):
             active.free[r] = contact.rate[r]
     part = _DAMPING if m > 1 else 0.0
-    _damp(S, w, k, part)
-    resolve(S, w, k)
-    add_response(S, w, k, S.active_forces, S.y + S.n_q)
+    _damp(ws, part)
+    resolve(ws)
+    add_response(ws, ws.offsets.active_forces, ws.offsets.y + ws.n_q)
     loss = 0.0
     for a in range(m):
-        active = active_at(S, w, k, a)
+        active = ws.actives[a]
         c = active.slot
-        contact = contact_at(S, w, k, c)
+        contact = ws.contacts[c]
         for r in range(3):
             impulse = active.force[r]
-            damping = diagonal_block(S, w, k, a).entries[4 * r] * part / (1.0 + part)
+            damping = diagonal_block(ws, a).entries[4 * r] * part / (1.0 + part)
             loss -= 0.5 * impulse * (contact.rate[r] - damping * impulse)
-            S.driven_work -= impulse * contact.prescribed_rate[r]
+            ws.driven_work -= impulse * contact.prescribed_rate[r]
     return loss
 
 
-@kernel("void(S, F, I, f8)")
-def _damp(S: Scalars, w: Floats, k: Integers, part: float) -> None:
+@kernel("void(ws, f8)")
+def _damp(ws: Workspace, part: float) -> None:
     """Add a part of its diagonal to the Delassus matrix of the active contacts."""
-    for a in range(S.n_active):
+    for a in range(ws.n_active):
         for r in range(3):
-            diagonal_block(S, w, k, a).entries[4 * r] *= 1.0 + part
+            diagonal_block(ws, a).entries[4 * r] *= 1.0 + part
 
 
-@kernel("i8(S, F, I)")
-def _add_gaps(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _add_gaps(ws: Workspace) -> int:
     """Add to ``y_stage`` the velocities that bring the gaps of the active contacts to zero in unit time, along K W.
 
     They are those of damped least squares, damped the more the nearer the gaps are to what the tolerances explain.
     Return 1, or 0 where no gap is left, or one that nothing explains.
     """
-    m = S.n_active
+    m = ws.n_active
     worst = share = 0.0
     for a in range(m):
-        active = active_at(S, w, k, a)
+        active = ws.actives[a]
         c = active.slot
-        contact = contact_at(S, w, k, c)
-        gap = abs(held_gap(S, w, k, c)) if contact.normal_function == 0 else 0.0
+        contact = ws.contacts[c]
+        gap = abs(held_gap(ws, c)) if contact.normal_function == 0 else 0.0
         worst = max(worst, gap)
-        share = max(share, gap / explained_gap(S, w, k, c))
-    if worst <= NOUGHT * S.gap_tolerance or share > 1.0:
+        share = max(share, gap / explained_gap(ws, c))
+    if worst <= NOUGHT * ws.gap_tolerance or share > 1.0:
         return 0
-    assemble_delassus(S, w, k)
+    assemble_delassus(ws)
     for a in range(m):
-        active = active_at(S, w, k, a)
+        active = ws.actives[a]
         c = active.slot
-        contact = contact_at(S, w, k, c)
+        contact = ws.contacts[c]
         active.normal_held = 1 if contact.normal_function == 0 else 0
         active.tangent_held = 0
         active.normal_force = active.mu = 0.0
-        active.free[0] = held_gap(S, w, k, c)
+        active.free[0] = held_gap(ws, c)
     if m > 1:
-        _damp(S, w, k, max(_DAMPING, (0.5 * share / _FARTHEST) ** 2))
-    resolve(S, w, k)
-    add_response(S, w, k, S.active_forces, S.y_stage + S.n_q)
+        _damp(ws, max(_DAMPING, (0.5 * share / _FARTHEST) ** 2))
+    resolve(ws)
+    add_response(ws, ws.offsets.active_forces, ws.offsets.y_stage + ws.n_q)
     return 1
 
 
-@kernel("f8(S, F, I)")
-def _stop_alone(S: Scalars, w: Floats, k: Integers) -> float:
+@kernel("f8(ws)")
+def _stop_alone(ws: Workspace) -> float:
     """Take gap and gap rate of an island of one rigid contact that slides, whose geometry and rates are at hand.
 
     The gap's velocity is added to ``y_stage``; return the kinetic energy that the other takes [J].
     """
-    c = active_at(S, w, k, 0).slot
-    contact = contact_at(S, w, k, c)
-    evaluate_row(S, w, k, c, 0, contact.axis_n)
-    evaluate_row_response(S, w, k, c, 0, 0)
-    own, gap, rate = coupling(S, w, k, c, 0, c, 0), held_gap(S, w, k, c), contact.rate[0]
+    c = ws.actives[0].slot
+    contact = ws.contacts[c]
+    evaluate_row(ws, c, 0, contact.axis_n)
+    evaluate_row_response(ws, c, 0, 0)
+    own, gap, rate = coupling(ws, c, 0, c, 0), held_gap(ws, c), contact.rate[0]
     if own <= 0.0:
         return 0.0
-    if NOUGHT * S.gap_tolerance < abs(gap) <= explained_gap(S, w, k, c):
-        push_response(S, w, k, c, 0, -gap / own, S.y_stage + S.n_q)
-    impulse, prescribed = -rate / own, rate - row(S, w, k, c, 0, S.free_velocities)
-    push_response(S, w, k, c, 0, impulse, S.y + S.n_q)
-    S.driven_work -= impulse * prescribed
+    if NOUGHT * ws.gap_tolerance < abs(gap) <= explained_gap(ws, c):
+        push_response(ws, c, 0, -gap / own, ws.offsets.y_stage + ws.n_q)
+    impulse, prescribed = -rate / own, rate - row(ws, c, 0, ws.free_velocities)
+    push_response(ws, c, 0, impulse, ws.offsets.y + ws.n_q)
+    ws.driven_work -= impulse * prescribed
     return float(-0.5 * impulse * rate)
 
 
-@kernel("i8(S, F, I)")
-def _slides_alone(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _slides_alone(ws: Workspace) -> int:
     """Return 1 if the active contact is one, rigid, and slides."""
-    contact = contact_at(S, w, k, active_at(S, w, k, 0).slot)
-    return 1 if S.n_active == 1 and contact.normal_function == 0 and contact.mode == SLIDE else 0
+    contact = ws.contacts[ws.actives[0].slot]
+    return 1 if ws.n_active == 1 and contact.normal_function == 0 and contact.mode == SLIDE else 0
 
 
 @kernel()
-def normalise_quaternions(S: Scalars, w: Floats, k: Integers) -> None:
+def normalise_quaternions(ws: Workspace) -> None:
     """Bring every body's unit quaternion back to unit length; one that is farther off than explained fails the run."""
-    for number in range(S.n_bodies):
-        body = body_at(S, w, k, number)
+    for number in range(ws.n_bodies):
+        body = ws.bodies[number]
         offset = body.quaternion
         if offset < 0:
             continue
-        q = S.y + body.q + offset
+        q = ws.offsets.y + body.q + offset
         square = 0.0
         for i in range(4):
-            square += w[q + i] * w[q + i]
+            square += ws.floats[q + i] * ws.floats[q + i]
         if abs(square - 1.0) <= _ROUND_OFF:
             continue
-        if abs(square - 1.0) > EXPLAINED * 4.0 * S.rtol:
-            blame(S, QUATERNION_UNEXPLAINED, number, math.sqrt(square) - 1.0, EXPLAINED * 2.0 * S.rtol)
+        if abs(square - 1.0) > EXPLAINED * 4.0 * ws.rtol:
+            blame(ws, QUATERNION_UNEXPLAINED, number, math.sqrt(square) - 1.0, EXPLAINED * 2.0 * ws.rtol)
         factor = 1.0 / math.sqrt(square)
         for i in range(4):
-            w[q + i] *= factor
+            ws.floats[q + i] *= factor
 
 
-@kernel("f8(S, F, i8)")
-def _explained_motion(S: Scalars, w: Floats, i: int) -> float:
+@kernel("f8(ws, i8)")
+def _explained_motion(ws: Workspace, i: int) -> float:
     """Return how far a correction may move coordinate ``i``, by the tolerances of steps, gaps and event times."""
-    step = S.rtol * (w[S.y_scale + i] + abs(w[S.y + i]))
-    return float(_FARTHEST * EXPLAINED * (step + S.gap_tolerance + S.time_tolerance * abs(w[S.slopes + i])))
+    step = ws.rtol * (ws.y_scale[i] + abs(ws.y[i]))
+    return float(_FARTHEST * EXPLAINED * (step + ws.gap_tolerance + ws.time_tolerance * abs(ws.slopes[i])))
 
 
-@kernel("f8(S, F, I, i8, i8)")
-def _speed_at(S: Scalars, w: Floats, k: Integers, c: int, number: int) -> float:
+@kernel("f8(ws, i8, i8)")
+def _speed_at(ws: Workspace, c: int, number: int) -> float:
     """Return how fast the witness point of contact ``c`` on a body moves [m/s], 0 where the contact is of others."""
-    contact, fastest = contact_at(S, w, k, c), 0.0
+    contact, fastest = ws.contacts[c], 0.0
     for side in range(2):
         if (contact.body_a if side == 0 else contact.body_b) == number:
-            frame = frame_at(w, contact.frame_a if side == 0 else contact.frame_b)
+            frame = frame_at(ws.floats, contact.frame_a if side == 0 else contact.frame_b)
             point = contact.point_a if side == 0 else contact.point_b
             velocity = minus(frame.velocity, cross(minus(point, frame.origin), frame.spin))
             fastest = max(fastest, math.sqrt(dot(velocity, velocity)))
     return float(fastest)
 
 
-@kernel("f8(S, F, I, i8, i8)")
-def _motion_by_gaps(S: Scalars, w: Floats, k: Integers, number: int, i: int) -> float:
+@kernel("f8(ws, i8, i8)")
+def _motion_by_gaps(ws: Workspace, number: int, i: int) -> float:
     """Return how far coordinate ``i`` of a body may move as its closed contacts lose what is explained of their gaps.
 
     What a tolerance of lengths says of angles depends on the levers: each contact alone is let push the body until its
     witness point has moved so far.
     """
-    body, total = body_at(S, w, k, number), 0.0
-    for place in range(S.n_grouped):
-        c = k[S.grouped + place]
-        if contact_at(S, w, k, c).normal_function != 0:
+    body, total = ws.bodies[number], 0.0
+    for place in range(ws.n_grouped):
+        c = ws.grouped[place]
+        if ws.contacts[c].normal_function != 0:
             continue
-        for j in range(S.n_y):
-            w[S.y_guess + j] = w[S.y + j] if j < S.n_q else 0.0
-        push_response(S, w, k, c, 0, 1.0, S.y_guess + S.n_q)
-        evaluate_body(S, w, k, S.t, S.y_guess, number)
-        speed = _speed_at(S, w, k, c, number)
+        for j in range(ws.n_y):
+            ws.y_guess[j] = ws.y[j] if j < ws.n_q else 0.0
+        push_response(ws, c, 0, 1.0, ws.offsets.y_guess + ws.n_q)
+        evaluate_body(ws, ws.t, ws.offsets.y_guess, number)
+        speed = _speed_at(ws, c, number)
         if speed > 0.0:
-            total += abs(w[body.tail + i]) * explained_gap(S, w, k, c) / speed
-    evaluate_body(S, w, k, S.t, S.y_stage, number)
+            total += abs(ws.floats[body.tail + i]) * explained_gap(ws, c) / speed
+    evaluate_body(ws, ws.t, ws.offsets.y_stage, number)
     return float(_FARTHEST * total)
 
 
-@kernel("i8(S, F, I, i8)")
-def _is_displaced(S: Scalars, w: Floats, k: Integers, number: int) -> int:
+@kernel("i8(ws, i8)")
+def _is_displaced(ws: Workspace, number: int) -> int:
     """Return 1 if the velocities in ``y_stage`` move a body."""
-    body = body_at(S, w, k, number)
-    first = S.y_stage + S.n_q + body.u
+    body = ws.bodies[number]
+    first = ws.offsets.y_stage + ws.n_q + body.u
     for i in range(first, first + body.nu):
-        if w[i] != 0.0:
+        if ws.floats[i] != 0.0:
             return 1
     return 0
 
 
-@kernel("void(S, F, I)")
-def _displace(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def _displace(ws: Workspace) -> None:
     """Move the bodies by the velocities in ``y_stage`` for unit time, unless the tolerances do not explain so much."""
     # dq = B du: let the bodies turn the displacement into coordinate rates
-    for number in range(S.n_bodies):
-        body = body_at(S, w, k, number)
-        if _is_displaced(S, w, k, number) == 0:
+    for number in range(ws.n_bodies):
+        body = ws.bodies[number]
+        if _is_displaced(ws, number) == 0:
             continue
-        evaluate_body(S, w, k, S.t, S.y_stage, number)
+        evaluate_body(ws, ws.t, ws.offsets.y_stage, number)
         for i in range(body.nq):
-            motion, most = w[body.tail + i], _explained_motion(S, w, body.q + i)
+            motion, most = ws.floats[body.tail + i], _explained_motion(ws, body.q + i)
             # asked only where it matters
             if abs(motion) > most:
-                most += _motion_by_gaps(S, w, k, number, i)
+                most += _motion_by_gaps(ws, number, i)
             if abs(motion) > most:
-                blame(S, MOTION_UNEXPLAINED, number, motion, most)
+                blame(ws, MOTION_UNEXPLAINED, number, motion, most)
                 return
-    for number in range(S.n_bodies):
-        body = body_at(S, w, k, number)
-        if _is_displaced(S, w, k, number) == 1:
+    for number in range(ws.n_bodies):
+        body = ws.bodies[number]
+        if _is_displaced(ws, number) == 1:
             for i in range(body.nq):
-                w[S.y + body.q + i] += w[body.tail + i]
-    normalise_quaternions(S, w, k)
+                ws.y[body.q + i] += ws.floats[body.tail + i]
+    normalise_quaternions(ws)
 
 
-@entry_point("f8(S, F, I, i8, i8)")
-def project_closed(S: Scalars, w: Floats, k: Integers, at_event: int, averaged: int) -> float:
+@entry_point("f8(ws, i8, i8)")
+def project_closed(ws: Workspace, at_event: int, averaged: int) -> float:
     """Put the closed contacts on their constraints, island by island; return the energy that this removes [J].
 
     What the gaps take counts at an event (1); within a step it is the error of the step, which no energy paid for.
     Of islands whose forces are ``averaged`` (1) only these come to rest, where that ends; else only the others (0).
     """
     if at_event == 1:
-        group_closed(S, w, k)
-    if S.n_grouped == 0:
+        group_closed(ws)
+    if ws.n_grouped == 0:
         return 0.0
-    evaluate_bodies(S, w, k, S.t, S.y)
-    for i in range(S.n_y):
-        w[S.y_stage + i] = w[S.y + i] if i < S.n_q else 0.0
+    evaluate_bodies(ws, ws.t, ws.offsets.y)
+    for i in range(ws.n_y):
+        ws.y_stage[i] = ws.y[i] if i < ws.n_q else 0.0
     loss = 0.0
     moved = 0
-    for group in range(S.n_groups):
-        activate_group(S, w, k, group)
-        if is_averaged(S, w, k) != averaged:
+    for group in range(ws.n_groups):
+        activate_group(ws, group)
+        if is_averaged(ws) != averaged:
             continue
         past = 0.0
-        for a in range(S.n_active):
-            active = active_at(S, w, k, a)
+        for a in range(ws.n_active):
+            active = ws.actives[a]
             c = active.slot
-            contact = contact_at(S, w, k, c)
-            evaluate_kinematics(S, w, k, c)
+            contact = ws.contacts[c]
+            evaluate_kinematics(ws, c)
             past = max(past, contact.beyond)
-        if past > S.gap_tolerance:
+        if past > ws.gap_tolerance:
             # behind the end of a feature its rate is that of another one; the event that comes drops the contact
             continue
-        if at_event == 0 and _slides_alone(S, w, k) == 1:
-            loss += _stop_alone(S, w, k)
+        if at_event == 0 and _slides_alone(ws) == 1:
+            loss += _stop_alone(ws)
             moved += 1
             continue
-        for a in range(S.n_active):
-            evaluate_jacobian(S, w, k, active_at(S, w, k, a).slot)
-        loss += project_rates(S, w, k, at_event)
-        moved += _add_gaps(S, w, k)
+        for a in range(ws.n_active):
+            evaluate_jacobian(ws, ws.actives[a].slot)
+        loss += project_rates(ws, at_event)
+        moved += _add_gaps(ws)
     if moved > 0:
-        before = energy_of_bodies(S, w, k, 1)
-        _displace(S, w, k)
-        evaluate_free_bodies(S, w, k, S.t, S.y, 1)
+        before = energy_of_bodies(ws, 1)
+        _displace(ws)
+        evaluate_free_bodies(ws, ws.t, ws.offsets.y, 1)
         if at_event == 1:
-            loss += before - energy_of_bodies(S, w, k, 1)
+            loss += before - energy_of_bodies(ws, 1)
     return loss
 
 
 @entry_point()
-def project_joints(S: Scalars, w: Floats, k: Integers) -> None:
+def project_joints(ws: Workspace) -> None:
     """Bring residuals and rates of the joints to zero by the least motion, and evaluate the bodies there."""
     worst, before = 0.0, 1e300
     for iteration in range(_MOST_ITERATIONS):
-        evaluate_bodies(S, w, k, S.t, S.y)
-        for i in range(S.n_y):
-            w[S.y_stage + i] = w[S.y + i] if i < S.n_q else 0.0
+        evaluate_bodies(ws, ws.t, ws.offsets.y)
+        for i in range(ws.n_y):
+            ws.y_stage[i] = ws.y[i] if i < ws.n_q else 0.0
         worst = 0.0
-        for number in range(S.n_articulations):
-            residuals = articulation_at(S, w, k, number).residual
-            worst = max(worst, _add_correction(S, w, k, number, residuals, S.y_stage + S.n_q))
-        if iteration == 0 and worst > _explained_residual(S, w, k):
+        for number in range(ws.n_articulations):
+            residuals = ws.articulations[number].residual
+            worst = max(worst, _add_correction(ws, number, residuals, ws.offsets.y_stage + ws.n_q))
+        if iteration == 0 and worst > _explained_residual(ws):
             break
         # far from the origin round-off alone is more than the tolerance, and no iteration helps
-        if worst <= NOUGHT * S.gap_tolerance or worst > 0.5 * before or iteration == _MOST_ITERATIONS - 1:
+        if worst <= NOUGHT * ws.gap_tolerance or worst > 0.5 * before or iteration == _MOST_ITERATIONS - 1:
             break
         before = worst
-        _displace(S, w, k)
-    if not worst <= EXPLAINED * S.gap_tolerance and S.failed == RUNNING:
-        blame(S, JOINTS_APART, -1, worst, EXPLAINED * S.gap_tolerance)
-    for number in range(S.n_articulations):
-        _add_correction(S, w, k, number, articulation_at(S, w, k, number).rate, S.y + S.n_q)
+        _displace(ws)
+    if not worst <= EXPLAINED * ws.gap_tolerance and ws.failed == RUNNING:
+        blame(ws, JOINTS_APART, -1, worst, EXPLAINED * ws.gap_tolerance)
+    for number in range(ws.n_articulations):
+        _add_correction(ws, number, ws.articulations[number].rate, ws.offsets.y + ws.n_q)
 
 
-@kernel("f8(S, F, I)")
-def _explained_residual(S: Scalars, w: Floats, k: Integers) -> float:
+@kernel("f8(ws)")
+def _explained_residual(ws: Workspace) -> float:
     """Return the residual of a joint that the tolerances of steps explain [m or 1]."""
     size = 0.0
-    for i in range(S.n_q):
-        size = max(size, w[S.y_scale + i] + abs(w[S.y + i]))
-    return float(max(EXPLAINED * S.gap_tolerance, EXPLAINED * S.rtol * size))
+    for i in range(ws.n_q):
+        size = max(size, ws.y_scale[i] + abs(ws.y[i]))
+    return float(max(EXPLAINED * ws.gap_tolerance, EXPLAINED * ws.rtol * size))
 
 
-@kernel("f8(S, F, I, i8, i8, i8)")
-def _add_correction(S: Scalars, w: Floats, k: Integers, number: int, wrong: int, out: int) -> float:
+@kernel("f8(ws, i8, i8, i8)")
+def _add_correction(ws: Workspace, number: int, wrong: int, out: int) -> float:
     """Subtract Y^T times what is ``wrong``, residuals or rates, from the velocities; return the largest of it."""
-    articulation, worst = articulation_at(S, w, k, number), 0.0
+    articulation, worst = ws.articulations[number], 0.0
     n, first = articulation.nu, out + articulation.u
     for line in range(articulation.rows):
-        value = w[wrong + line]
+        value = ws.floats[wrong + line]
         worst = max(worst, abs(value))
         for i in range(n):
-            w[first + i] -= w[articulation.y + line * n + i] * value
+            ws.floats[first + i] -= ws.floats[articulation.y + line * n + i] * value
     return worst

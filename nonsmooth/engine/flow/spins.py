@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.memory.layout import LAST_STAGE, N_STAGES
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, body_at, kernel
+from nonsmooth.engine.native.kernel import Floats, Workspace, kernel
 from nonsmooth.engine.numerics.runge_kutta import dense_part, stage_part, weigh_part
 from nonsmooth.engine.numerics.vectors import Vector, cross, dot
 
@@ -36,10 +36,10 @@ def _turn(w: Floats, q: int, v: int, way: float, out: int) -> None:
     w[out + 2] = z + twice * (a * tz + sz)
 
 
-@kernel("i8(S, F, I, i8)")
-def _slopes(S: Scalars, w: Floats, k: Integers, number: int) -> int:
+@kernel("i8(ws, i8)")
+def _slopes(ws: Workspace, number: int) -> int:
     """Return where the slopes in space of one body's spin stand, those of one stage behind those of another."""
-    return int(S.spin_slopes + 3 * N_STAGES * number)
+    return int(ws.offsets.spin_slopes + 3 * N_STAGES * number)
 
 
 @kernel("i8(F, i8, i8)")
@@ -51,80 +51,85 @@ def _turns(w: Floats, spin: int, rate: int) -> int:
 
 
 @kernel()
-def choose_spins(S: Scalars, w: Floats, k: Integers) -> None:
+def choose_spins(ws: Workspace) -> None:
     """List the bodies whose spin turns from where the step begins: it is integrated along axes in space."""
-    S.n_turning = 0
-    for i in range(S.n_integrated):
-        number = k[S.integrated + i]
-        body = body_at(S, w, k, number)
-        u = S.n_q + body.u + body.spin
-        body.turns = _turns(w, S.y + u, S.slopes + u) if body.spin >= 0 else 0
+    ws.n_turning = 0
+    for i in range(ws.n_integrated):
+        number = ws.integrated[i]
+        body = ws.bodies[number]
+        u = ws.n_q + body.u + body.spin
+        body.turns = _turns(ws.floats, ws.offsets.y + u, ws.offsets.slopes + u) if body.spin >= 0 else 0
         if body.turns == 1:
-            k[S.turning_body + S.n_turning] = number
-            S.n_turning += 1
+            ws.turning_body[ws.n_turning] = number
+            ws.n_turning += 1
 
 
-@kernel("void(S, F, I, i8, i8)")
-def keep_spins(S: Scalars, w: Floats, k: Integers, stage: int, state: int) -> None:
+@kernel("void(ws, i8, i8)")
+def keep_spins(ws: Workspace, stage: int, state: int) -> None:
     """Keep the slopes of a stage, evaluated at ``state``, along axes in space; before the first one the spins, too.
 
     Those of its quaternions become what they are at the length that these had.
     """
-    for i in range(S.n_turning):
-        number = k[S.turning_body + i]
-        body = body_at(S, w, k, number)
-        q, u = body.q + body.quaternion, S.n_q + body.u + body.spin
-        slope = S.slopes + stage * S.n_y
-        _turn(w, state + q, slope + u, _TO_SPACE, _slopes(S, w, k, number) + 3 * stage)
+    for i in range(ws.n_turning):
+        number = ws.turning_body[i]
+        body = ws.bodies[number]
+        q, u = body.q + body.quaternion, ws.n_q + body.u + body.spin
+        slope = ws.offsets.slopes + stage * ws.n_y
+        _turn(ws.floats, state + q, slope + u, _TO_SPACE, _slopes(ws, number) + 3 * stage)
         if stage == 0:
-            _turn(w, state + q, state + u, _TO_SPACE, S.spin_start + 3 * number)
+            _turn(ws.floats, state + q, state + u, _TO_SPACE, ws.offsets.spin_start + 3 * number)
         elif stage < LAST_STAGE:
             for j in range(4):
-                w[slope + q + j] *= w[S.quaternion_length + number]
+                ws.floats[slope + q + j] *= ws.quaternion_length[number]
 
 
-@kernel("void(S, F, I, i8, f8, i8)")
-def stage_spins(S: Scalars, w: Floats, k: Integers, stage: int, h: float, out: int) -> None:
+@kernel("void(ws, i8, f8, i8)")
+def stage_spins(ws: Workspace, stage: int, h: float, out: int) -> None:
     """Write the spins of a stage to the state at ``out``, whose quaternions are those of the stage.
 
     They are brought to unit length where the step does not end: as long as they are the body would spin faster by
     their square.
     """
-    for i in range(S.n_turning):
-        number = k[S.turning_body + i]
-        body = body_at(S, w, k, number)
-        q, u = out + body.q + body.quaternion, out + S.n_q + body.u + body.spin
-        stage_part(S, w, S.stages, S.spin_start + 3 * number, _slopes(S, w, k, number), 3, 3, stage, h, u)
-        _turn(w, q, u, _TO_BODY, u)
+    for i in range(ws.n_turning):
+        number = ws.turning_body[i]
+        body = ws.bodies[number]
+        q, u = out + body.q + body.quaternion, out + ws.n_q + body.u + body.spin
+        stage_part(ws, ws.offsets.stages, ws.offsets.spin_start + 3 * number, _slopes(ws, number), 3, 3, stage, h, u)
+        _turn(ws.floats, q, u, _TO_BODY, u)
         if stage < LAST_STAGE:
-            square = w[q] * w[q] + w[q + 1] * w[q + 1] + w[q + 2] * w[q + 2] + w[q + 3] * w[q + 3]
+            square = (
+                ws.floats[q] * ws.floats[q]
+                + ws.floats[q + 1] * ws.floats[q + 1]
+                + ws.floats[q + 2] * ws.floats[q + 2]
+                + ws.floats[q + 3] * ws.floats[q + 3]
+            )
             size = math.sqrt(square)
-            w[S.quaternion_length + number] = size
+            ws.quaternion_length[number] = size
             factor = 1.0 / size
             for j in range(4):
-                w[q + j] *= factor
+                ws.floats[q + j] *= factor
 
 
-@kernel("void(S, F, I, f8, i8)")
-def weigh_spins(S: Scalars, w: Floats, k: Integers, h: float, out: int) -> None:
+@kernel("void(ws, f8, i8)")
+def weigh_spins(ws: Workspace, h: float, out: int) -> None:
     """Write the errors of the spins in a step of ``h`` to ``out``, along the bodies where the step ends."""
-    for i in range(S.n_turning):
-        number = k[S.turning_body + i]
-        body = body_at(S, w, k, number)
-        u = out + S.n_q + body.u + body.spin
-        weigh_part(S, w, S.error_weights, _slopes(S, w, k, number), 3, 3, h, u)
-        _turn(w, S.y_new + body.q + body.quaternion, u, _TO_BODY, u)
+    for i in range(ws.n_turning):
+        number = ws.turning_body[i]
+        body = ws.bodies[number]
+        u = out + ws.n_q + body.u + body.spin
+        weigh_part(ws, ws.offsets.error_weights, _slopes(ws, number), 3, 3, h, u)
+        _turn(ws.floats, ws.offsets.y_new + body.q + body.quaternion, u, _TO_BODY, u)
 
 
-@kernel("void(S, F, I, i8, v3, v3, i8)")
-def spin_within(S: Scalars, w: Floats, k: Integers, number: int, early: Vector, late: Vector, out: int) -> None:
+@kernel("void(ws, i8, v3, v3, i8)")
+def spin_within(ws: Workspace, number: int, early: Vector, late: Vector, out: int) -> None:
     """Write the spin of one body within the step to the state at ``out``, whose quaternion is the one there.
 
     An implicit step has its interpolant along the bodies.
     """
-    body = body_at(S, w, k, number)
-    if body.turns == 0 or S.stage_time > 0.0:
+    body = ws.bodies[number]
+    if body.turns == 0 or ws.stage_time > 0.0:
         return
-    u = out + S.n_q + body.u + body.spin
-    dense_part(w, S.spin_start + 3 * number, _slopes(S, w, k, number), 3, 3, early, late, u)
-    _turn(w, out + body.q + body.quaternion, u, _TO_BODY, u)
+    u = out + ws.n_q + body.u + body.spin
+    dense_part(ws.floats, ws.offsets.spin_start + 3 * number, _slopes(ws, number), 3, 3, early, late, u)
+    _turn(ws.floats, out + body.q + body.quaternion, u, _TO_BODY, u)

@@ -4,27 +4,31 @@ from __future__ import annotations
 
 from nonsmooth.engine.impact.guards import prepare_guards
 from nonsmooth.engine.impact.rates import EXPANSION, HELD, IDLE, STRIDE
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, impact_state, kernel
+from nonsmooth.engine.native.kernel import (
+    Workspace,
+    impact_state,
+    kernel,
+)
 
 
-@kernel("i8(S, F, I)")
-def change_clock(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def change_clock(ws: Workspace) -> int:
     """Give the last contact in action its own clock; go back to where it got it if it does not stay alone.
 
     Returns 1 if the clock has changed.
     """
     acting = 0
     last = -1
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         if active.phase != IDLE:
             acting += 1
             last = a
-    n = STRIDE * S.n_active
-    if S.lone < 0:
-        if acting != 1 or S.may_be_lone == 0:
+    n = STRIDE * ws.n_active
+    if ws.lone < 0:
+        if acting != 1 or ws.may_be_lone == 0:
             return 0
-        phase, state = active_at(S, w, k, last).phase, impact_state(w, S.impact_y, last)
+        phase, state = ws.actives[last].phase, impact_state(ws.floats, ws.offsets.impact_y, last)
         if phase == HELD:
             return 0
         if phase == EXPANSION and not state.energy > state.lost:
@@ -32,38 +36,38 @@ def change_clock(S: Scalars, w: Floats, k: Integers) -> int:
             # force has given all of it back long before the deformation, which ends the phase on the common clock
             return 0
         for i in range(n):
-            w[S.impact_kept + i] = w[S.impact_y + i]
-        _keep_phases(S, w, k)
-        S.lone = last
-        prepare_guards(S, w, k)
+            ws.impact_kept[i] = ws.impact_y[i]
+        _keep_phases(ws)
+        ws.lone = last
+        prepare_guards(ws)
         return 1
-    if acting == 0 or (acting == 1 and last == S.lone):
+    if acting == 0 or (acting == 1 and last == ws.lone):
         return 0
     for i in range(n):
-        w[S.impact_y + i] = w[S.impact_kept + i]
-    S.lone = -1
-    S.may_be_lone = 0
-    _restore_phases(S, w, k)
+        ws.impact_y[i] = ws.impact_kept[i]
+    ws.lone = -1
+    ws.may_be_lone = 0
+    _restore_phases(ws)
     return 1
 
 
-@kernel("void(S, F, I)")
-def _keep_phases(S: Scalars, w: Floats, k: Integers) -> None:
-    S.phases_kept = S.phases
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+@kernel()
+def _keep_phases(ws: Workspace) -> None:
+    ws.phases_kept = ws.phases
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         active.phase_kept, active.held_kept = active.phase, active.tangent_held
         active.stored_kept, active.returned_kept, active.booked_kept = active.stored, active.returned, active.booked
-        active.direction_kept = contact_at(S, w, k, active.slot).direction
+        active.direction_kept = ws.contacts[active.slot].direction
 
 
-@kernel("void(S, F, I)")
-def _restore_phases(S: Scalars, w: Floats, k: Integers) -> None:
-    S.phases = S.phases_kept
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        contact = contact_at(S, w, k, active.slot)
+@kernel()
+def _restore_phases(ws: Workspace) -> None:
+    ws.phases = ws.phases_kept
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        contact = ws.contacts[active.slot]
         active.phase, active.tangent_held = active.phase_kept, active.held_kept
         active.stored, active.returned, active.booked = active.stored_kept, active.returned_kept, active.booked_kept
         contact.direction = active.direction_kept
-    prepare_guards(S, w, k)
+    prepare_guards(ws)

@@ -8,7 +8,7 @@ from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.impact.rates import COMPRESSION, EXPANSION, IDLE, NOISE, efficiency, evaluate_impact_rates
 from nonsmooth.engine.impact.scales import REST
 from nonsmooth.engine.memory.blocks import DELASSUS
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, impact_state, kernel
+from nonsmooth.engine.native.kernel import Workspace, impact_state, kernel
 from nonsmooth.engine.numerics.linear import SINGULAR
 from nonsmooth.engine.numerics.vectors import length
 
@@ -21,11 +21,11 @@ SLOW_END, FAST_END = 1, 2
 """How an impact that was cut short is over: ``truncated`` holds it until the instant is settled."""
 
 
-@kernel("void(S, F, I, i8)")
-def account(S: Scalars, w: Floats, k: Integers, a: int) -> None:
+@kernel("void(ws, i8)")
+def account(ws: Workspace, a: int) -> None:
     """Book the work of the phase that ends at the active contact ``a``, or of the part of it so far."""
-    active = active_at(S, w, k, a)
-    state = impact_state(w, S.impact_y, a)
+    active = ws.actives[a]
+    state = impact_state(ws.floats, ws.offsets.impact_y, a)
     done = state.work - active.booked
     if active.phase == COMPRESSION:
         active.stored -= done
@@ -34,27 +34,27 @@ def account(S: Scalars, w: Floats, k: Integers, a: int) -> None:
     active.booked = state.work
 
 
-@kernel("void(S, F, i8)")
-def empty(S: Scalars, w: Floats, a: int) -> None:
+@kernel("void(ws, i8)")
+def empty(ws: Workspace, a: int) -> None:
     """Take the energy that is left of the active contact ``a``."""
-    state = impact_state(w, S.impact_y, a)
+    state = impact_state(ws.floats, ws.offsets.impact_y, a)
     state.deformation = state.energy = state.lost = 0.0
 
 
-@kernel("i8(S, F, I)")
-def finished(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def finished(ws: Workspace) -> int:
     """Return 1 if no contact is loaded: compressions that have not come to anything, and do not, are none."""
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        begins = a == S.lone or impact_state(w, S.impact_y, a).deformation > 0.0
-        comes = begins or active.gap_rate < -NOISE * S.speed_scale
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        begins = a == ws.lone or impact_state(ws.floats, ws.offsets.impact_y, a).deformation > 0.0
+        comes = begins or active.gap_rate < -NOISE * ws.speed_scale
         if active.phase == EXPANSION or (active.phase == COMPRESSION and comes):
             return 0
     return 1
 
 
-@kernel("i8(S, F, I)")
-def _trapped(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _trapped(ws: Workspace) -> int:
     """Return 1 if contacts are loaded, but none of them moves, and their forces move nothing.
 
     A point that joints let move across one line only is wedged where that line lies within the cone of friction: slip
@@ -64,64 +64,64 @@ def _trapped(S: Scalars, w: Floats, k: Integers) -> int:
     of the forces gives back, the square of it in parts of what is stored.
     """
     brought = 0.0
-    for a in range(S.n_active):
-        brought = max(brought, active_at(S, w, k, a).energy_scale)
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        brought = max(brought, ws.actives[a].energy_scale)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         loaded = active.phase == COMPRESSION or active.phase == EXPANSION
-        still = max(REST * math.sqrt(brought * diagonal_block(S, w, k, a).nn), S.slow_speed)
+        still = max(REST * math.sqrt(brought * diagonal_block(ws, a).nn), ws.slow_speed)
         if loaded and abs(active.gap_rate) > still:
             return 0
     size = left = stored = 0.0
     lightest = math.inf
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         if active.phase != IDLE:
-            stored += impact_state(w, S.impact_y, a).energy
-        lightest = min(lightest, 0.5 / diagonal_block(S, w, k, a).nn)
+            stored += impact_state(ws.floats, ws.offsets.impact_y, a).energy
+        lightest = min(lightest, 0.5 / diagonal_block(ws, a).nn)
         for r in range(3):
             total = total_size = 0.0
             for block in range(active.first_block, active.end_block):
-                force = active_at(S, w, k, k[S.block_column + block]).force
+                force = ws.actives[ws.block_column[block]].force
                 for s in range(3):
-                    part = w[S.delassus + DELASSUS * block + 3 * r + s] * force[s]
+                    part = ws.delassus[DELASSUS * block + 3 * r + s] * force[s]
                     total += part
                     total_size += abs(part)
             size, left = max(size, total_size), max(left, abs(total))
-    if left < max(SINGULAR, S.impact_rtol) * size:
+    if left < max(SINGULAR, ws.impact_rtol) * size:
         return 1
-    little = left * left * stored < size * size * lightest * S.slow_speed * S.slow_speed
+    little = left * left * stored < size * size * lightest * ws.slow_speed * ws.slow_speed
     return 1 if little and left < _LOCKED * size else 0
 
 
-@kernel("i8(S, F, I)")
-def end_trapped(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def end_trapped(ws: Workspace) -> int:
     """End the phases of contacts that are trapped, if they are (1); what they have stored is lost to restitution."""
-    if _trapped(S, w, k) == 0:
+    if _trapped(ws) == 0:
         return 0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         if active.phase == COMPRESSION or active.phase == EXPANSION:
-            account(S, w, k, a)
+            account(ws, a)
             active.phase = IDLE
             active.tangent_held = 0
-            empty(S, w, a)
-            S.phases += 1
+            empty(ws, a)
+            ws.phases += 1
     return 1
 
 
-@kernel("i8(S, F, I)")
-def faded(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def faded(ws: Workspace) -> int:
     """Return 1 if what is left of the impact, stored or about to be, is below the tolerance, or too slow to bounce."""
-    small = max(S.impact_rtol, 1e-11)
+    small = max(ws.impact_rtol, 1e-11)
     # behind the impact, what is within the tolerance of velocities is no approach
-    slowest = max(S.slow_speed, S.velocity_tolerance)
-    slow = max(slowest, small * S.speed_scale)
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        state = impact_state(w, S.impact_y, a)
+    slowest = max(ws.slow_speed, ws.velocity_tolerance)
+    slow = max(slowest, small * ws.speed_scale)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        state = impact_state(ws.floats, ws.offsets.impact_y, a)
         stored = state.energy if active.phase != IDLE else 0.0
-        least = max(small * small * active.energy_scale, 0.5 * slowest * slowest / diagonal_block(S, w, k, a).nn)
+        least = max(small * small * active.energy_scale, 0.5 * slowest * slowest / diagonal_block(ws, a).nn)
         if active.gap_rate < -slow or stored > least:
             return 0
         if active.gap_rate > slow and stored > 0.0 and active.phase == EXPANSION:
@@ -130,32 +130,32 @@ def faded(S: Scalars, w: Floats, k: Integers) -> int:
 
 
 @kernel()
-def cut_short(S: Scalars, w: Floats, k: Integers) -> None:
+def cut_short(ws: Workspace) -> None:
     """End a cascade of ever smaller compressions; what still approaches is for the instant to stop."""
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        account(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        account(ws, a)
         active.phase = IDLE
         active.tangent_held = 0
-        empty(S, w, a)
-    S.truncated = 1
+        empty(ws, a)
+    ws.truncated = 1
 
 
-@kernel("void(S, F, I)")
-def finish(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def finish(ws: Workspace) -> None:
     """Hand over the impulses and the energies."""
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        state = impact_state(w, S.impact_y, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        state = impact_state(ws.floats, ws.offsets.impact_y, a)
         for r in range(3):
             active.impulse[r] = state.impulse[r]
-        account(S, w, k, a)
+        account(ws, a)
         active.rubbed = state.rubbed
-    evaluate_impact_rates(S, w, k, S.impact_y)
+    evaluate_impact_rates(ws, ws.offsets.impact_y)
 
 
-@kernel("i8(S, F, I)")
-def how_over(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def how_over(ws: Workspace) -> int:
     """Return how an impact of the active contacts is over that has been cut short, 0 if it is not.
 
     SLOW_END: next to nothing approaches.  Contacts that slip may feed each other's bounces for as long as they do,
@@ -167,12 +167,12 @@ def how_over(S: Scalars, w: Floats, k: Integers) -> int:
     """
     before = behind = slip = 0.0
     loses = 1
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         before = max(before, abs(active.rate_before[0]), abs(active.rate_before[1]), abs(active.rate_before[2]))
         behind = max(behind, -active.gap_rate)
         slip = max(slip, length(active.slip))
-        if not min(efficiency(S, w, k, a, 0.0), efficiency(S, w, k, a, 1e-300)) < 1.0:
+        if not min(efficiency(ws, a, 0.0), efficiency(ws, a, 1e-300)) < 1.0:
             loses = 0
     if behind <= _NEXT_TO_NOTHING * before:
         return SLOW_END

@@ -12,11 +12,7 @@ from nonsmooth.engine.impact.guards import GUARDS, RATE_GUARD
 from nonsmooth.engine.impact.rates import COMPRESSION, EXPANSION, HELD, NOISE, evaluate_impact_rates, normal_force
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.engine.native.kernel import (
-    Floats,
-    Integers,
-    Scalars,
-    active_at,
-    contact_at,
+    Workspace,
     entry_point,
     impact_state,
     kernel,
@@ -28,104 +24,107 @@ _IDLE = 1e-10
 
 
 @kernel()
-def _stop_slips(S: Scalars, w: Floats, k: Integers) -> None:
+def _stop_slips(ws: Workspace) -> None:
     """Bring the slip velocities of the contacts at rest to exactly zero, by the impulses of least norm.
 
     What is left there is round-off, but its direction would stiffen the slip that starts from it.
     """
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         active.normal_held = 0
         active.tangent_held = active.at_rest
         active.normal_force = active.mu = 0.0
         for r in range(3):
             active.free[r] = active.rate[r]
-    resolve(S, w, k)
-    for a in range(S.n_active):
-        active, state = active_at(S, w, k, a), impact_state(w, S.impact_y, a)
+    resolve(ws)
+    for a in range(ws.n_active):
+        active, state = ws.actives[a], impact_state(ws.floats, ws.offsets.impact_y, a)
         for r in range(1, 3):
             state.impulse[r] += active.force[r]
-    evaluate_impact_rates(S, w, k, S.impact_y)
+    evaluate_impact_rates(ws, ws.offsets.impact_y)
 
 
-@kernel("void(S, F, I)")
-def _polish(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def _polish(ws: Workspace) -> None:
     """Make the directions of slips that start exact: next to the bound they decide whether and where these go."""
-    S.acceleration_scale = 0.0
-    for a in range(S.n_active):
-        active, own = active_at(S, w, k, a), diagonal_block(S, w, k, a)
+    ws.acceleration_scale = 0.0
+    for a in range(ws.n_active):
+        active, own = ws.actives[a], diagonal_block(ws, a)
         active.given = 1 if active.phase == COMPRESSION or active.phase == EXPANSION else 0
         active.mode_tried = STICK if active.tangent_held == 1 else SLIDE
         if active.normal_force <= 0.0:
             active.mode_tried = OPEN
         active.direction_found = active.direction
-        S.acceleration_scale = max(S.acceleration_scale, max(own.nn, own.t11, own.t22) * abs(active.normal_force))
-    if polish(S, w, k) == 0:
-        for a in range(S.n_active):
-            active = active_at(S, w, k, a)
+        ws.acceleration_scale = max(ws.acceleration_scale, max(own.nn, own.t11, own.t22) * abs(active.normal_force))
+    if polish(ws) == 0:
+        for a in range(ws.n_active):
+            active = ws.actives[a]
             active.direction = active.direction_found
-        hold_tried(S, w, k)
+        hold_tried(ws)
 
 
-@kernel("void(S, F, I)")
-def _hold_idle(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def _hold_idle(ws: Workspace) -> None:
     """Let stick who was found on its bound but does not start to slip.
 
     Where several contacts share their friction at will, some stand on their bounds by chance.
     """
     largest = 0.0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        largest = max(largest, diagonal_block(S, w, k, a).nn * active.normal_force)
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        largest = max(largest, diagonal_block(ws, a).nn * active.normal_force)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         if active.at_rest == 1 and active.tangent_held == 0 and active.mu_static > 0.0:
-            growth = add_product(S, w, k, 0.0, a, 1, S.active_forces), add_product(S, w, k, 0.0, a, 2, S.active_forces)
+            growth = (
+                add_product(ws, 0.0, a, 1, ws.offsets.active_forces),
+                add_product(ws, 0.0, a, 2, ws.offsets.active_forces),
+            )
             if length(growth) <= _IDLE * largest:
                 active.tangent_held = 1
 
 
-@kernel("i8(S, F, I, i8)")
-def _gets_away(S: Scalars, w: Floats, k: Integers, a: int) -> int:
+@kernel("i8(ws, i8)")
+def _gets_away(ws: Workspace, a: int) -> int:
     """Return 1 if the active contact ``a`` slips faster and faster where a contact begins or ends to be pressed.
 
     No force jumps there.  To stop the slip would turn the rates of others by what it has, and it would start again.
     """
-    active = active_at(S, w, k, a)
-    if S.trigger < 0 or S.trigger % GUARDS != RATE_GUARD or length(active.slip) <= NOISE * S.speed_scale:
+    active = ws.actives[a]
+    if ws.trigger < 0 or ws.trigger % GUARDS != RATE_GUARD or length(active.slip) <= NOISE * ws.speed_scale:
         return 0
-    growth = active.slip[0] * add_product(S, w, k, 0.0, a, 1, S.active_forces)
-    growth += active.slip[1] * add_product(S, w, k, 0.0, a, 2, S.active_forces)
+    growth = active.slip[0] * add_product(ws, 0.0, a, 1, ws.offsets.active_forces)
+    growth += active.slip[1] * add_product(ws, 0.0, a, 2, ws.offsets.active_forces)
     return 1 if growth > 0.0 else 0
 
 
-@entry_point("void(S, F, I, f8)")
-def choose_friction(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
+@entry_point("void(ws, f8)")
+def choose_friction(ws: Workspace, probe: float) -> None:
     """Decide which contacts at rest stick and which way the others start to slide.
 
     ``probe`` is the pseudo-time after which forces are compared where none has built up yet.
     """
-    evaluate_impact_rates(S, w, k, S.impact_y)
+    evaluate_impact_rates(ws, ws.offsets.impact_y)
     open_question = 0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         speed = length(active.slip)
-        active.mu_static = friction_coefficient(S, w, k, active.slot, 0.0)
-        active.mu = slip_coefficient(S, w, k, active.slot, speed)
-        slow = (speed <= active.rest_slip and _gets_away(S, w, k, a) == 0) or active.tangent_held == 1
+        active.mu_static = friction_coefficient(ws, active.slot, 0.0)
+        active.mu = slip_coefficient(ws, active.slot, speed)
+        slow = (speed <= active.rest_slip and _gets_away(ws, a) == 0) or active.tangent_held == 1
         # without friction nothing holds a contact, and nothing can stop a slip, however slow
         active.at_rest = 1 if slow and (active.mu_static > 0.0 or (speed == 0.0 and active.mu > 0.0)) else 0
         open_question = max(open_question, active.at_rest)
     if open_question == 1:
-        _stop_slips(S, w, k)
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        state = impact_state(w, S.impact_y, a)
+        _stop_slips(ws)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        state = impact_state(ws.floats, ws.offsets.impact_y, a)
         c = active.slot
-        contact = contact_at(S, w, k, c)
+        contact = ws.contacts[c]
         v1, v2 = active.slip
         speed = length(active.slip)
-        active.mu = slip_coefficient(S, w, k, c, speed)
+        active.mu = slip_coefficient(ws, c, speed)
         if speed == 0.0 and max(active.mu, active.mu_static) > 0.0:
             # stopping the slips of others has stopped this one, too
             active.at_rest = 1
@@ -135,31 +134,31 @@ def choose_friction(S: Scalars, w: Floats, k: Integers, probe: float) -> None:
         active.normal_force = 0.0
         if active.phase == COMPRESSION or active.phase == EXPANSION:
             x = x if x > 0.0 else -probe * active.gap_rate
-            active.normal_force = normal_force(S, w, k, a, x)
+            active.normal_force = normal_force(ws, a, x)
         active.direction = contact.direction
         if active.at_rest == 0 and speed > 0.0:
             active.direction = v1 / speed, v2 / speed
-        friction_of_slip(S, w, k, a)
+        friction_of_slip(ws, a)
     if open_question == 1:
-        for i in range(3 * S.n_active):
-            w[S.free_accelerations + i] = 0.0
-        gauss_seidel(S, w, k, SWEEPS)
-        _polish(S, w, k)
-        _hold_idle(S, w, k)
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+        for i in range(3 * ws.n_active):
+            ws.free_accelerations[i] = 0.0
+        gauss_seidel(ws, SWEEPS)
+        _polish(ws)
+        _hold_idle(ws)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         c = active.slot
-        contact = contact_at(S, w, k, c)
+        contact = ws.contacts[c]
         if active.normal_force <= 0.0:
             active.tangent_held = 0
         contact.direction = active.direction
 
 
-@kernel("void(S, F, I, i8)")
-def break_away(S: Scalars, w: Floats, k: Integers, a: int) -> None:
+@kernel("void(ws, i8)")
+def break_away(ws: Workspace, a: int) -> None:
     """Let the active contact ``a`` slip against the friction that held it."""
-    active = active_at(S, w, k, a)
-    contact = contact_at(S, w, k, active.slot)
+    active = ws.actives[a]
+    contact = ws.contacts[active.slot]
     t1, t2 = active.friction
     norm = length(active.friction)
     active.tangent_held = 0

@@ -41,11 +41,7 @@ from nonsmooth.engine.impact.scales import grow_scales, scale_impact
 from nonsmooth.engine.impact.step import let_go, try_impact_step, try_linear_step
 from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.native.kernel import (
-    Floats,
-    Integers,
-    Scalars,
-    active_at,
-    contact_at,
+    Workspace,
     entry_point,
     impact_state,
     kernel,
@@ -85,75 +81,75 @@ _NO_RETURN = 2.0**-52
 """Efficiencies up to the spacing of doubles at one count as none: what is lost is then all that was stored."""
 
 
-@kernel("void(S, F, I, f8, i8)")
-def _switch(S: Scalars, w: Floats, k: Integers, probe: float, trigger: int) -> None:
+@kernel("void(ws, f8, i8)")
+def _switch(ws: Workspace, probe: float, trigger: int) -> None:
     """Change the phases whose guards have come to zero, ``trigger`` among them; they are evaluated."""
     friction = 0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        state = impact_state(w, S.impact_y, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        state = impact_state(ws.floats, ws.offsets.impact_y, a)
         guard = GUARDS * a
         phase = active.phase
         loaded = phase == EXPANSION or phase == COMPRESSION
         if loaded and (trigger == guard + ENERGY_GUARD or active.energy_guard < TOGETHER):
-            account(S, w, k, a)
-            contact_at(S, w, k, active.slot).waves += 1
+            account(ws, a)
+            ws.contacts[active.slot].waves += 1
             active.phase = IDLE
             # a contact that opens under load leaves the others with forces that they did not have
             friction += 1 if state.lost > 0.0 else 0
-            empty(S, w, a)
+            empty(ws, a)
             active.tangent_held = 0
-            S.phases += 1
+            ws.phases += 1
             continue
         if trigger == guard + RATE_GUARD or active.rate_guard < TOGETHER:
-            friction += _turn(S, w, k, a)
-            S.phases += 1
+            friction += _turn(ws, a)
+            ws.phases += 1
             # where joints leave a line to move on, slip and approach come to rest together
-            friction += _rests(S, w, k, a)
+            friction += _rests(ws, a)
         elif trigger == guard + FRICTION_GUARD or active.friction_guard < TOGETHER:
-            S.phases += 1
+            ws.phases += 1
             if active.tangent_held == 1:
-                break_away(S, w, k, a)
+                break_away(ws, a)
             else:
                 # a slip that only turned far from its first direction goes on
                 v1, v2 = active.slip
                 speed = length(active.slip)
-                contact = contact_at(S, w, k, active.slot)
+                contact = ws.contacts[active.slot]
                 if speed > active.rest_slip:
                     contact.direction = v1 / speed, v2 / speed
                 else:
                     friction = 1
     if friction > 0:
-        choose_friction(S, w, k, probe)
-    prepare_guards(S, w, k)
+        choose_friction(ws, probe)
+    prepare_guards(ws)
 
 
-@kernel("i8(S, F, I, i8)")
-def _rests(S: Scalars, w: Floats, k: Integers, a: int) -> int:
+@kernel("i8(ws, i8)")
+def _rests(ws: Workspace, a: int) -> int:
     """Return 1 if the active contact ``a``, which slides, has come to rest."""
-    active = active_at(S, w, k, a)
+    active = ws.actives[a]
     if active.tangent_held == 1 or active.mu == 0.0:
         return 0
     return 1 if length(active.slip) <= active.rest_slip else 0
 
 
-@kernel("i8(S, F, I, i8)")
-def _turn(S: Scalars, w: Floats, k: Integers, a: int) -> int:
+@kernel("i8(ws, i8)")
+def _turn(ws: Workspace, a: int) -> int:
     """Change the normal phase of the active contact ``a``; return 1 if friction must be chosen anew."""
-    active = active_at(S, w, k, a)
-    state = impact_state(w, S.impact_y, a)
+    active = ws.actives[a]
+    state = impact_state(ws.floats, ws.offsets.impact_y, a)
     phase = active.phase
     if phase == COMPRESSION:
-        account(S, w, k, a)
-        share = efficiency(S, w, k, a, 0.0)
-        if min(share, efficiency(S, w, k, a, 1e-300)) > _NO_RETURN:
+        account(ws, a)
+        share = efficiency(ws, a, 0.0)
+        if min(share, efficiency(ws, a, 1e-300)) > _NO_RETURN:
             active.phase = EXPANSION
             state.lost = (1.0 - share) * state.energy
             return 0
         # without restitution the stored energy is lost at once and the contact stays closed
-        empty(S, w, a)
+        empty(ws, a)
         active.phase = HELD
-        evaluate_impact_forces(S, w, k, S.impact_y)
+        evaluate_impact_forces(ws, ws.offsets.impact_y)
         if active.normal_force < 0.0:
             active.phase = IDLE
         return 1
@@ -162,304 +158,305 @@ def _turn(S: Scalars, w: Floats, k: Integers, a: int) -> int:
         active.tangent_held = 0
         return 0
     if phase == EXPANSION:
-        account(S, w, k, a)
-        contact_at(S, w, k, active.slot).waves += 1
+        account(ws, a)
+        ws.contacts[active.slot].waves += 1
     active.phase = COMPRESSION
     return 1 if phase == IDLE else 0
 
 
-@kernel("void(S, F, I, f8, f8)")
-def start_impact(S: Scalars, w: Floats, k: Integers, probe: float, seed: float) -> None:
+@kernel("void(ws, f8, f8)")
+def start_impact(ws: Workspace, probe: float, seed: float) -> None:
     """Set the phases in which the active contacts start, and their friction."""
-    for i in range(STRIDE * S.n_active):
-        w[S.impact_y + i] = 0.0
-    S.phases = 0
-    S.trigger = -1
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        state = impact_state(w, S.impact_y, a)
+    for i in range(STRIDE * ws.n_active):
+        ws.impact_y[i] = 0.0
+    ws.phases = 0
+    ws.trigger = -1
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        state = impact_state(ws.floats, ws.offsets.impact_y, a)
         active.stored = active.returned = active.booked = 0.0
         active.tangent_held = 0
-        pushed = active.gap_rate_before < -NOISE * S.speed_scale
-        if seed > 0.0 and contact_at(S, w, k, active.slot).impacting == 1:
+        pushed = active.gap_rate_before < -NOISE * ws.speed_scale
+        if seed > 0.0 and ws.contacts[active.slot].impacting == 1:
             # an impact without collision starts from a seed of deformation instead of a speed
             pushed = True
             state.deformation = 1e-3 * active.deformation_scale
         active.phase = COMPRESSION if pushed else IDLE
-        S.phases += 1 if pushed else 0
-    choose_friction(S, w, k, probe)
+        ws.phases += 1 if pushed else 0
+    choose_friction(ws, probe)
     # a resting contact that the others press in takes part from the start
     pressed = 0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        growth = add_product(S, w, k, 0.0, a, 0, S.active_forces)
-        if active.phase == IDLE and growth < 0.0 and active.gap_rate_before <= S.rest_speed:
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        growth = add_product(ws, 0.0, a, 0, ws.offsets.active_forces)
+        if active.phase == IDLE and growth < 0.0 and active.gap_rate_before <= ws.rest_speed:
             active.phase = COMPRESSION
-            S.phases += 1
+            ws.phases += 1
             pressed = 1
     if pressed == 1:
-        choose_friction(S, w, k, probe)
+        choose_friction(ws, probe)
 
 
-@kernel("i8(S, F, I)")
-def _stopping(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _stopping(ws: Workspace) -> int:
     """Return 1 if some slip has come next to rest and is still slowing down, or does not get away from there."""
     slow = 0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         if active.phase == IDLE or active.tangent_held == 1 or active.mu == 0.0:
             continue
         v1, v2 = active.slip
         if length(active.slip) > active.rest_slip:
             continue
-        power = v1 * add_product(S, w, k, 0.0, a, 1, S.active_forces) + v2 * add_product(
-            S, w, k, 0.0, a, 2, S.active_forces
+        power = v1 * add_product(ws, 0.0, a, 1, ws.offsets.active_forces) + v2 * add_product(
+            ws, 0.0, a, 2, ws.offsets.active_forces
         )
         slow = 1
         if power < 0.0:
-            S.slow_steps = _PATIENCE
-    S.slow_steps = S.slow_steps + 1 if slow == 1 else 0
-    if S.slow_steps <= _PATIENCE:
+            ws.slow_steps = _PATIENCE
+    ws.slow_steps = ws.slow_steps + 1 if slow == 1 else 0
+    if ws.slow_steps <= _PATIENCE:
         return 0
-    S.slow_steps = 0
+    ws.slow_steps = 0
     return 1
 
 
 @kernel()
-def _fade(S: Scalars, w: Floats, k: Integers) -> None:
+def _fade(ws: Workspace) -> None:
     """End what is left, below the tolerance, at contacts that the wave has passed.
 
     They start again at twice the rate, so that the two do not chase each other.
     """
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        contact = contact_at(S, w, k, active.slot)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        contact = ws.contacts[active.slot]
         passed = active.phase == EXPANSION or (active.phase == COMPRESSION and contact.waves > 0)
         # the energy is known to the tolerance only, the deformation better
         weak = (
-            active.normal_force * impact_state(w, S.impact_y, a).deformation <= S.faint * S.faint * active.energy_scale
+            active.normal_force * impact_state(ws.floats, ws.offsets.impact_y, a).deformation
+            <= ws.faint * ws.faint * active.energy_scale
         )
-        if passed and weak and abs(active.gap_rate) <= 0.5 * S.faint * S.speed_scale:
-            account(S, w, k, a)
+        if passed and weak and abs(active.gap_rate) <= 0.5 * ws.faint * ws.speed_scale:
+            account(ws, a)
             contact.waves += 1
             active.phase = IDLE
             active.tangent_held = 0
-            empty(S, w, a)
-            S.phases += 1
-    prepare_guards(S, w, k)
+            empty(ws, a)
+            ws.phases += 1
+    prepare_guards(ws)
 
 
-@kernel("i8(S, F, I)")
-def _leaves(S: Scalars, w: Floats, k: Integers) -> int:
+@kernel("i8(ws)")
+def _leaves(ws: Workspace) -> int:
     """Return 1 if a contact at the rim of the window acts, so that its neighbours may be missing."""
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        if active.phase != IDLE and contact_at(S, w, k, active.slot).rim == 1:
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        if active.phase != IDLE and ws.contacts[active.slot].rim == 1:
             return 1
     return 0
 
 
-@entry_point("i8(S, F, I, f8)")
-def energetic_impact(S: Scalars, w: Floats, k: Integers, seed: float) -> int:
+@entry_point("i8(ws, f8)")
+def energetic_impact(ws: Workspace, seed: float) -> int:
     """Carry the active contacts from the rates ``impact_z0`` through the impact; return how it ended.
 
     Leaves the impulses in ``impulse`` and, per active contact, the energies ``stored`` in compression,
     ``returned`` in expansion and ``rubbed`` away by friction.  An impact without collision needs a speed for its
     ``seed`` [m/s], others have none.
     """
-    S.lone = 0 if S.n_active == 1 else -1
-    S.may_be_lone = 1
-    S.truncated = 0
-    S.slow_steps = 0
-    shortest = scale_impact(S, w, k, seed)
+    ws.lone = 0 if ws.n_active == 1 else -1
+    ws.may_be_lone = 1
+    ws.truncated = 0
+    ws.slow_steps = 0
+    shortest = scale_impact(ws, seed)
     if not shortest > 0.0:
         return INVALID
-    h = first_step(S, shortest)
-    start_impact(S, w, k, h, seed)
-    return run_impact(S, w, k, h, shortest, 0)
+    h = first_step(ws, shortest)
+    start_impact(ws, h, seed)
+    return run_impact(ws, h, shortest, 0)
 
 
-@kernel("f8(S, f8)")
-def first_step(S: Scalars, shortest: float) -> float:
+@kernel("f8(ws, f8)")
+def first_step(ws: Workspace, shortest: float) -> float:
     """Return the first step of an impact whose shortest compression takes the time given."""
-    return shortest * (_FAR if S.n_active == 1 else float(S.impact_rtol) ** _FIRST)
+    return shortest * (_FAR if ws.n_active == 1 else float(ws.impact_rtol) ** _FIRST)
 
 
-@entry_point("i8(S, F, I, f8, f8, i8)")
-def run_impact(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, windowed: int) -> int:
+@entry_point("i8(ws, f8, f8, i8)")
+def run_impact(ws: Workspace, h: float, shortest: float, windowed: int) -> int:
     """Integrate from the phases and the state at hand, with a first step of ``h``; return how it ended.
 
     The active contacts are all of the impact, or those of a window of it (1).
     """
-    S.aimed = -1
-    prepare_guards(S, w, k)
-    write_impact_slope(S, w, k, S.impact_slopes)
+    ws.aimed = -1
+    prepare_guards(ws)
+    write_impact_slope(ws, ws.offsets.impact_slopes)
     before, error_before = 0.0, 1.0
     for _step in range(MOST_STEPS):
-        if interrupted(S, 8 * S.n_active) == 1:
+        if interrupted(ws, 8 * ws.n_active) == 1:
             return ENDLESS
-        if finished(S, w, k) == 1:
-            finish(S, w, k)
+        if finished(ws) == 1:
+            finish(ws)
             return FINISHED
-        S.aimed = -1
-        let_go(S, w, k)
-        h = aim(S, w, k, h) if S.lone >= 0 else _graded(S, w, k, h)
-        linear = try_linear_step(S, w, k, h) if S.aimed >= 0 else 0
-        error = try_impact_step(S, w, k, h) if linear == 0 else 0.0
-        S.impact_steps += 1
+        ws.aimed = -1
+        let_go(ws)
+        h = aim(ws, h) if ws.lone >= 0 else _graded(ws, h)
+        linear = try_linear_step(ws, h) if ws.aimed >= 0 else 0
+        error = try_impact_step(ws, h) if linear == 0 else 0.0
+        ws.impact_steps += 1
         if not error <= 1.0:
             if not error < math.inf and h < NOISE * shortest:
                 # a law that still has no finite value has none
                 return INVALID
-            h *= _shorter(S, error)
+            h *= _shorter(ws, error)
             continue
-        located = _step_to_switch(S, w, k, h, linear)
+        located = _step_to_switch(ws, h, linear)
         if not located <= TRUSTED:
             if not located < math.inf and h < NOISE * shortest:
                 return INVALID
             h *= 0.25
             continue
-        for i in range(STRIDE * S.n_active):
-            w[S.impact_y + i] = w[S.impact_new + i]
-        grow_scales(S, w, k)
-        _stop(S, w, k)
-        if S.trigger < 0:
+        for i in range(STRIDE * ws.n_active):
+            ws.impact_y[i] = ws.impact_new[i]
+        grow_scales(ws)
+        _stop(ws)
+        if ws.trigger < 0:
             factor, error = step_factor(error), max(_LEAST_ERROR, error)
-            if before > 0.0 and S.lone < 0:
+            if before > 0.0 and ws.lone < 0:
                 factor = min(factor, trend(error, error_before, h / before))
             before, error_before = h, error
             h *= factor
-            _go_on(S, w, k, shortest)
+            _go_on(ws, shortest)
             continue
         before = 0.0
-        h = _pass_switch(S, w, k, h, shortest, windowed)
-        if windowed == 1 and S.lone < 0 and _leaves(S, w, k) == 1:
-            S.impact_h = h
+        h = _pass_switch(ws, h, shortest, windowed)
+        if windowed == 1 and ws.lone < 0 and _leaves(ws) == 1:
+            ws.impact_h = h
             return MOVED
-        write_impact_slope(S, w, k, S.impact_slopes)
-    cut_short(S, w, k)
-    finish(S, w, k)
+        write_impact_slope(ws, ws.offsets.impact_slopes)
+    cut_short(ws)
+    finish(ws)
     return ENDLESS
 
 
-@kernel("f8(S, f8)")
-def _shorter(S: Scalars, error: float) -> float:
+@kernel("f8(ws, f8)")
+def _shorter(ws: Workspace, error: float) -> float:
     """Return by what part a step of that error is too long, one in which slips settle by the order that it has left."""
     if not error < math.inf:
         return 0.1
-    return max(SHRINK, SAFETY * error**_SETTLING) if S.turning == 1 else float(step_factor(error))
+    return max(SHRINK, SAFETY * error**_SETTLING) if ws.turning == 1 else float(step_factor(error))
 
 
-@kernel("void(S, F, I)")
-def _stop(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def _stop(ws: Workspace) -> None:
     """Let stick what the step has stopped; an implicit one leaves slips in any direction."""
-    if S.turning == 1:
-        S.turning = 0
-        _orient(S, w, k)
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        S.phases += active.halted
+    if ws.turning == 1:
+        ws.turning = 0
+        _orient(ws)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        ws.phases += active.halted
         active.halted = 0
 
 
-@kernel("f8(S, F, I, f8, i8)")
-def _step_to_switch(S: Scalars, w: Floats, k: Integers, h: float, linear: int) -> float:
+@kernel("f8(ws, f8, i8)")
+def _step_to_switch(ws: Workspace, h: float, linear: int) -> float:
     """Shorten the accepted step to the first guard that fires in it, kept in ``trigger``; return the error of that.
 
     It is 0 where none fires, and ``trigger`` -1, or where the step was aimed at the guard.
     """
     # the last stage has left the forces at the end of the step
-    write_impact_guards(S, w, k, S.impact_new)
-    S.trigger = fired_guard(S, w, k, -1)
-    met = S.aimed >= 0 and abs(w[S.impact_guard + max(0, S.aimed)]) <= _at_event(S, w, k)
-    if met and (S.trigger < 0 or S.trigger == S.aimed):
-        S.trigger = S.aimed
-    elif S.trigger >= 0:
+    write_impact_guards(ws, ws.offsets.impact_new)
+    ws.trigger = fired_guard(ws, -1)
+    met = ws.aimed >= 0 and abs(ws.impact_guard[max(0, ws.aimed)]) <= _at_event(ws)
+    if met and (ws.trigger < 0 or ws.trigger == ws.aimed):
+        ws.trigger = ws.aimed
+    elif ws.trigger >= 0:
         if linear == 1:
             # locating takes the interpolant of the full step
-            try_impact_step(S, w, k, h)
-            write_impact_guards(S, w, k, S.impact_new)
-        return float(locate_switch(S, w, k, h))
+            try_impact_step(ws, h)
+            write_impact_guards(ws, ws.offsets.impact_new)
+        return float(locate_switch(ws, h))
     return 0.0
 
 
-@kernel("void(S, F, I, f8)")
-def _go_on(S: Scalars, w: Floats, k: Integers, shortest: float) -> None:
+@kernel("void(ws, f8)")
+def _go_on(ws: Workspace, shortest: float) -> None:
     """Prepare the next step where no guard has fired in the last."""
-    if _stopping(S, w, k) == 1:
+    if _stopping(ws) == 1:
         # close to rest the direction of the slip is stiff, and what is left of it below the tolerance
-        choose_friction(S, w, k, first_step(S, shortest))
-        prepare_guards(S, w, k)
-        end_trapped(S, w, k)
-        write_impact_slope(S, w, k, S.impact_slopes)
-        S.phases += 1
+        choose_friction(ws, first_step(ws, shortest))
+        prepare_guards(ws)
+        end_trapped(ws)
+        write_impact_slope(ws, ws.offsets.impact_slopes)
+        ws.phases += 1
         return
-    _orient(S, w, k)
-    if end_trapped(S, w, k) == 1:
-        prepare_guards(S, w, k)
-        write_impact_slope(S, w, k, S.impact_slopes)
+    _orient(ws)
+    if end_trapped(ws) == 1:
+        prepare_guards(ws)
+        write_impact_slope(ws, ws.offsets.impact_slopes)
         return
-    arm_impact_guards(S, w, k)
-    n = STRIDE * S.n_active
+    arm_impact_guards(ws)
+    n = STRIDE * ws.n_active
     for i in range(n):
-        w[S.impact_slopes + i] = w[S.impact_slopes + LAST_STAGE * n + i]
+        ws.impact_slopes[i] = ws.impact_slopes[LAST_STAGE * n + i]
 
 
-@kernel("f8(S, F, I, f8, f8, i8)")
-def _pass_switch(S: Scalars, w: Floats, k: Integers, h: float, shortest: float, windowed: int) -> float:
+@kernel("f8(ws, f8, f8, i8)")
+def _pass_switch(ws: Workspace, h: float, shortest: float, windowed: int) -> float:
     """Change the phases at the guard that fired, and the clock, and end what is over; return the next step."""
-    following = max(h, shortest * S.impact_rtol**_FIRST)
-    if S.lone >= 0:
-        following = _FAR * active_at(S, w, k, S.lone).impulse_scale
-    _switch(S, w, k, first_step(S, shortest), S.trigger)
-    if S.n_active > 1 and change_clock(S, w, k) == 1:
-        following = shortest if S.lone < 0 else _FAR * active_at(S, w, k, S.lone).impulse_scale
-    if S.phases > _LONG * (S.n_colliding if windowed == 1 else S.n_active) and faded(S, w, k) == 1:
-        cut_short(S, w, k)
-    end_trapped(S, w, k)
+    following = max(h, shortest * ws.impact_rtol**_FIRST)
+    if ws.lone >= 0:
+        following = _FAR * ws.actives[ws.lone].impulse_scale
+    _switch(ws, first_step(ws, shortest), ws.trigger)
+    if ws.n_active > 1 and change_clock(ws) == 1:
+        following = shortest if ws.lone < 0 else _FAR * ws.actives[ws.lone].impulse_scale
+    if ws.phases > _LONG * (ws.n_colliding if windowed == 1 else ws.n_active) and faded(ws) == 1:
+        cut_short(ws)
+    end_trapped(ws)
     if windowed == 1:
-        _fade(S, w, k)
+        _fade(ws)
     return float(following)
 
 
-@kernel("f8(S, F, I)")
-def _at_event(S: Scalars, w: Floats, k: Integers) -> float:
+@kernel("f8(ws)")
+def _at_event(ws: Workspace) -> float:
     """Return how near zero the guard that is aimed at counts as fired.
 
     Of a contact that opens under load the energy guard is what is still to come back, a part of all that may be small.
     """
-    a = S.lone
-    active = active_at(S, w, k, a)
-    state = impact_state(w, S.impact_y, a)
+    a = ws.lone
+    active = ws.actives[a]
+    state = impact_state(ws.floats, ws.offsets.impact_y, a)
     lost = state.lost
-    if S.aimed != GUARDS * a + ENERGY_GUARD or lost == 0.0:
+    if ws.aimed != GUARDS * a + ENERGY_GUARD or lost == 0.0:
         return _AT_EVENT
-    share = efficiency(S, w, k, a, 0.0)
+    share = efficiency(ws, a, 0.0)
     returned = lost * share / ((1.0 - share) * active.energy_scale)
     return float(_AT_EVENT * min(1.0, returned))
 
 
-@kernel("void(S, F, I)")
-def _orient(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def _orient(ws: Workspace) -> None:
     """Take the present slip directions as those of the step that begins."""
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         v1, v2 = active.slip
         speed = length(active.slip)
         if active.phase != IDLE and active.tangent_held == 0 and speed > active.rest_slip:
-            contact = contact_at(S, w, k, active.slot)
+            contact = ws.contacts[active.slot]
             contact.direction = v1 / speed, v2 / speed
-            active.friction_guard = NOISE + speed / S.speed_scale
+            active.friction_guard = NOISE + speed / ws.speed_scale
 
 
-@kernel("f8(S, F, I, f8)")
-def _graded(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+@kernel("f8(ws, f8)")
+def _graded(ws: Workspace, h: float) -> float:
     """Shorten the step towards the end of an expansion, where the force law is not smooth, geometrically."""
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        state = impact_state(w, S.impact_y, a)
-        x, rate = state.deformation, impact_state(w, S.impact_slopes, a).deformation
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        state = impact_state(ws.floats, ws.offsets.impact_y, a)
+        x, rate = state.deformation, impact_state(ws.floats, ws.offsets.impact_slopes, a).deformation
         goes = active.phase == EXPANSION and h * rate < -_SHARE * x
-        if goes and x > _LAST * S.impact_rtol**0.4 * active.deformation_scale:
+        if goes and x > _LAST * ws.impact_rtol**0.4 * active.deformation_scale:
             h = -_SHARE * x / rate
     return h

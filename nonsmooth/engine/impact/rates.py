@@ -14,13 +14,9 @@ from nonsmooth.engine.contact.forces import friction_of_slip, resolve
 from nonsmooth.engine.contact.problem import follow_slip
 from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.native.kernel import (
-    Floats,
-    Integers,
-    Scalars,
-    active_at,
+    Workspace,
     at,
     call_scalar,
-    contact_at,
     entry_point,
     impact_state,
     kernel,
@@ -38,123 +34,123 @@ NOISE = 1e-12
 """Rates below this, relative to the impact speed, do not switch a phase."""
 
 
-@kernel("f8(S, F, I, i8, f8)")
-def normal_force(S: Scalars, w: Floats, k: Integers, a: int, x: float) -> float:
+@kernel("f8(ws, i8, f8)")
+def normal_force(ws: Workspace, a: int, x: float) -> float:
     """Return the force of the active contact ``a`` at the deformation ``x``, Eq. (20)."""
-    active = active_at(S, w, k, a)
-    if a == S.lone:
+    active = ws.actives[a]
+    if a == ws.lone:
         return 1.0
     if x <= 0.0:
         return 0.0
-    contact = contact_at(S, w, k, active.slot)
-    return call_scalar(contact.force_function, x, at(w, contact.force_parameters))
+    contact = ws.contacts[active.slot]
+    return call_scalar(contact.force_function, x, at(ws.floats, contact.force_parameters))
 
 
-@kernel("f8(S, F, I, i8, f8)")
-def efficiency(S: Scalars, w: Floats, k: Integers, a: int, rate: float) -> float:
+@kernel("f8(ws, i8, f8)")
+def efficiency(ws: Workspace, a: int, rate: float) -> float:
     """Return the efficiency of the energy transfer of the active contact ``a``, Eq. (28)."""
-    active = active_at(S, w, k, a)
+    active = ws.actives[a]
     if active.lossless == 1:
         return 1.0
-    contact = contact_at(S, w, k, active.slot)
-    return call_scalar(contact.efficiency_function, rate, at(w, contact.efficiency_parameters))
+    contact = ws.contacts[active.slot]
+    return call_scalar(contact.efficiency_function, rate, at(ws.floats, contact.efficiency_parameters))
 
 
-@kernel("void(S, F, I, i8, i8)")
-def write_rates(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> None:
+@kernel("void(ws, i8, i8)")
+def write_rates(ws: Workspace, a: int, y: int) -> None:
     """Write z = z_0 + G P of the active contact ``a``, its gap rate and slip velocity, at the impact state ``y``."""
-    active = active_at(S, w, k, a)
+    active = ws.actives[a]
     z0, (z1, z2) = active.gap_rate_before, active.slip_before
     for block in range(active.first_block, active.end_block):
-        p = impact_state(w, y, k[S.block_column + block]).impulse
+        p = impact_state(ws.floats, y, ws.block_column[block]).impulse
         p0, p1, p2 = p[0], p[1], p[2]
-        g = at(w, S.delassus + DELASSUS * block)
+        g = at(ws.floats, ws.offsets.delassus + DELASSUS * block)
         z0 += g[0] * p0 + g[1] * p1 + g[2] * p2
         z1 += g[3] * p0 + g[4] * p1 + g[5] * p2
         z2 += g[6] * p0 + g[7] * p1 + g[8] * p2
     active.gap_rate, active.slip = z0, (z1, z2)
 
 
-@kernel("void(S, F, I, i8)")
-def evaluate_impact_rates(S: Scalars, w: Floats, k: Integers, y: int) -> None:
+@kernel("void(ws, i8)")
+def evaluate_impact_rates(ws: Workspace, y: int) -> None:
     """Write the rates of all active contacts at the impact state ``y``."""
-    for a in range(S.n_active):
-        write_rates(S, w, k, a, y)
+    for a in range(ws.n_active):
+        write_rates(ws, a, y)
 
 
-@kernel("i8(S, F, I, i8, i8)")
-def _act(S: Scalars, w: Floats, k: Integers, a: int, y: int) -> int:
+@kernel("i8(ws, i8, i8)")
+def _act(ws: Workspace, a: int, y: int) -> int:
     """Write rates and force of the active contact ``a`` at the impact state ``y``; return 1 if it is held in part.
 
     An idle one has no force; its rates are for its guard alone, and written with that.
     """
-    active = active_at(S, w, k, a)
+    active = ws.actives[a]
     phase, loaded = active.phase, 0.0
     if phase == IDLE:
         active.normal_held, active.normal_force, active.friction = 0, 0.0, (0.0, 0.0)
         return 0
-    write_rates(S, w, k, a, y)
+    write_rates(ws, a, y)
     if phase == COMPRESSION or phase == EXPANSION:
-        loaded = normal_force(S, w, k, a, impact_state(w, y, a).deformation)
+        loaded = normal_force(ws, a, impact_state(ws.floats, y, a).deformation)
     active.normal_force = loaded
     active.normal_held = 1 if phase == HELD else 0
     if active.tangent_held == 1:
         return 1
-    follow_slip(S, w, k, a, active.slip, active.rest_slip)
-    friction_of_slip(S, w, k, a)
+    follow_slip(ws, a, active.slip, active.rest_slip)
+    friction_of_slip(ws, a)
     return int(active.normal_held)
 
 
 @kernel()
-def _hold(S: Scalars, w: Floats, k: Integers) -> None:
+def _hold(ws: Workspace) -> None:
     """Complete the forces of what is held."""
-    for i in range(3 * S.n_active):
-        w[S.free_accelerations + i] = 0.0
-    resolve(S, w, k)
+    for i in range(3 * ws.n_active):
+        ws.free_accelerations[i] = 0.0
+    resolve(ws)
 
 
-@entry_point("void(S, F, I, i8)")
-def evaluate_impact_forces(S: Scalars, w: Floats, k: Integers, y: int) -> None:
+@entry_point("void(ws, i8)")
+def evaluate_impact_forces(ws: Workspace, y: int) -> None:
     """Write the ``active_forces`` of the active contacts at the impact state ``y`` in the present phases."""
     held = 0
-    for a in range(S.n_active):
-        held += _act(S, w, k, a, y)
+    for a in range(ws.n_active):
+        held += _act(ws, a, y)
     if held > 0:
-        _hold(S, w, k)
+        _hold(ws)
 
 
-@entry_point("void(S, F, I, i8, i8)")
-def impact_slope(S: Scalars, w: Floats, k: Integers, y: int, out: int) -> None:
+@entry_point("void(ws, i8, i8)")
+def impact_slope(ws: Workspace, y: int, out: int) -> None:
     """Write d(P, x, W, D, E)/ds of all active contacts at the impact state ``y``."""
     held = 0
-    for a in range(S.n_active):
-        held += _act(S, w, k, a, y)
-        _write_slope(S, w, k, a, out)
+    for a in range(ws.n_active):
+        held += _act(ws, a, y)
+        _write_slope(ws, a, out)
     if held > 0:
-        _hold(S, w, k)
-        write_impact_slope(S, w, k, out)
+        _hold(ws)
+        write_impact_slope(ws, out)
 
 
-@kernel("void(S, F, I, i8)")
-def write_impact_slope(S: Scalars, w: Floats, k: Integers, out: int) -> None:
+@kernel("void(ws, i8)")
+def write_impact_slope(ws: Workspace, out: int) -> None:
     """Write the slope where rates and forces are evaluated."""
-    for a in range(S.n_active):
-        _write_slope(S, w, k, a, out)
+    for a in range(ws.n_active):
+        _write_slope(ws, a, out)
 
 
-@kernel("void(S, F, I, i8, i8)")
-def _write_slope(S: Scalars, w: Floats, k: Integers, a: int, out: int) -> None:
+@kernel("void(ws, i8, i8)")
+def _write_slope(ws: Workspace, a: int, out: int) -> None:
     """Write the slope of the active contact ``a``."""
-    active, slope = active_at(S, w, k, a), impact_state(w, out, a)
+    active, slope = ws.actives[a], impact_state(ws.floats, out, a)
     phase, rate, (v1, v2) = active.phase, active.gap_rate, active.slip
     force, (t1, t2) = active.normal_force, active.friction
     deforming = 0.0
     if phase == COMPRESSION:
         deforming = -rate
     elif phase == EXPANSION:
-        deforming = -rate / efficiency(S, w, k, a, max(rate, 1e-300))
+        deforming = -rate / efficiency(ws, a, max(rate, 1e-300))
     slope.normal_force, slope.friction = force, (t1, t2)
-    slope.deformation = 0.0 if a == S.lone else deforming
+    slope.deformation = 0.0 if a == ws.lone else deforming
     slope.work = slope.rubbed = 0.0
     if phase != IDLE:
         # the rates of an idle contact may be those of a rejected step, and not finite

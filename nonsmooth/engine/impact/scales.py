@@ -7,13 +7,9 @@ import math
 from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.native.kernel import (
-    Floats,
-    Integers,
-    Scalars,
-    active_at,
+    Workspace,
     at,
     call_scalar,
-    contact_at,
     impact_state,
     kernel,
 )
@@ -28,93 +24,93 @@ _MET = 1e-6
 """So close, relative to the energy, need the deformation be known that takes it up: it is a scale."""
 
 
-@kernel("f8(S, F, I, f8)")
-def scale_impact(S: Scalars, w: Floats, k: Integers, seed: float) -> float:
+@kernel("f8(ws, f8)")
+def scale_impact(ws: Workspace, seed: float) -> float:
     """Set the scales of speed, energy, impulse, deformation, force and rest; return the shortest time of a compression.
 
     A contact takes up no more energy than the fastest approach would bring to it, and no more than the approaches of
     all bring: next to one with a small coefficient of its own, others would else count as light.  No speed is slower
     than the ``seed``.
     """
-    m = S.n_active
-    S.speed_scale = seed
+    m = ws.n_active
+    ws.speed_scale = seed
     brought = 0.0
     for a in range(m):
-        active = active_at(S, w, k, a)
+        active = ws.actives[a]
         speed = max(seed, -active.gap_rate_before)
-        S.speed_scale = max(S.speed_scale, speed)
+        ws.speed_scale = max(ws.speed_scale, speed)
         if speed > 0.0:
-            brought = max(brought, speed * speed / diagonal_block(S, w, k, a).nn)
-    S.rest_speed = max(REST, CIRCLING * S.impact_rtol) * S.speed_scale
+            brought = max(brought, speed * speed / diagonal_block(ws, a).nn)
+    ws.rest_speed = max(REST, CIRCLING * ws.impact_rtol) * ws.speed_scale
     shortest = math.inf
     for a in range(m):
-        active = active_at(S, w, k, a)
-        energy = min(brought, S.speed_scale * S.speed_scale / diagonal_block(S, w, k, a).nn)
+        active = ws.actives[a]
+        energy = min(brought, ws.speed_scale * ws.speed_scale / diagonal_block(ws, a).nn)
         x = 1.0
         active.energy_scale = energy
         # the impulse that takes it up
-        active.impulse_scale = math.sqrt(energy / diagonal_block(S, w, k, a).nn)
-        if a != S.lone:
-            contact = contact_at(S, w, k, active.slot)
+        active.impulse_scale = math.sqrt(energy / diagonal_block(ws, a).nn)
+        if a != ws.lone:
+            contact = ws.contacts[active.slot]
             for _iteration in range(4):
-                force = call_scalar(contact.force_function, x, at(w, contact.force_parameters))
-                double = call_scalar(contact.force_function, 2.0 * x, at(w, contact.force_parameters))
+                force = call_scalar(contact.force_function, x, at(ws.floats, contact.force_parameters))
+                double = call_scalar(contact.force_function, 2.0 * x, at(ws.floats, contact.force_parameters))
                 if not (force > 0.0 and double > 0.5001 * force):
-                    S.culprit = active.slot
+                    ws.culprit = active.slot
                     return -1.0
                 if abs(energy - force * x) <= _MET * energy:
                     break
                 x *= (energy / (force * x)) ** (math.log(2.0) / math.log(2.0 * double / force))
         active.deformation_scale = x
         active.force_scale = energy / x
-        shortest = min(shortest, (energy if a == S.lone else x) / S.speed_scale)
-    _set_rest_slips(S, w, k)
+        shortest = min(shortest, (energy if a == ws.lone else x) / ws.speed_scale)
+    _set_rest_slips(ws)
     return shortest
 
 
-@kernel("f8(S, F, I, i8)")
-def reached_energy(S: Scalars, w: Floats, k: Integers, a: int) -> float:
+@kernel("f8(ws, i8)")
+def reached_energy(ws: Workspace, a: int) -> float:
     """Return the energy to which errors of the active contact ``a`` are relative: its scale, or what it has taken up.
 
     Where friction blocks the way of a light point, or slip presses bodies together, that is far more than its approach
     alone would bring.
     """
-    active, state = active_at(S, w, k, a), impact_state(w, S.impact_y, a)
+    active, state = ws.actives[a], impact_state(ws.floats, ws.offsets.impact_y, a)
     return float(max(active.energy_scale, abs(state.work), state.rubbed, state.energy))
 
 
-@kernel("void(S, F, I)")
-def grow_scales(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def grow_scales(ws: Workspace) -> None:
     """Let the slips that count as none grow with the energies, as the errors do."""
     grown = 0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        energy, own, scale = reached_energy(S, w, k, a), diagonal_block(S, w, k, a).nn, active.impulse_scale
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        energy, own, scale = reached_energy(ws, a), diagonal_block(ws, a).nn, active.impulse_scale
         if energy > own * (_GROWN * scale) ** 2:
             active.impulse_scale = math.sqrt(energy / own)
             grown = 1
     if grown == 1:
-        _set_rest_slips(S, w, k)
+        _set_rest_slips(ws)
 
 
 @kernel()
-def _set_rest_slips(S: Scalars, w: Floats, k: Integers) -> None:
-    for a in range(S.n_active):
-        active_at(S, w, k, a).rest_slip = _slip_at_rest(S, w, k, a)
+def _set_rest_slips(ws: Workspace) -> None:
+    for a in range(ws.n_active):
+        ws.actives[a].rest_slip = _slip_at_rest(ws, a)
 
 
-@kernel("f8(S, F, I, i8)")
-def _slip_at_rest(S: Scalars, w: Floats, k: Integers, a: int) -> float:
+@kernel("f8(ws, i8)")
+def _slip_at_rest(ws: Workspace, a: int) -> float:
     """Return the slip of the active contact ``a`` that counts as none: small by its energy, or within the error."""
-    active = active_at(S, w, k, a)
-    own = diagonal_block(S, w, k, a)
+    active = ws.actives[a]
+    own = diagonal_block(ws, a)
     moved = 0.0
     for block in range(active.first_block, active.end_block):
-        impulse = active_at(S, w, k, k[S.block_column + block]).impulse_scale
+        impulse = ws.actives[ws.block_column[block]].impulse_scale
         for i in range(3, 9):
-            moved = max(moved, abs(w[S.delassus + DELASSUS * block + i]) * impulse)
+            moved = max(moved, abs(ws.delassus[DELASSUS * block + i]) * impulse)
     mobility = max(own.t11, own.t22)
-    small = float(S.rest_speed)
+    small = float(ws.rest_speed)
     if mobility < own.nn:
         small *= math.sqrt(mobility / own.nn)
-    return float(max(small, CIRCLING * S.impact_rtol * moved))
+    return float(max(small, CIRCLING * ws.impact_rtol * moved))

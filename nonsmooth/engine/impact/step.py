@@ -28,7 +28,11 @@ from nonsmooth.engine.impact.scales import reached_energy
 from nonsmooth.engine.memory import implicit_tableau
 from nonsmooth.engine.memory.layout import LAST_STAGE, N_STAGES
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, active_at, contact_at, impact_state, kernel
+from nonsmooth.engine.native.kernel import (
+    Workspace,
+    impact_state,
+    kernel,
+)
 from nonsmooth.engine.numerics.runge_kutta import stage_state, weigh_slopes, write_implicit_interpolant
 from nonsmooth.engine.numerics.vectors import length
 
@@ -42,49 +46,49 @@ _STRAIGHT = 1e-13
 """Second differences of slopes below this, relative to the slopes, count as zero."""
 
 
-@kernel("f8(S, F, I, f8)")
-def try_impact_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+@kernel("f8(ws, f8)")
+def try_impact_step(ws: Workspace, h: float) -> float:
     """Take one step of ``h`` in pseudo-time to ``impact_new``; return its error relative to the tolerance.
 
     A slip that an implicit step stops is held from there on, unless it is tried anew.
     """
-    let_go(S, w, k)
-    n = STRIDE * S.n_active
+    let_go(ws)
+    n = STRIDE * ws.n_active
     for stage in range(1, N_STAGES):
-        out = S.impact_new if stage == LAST_STAGE else S.impact_stage
-        stage_state(S, w, S.stages, S.impact_y, S.impact_slopes, n, stage, h, out)
-        impact_slope(S, w, k, out, S.impact_slopes + stage * n)
-    weigh_slopes(S, w, S.error_weights, S.impact_slopes, n, h, S.impact_stage)
-    error = _relative_error(S, w, k, S.impact_stage)
+        out = ws.offsets.impact_new if stage == LAST_STAGE else ws.offsets.impact_stage
+        stage_state(ws, ws.offsets.stages, ws.offsets.impact_y, ws.offsets.impact_slopes, n, stage, h, out)
+        impact_slope(ws, out, ws.offsets.impact_slopes + stage * n)
+    weigh_slopes(ws, ws.offsets.error_weights, ws.offsets.impact_slopes, n, h, ws.offsets.impact_stage)
+    error = _relative_error(ws, ws.offsets.impact_stage)
     if not error <= 1.0:
-        if _is_stiff(S, w, k, h) == 1:
-            return min(_try_implicit_step(S, w, k, h), error)
-        evaluate_impact_rates(S, w, k, S.impact_new)
+        if _is_stiff(ws, h) == 1:
+            return min(_try_implicit_step(ws, h), error)
+        evaluate_impact_rates(ws, ws.offsets.impact_new)
     return error
 
 
-@kernel("void(S, F, I)")
-def let_go(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def let_go(ws: Workspace) -> None:
     """Forget the slips that the last try of a step has stopped, and that it was implicit."""
-    S.turning = 0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    ws.turning = 0
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         if active.halted == 1:
             active.halted = active.tangent_held = 0
 
 
-@kernel("f8(S, F, I, i8)")
-def _relative_error(S: Scalars, w: Floats, k: Integers, errors: int) -> float:
+@kernel("f8(ws, i8)")
+def _relative_error(ws: Workspace, errors: int) -> float:
     """Return the largest of the ``errors`` of a state, relative to the tolerance.
 
     Impulses count by the energy of what they move, energies are known to a part of what they are.
     """
     worst = 0.0
-    for a in range(S.n_active):
-        active, own = active_at(S, w, k, a), diagonal_block(S, w, k, a).entries
+    for a in range(ws.n_active):
+        active, own = ws.actives[a], diagonal_block(ws, a).entries
         if active.phase == IDLE:
             continue
-        error, energy = impact_state(w, errors, a), reached_energy(S, w, k, a)
+        error, energy = impact_state(ws.floats, errors, a), reached_energy(ws, a)
         p0, p1, p2 = error.impulse[0], error.impulse[1], error.impulse[2]
         moved = own[0] * p0 * p0 + own[1] * p0 * p1 + own[2] * p0 * p2
         moved = moved + own[3] * p1 * p0 + own[4] * p1 * p1 + own[5] * p1 * p2
@@ -102,147 +106,149 @@ def _relative_error(S: Scalars, w: Floats, k: Integers, errors: int) -> float:
             worst = deformed / active.deformation_scale
         if booked > worst * energy:
             worst = booked / energy
-    return worst / float(S.impact_rtol)
+    return worst / float(ws.impact_rtol)
 
 
-@kernel("i8(S, F, I, f8)")
-def _is_stiff(S: Scalars, w: Floats, k: Integers, h: float) -> int:
+@kernel("i8(ws, f8)")
+def _is_stiff(ws: Workspace, h: float) -> int:
     """Return 1 if a slip turns too fast for an explicit step of ``h``, and faster than it changes.
 
     One that passes close by rest does both at once, and where it goes hangs on every digit: that is for explicit steps.
     """
-    evaluate_impact_rates(S, w, k, S.impact_slopes)
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    evaluate_impact_rates(ws, ws.offsets.impact_slopes)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         for r in range(2):
             active.acceleration[1 + r] = active.slip[r] - active.rate_before[1 + r]
-    evaluate_impact_rates(S, w, k, S.impact_y)
-    for a in range(S.n_active):
-        active, own = active_at(S, w, k, a), diagonal_block(S, w, k, a)
-        turning = length(impact_state(w, S.impact_slopes, a).friction) * max(own.t11, own.t22)
+    evaluate_impact_rates(ws, ws.offsets.impact_y)
+    for a in range(ws.n_active):
+        active, own = ws.actives[a], diagonal_block(ws, a)
+        turning = length(impact_state(ws.floats, ws.offsets.impact_slopes, a).friction) * max(own.t11, own.t22)
         settled = active.tangent_held == 0 and turning > _SETTLING * length(active.slip_acceleration)
         if settled and h * turning > _STIFF * length(active.slip):
             return 1
     return 0
 
 
-@kernel("void(S, F, I, f8, i8, i8, i8)")
-def _lay_stage(S: Scalars, w: Floats, k: Integers, ahead: float, y: int, n: int, guess: int) -> None:
+@kernel("void(ws, f8, i8, i8, i8)")
+def _lay_stage(ws: Workspace, ahead: float, y: int, n: int, guess: int) -> None:
     """Write what is held, and what pushes, at the end of a stage that goes ``ahead`` from ``y``, its slope a guess."""
     for i in range(n):
-        w[y + i] += ahead * w[guess + i]
-    evaluate_impact_rates(S, w, k, y)
-    S.acceleration_scale = 0.0
-    for a in range(S.n_active):
-        active, state, own = active_at(S, w, k, a), impact_state(w, y, a), diagonal_block(S, w, k, a)
+        ws.floats[y + i] += ahead * ws.floats[guess + i]
+    evaluate_impact_rates(ws, y)
+    ws.acceleration_scale = 0.0
+    for a in range(ws.n_active):
+        active, state, own = ws.actives[a], impact_state(ws.floats, y, a), diagonal_block(ws, a)
         loaded = active.phase == COMPRESSION or active.phase == EXPANSION
         active.given, active.mode_tried, active.at_rest = 1 if loaded else 0, active.mode_past, 0
         if loaded:
-            active.normal_force = normal_force(S, w, k, a, state.deformation)
+            active.normal_force = normal_force(ws, a, state.deformation)
         if active.mode_past == SLIDE:
-            active.mu = slip_coefficient(S, w, k, active.slot, length(active.slip))
+            active.mu = slip_coefficient(ws, active.slot, length(active.slip))
             active.at_rest = 1 if active.mu > 0.0 else 0
-            t1, t2 = impact_state(w, guess, a).friction
+            t1, t2 = impact_state(ws.floats, guess, a).friction
             friction = length((t1, t2))
             if friction > 0.0:
                 active.direction = -t1 / friction, -t2 / friction
-        S.acceleration_scale = max(S.acceleration_scale, max(own.nn, own.t11, own.t22) * abs(active.normal_force))
+        ws.acceleration_scale = max(ws.acceleration_scale, max(own.nn, own.t11, own.t22) * abs(active.normal_force))
     for i in range(n):
-        w[y + i] -= ahead * w[guess + i]
-    evaluate_impact_rates(S, w, k, y)
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+        ws.floats[y + i] -= ahead * ws.floats[guess + i]
+    evaluate_impact_rates(ws, y)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         moves = active.mode_past == SLIDE and length(active.slip) > active.rest_slip
         active.free[0] = 0.0
         for r in range(1, 3):
             active.free[r] = active.rate[r] / ahead if moves else 0.0
 
 
-@kernel("i8(S, F, I, f8, i8)")
-def _solve_stage(S: Scalars, w: Floats, k: Integers, h: float, stage: int) -> int:
+@kernel("i8(ws, f8, i8)")
+def _solve_stage(ws: Workspace, h: float, stage: int) -> int:
     """Find the slope of a stage at the state that it leads to itself; return 1 if it is found.
 
     Friction of slips, which is stiff, is solved for; deformations are iterated.
     """
-    n = STRIDE * S.n_active
-    out = S.impact_new if stage == LAST_STAGE else S.impact_stage
-    here, guess, ahead = S.impact_slopes + stage * n, S.impact_guess, implicit_tableau.DIAGONAL * h
+    n = STRIDE * ws.n_active
+    out = ws.offsets.impact_new if stage == LAST_STAGE else ws.offsets.impact_stage
+    here, guess, ahead = ws.offsets.impact_slopes + stage * n, ws.offsets.impact_guess, implicit_tableau.DIAGONAL * h
     for i in range(n):
-        w[here + i] = w[here - n + i]
+        ws.floats[here + i] = ws.floats[here - n + i]
     for _iteration in range(implicit_tableau.ITERATIONS):
-        stage_state(S, w, S.implicit_stages, S.impact_y, S.impact_slopes, n, stage, h, out)
+        stage_state(ws, ws.offsets.implicit_stages, ws.offsets.impact_y, ws.offsets.impact_slopes, n, stage, h, out)
         for i in range(n):
-            w[guess + i] = w[here + i]
-        _lay_stage(S, w, k, ahead, out, n, guess)
-        if oppose_slips(S, w, k) == 0:
+            ws.floats[guess + i] = ws.floats[here + i]
+        _lay_stage(ws, ahead, out, n, guess)
+        if oppose_slips(ws) == 0:
             return 0
-        for a in range(S.n_active):
-            active, state = active_at(S, w, k, a), impact_state(w, out, a)
+        for a in range(ws.n_active):
+            active, state = ws.actives[a], impact_state(ws.floats, out, a)
             for r in range(3):
                 state.impulse[r] += ahead * active.force[r]
-        evaluate_impact_rates(S, w, k, out)
-        write_impact_slope(S, w, k, here)
+        evaluate_impact_rates(ws, out)
+        write_impact_slope(ws, here)
         for i in range(n):
             # of energies nothing depends
-            change = w[here + i] - w[guess + i] if i % STRIDE <= DEFORMATION else 0.0
-            w[guess + i] = ahead * change
+            change = ws.floats[here + i] - ws.floats[guess + i] if i % STRIDE <= DEFORMATION else 0.0
+            ws.floats[guess + i] = ahead * change
             if i % STRIDE >= DEFORMATION:
-                w[out + i] += ahead * w[here + i]
-        if _relative_error(S, w, k, guess) <= implicit_tableau.SETTLED:
+                ws.floats[out + i] += ahead * ws.floats[here + i]
+        if _relative_error(ws, guess) <= implicit_tableau.SETTLED:
             return 1
     return 0
 
 
-@kernel("f8(S, F, I, f8)")
-def _try_implicit_step(S: Scalars, w: Floats, k: Integers, h: float) -> float:
+@kernel("f8(ws, f8)")
+def _try_implicit_step(ws: Workspace, h: float) -> float:
     """Take one step of ``h`` to ``impact_new`` whose stages end with friction against their own slip; return its error.
 
     Leaves slopes from which the dense output of the explicit step makes the interpolant of this one.
     """
-    n = STRIDE * S.n_active
-    S.turning = 1
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    n = STRIDE * ws.n_active
+    ws.turning = 1
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         active.mode_past = OPEN if active.phase == IDLE else STICK if active.tangent_held == 1 else SLIDE
         for r in range(3):
             # what the motion keeps of forces that are not unique is chosen anew behind the impact
-            contact_at(S, w, k, active.slot).null_space_force[r] = 0.0
+            ws.contacts[active.slot].null_space_force[r] = 0.0
     for i in range(n):
-        w[S.impact_slopes + n + i] = w[S.impact_slopes + i]
+        ws.impact_slopes[n + i] = ws.impact_slopes[i]
     stage = 2
-    while stage < N_STAGES and _solve_stage(S, w, k, h, stage) == 1:
+    while stage < N_STAGES and _solve_stage(ws, h, stage) == 1:
         stage += 1
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         active.halted = 1 if active.mode_past == SLIDE and active.tangent_held == 1 else 0
     if stage < N_STAGES:
         return math.inf
-    weigh_slopes(S, w, S.implicit_errors, S.impact_slopes, n, h, S.impact_stage)
-    error = _CAREFUL * _relative_error(S, w, k, S.impact_stage)
-    write_implicit_interpolant(S, w, S.impact_y, S.impact_new, S.impact_slopes, n, h, S.impact_stage)
+    weigh_slopes(ws, ws.offsets.implicit_errors, ws.offsets.impact_slopes, n, h, ws.offsets.impact_stage)
+    error = _CAREFUL * _relative_error(ws, ws.offsets.impact_stage)
+    write_implicit_interpolant(
+        ws, ws.offsets.impact_y, ws.offsets.impact_new, ws.offsets.impact_slopes, n, h, ws.offsets.impact_stage
+    )
     return error
 
 
-@kernel("i8(S, F, I, f8)")
-def try_linear_step(S: Scalars, w: Floats, k: Integers, h: float) -> int:
+@kernel("i8(ws, f8)")
+def try_linear_step(ws: Workspace, h: float) -> int:
     """Take one step of ``h`` to ``impact_new`` by the midpoint rule; return 1 if the slope is linear and it is exact.
 
     A lone contact whose slip keeps its direction moves like that; the slope at the end tells.
     """
-    n = STRIDE * S.n_active
-    middle, end = S.impact_slopes + n, S.impact_slopes + LAST_STAGE * n
+    n = STRIDE * ws.n_active
+    middle, end = ws.offsets.impact_slopes + n, ws.offsets.impact_slopes + LAST_STAGE * n
     for i in range(n):
-        w[S.impact_stage + i] = w[S.impact_y + i] + 0.5 * h * w[S.impact_slopes + i]
-    impact_slope(S, w, k, S.impact_stage, middle)
+        ws.impact_stage[i] = ws.impact_y[i] + 0.5 * h * ws.impact_slopes[i]
+    impact_slope(ws, ws.offsets.impact_stage, middle)
     for i in range(n):
-        w[S.impact_new + i] = w[S.impact_y + i] + h * w[middle + i]
-    impact_slope(S, w, k, S.impact_new, end)
+        ws.impact_new[i] = ws.impact_y[i] + h * ws.floats[middle + i]
+    impact_slope(ws, ws.offsets.impact_new, end)
     # a component that is round-off next to the contact's force is as straight as that force
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
         force = abs(active.force[0]) + abs(active.force[1]) + abs(active.force[2])
         for i in range(STRIDE * a, STRIDE * (a + 1)):
-            first, half, last = w[S.impact_slopes + i], w[middle + i], w[end + i]
+            first, half, last = ws.impact_slopes[i], ws.floats[middle + i], ws.floats[end + i]
             size = abs(first) + abs(last) + abs(half)
             if i < STRIDE * a + DEFORMATION:
                 size = max(size, force)

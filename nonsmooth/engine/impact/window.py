@@ -24,12 +24,7 @@ from nonsmooth.engine.impact.rates import IDLE, NOISE
 from nonsmooth.engine.impact.scales import CIRCLING, scale_impact
 from nonsmooth.engine.memory.layout import TOTALS
 from nonsmooth.engine.native.kernel import (
-    Floats,
-    Integers,
-    Scalars,
-    active_at,
-    articulation_at,
-    contact_at,
+    Workspace,
     entry_point,
     impact_state,
     kernel,
@@ -41,81 +36,81 @@ _LAYERS = 4
 """How many neighbours deep a window reaches beyond the contacts that act: the less often a wave comes to its rim."""
 
 
-@kernel("void(S, F, I)")
-def _gather_colliding(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def _gather_colliding(ws: Workspace) -> None:
     """Keep the active contacts as those of the impact, with nothing done yet, and hang them on their articulations.
 
     An articulation has a list of entries: first ones of all contacts, and second ones behind those of all slots.
     """
-    S.n_colliding = S.n_active
-    for number in range(S.n_articulations):
-        articulation_at(S, w, k, number).head = -1
-    for i in range(S.n_u):
-        w[S.u_impact + i] = w[S.free_velocities + i]
-    for i in range(S.n_colliding):
-        c = k[S.active + i]
-        contact = contact_at(S, w, k, c)
-        k[S.colliding + i] = c
+    ws.n_colliding = ws.n_active
+    for number in range(ws.n_articulations):
+        ws.articulations[number].head = -1
+    for i in range(ws.n_u):
+        ws.u_impact[i] = ws.floats[ws.free_velocities + i]
+    for i in range(ws.n_colliding):
+        c = ws.active[i]
+        contact = ws.contacts[c]
+        ws.colliding[i] = c
         contact.phase_kept = IDLE
         contact.held_kept = 0
         contact.waves = 0
         for j in range(TOTALS):
             contact.total[j] = 0.0
         for side in range(2):
-            articulation = articulation_at(S, w, k, contact.articulation_a if side == 0 else contact.articulation_b)
-            entry = side * S.n_slots + c
-            k[S.chain + entry] = articulation.head
+            articulation = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b]
+            entry = side * ws.n_slots + c
+            ws.chain[entry] = articulation.head
             articulation.head = entry
 
 
-@kernel("void(S, F, I, f8)")
-def _draw(S: Scalars, w: Floats, k: Integers, fastest: float) -> None:
+@kernel("void(ws, f8)")
+def _draw(ws: Workspace, fastest: float) -> None:
     """Make the contacts that act and their neighbours the active ones; at first, given the fastest, who approaches."""
     m = 0
-    for i in range(S.n_colliding):
-        c = k[S.colliding + i]
-        contact = contact_at(S, w, k, c)
+    for i in range(ws.n_colliding):
+        c = ws.colliding[i]
+        contact = ws.contacts[c]
         acts = contact.phase_kept != IDLE
         if fastest > 0.0:
             acts = contact.rate[0] < -NOISE * fastest
         contact.depth = 0 if acts else -1
         contact.rim = 0
         if acts:
-            k[S.active + m] = c
+            ws.active[m] = c
             m += 1
     begin = 0
     for layer in range(1, _LAYERS + 1):
         end = m
         for i in range(begin, end):
             for side in range(2):
-                contact = contact_at(S, w, k, k[S.active + i])
-                articulation = articulation_at(S, w, k, contact.articulation_a if side == 0 else contact.articulation_b)
+                contact = ws.contacts[ws.active[i]]
+                articulation = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b]
                 entry = articulation.head if articulation.nu > 0 else -1
                 while entry >= 0:
-                    other = entry if entry < S.n_slots else entry - S.n_slots
-                    neighbour = contact_at(S, w, k, other)
+                    other = entry if entry < ws.n_slots else entry - ws.n_slots
+                    neighbour = ws.contacts[other]
                     if neighbour.depth < 0:
                         neighbour.depth = layer
                         neighbour.rim = 1 if layer == _LAYERS else 0
-                        k[S.active + m] = other
+                        ws.active[m] = other
                         m += 1
-                    entry = k[S.chain + entry]
+                    entry = ws.chain[entry]
         begin = end
-    S.n_active = m
+    ws.n_active = m
 
 
-@kernel("void(S, F, I)")
-def _load(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def _load(ws: Workspace) -> None:
     """Set matrix, rates and state of the window, whose structure takes the place of the island's."""
-    link_active(S, w, k)
-    assemble_delassus(S, w, k)
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        state = impact_state(w, S.impact_y, a)
+    link_active(ws)
+    assemble_delassus(ws)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        state = impact_state(ws.floats, ws.offsets.impact_y, a)
         c = active.slot
-        contact = contact_at(S, w, k, c)
+        contact = ws.contacts[c]
         for r in range(3):
-            active.rate_before[r] = contact.prescribed_rate[r] + row(S, w, k, c, r, S.u_impact)
+            active.rate_before[r] = contact.prescribed_rate[r] + row(ws, c, r, ws.offsets.u_impact)
         for r in range(3):
             state.impulse[r] = 0.0
         state.work = state.rubbed = 0.0
@@ -127,15 +122,15 @@ def _load(S: Scalars, w: Floats, k: Integers) -> None:
         active.tangent_held = contact.held_kept
 
 
-@kernel("void(S, F, I)")
-def _store(S: Scalars, w: Floats, k: Integers) -> None:
+@kernel()
+def _store(ws: Workspace) -> None:
     """Give the bodies the impulses of the window, and keep what goes on."""
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        state = impact_state(w, S.impact_y, a)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        state = impact_state(ws.floats, ws.offsets.impact_y, a)
         c = active.slot
-        contact = contact_at(S, w, k, c)
-        account(S, w, k, a)
+        contact = ws.contacts[c]
+        account(ws, a)
         for r in range(3):
             active.impulse[r] = state.impulse[r]
             contact.total_impulse[r] += active.impulse[r]
@@ -144,44 +139,44 @@ def _store(S: Scalars, w: Floats, k: Integers) -> None:
         contact.total_rubbed += state.rubbed
         contact.deformation_kept, contact.energy_kept, contact.lost_kept = state.deformation, state.energy, state.lost
         contact.phase_kept, contact.held_kept = active.phase, active.tangent_held
-    add_response(S, w, k, S.impulse, S.u_impact)
+    add_response(ws, ws.offsets.impulse, ws.offsets.u_impact)
 
 
-@entry_point("i8(S, F, I)")
-def windowed_impact(S: Scalars, w: Floats, k: Integers) -> int:
+@entry_point("i8(ws)")
+def windowed_impact(ws: Workspace) -> int:
     """Do what ``energetic_impact`` does, for many contacts; the Delassus matrix of all of them is not needed."""
     fastest = 0.0
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        fastest = max(fastest, -contact_at(S, w, k, active.slot).rate[0])
-    S.may_be_lone = 1
-    S.truncated = 0
-    S.slow_steps = 0
-    _gather_colliding(S, w, k)
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        fastest = max(fastest, -ws.contacts[active.slot].rate[0])
+    ws.may_be_lone = 1
+    ws.truncated = 0
+    ws.slow_steps = 0
+    _gather_colliding(ws)
     outcome = MOVED
     for window in range(MOST_STEPS):
-        _draw(S, w, k, fastest if window == 0 else 0.0)
+        _draw(ws, fastest if window == 0 else 0.0)
         # behind the wave what is within the error is not told from rest; where all lie in the window none leaves it
-        S.faint = CIRCLING * S.impact_rtol if S.n_active < S.n_colliding else 0.0
-        _load(S, w, k)
-        S.lone = -1
-        shortest = scale_impact(S, w, k, fastest)
+        ws.faint = CIRCLING * ws.impact_rtol if ws.n_active < ws.n_colliding else 0.0
+        _load(ws)
+        ws.lone = -1
+        shortest = scale_impact(ws, fastest)
         if not shortest > 0.0:
             outcome = INVALID
             break
         if window == 0:
-            S.impact_h = first_step(S, shortest)
-            start_impact(S, w, k, S.impact_h, 0.0)
-        outcome = run_impact(S, w, k, S.impact_h, shortest, 1)
-        _store(S, w, k)
+            ws.impact_h = first_step(ws, shortest)
+            start_impact(ws, ws.impact_h, 0.0)
+        outcome = run_impact(ws, ws.impact_h, shortest, 1)
+        _store(ws)
         if outcome != MOVED:
             break
-    S.faint = 0.0
-    S.n_active = S.n_colliding
-    for a in range(S.n_active):
-        active = active_at(S, w, k, a)
-        active.slot = k[S.colliding + a]
-        contact = contact_at(S, w, k, active.slot)
+    ws.faint = 0.0
+    ws.n_active = ws.n_colliding
+    for a in range(ws.n_active):
+        active = ws.actives[a]
+        active.slot = ws.colliding[a]
+        contact = ws.contacts[active.slot]
         for r in range(3):
             active.impulse[r] = contact.total_impulse[r]
         active.stored, active.returned, active.rubbed = (

@@ -28,34 +28,38 @@ from nonsmooth.engine.memory.blocks import (
     SPIN_ACCELERATION,
     VELOCITY,
 )
-from nonsmooth.engine.memory.fields import Field, Fields, one, packed, row, vector, without
+from nonsmooth.engine.memory.fields import Field, Fields, one, packed, question, row, vector, without
 
-BODY = without(
-    "body_",
-    "body_q",
-    "body_u",
-    "body_nq",
-    "body_nu",
-    "body_function",
-    "body_parameters",
-    "body_out",
-    "body_tail",
-    "body_quaternion",
-    "body_spin",
-    "body_flight_function",
-    "body_flight_parameters",
-    "body_flight_out",
-    "body_flies",
-    "body_turns",
-    "body_course",
-    "body_course_t",
-    "body_course_h",
-    "body_closed",
-    "body_version",
-    "body_accelerated",
-    "body_stood",
-    "body_stood_t",
-)
+BODY: Fields = {
+    **without(
+        "body_",
+        "body_q",
+        "body_u",
+        "body_nq",
+        "body_nu",
+        "body_function",
+        "body_parameters",
+        "body_out",
+        "body_tail",
+        "body_quaternion",
+        "body_spin",
+        "body_flight_function",
+        "body_flight_parameters",
+        "body_flight_out",
+        "body_flies",
+        "body_turns",
+        "body_course",
+        "body_course_t",
+        "body_course_h",
+        "body_closed",
+        "body_version",
+        "body_accelerated",
+        "body_stood",
+        "body_stood_t",
+    ),
+    "is_ballistic": question("body_flies"),
+    "has_own_step": question("body_course"),
+}
 """Of a body."""
 
 ARTICULATION: Fields = {

@@ -16,8 +16,22 @@ from nonsmooth.engine.memory.blocks import (
     TANGENT,
     TURN_MATRIX,
 )
-from nonsmooth.engine.memory.fields import Field, Fields, geometry, one, packed, row, rows, stride_of, vector, without
+from nonsmooth.engine.memory.contact_table import Contact
+from nonsmooth.engine.memory.fields import (
+    Field,
+    Fields,
+    geometry,
+    one,
+    packed,
+    question,
+    row,
+    rows,
+    stride_of,
+    vector,
+    without,
+)
 from nonsmooth.engine.memory.layout import PART_END
+from nonsmooth.engine.memory.table import fields_of
 
 CONTACT: Fields = {
     **rows(
@@ -180,9 +194,30 @@ CONTACT: Fields = {
     "lost_kept": one("impact_total", 8),
 }
 """Of a contact, in its slot."""
+BEFORE: Fields = {
+    **CONTACT,
+    "rate_end_all": vector("rate_end", 0, 3),
+    "normal_rate": one("rate"),
+    "normal_force": one("force"),
+}
+"""Where the numbers stand that the field table declares."""
+CONTACT = {**CONTACT, **fields_of(Contact, BEFORE)}
+"""The names of the field table, and those of before until every file has the new ones."""
 
 ACTIVE: Fields = {
     "slot": one("active"),
+    "contact": one("active"),
+    # the same numbers under the names of the field table, until every file has them
+    "is_normal_force_unknown": question("normal_held"),
+    "is_at_rest": question("at_rest"),
+    "sticks": question("tangent_held"),
+    "is_lossless": question("lossless"),
+    "energy_stored": one("stored"),
+    "energy_returned": one("returned"),
+    "energy_dissipated": one("rubbed"),
+    "has_redundant_force": question("redundant"),
+    "friction_coefficient": one("mu"),
+    "static_coefficient": one("mu_static"),
     # what the solvers of the contact problem know of it
     **rows(
         "mu",
@@ -246,7 +281,11 @@ ACTIVE: Fields = {
 }
 """Of an active contact, by its number among those of the island at hand; ``slot`` is that of the contact."""
 
-OWN_GUARD = without("own_guard_", "own_guard_function", "own_guard_parameters", "own_guard_spent", "own_guard_ends")
+OWN_GUARD: Fields = {
+    **without("own_guard_", "own_guard_function", "own_guard_parameters", "own_guard_spent", "own_guard_ends"),
+    "has_just_fired": question("own_guard_spent"),
+    "ends_the_run": question("own_guard_ends"),
+}
 """Of a guard of the scenario."""
 
 GUARD: Fields = {
@@ -257,6 +296,12 @@ GUARD: Fields = {
     "end": Field("guard_end", 1),
     "armed": Field("guard_armed", 1),
     "deflated": Field("guard_deflated", 1),
+    # the same numbers under the names of the field table, until every file has them
+    "initial": Field("guard_first", 1),
+    "base": Field("guard_start", 1),
+    "at_end": Field("guard_end", 1),
+    "is_armed": Field("guard_armed", 1, is_boolean=True),
+    "is_deflated": Field("guard_deflated", 1, is_boolean=True),
 }
 """Of a guard of the flow (:mod:`nonsmooth.engine.flow.guard_numbers`)."""
 

@@ -27,6 +27,8 @@ class Field:
         Whether they are a tuple.
     behind : str
         A scalar that tells how far into the array the first record is.
+    is_boolean : bool
+        Whether the number, 0 or 1, answers a question.
     """
 
     array: str
@@ -35,6 +37,7 @@ class Field:
     numbers: int = 1
     is_vector: bool = False
     behind: str = ""
+    is_boolean: bool = False
 
     @property
     def is_float(self) -> bool:
@@ -70,6 +73,11 @@ def vector(array: str, first: int = 0, numbers: int = 2) -> Field:
 def one(array: str, first: int = 0) -> Field:
     """Return a field that is one number."""
     return Field(array, stride_of(array), first)
+
+
+def question(array: str, first: int = 0) -> Field:
+    """Return a field that is true or false."""
+    return Field(array, stride_of(array), first, is_boolean=True)
 
 
 def geometry(first: int, numbers: int = 1, is_tuple: bool = True) -> Field:

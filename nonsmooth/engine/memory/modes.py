@@ -2,20 +2,66 @@
 
 from __future__ import annotations
 
-OPEN, STICK, SLIDE = 0, 1, 2
-"""Mode of a contact between events."""
+from enum import IntEnum
+
+
+class Mode(IntEnum):
+    """Mode of a contact between events."""
+
+    OPEN = 0
+    """The bodies are apart, or separate."""
+    STICK = 1
+    """The contact is closed, and friction holds it."""
+    SLIDE = 2
+    """The contact is closed and slips, or is about to."""
+
+
+OPEN, STICK, SLIDE = (int(mode) for mode in Mode)
 BEFORE, DURING, AFTER = 0, 3, 6
 """The bits at which a contact's three codes begin in the integer that is kept of them with an event,"""
 CODE = 7
 """and all bits of one code."""
 
-START, IMPACT, LIFT_OFF, SLIP_TO_STICK, STICK_TO_SLIP, CLOSING, PAINLEVE, END, JAM, GUARD, TOUCH, FEATURE_END = range(
-    12
+
+class Cause(IntEnum):
+    """What makes an instant an event."""
+
+    START = 0
+    """The run begins."""
+    IMPACT = 1
+    """A gap closes with an approach."""
+    LIFT_OFF = 2
+    """A normal force vanishes."""
+    SLIP_TO_STICK = 3
+    """A slip comes to rest."""
+    STICK_TO_SLIP = 4
+    """Friction reaches its static bound."""
+    CLOSING = 5
+    """The bounces of an accumulation (Zeno sequence) are left out."""
+    PAINLEVE = 6
+    """A sliding contact has no force, and an impact without collision follows."""
+    END = 7
+    """The run ends."""
+    JAM = 8
+    """A slip jams at the Painleve singularity."""
+    GUARD = 9
+    """A guard of the user fires."""
+    TOUCH = 10
+    """A compliant contact touches."""
+    FEATURE_END = 11
+    """A contact passes the end of its features."""
+    FEATURE_CHANGE = 12
+    """A contact passes to other features."""
+    AVERAGING = 13
+    """Averaged forces begin or end."""
+    STEP = 14
+    """An engine that has no events of its own steps."""
+
+
+START, IMPACT, LIFT_OFF, SLIP_TO_STICK, STICK_TO_SLIP, CLOSING, PAINLEVE, END, JAM, GUARD, TOUCH, FEATURE_END = (
+    int(cause) for cause in list(Cause)[:12]
 )
-FEATURE_CHANGE = 12
-AVERAGING = 13
-STEP = 14
-"""Cause of an event."""
+FEATURE_CHANGE, AVERAGING, STEP = (int(cause) for cause in list(Cause)[12:])
 
 CAUSES = (
     "start",

@@ -54,6 +54,52 @@ RECORDS: Mapping[str, Fields] = {
     "unknown": UNKNOWN,
 }
 """Records whose fields stand in arrays, by kind."""
+SEQUENCES: Mapping[str, tuple[str, str]] = {
+    "contacts": ("contact", "n_contacts"),
+    "actives": ("active", "n_active"),
+    "bodies": ("body", "n_bodies"),
+    "articulations": ("articulation", "n_articulations"),
+    "joints": ("joint", "n_joints"),
+    "loads": ("load", "n_loads"),
+    "units": ("unit", "n_units"),
+    "walls": ("wall", "n_walls"),
+    "pools": ("pool", "n_pools"),
+    "pairs": ("pair", "n_pairs"),
+    "carriers": ("carrier", "n_carriers"),
+    "own_guards": ("own_guard", "n_own_guards"),
+    "guards": ("guard", "n_contacts"),
+    "unknowns": ("unknown", "n_unknown"),
+}
+"""Sequences of the workspace by name: the kind of their records, and the scalar that counts them."""
+
+PARTS: Mapping[str, Mapping[str, str]] = {
+    "tolerance": {"time": "time_tolerance", "gap": "gap_tolerance", "velocity": "velocity_tolerance"},
+    "island": {
+        "time": "t",
+        "follows_a_step": "fresh",
+        "averaged_until": "mean_until",
+        "last_feature_change": "feature_t",
+    },
+    "run": {"is_interrupted": "stopped", "painleve_policy": "policy", "impact_map": "impact_map"},
+    "totals": {
+        "driven_work": "driven_work",
+        "restitution_loss": "restitution_loss",
+        "friction_loss": "friction_loss",
+        "closing_loss": "closing_loss",
+        "impacts": "impacts",
+    },
+    "event": {"n_recorded": "recorded", "n_phases": "phases", "was_truncated": "truncated"},
+    "impact": {
+        "lone_contact": "lone",
+        "last_guard": "trigger",
+        "speed_scale": "speed_scale",
+        "acceleration_scale": "acceleration_scale",
+        "slow_speed": "slow_speed",
+    },
+}
+"""Scalars of the workspace by owner or life: the name in the part, and the scalar."""
+QUESTIONS = frozenset({"follows_a_step", "is_interrupted", "was_truncated"})
+"""Scalars of parts that are true or false."""
 PACKED: Mapping[str, Fields] = {
     "impact_state": IMPACT_STATE,
     "part_end": PART_OF_STEP,

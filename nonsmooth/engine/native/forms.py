@@ -8,7 +8,13 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, final
 
-C_TYPES: Mapping[str, Any] = {"f8": ctypes.c_double, "i8": ctypes.c_int64, "F": ctypes.c_void_p, "void": None}
+C_TYPES: Mapping[str, Any] = {
+    "f8": ctypes.c_double,
+    "i8": ctypes.c_int64,
+    "b1": ctypes.c_bool,
+    "F": ctypes.c_void_p,
+    "void": None,
+}
 """Types of arguments and results; ``F`` are floats behind a pointer."""
 
 

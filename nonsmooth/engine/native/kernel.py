@@ -17,27 +17,35 @@ from collections.abc import Callable, Mapping
 from typing import Any, Protocol, TypeAlias, TypeVar
 
 from nonsmooth.engine.memory.arrays.arrays import Arrays
+from nonsmooth.engine.memory.contact_table import Contact
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.native.entries import Fingerprint
 from nonsmooth.types import Floats, Integers
 
 PLAIN = os.environ.get("NONSMOOTH_PLAIN", "0") not in ("", "0")
 
-Scalars: TypeAlias = Any
-"""The record ``S``."""
+Workspace: TypeAlias = Any
+"""The numbers of one trajectory, by name."""
+ActiveContact: TypeAlias = Any
+"""One of ``ws.actives``: a contact of the island at hand."""
+Guard: TypeAlias = Any
+"""One of ``ws.guards``."""
 
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
+_Class = TypeVar("_Class", bound=type[Any])
 
 
 class _Decorator(Protocol):
-    def __call__(self, signature: str = "void(S, F, I)", /) -> Callable[[_Function], _Function]: ...
+    def __call__(self, signature: str = "void(ws)", /) -> Callable[[_Function], _Function]: ...
 
 
 _half = importlib.import_module("nonsmooth.engine.native.plain" if PLAIN else "nonsmooth.engine.native.native")
 
 kernel: _Decorator = _half.kernel
 """An engine function, compiled into its callers."""
+result: Callable[[_Class], _Class] = _half.result
+"""A named tuple of numbers that a kernel may return; a signature knows it by the name of its class."""
 entry_point: _Decorator = _half.entry_point
 """An engine function compiled apart, reached by its address, by Python too."""
 entry_addresses: Callable[[], tuple[int, ...]] = _half.entry_addresses
@@ -49,34 +57,6 @@ own_kernel: Callable[[Arrays, str], Callable[[_Function], _Function]] = _half.ow
 add_step: Callable[[Callable[..., Any], Arrays, str, Fingerprint], str] = _half.add_step
 """``add_step(function, own, signature, fingerprint)``: let :data:`call_entry` find a step by the name returned."""
 
-contact_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["contact"]
-"""A contact with its fields by name (:mod:`nonsmooth.engine.memory.records`)."""
-active_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["active"]
-"""An active contact with its fields by name."""
-body_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["body"]
-"""A body with its fields by name; likewise"""
-articulation_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["articulation"]
-"""an articulation,"""
-joint_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["joint"]
-"""a joint,"""
-load_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["load"]
-"""a load,"""
-unit_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["unit"]
-"""a unit,"""
-wall_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["wall"]
-"""a wall,"""
-unknown_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["unknown"]
-"""an unknown of the contact problem,"""
-pool_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["pool"]
-"""a pool,"""
-pair_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["pair"]
-"""a pair of convex parts,"""
-carrier_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["carrier"]
-"""a frame that carries some,"""
-guard_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["guard"]
-"""a guard,"""
-own_guard_at: Callable[[Scalars, Floats, Integers, int], Any] = _half.records["own_guard"]
-"""and a guard of the scenario, by its number among these."""
 frame_at: Callable[[Floats, int], Any] = _half.records["frame"]
 """``frame_at(w, place)``: a frame that a body writes by name."""
 part_at: Callable[[Floats, int], Any] = _half.records["part"]
@@ -141,17 +121,17 @@ return its address.  Without a key nothing is kept on disk."""
 
 __all__ = [
     "PLAIN",
+    "ActiveContact",
+    "Contact",
     "Floats",
+    "Guard",
     "Integers",
     "Memory",
-    "Scalars",
-    "active_at",
+    "Workspace",
     "add_step",
     "address_of",
-    "articulation_at",
     "at",
     "block_at",
-    "body_at",
     "call_body",
     "call_compliance",
     "call_entry",
@@ -165,31 +145,21 @@ __all__ = [
     "call_traction",
     "call_watch",
     "calls",
-    "carrier_at",
-    "contact_at",
     "delassus_block",
     "entry_addresses",
     "entry_point",
     "forget_watch",
     "frame_at",
-    "guard_at",
     "impact_state",
     "jit",
-    "joint_at",
     "joint_row",
     "kernel",
-    "load_at",
     "load_wrench",
-    "own_guard_at",
     "own_kernel",
-    "pair_at",
     "part_at",
     "part_end",
-    "pool_at",
+    "result",
     "shared",
-    "unit_at",
-    "unknown_at",
     "unshared",
-    "wall_at",
     "watch_address",
 ]

@@ -23,14 +23,16 @@ from numba.extending import intrinsic, typeof_impl
 from nonsmooth.engine.memory.arrays.arrays import Arrays
 from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from nonsmooth.engine.memory.memory import Memory
-from nonsmooth.engine.memory.tables import record_with
+from nonsmooth.engine.memory.tables import floats_of, integers_of, record_with
 from nonsmooth.engine.native.build import CFunction, EntryPasses, KernelPasses, LawPasses, ShimPasses, uncollected
 from nonsmooth.engine.native.cache import Store, folders
 from nonsmooth.engine.native.entries import Fingerprint, known, own_name
 from nonsmooth.engine.native.forms import C_TYPES, FORMS
 from nonsmooth.engine.native.record_view import records as records
 from nonsmooth.engine.native.record_view import types_of
+from nonsmooth.engine.native.results import type_of_result
 from nonsmooth.engine.native.types import FLOATS, INTEGERS, TABLE, Table, call_at, moved
+from nonsmooth.engine.native.workspace_view import WORKSPACE, workspace_of
 from nonsmooth.notices import say
 
 _OPTIONS: dict[str, Any] = {
@@ -42,21 +44,32 @@ _OPTIONS: dict[str, Any] = {
 }
 
 _TYPES = {
+    "ws": WORKSPACE,
     "S": TABLE,
     "F": FLOATS,
     "I": INTEGERS,
     "f8": types.float64,
     "i8": types.int64,
     "D": types_of["delassus_block"],
+    "b1": types.boolean,
+    **types_of,
     "v2": types.UniTuple(types.float64, 2),
     "v3": types.UniTuple(types.float64, 3),
     "void": types.void,
 }
+
+
+def result(kind: Any) -> Any:
+    """Let a kernel return a named tuple of numbers; signatures know it by the name of its class."""
+    _TYPES[kind.__name__] = type_of_result(kind)
+    return kind
+
+
 _pending: list[tuple[Any, Any]] = []
 _alive: list[Any] = []
 _entries: dict[str, _Entry] = {}
 _callables: dict[str, Callable[..., Any]] = {}
-_STUB = "def stub_{name}({names}): return call(k[S.entry_points + {index}], {names})"
+_STUB = "def stub_{name}({names}): return call(ws.entry_points[{index}], {names})"
 
 
 class _Entry(NamedTuple):
@@ -65,14 +78,14 @@ class _Entry(NamedTuple):
     address: Callable[[], int]
 
 
-def _signature(text: str, table: Table = TABLE) -> Any:
+def _signature(text: str, workspace: Any = WORKSPACE) -> Any:
     result, _, arguments = text.partition("(")
     names = [a.strip() for a in arguments.rstrip(")").split(",") if a.strip()]
-    known_types = {**_TYPES, "S": table}
+    known_types = {**_TYPES, "ws": workspace}
     return known_types[result.strip()](*[known_types[a] for a in names])
 
 
-def kernel(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], Any]:
+def kernel(signature: str = "void(ws)") -> Callable[[Callable[..., Any]], Any]:
     """Compile an engine function with an explicit signature, when an entry point first needs it."""
     return _kernel(_signature(signature))
 
@@ -86,7 +99,7 @@ def _kernel(signature: Any) -> Callable[[Callable[..., Any]], Any]:
     return decorate
 
 
-def entry_point(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any]], Any]:
+def entry_point(signature: str = "void(ws)") -> Callable[[Callable[..., Any]], Any]:
     """Compile an engine function apart from its callers, which reach it by its address in ``k``.
 
     A caller does not compile it again as it would a kernel's, and Python can call it: see
@@ -104,9 +117,14 @@ def entry_point(signature: str = "void(S, F, I)") -> Callable[[Callable[..., Any
     return decorate
 
 
+def _workspace_with(own: Arrays) -> Any:
+    """Return the type of the workspace of an engine that has numbers of its own."""
+    return workspace_of(Table(record_with(own)), floats_of([own]), integers_of([own]))
+
+
 def own_kernel(own: Arrays, signature: str) -> Callable[[Callable[..., Any]], Any]:
     """Compile a function of an engine that has scalars and arrays of its own into its callers, as a kernel."""
-    return _kernel(_signature(signature, Table(record_with(own))))
+    return _kernel(_signature(signature, _workspace_with(own)))
 
 
 def add_step(function: Callable[..., Any], own: Arrays, signature: str, fingerprint: Fingerprint) -> str:
@@ -114,7 +132,7 @@ def add_step(function: Callable[..., Any], own: Arrays, signature: str, fingerpr
 
     It is kept on disk under what ``fingerprint`` says of it.
     """
-    name, typed = own_name(function), _signature(signature, Table(record_with(own)))
+    name, typed = own_name(function), _signature(signature, _workspace_with(own))
     _entries[name] = _Entry(function, signature, lambda: _step_address(function, typed, fingerprint))
     # a cell of a notebook that is run again has another function of that name
     _callables.pop(name, None)
@@ -252,7 +270,7 @@ def _callable(name: str) -> Callable[..., Any]:
         entry_addresses()
         entry = known(_entries, name)
         result, _, names = entry.signature.partition("(")
-        extra = [C_TYPES[n.strip()] for n in names.rstrip(")").split(",")[3:]]
+        extra = [C_TYPES[n.strip()] for n in names.rstrip(")").split(",")[1:]]
         prototype = ctypes.CFUNCTYPE(C_TYPES[result], *[ctypes.c_void_p] * 3, *extra)
         _callables[name] = prototype(entry.address())
     return _callables[name]

@@ -149,14 +149,15 @@ def _as_other(context: Any, builder: Any, table: Table, other: Table, value: Any
     return value
 
 
-def _field_type(table: Table, name: str) -> Any:
+def field_type(table: Table, name: str) -> Any:
+    """Return the numba type of a scalar."""
     return types.float64 if table.record[name].kind == "f" else types.int64
 
 
 def _field(context: Any, builder: Any, table: Table, value: Any, name: str) -> Any:
     word = ir.IntType(64)
     place = builder.gep(value, [ir.Constant(word, table.names.index(name))], source_etype=word)
-    return builder.bitcast(place, context.get_value_type(_field_type(table, name)).as_pointer())
+    return builder.bitcast(place, context.get_value_type(field_type(table, name)).as_pointer())
 
 
 @infer_getattr
@@ -164,13 +165,13 @@ class _TableFields(AttributeTemplate):  # type: ignore[misc]
     key = Table
 
     def generic_resolve(self, table: Table, name: str) -> Any:
-        return _field_type(table, name) if name in table.names else None
+        return field_type(table, name) if name in table.names else None
 
 
 @lower_getattr_generic(Table)  # type: ignore[untyped-decorator]
 def get_field(context: Any, builder: Any, table: Table, value: Any, name: str) -> Any:
     """Load a scalar of the record."""
-    place, kind = _field(context, builder, table, value, name), context.get_value_type(_field_type(table, name))
+    place, kind = _field(context, builder, table, value, name), context.get_value_type(field_type(table, name))
     load = builder.load(place, typ=kind)
     tag(load, name)
     if name in CONSTANT_SCALARS:
@@ -179,7 +180,8 @@ def get_field(context: Any, builder: Any, table: Table, value: Any, name: str) -
 
 
 @lower_setattr_generic(Table)  # type: ignore[untyped-decorator]
-def _set_field(context: Any, builder: Any, signature: Any, args: Any, name: str) -> None:
+def set_field(context: Any, builder: Any, signature: Any, args: Any, name: str) -> None:
+    """Store a scalar of the record."""
     table, given = signature.args
-    value = context.cast(builder, args[1], given, _field_type(table, name))
+    value = context.cast(builder, args[1], given, field_type(table, name))
     tag(builder.store(value, _field(context, builder, table, args[0], name)), name)

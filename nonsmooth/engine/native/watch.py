@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.native.kernel import Scalars, call_watch, kernel
+from nonsmooth.engine.native.kernel import Workspace, call_watch, kernel
 
 
-@kernel("i8(S, i8)")
-def interrupted(S: Scalars, work: int) -> int:
+@kernel("i8(ws, i8)")
+def interrupted(ws: Workspace, work: int) -> int:
     """Count work, about one for every evaluation of a contact or pair in a matrix; return 1 if the run is to stop.
 
     When the work that the watch allows is done, the watch is called: it says how much may follow, nothing for a stop.
     Long loops then end as if they had failed, so that nothing unfinished is taken over.
     """
-    S.work += work
-    if S.work >= S.patience and S.watch != 0:
-        S.work = 0
-        S.patience = int(call_watch(S.watch, S.t))
-        if S.patience == 0:
-            S.stopped = 1
-    return int(S.stopped)
+    ws.work += work
+    if ws.work >= ws.patience and ws.watch != 0:
+        ws.work = 0
+        ws.patience = int(call_watch(ws.watch, ws.t))
+        if ws.patience == 0:
+            ws.stopped = 1
+    return int(ws.stopped)

@@ -8,7 +8,7 @@ with a little added to its diagonal, less its part in the null space, and is ref
 from __future__ import annotations
 
 from nonsmooth.engine.memory.layout import MOST_ENTRIES
-from nonsmooth.engine.native.kernel import Floats, Scalars, kernel
+from nonsmooth.engine.native.kernel import Floats, Workspace, kernel
 from nonsmooth.engine.numerics.band_cholesky import factorise_band, invert_in_band, substitute_band
 from nonsmooth.engine.numerics.linear import SINGULAR, band_row, band_width, eliminate
 
@@ -42,115 +42,115 @@ def copy_shifted(w: Floats, a: int, n: int, half: int, out: int, shift: float) -
         w[band_row(out, i, n, half) + i] += shift
 
 
-@kernel("i8(S, F, i8)")
-def solve_shifted(S: Scalars, w: Floats, n: int) -> int:
+@kernel("i8(ws, i8)")
+def solve_shifted(ws: Workspace, n: int) -> int:
     """Solve ``reduced . x = x`` in place, a little added to the diagonal; return 0 if singular all the same."""
-    shift = _SHIFT * largest_diagonal(w, S.reduced, n, S.half_band)
-    copy_shifted(w, S.reduced, n, S.half_band, S.matrix, shift)
-    return eliminate(w, S.matrix, n, S.half_band, S.x, SINGULAR)
+    shift = _SHIFT * largest_diagonal(ws.floats, ws.offsets.reduced, n, ws.half_band)
+    copy_shifted(ws.floats, ws.offsets.reduced, n, ws.half_band, ws.offsets.matrix, shift)
+    return eliminate(ws.floats, ws.offsets.matrix, n, ws.half_band, ws.offsets.x, SINGULAR)
 
 
-@kernel("void(S, F, i8, i8)")
-def project_on_null(S: Scalars, w: Floats, n: int, v: int) -> None:
+@kernel("void(ws, i8, i8)")
+def project_on_null(ws: Workspace, n: int, v: int) -> None:
     """Replace the vector at ``v`` by its part in the null space."""
     for _time in range(2):
-        substitute_band(w, S.null, n, S.null_half, v)
+        substitute_band(ws.floats, ws.offsets.null, n, ws.null_half, v)
         for i in range(n):
-            w[v + i] *= S.null_shift
+            ws.floats[v + i] *= ws.null_shift
 
 
-@kernel("void(S, F, i8, i8)")
-def _remove_null(S: Scalars, w: Floats, n: int, v: int) -> None:
+@kernel("void(ws, i8, i8)")
+def _remove_null(ws: Workspace, n: int, v: int) -> None:
     """Take its part in the null space off the vector at ``v``; ``matrix`` is overwritten."""
     for _time in range(_REMOVALS):
         for i in range(n):
-            w[S.matrix + i] = w[v + i]
-        project_on_null(S, w, n, S.matrix)
+            ws.matrix[i] = ws.floats[v + i]
+        project_on_null(ws, n, ws.offsets.matrix)
         for i in range(n):
-            w[v + i] -= w[S.matrix + i]
+            ws.floats[v + i] -= ws.matrix[i]
 
 
-@kernel("f8(S, F, i8, i8, i8)")
-def _write_residual(S: Scalars, w: Floats, n: int, x: int, out: int) -> float:
+@kernel("f8(ws, i8, i8, i8)")
+def _write_residual(ws: Workspace, n: int, x: int, out: int) -> float:
     """Write what ``x`` leaves of ``right`` to ``out``; return the largest of it."""
     worst = 0.0
     for i in range(n):
-        line = band_row(S.reduced, i, n, S.half_band)
-        w[out + i] = w[S.right + i]
-        for j in range(max(0, i - S.half_band), min(n, i + S.half_band + 1)):
-            w[out + i] -= w[line + j] * w[x + j]
-        worst = max(worst, abs(w[out + i]))
+        line = band_row(ws.offsets.reduced, i, n, ws.half_band)
+        ws.floats[out + i] = ws.right[i]
+        for j in range(max(0, i - ws.half_band), min(n, i + ws.half_band + 1)):
+            ws.floats[out + i] -= ws.floats[line + j] * ws.floats[x + j]
+        worst = max(worst, abs(ws.floats[out + i]))
     return worst
 
 
-@kernel("i8(S, F, i8)")
-def _is_symmetric(S: Scalars, w: Floats, n: int) -> int:
-    small = _SYMMETRIC * largest_diagonal(w, S.reduced, n, S.half_band)
+@kernel("i8(ws, i8)")
+def _is_symmetric(ws: Workspace, n: int) -> int:
+    small = _SYMMETRIC * largest_diagonal(ws.floats, ws.offsets.reduced, n, ws.half_band)
     for i in range(n):
-        line = band_row(S.reduced, i, n, S.half_band)
-        for j in range(max(0, i - S.half_band), i):
-            if abs(w[line + j] - w[band_row(S.reduced, j, n, S.half_band) + i]) > small:
+        line = band_row(ws.offsets.reduced, i, n, ws.half_band)
+        for j in range(max(0, i - ws.half_band), i):
+            if abs(ws.floats[line + j] - ws.floats[band_row(ws.offsets.reduced, j, n, ws.half_band) + i]) > small:
                 return 0
     return 1
 
 
-@kernel("void(S, F, i8)")
-def _write_square(S: Scalars, w: Floats, n: int) -> None:
+@kernel("void(ws, i8)")
+def _write_square(ws: Workspace, n: int) -> None:
     """Write H, of half band ``null_half``, to ``basis``."""
-    half = S.half_band
-    if _is_symmetric(S, w, n) == 1:
-        S.null_half = half
-        copy_shifted(w, S.reduced, n, half, S.basis, 0.0)
+    half = ws.half_band
+    if _is_symmetric(ws, n) == 1:
+        ws.null_half = half
+        copy_shifted(ws.floats, ws.offsets.reduced, n, half, ws.offsets.basis, 0.0)
         return
-    S.null_half = min(2 * half, n - 1)
-    for i in range(n * band_width(n, S.null_half)):
-        w[S.basis + i] = 0.0
+    ws.null_half = min(2 * half, n - 1)
+    for i in range(n * band_width(n, ws.null_half)):
+        ws.basis[i] = 0.0
     for line in range(n):
-        row = band_row(S.reduced, line, n, half)
+        row = band_row(ws.offsets.reduced, line, n, half)
         first, end = max(0, line - half), min(n, line + half + 1)
         for i in range(first, end):
-            out = band_row(S.basis, i, n, S.null_half)
-            if w[row + i] != 0.0:
+            out = band_row(ws.offsets.basis, i, n, ws.null_half)
+            if ws.floats[row + i] != 0.0:
                 for j in range(first, end):
-                    w[out + j] += w[row + i] * w[row + j]
+                    ws.floats[out + j] += ws.floats[row + i] * ws.floats[row + j]
 
 
-@kernel("void(S, F, i8)")
-def least_norm_in_band(S: Scalars, w: Floats, n: int) -> None:
+@kernel("void(ws, i8)")
+def least_norm_in_band(ws: Workspace, n: int) -> None:
     """Solve ``reduced . x = right`` for least norm.
 
     Leaves H in ``basis``, its factor in ``null``, and the band of the projector on the null space in ``reduced``.
     """
-    if n * band_width(n, 2 * S.half_band) > MOST_ENTRIES:
-        S.crowded = 1
+    if n * band_width(n, 2 * ws.half_band) > MOST_ENTRIES:
+        ws.crowded = 1
         return
-    _write_square(S, w, n)
-    largest = largest_diagonal(w, S.basis, n, S.null_half)
-    S.null_shift = _FAINT * (largest if largest > 0.0 else 1.0)
-    copy_shifted(w, S.basis, n, S.null_half, S.null, S.null_shift)
-    factorise_band(w, S.null, n, S.null_half, 0.1 * S.null_shift)
+    _write_square(ws, n)
+    largest = largest_diagonal(ws.floats, ws.offsets.basis, n, ws.null_half)
+    ws.null_shift = _FAINT * (largest if largest > 0.0 else 1.0)
+    copy_shifted(ws.floats, ws.offsets.basis, n, ws.null_half, ws.offsets.null, ws.null_shift)
+    factorise_band(ws.floats, ws.offsets.null, n, ws.null_half, 0.1 * ws.null_shift)
     # the answer so far grows in sigma, the correction in x
-    total, size, before = S.sigma, 0.0, 1e300
+    total, size, before = ws.offsets.sigma, 0.0, 1e300
     for i in range(n):
-        w[total + i] = w[S.x + i] = 0.0
-        size = max(size, abs(w[S.right + i]))
+        ws.floats[total + i] = ws.x[i] = 0.0
+        size = max(size, abs(ws.right[i]))
     while True:
-        left = _write_residual(S, w, n, total, S.sigma + n)
+        left = _write_residual(ws, n, total, ws.offsets.sigma + n)
         if not left <= before:
             for i in range(n):
-                w[total + i] -= w[S.x + i]
+                ws.floats[total + i] -= ws.x[i]
         if not left > _SETTLED * size or not left < 0.5 * before:
             break
         before = left
         for i in range(n):
-            w[S.x + i] = w[S.sigma + n + i]
-        if solve_shifted(S, w, n) == 0:
+            ws.x[i] = ws.sigma[n + i]
+        if solve_shifted(ws, n) == 0:
             break
-        _remove_null(S, w, n, S.x)
+        _remove_null(ws, n, ws.offsets.x)
         for i in range(n):
-            w[total + i] += w[S.x + i]
+            ws.floats[total + i] += ws.x[i]
     for i in range(n):
-        w[S.x + i] = w[total + i]
-    invert_in_band(w, S.null, n, S.null_half, S.reduced)
-    for i in range(n * band_width(n, S.null_half)):
-        w[S.reduced + i] *= S.null_shift
+        ws.x[i] = ws.floats[total + i]
+    invert_in_band(ws.floats, ws.offsets.null, n, ws.null_half, ws.offsets.reduced)
+    for i in range(n * band_width(n, ws.null_half)):
+        ws.reduced[i] *= ws.null_shift

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.memory.blocks import PART_RINGS
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, at, frame_at, kernel, pair_at, part_at
+from nonsmooth.engine.native.kernel import Floats, Workspace, at, frame_at, kernel, part_at
 from nonsmooth.engine.numerics.vectors import Vector, minus
 from nonsmooth.engine.pairs.support import middle_of, turned, turned_back
 
@@ -49,23 +49,25 @@ def _offset_in_plane(previous: Vector, current: Vector, tolerance: float) -> flo
     return math.hypot(current[0] + part * dx, current[1] + part * dy)
 
 
-@kernel("f8(S, F, I, i8)")
-def crossing_overlap(S: Scalars, w: Floats, k: Integers, number: int) -> float:
+@kernel("f8(ws, i8)")
+def crossing_overlap(ws: Workspace, number: int) -> float:
     """Overlap of two discs within the plane through which one passed [m], 0 if none did.
 
     The position of the second centre is kept in the pair for the next evaluation.  At the first one, where the pair has
     no margin yet, there is none before.
     """
-    pair = pair_at(S, w, k, number)
-    between = minus(_centre(w, pair.frame_b, pair.part_b), _centre(w, pair.frame_a, pair.part_a))
-    current = _seen_from(w, pair.frame_a, pair.part_a, between)
+    pair = ws.pairs[number]
+    between = minus(_centre(ws.floats, pair.frame_b, pair.part_b), _centre(ws.floats, pair.frame_a, pair.part_a))
+    current = _seen_from(ws.floats, pair.frame_a, pair.part_a, between)
     previous = pair.between if pair.room > 0.0 else current
     pair.between = current
     offset = _offset_in_plane(previous, current, pair.allowed)
     if offset < 0.0:
         return 0.0
-    normal = turned(frame_at(w, pair.frame_b).rotation, turned(part_at(w, pair.part_b).axes, (0.0, 0.0, 1.0)))
-    tilt = _seen_from(w, pair.frame_a, pair.part_a, normal)
-    radius_a, radius_b = at(w, pair.part_a + PART_RINGS)[3], at(w, pair.part_b + PART_RINGS)[3]
+    normal = turned(
+        frame_at(ws.floats, pair.frame_b).rotation, turned(part_at(ws.floats, pair.part_b).axes, (0.0, 0.0, 1.0))
+    )
+    tilt = _seen_from(ws.floats, pair.frame_a, pair.part_a, normal)
+    radius_a, radius_b = at(ws.floats, pair.part_a + PART_RINGS)[3], at(ws.floats, pair.part_b + PART_RINGS)[3]
     parallel = math.hypot(tilt[0], tilt[1]) * radius_b <= pair.allowed
     return float(max(0.0, radius_a + (radius_b if parallel else 0.0) - offset))

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, frame_at, kernel, pair_at
+from nonsmooth.engine.native.kernel import Floats, Workspace, frame_at, kernel
 from nonsmooth.engine.numerics.vectors import Vector, dot, minus, scaled
 from nonsmooth.engine.pairs.simplex import corner, nearest_point, put_corner, reduce_to_nearest
 from nonsmooth.engine.pairs.support import difference, middle_of, separation_along
@@ -34,13 +34,13 @@ def _unit(v: Vector, other: Vector) -> Vector:
     return scaled(1.0 / size, v) if size > 0.0 else other
 
 
-@kernel("v3(S, F, I, i8, v3, v3, f8)")
-def _search(S: Scalars, w: Floats, k: Integers, number: int, start: Vector, shift: Vector, size: float) -> Vector:
+@kernel("v3(ws, i8, v3, v3, f8)")
+def _search(ws: Workspace, number: int, start: Vector, shift: Vector, size: float) -> Vector:
     """Return the unit vector along which the parts are farthest apart, the second being moved by ``shift``."""
     n = best = start
     bound, upper, held, far = -1e300, 1e300, 0, 0.0
     for _ in range(_MOST):
-        x, y, z = difference(S, w, k, number, n)
+        x, y, z = difference(ws, number, n)
         found = x + shift[0], y + shift[1], z + shift[2]
         height = dot(n, found)
         if height > bound:
@@ -48,15 +48,15 @@ def _search(S: Scalars, w: Floats, k: Integers, number: int, start: Vector, shif
         far = max(far, abs(found[0]) + abs(found[1]) + abs(found[2]))
         known = 0
         for i in range(held):
-            off = minus(corner(S, w, i), found)
+            off = minus(corner(ws, i), found)
             known += 1 if dot(off, off) == 0.0 else 0
         if known > 0 or upper - bound <= _EXACT * size:
             break
-        put_corner(S, w, held, found)
-        held = reduce_to_nearest(S, w, k, held + 1, far)
+        put_corner(ws, held, found)
+        held = reduce_to_nearest(ws, held + 1, far)
         if held == 0:
             break
-        point = nearest_point(S, w, held)
+        point = nearest_point(ws, held)
         norm = math.sqrt(dot(point, point))
         # inside but for round-off, or no nearer than before
         if norm <= 1e-16 * far or norm >= upper:
@@ -65,14 +65,14 @@ def _search(S: Scalars, w: Floats, k: Integers, number: int, start: Vector, shif
     return best
 
 
-@kernel("v3(S, F, I, i8, v3, f8)")
-def _climb(S: Scalars, w: Floats, k: Integers, number: int, start: Vector, size: float) -> Vector:
+@kernel("v3(ws, i8, v3, f8)")
+def _climb(ws: Workspace, number: int, start: Vector, size: float) -> Vector:
     """Return the direction of largest separation among the neighbours of ``start``."""
-    n, best = start, separation_along(S, w, k, number, start)
+    n, best = start, separation_along(ws, number, start)
     for _ in range(_CLIMBS):
         shift = scaled(max(-2.0 * best, _AWAY * size), n)
-        other = _search(S, w, k, number, n, shift, size)
-        found = separation_along(S, w, k, number, other)
+        other = _search(ws, number, n, shift, size)
+        found = separation_along(ws, number, other)
         if found <= best + _EXACT * size:
             break
         n, best = other, found
@@ -87,34 +87,34 @@ def _axis(w: Floats, frame_place: int, axis: int) -> Vector:
     return sign * frame.rotation[column], sign * frame.rotation[column + 3], sign * frame.rotation[column + 6]
 
 
-@kernel("v3(S, F, I, i8)")
-def _across(S: Scalars, w: Floats, k: Integers, number: int) -> Vector:
+@kernel("v3(ws, i8)")
+def _across(ws: Workspace, number: int) -> Vector:
     """Return the direction from the middle of the first part of a pair to that of the second."""
-    pair = pair_at(S, w, k, number)
-    between = minus(middle_of(w, pair.frame_b, pair.part_b), middle_of(w, pair.frame_a, pair.part_a))
+    pair = ws.pairs[number]
+    between = minus(middle_of(ws.floats, pair.frame_b, pair.part_b), middle_of(ws.floats, pair.frame_a, pair.part_a))
     return _unit(between, (0.0, 0.0, 1.0))
 
 
-@kernel("v3(S, F, I, i8, v3)")
-def parting_direction(S: Scalars, w: Floats, k: Integers, number: int, known: Vector) -> Vector:
+@kernel("v3(ws, i8, v3)")
+def parting_direction(ws: Workspace, number: int, known: Vector) -> Vector:
     """Return a unit vector along which a pair is farthest apart, if it is apart, as far as one search tells.
 
     ``known`` is one to begin with, of length 0 if there is none.
     """
-    pair = pair_at(S, w, k, number)
-    return _search(S, w, k, number, _unit(known, _across(S, w, k, number)), (0.0, 0.0, 0.0), pair.size)
+    pair = ws.pairs[number]
+    return _search(ws, number, _unit(known, _across(ws, number)), (0.0, 0.0, 0.0), pair.size)
 
 
-@kernel("v3(S, F, I, i8, v3, f8)")
-def direction_of(S: Scalars, w: Floats, k: Integers, number: int, known: Vector, enough: float) -> Vector:
+@kernel("v3(ws, i8, v3, f8)")
+def direction_of(ws: Workspace, number: int, known: Vector, enough: float) -> Vector:
     """Return a unit vector along which the separation of a pair is at least ``enough``, or else the largest found.
 
     ``known`` is one to begin with, of length 0 if there is none.
     """
-    pair, across = pair_at(S, w, k, number), _across(S, w, k, number)
+    pair, across = ws.pairs[number], _across(ws, number)
     start = _unit(known, across)
-    n = _search(S, w, k, number, start, (0.0, 0.0, 0.0), pair.size)
-    best = separation_along(S, w, k, number, n)
+    n = _search(ws, number, start, (0.0, 0.0, 0.0), pair.size)
+    best = separation_along(ws, number, n)
     # the direction that is known, that between the middles, and six axes of either frame
     for trial in range(15):
         if best >= enough:
@@ -123,9 +123,9 @@ def direction_of(S: Scalars, w: Floats, k: Integers, number: int, known: Vector,
         if trial == 2:
             begin = across
         elif trial > 2:
-            begin = _axis(w, pair.frame_a if trial < 9 else pair.frame_b, (trial - 3) % 6)
-        other = _climb(S, w, k, number, begin, pair.size)
-        found = separation_along(S, w, k, number, other)
+            begin = _axis(ws.floats, pair.frame_a if trial < 9 else pair.frame_b, (trial - 3) % 6)
+        other = _climb(ws, number, begin, pair.size)
+        found = separation_along(ws, number, other)
         if found > best:
             best, n = found, other
     return n

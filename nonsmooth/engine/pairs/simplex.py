@@ -5,7 +5,7 @@ The corners stand in ``simplex``, three numbers each, and behind them the parts 
 
 from __future__ import annotations
 
-from nonsmooth.engine.native.kernel import Floats, Integers, Scalars, kernel
+from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.vectors import Vector, cross, dot, minus, scaled
 
 CORNERS = 4
@@ -17,30 +17,30 @@ _EMPTY = 1e-15
 """A tetrahedron with less than this part of the cube of its size has no inside."""
 
 
-@kernel("v3(S, F, i8)")
-def corner(S: Scalars, w: Floats, i: int) -> Vector:
+@kernel("v3(ws, i8)")
+def corner(ws: Workspace, i: int) -> Vector:
     """Return a corner of the simplex."""
-    at = S.simplex + 3 * i
-    return w[at], w[at + 1], w[at + 2]
+    at = ws.offsets.simplex + 3 * i
+    return ws.floats[at], ws.floats[at + 1], ws.floats[at + 2]
 
 
-@kernel("void(S, F, i8, v3)")
-def put_corner(S: Scalars, w: Floats, i: int, place: Vector) -> None:
+@kernel("void(ws, i8, v3)")
+def put_corner(ws: Workspace, i: int, place: Vector) -> None:
     """Write corner ``i`` of the simplex [m]."""
-    at = S.simplex + 3 * i
-    w[at], w[at + 1], w[at + 2] = place
+    at = ws.offsets.simplex + 3 * i
+    ws.floats[at], ws.floats[at + 1], ws.floats[at + 2] = place
 
 
-@kernel("void(S, F)")
-def _clear(S: Scalars, w: Floats) -> None:
+@kernel()
+def _clear(ws: Workspace) -> None:
     for i in range(CORNERS):
-        w[S.simplex + PARTS + i] = 0.0
+        ws.simplex[PARTS + i] = 0.0
 
 
-@kernel("f8(S, F, i8, i8, f8)")
-def _try_edge(S: Scalars, w: Floats, i: int, j: int, best: float) -> float:
+@kernel("f8(ws, i8, i8, f8)")
+def _try_edge(ws: Workspace, i: int, j: int, best: float) -> float:
     """Take the nearest point of an edge if its square is below ``best``; return the lesser square."""
-    a, b = corner(S, w, i), corner(S, w, j)
+    a, b = corner(ws, i), corner(ws, j)
     way = minus(b, a)
     square = dot(way, way)
     part = min(1.0, max(0.0, -dot(a, way) / square)) if square > 0.0 else 0.0
@@ -49,15 +49,15 @@ def _try_edge(S: Scalars, w: Floats, i: int, j: int, best: float) -> float:
     found = dot(point, point)
     if found >= best:
         return best
-    _clear(S, w)
-    w[S.simplex + PARTS + i], w[S.simplex + PARTS + j] = 1.0 - part, part
+    _clear(ws)
+    ws.simplex[PARTS + i], ws.simplex[PARTS + j] = 1.0 - part, part
     return float(found)
 
 
-@kernel("f8(S, F, i8, i8, i8, f8)")
-def _try_face(S: Scalars, w: Floats, i: int, j: int, m: int, best: float) -> float:
+@kernel("f8(ws, i8, i8, i8, f8)")
+def _try_face(ws: Workspace, i: int, j: int, m: int, best: float) -> float:
     """Take the nearest point of a triangle if its square is below ``best``; return the lesser square."""
-    a, b, c = corner(S, w, i), corner(S, w, j), corner(S, w, m)
+    a, b, c = corner(ws, i), corner(ws, j), corner(ws, m)
     u, v = minus(b, a), minus(c, a)
     normal = cross(u, v)
     square = dot(normal, normal)
@@ -69,70 +69,70 @@ def _try_face(S: Scalars, w: Floats, i: int, j: int, m: int, best: float) -> flo
         if of_a >= 0.0 and of_b >= 0.0 and of_c >= 0.0:
             if height * height * square >= best:
                 return best
-            _clear(S, w)
+            _clear(ws)
             whole = of_a + of_b + of_c
-            parts = S.simplex + PARTS
-            w[parts + i], w[parts + j], w[parts + m] = of_a / whole, of_b / whole, of_c / whole
+            parts = ws.offsets.simplex + PARTS
+            ws.floats[parts + i], ws.floats[parts + j], ws.floats[parts + m] = of_a / whole, of_b / whole, of_c / whole
             return float(height * height * square)
-    best = _try_edge(S, w, i, j, best)
-    best = _try_edge(S, w, j, m, best)
-    return float(_try_edge(S, w, m, i, best))
+    best = _try_edge(ws, i, j, best)
+    best = _try_edge(ws, j, m, best)
+    return float(_try_edge(ws, m, i, best))
 
 
-@kernel("f8(S, F, i8, i8, i8, i8)")
-def _volume(S: Scalars, w: Floats, i: int, j: int, m: int, top: int) -> float:
+@kernel("f8(ws, i8, i8, i8, i8)")
+def _volume(ws: Workspace, i: int, j: int, m: int, top: int) -> float:
     """Return six times the signed volume of a tetrahedron."""
-    a = corner(S, w, i)
-    return dot(cross(minus(corner(S, w, j), a), minus(corner(S, w, m), a)), minus(corner(S, w, top), a))
+    a = corner(ws, i)
+    return dot(cross(minus(corner(ws, j), a), minus(corner(ws, m), a)), minus(corner(ws, top), a))
 
 
-@kernel("f8(S, F, i8, i8, i8)")
-def _side(S: Scalars, w: Floats, i: int, j: int, m: int) -> float:
+@kernel("f8(ws, i8, i8, i8)")
+def _side(ws: Workspace, i: int, j: int, m: int) -> float:
     """Return six times the signed volume of a triangle with the origin for a top."""
-    a = corner(S, w, i)
-    return -dot(cross(minus(corner(S, w, j), a), minus(corner(S, w, m), a)), a)
+    a = corner(ws, i)
+    return -dot(cross(minus(corner(ws, j), a), minus(corner(ws, m), a)), a)
 
 
-@kernel("f8(S, F, f8)")
-def _try_tetrahedron(S: Scalars, w: Floats, size: float) -> float:
+@kernel("f8(ws, f8)")
+def _try_tetrahedron(ws: Workspace, size: float) -> float:
     """Take the nearest point of a tetrahedron; return its square, 0 where the origin is inside."""
-    flat = abs(_volume(S, w, 0, 1, 2, 3)) <= _EMPTY * size * size * size
+    flat = abs(_volume(ws, 0, 1, 2, 3)) <= _EMPTY * size * size * size
     best = 1e300
     for top in range(CORNERS):
         i, j, m = (top + 1) % CORNERS, (top + 2) % CORNERS, (top + 3) % CORNERS
-        if flat or _side(S, w, i, j, m) * _volume(S, w, i, j, m, top) <= 0.0:
-            best = _try_face(S, w, i, j, m, best)
+        if flat or _side(ws, i, j, m) * _volume(ws, i, j, m, top) <= 0.0:
+            best = _try_face(ws, i, j, m, best)
     return 0.0 if best == 1e300 else best
 
 
-@kernel("i8(S, F, I, i8, f8)")
-def reduce_to_nearest(S: Scalars, w: Floats, k: Integers, n: int, size: float) -> int:
+@kernel("i8(ws, i8, f8)")
+def reduce_to_nearest(ws: Workspace, n: int, size: float) -> int:
     """Keep of ``n`` corners those that hold the point nearest to the origin; return how many; 0 if that is inside."""
-    _clear(S, w)
-    parts = S.simplex + PARTS
+    _clear(ws)
+    parts = ws.offsets.simplex + PARTS
     if n == 1:
-        w[parts] = 1.0
+        ws.floats[parts] = 1.0
     elif n == 2:
-        _try_edge(S, w, 0, 1, 1e300)
+        _try_edge(ws, 0, 1, 1e300)
     elif n == 3:
-        _try_face(S, w, 0, 1, 2, 1e300)
-    elif _try_tetrahedron(S, w, size) == 0.0:
+        _try_face(ws, 0, 1, 2, 1e300)
+    elif _try_tetrahedron(ws, size) == 0.0:
         return 0
     kept = 0
     for i in range(n):
-        if w[parts + i] > 0.0:
-            put_corner(S, w, kept, corner(S, w, i))
-            w[parts + kept] = w[parts + i]
+        if ws.floats[parts + i] > 0.0:
+            put_corner(ws, kept, corner(ws, i))
+            ws.floats[parts + kept] = ws.floats[parts + i]
             kept += 1
     return kept
 
 
-@kernel("v3(S, F, i8)")
-def nearest_point(S: Scalars, w: Floats, n: int) -> Vector:
+@kernel("v3(ws, i8)")
+def nearest_point(ws: Workspace, n: int) -> Vector:
     """Return the point that the ``n`` corners make up with their parts."""
     x, y, z = 0.0, 0.0, 0.0
     for i in range(n):
-        a = corner(S, w, i)
-        part = w[S.simplex + PARTS + i]
+        a = corner(ws, i)
+        part = ws.simplex[PARTS + i]
         x, y, z = x + part * a[0], y + part * a[1], z + part * a[2]
     return x, y, z

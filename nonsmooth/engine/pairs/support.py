@@ -13,13 +13,11 @@ import math
 from nonsmooth.engine.memory.blocks import PART_RINGS, RING
 from nonsmooth.engine.native.kernel import (
     Floats,
-    Integers,
-    Scalars,
+    Workspace,
     at,
     call_support,
     frame_at,
     kernel,
-    pair_at,
     part_at,
 )
 from nonsmooth.engine.numerics.vectors import Vector, dot, minus, opposite
@@ -122,25 +120,31 @@ def _farthest(w: Floats, frame_place: int, place: int, n: Vector) -> Vector:
     return mx + x, my + y, mz + z
 
 
-@kernel("v3(S, F, I, i8, v3)")
-def difference(S: Scalars, w: Floats, k: Integers, number: int, n: Vector) -> Vector:
+@kernel("v3(ws, i8, v3)")
+def difference(ws: Workspace, number: int, n: Vector) -> Vector:
     """Return the vector between points of both parts of a pair that is shortest along a unit vector."""
-    pair = pair_at(S, w, k, number)
-    return minus(_farthest(w, pair.frame_b, pair.part_b, opposite(n)), _farthest(w, pair.frame_a, pair.part_a, n))
+    pair = ws.pairs[number]
+    return minus(
+        _farthest(ws.floats, pair.frame_b, pair.part_b, opposite(n)), _farthest(ws.floats, pair.frame_a, pair.part_a, n)
+    )
 
 
-@kernel("f8(S, F, I, i8, v3)")
-def separation_along(S: Scalars, w: Floats, k: Integers, number: int, n: Vector) -> float:
+@kernel("f8(ws, i8, v3)")
+def separation_along(ws: Workspace, number: int, n: Vector) -> float:
     """Return s(n) of a pair of bounded parts [m]."""
-    return dot(n, difference(S, w, k, number, n))
+    return dot(n, difference(ws, number, n))
 
 
-@kernel("f8(S, F, I, i8)")
-def height_over(S: Scalars, w: Floats, k: Integers, number: int) -> float:
+@kernel("f8(ws, i8)")
+def height_over(ws: Workspace, number: int) -> float:
     """Return the separation of a pair of which the first part is a half-space, exactly [m]."""
-    pair = pair_at(S, w, k, number)
-    frame = frame_at(w, pair.frame_a)
+    pair = ws.pairs[number]
+    frame = frame_at(ws.floats, pair.frame_a)
     up = frame.rotation[2], frame.rotation[5], frame.rotation[8]
     return dot(
-        up, minus(_farthest(w, pair.frame_b, pair.part_b, opposite(up)), middle_of(w, pair.frame_a, pair.part_a))
+        up,
+        minus(
+            _farthest(ws.floats, pair.frame_b, pair.part_b, opposite(up)),
+            middle_of(ws.floats, pair.frame_a, pair.part_a),
+        ),
     )
