@@ -30,7 +30,7 @@ def _least(x: float, y: float, z: float) -> int:
 def stretch_tangents(ws: Workspace, c: int, t1: Vector, t2: Vector) -> None:
     """Write the tangential rows of ``axes`` of contact ``c``, the slip along the unit tangents being known."""
     contact = ws.contacts[c]
-    law, axis = at(ws.floats, contact.axis), at(ws.floats, contact.axis + _AXIS)
+    law, axis = at(ws.floats, contact.anisotropy), at(ws.floats, contact.anisotropy + _AXIS)
     rotation = frame_at(ws.floats, contact.frame_a if law[_SIDE] == 0.0 else contact.frame_b).rotation
     world = (
         rotation[0] * axis[0] + rotation[1] * axis[1] + rotation[2] * axis[2],
@@ -52,9 +52,9 @@ def stretch_tangents(ws: Workspace, c: int, t1: Vector, t2: Vector) -> None:
     if contact.mode != STICK and abs(forward) > ws.velocity_tolerance:
         contact.facing = 1 if forward > 0.0 else -1
     along, across = law[_FORWARD] if contact.facing == 1 else law[_BACKWARD], law[_ACROSS]
-    contact.skew_1, contact.skew_2 = (along * e1, along * e2), (-across * e2, across * e1)
-    contact.axis_1 = _between(contact.skew_1, t1, t2)
-    contact.axis_2 = _between(contact.skew_2, t1, t2)
+    contact.stretch_1, contact.stretch_2 = (along * e1, along * e2), (-across * e2, across * e1)
+    contact.axis_1 = _between(contact.stretch_1, t1, t2)
+    contact.axis_2 = _between(contact.stretch_2, t1, t2)
 
 
 @kernel("v3(v2, v3, v3)")
@@ -67,7 +67,7 @@ def stretch_bias(ws: Workspace, c: int) -> None:
     """Turn the tangential second-order terms of contact ``c`` from the unit tangents to the rows."""
     contact = ws.contacts[c]
     b1, b2 = contact.bias[1], contact.bias[2]
-    (s11, s12), (s21, s22) = contact.skew_1, contact.skew_2
+    (s11, s12), (s21, s22) = contact.stretch_1, contact.stretch_2
     contact.bias[1], contact.bias[2] = s11 * b1 + s12 * b2, s21 * b1 + s22 * b2
 
 
@@ -75,7 +75,7 @@ def stretch_bias(ws: Workspace, c: int) -> None:
 def along_tangents(ws: Workspace, c: int, friction: Pair) -> Pair:
     """Return a force or impulse of friction, given along the rows, along the unit tangents."""
     contact = ws.contacts[c]
-    (s11, s12), (s21, s22), (f1, f2) = contact.skew_1, contact.skew_2, friction
+    (s11, s12), (s21, s22), (f1, f2) = contact.stretch_1, contact.stretch_2, friction
     return s11 * f1 + s21 * f2, s12 * f1 + s22 * f2
 
 
@@ -84,7 +84,7 @@ def face_slips(ws: Workspace) -> None:
     """Let contacts that stuck before an impact face against the slip that it leaves."""
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        if contact.oriented == 1 and contact.mode == STICK:
+        if contact.is_anisotropic and contact.mode == STICK:
             contact.mode = SLIDE
 
 
@@ -92,19 +92,19 @@ def face_slips(ws: Workspace) -> None:
 def facing_force(ws: Workspace, c: int, f1: float) -> float:
     """Return the first tangential force as it is along the row of the slip that it opposes."""
     contact = ws.contacts[c]
-    if contact.oriented == 0 or f1 * contact.facing <= 0.0:
+    if not contact.is_anisotropic or f1 * contact.facing <= 0.0:
         return f1
-    law = at(ws.floats, contact.axis)
+    law = at(ws.floats, contact.anisotropy)
     ratio = law[_FORWARD] / law[_BACKWARD]
     return f1 * ratio if contact.facing == 1 else f1 / ratio
 
 
-@kernel("i8(ws, i8, f8)")
-def turn_facing(ws: Workspace, c: int, f1: float) -> int:
+@kernel("b1(ws, i8, f8)")
+def turn_facing(ws: Workspace, c: int, f1: float) -> bool:
     """Let contact ``c`` face against its first tangential force; return 1 if it did not."""
     contact = ws.contacts[c]
-    if contact.oriented == 0 or f1 * contact.facing <= 0.0:
-        return 0
-    law = at(ws.floats, contact.axis)
+    if not contact.is_anisotropic or f1 * contact.facing <= 0.0:
+        return False
+    law = at(ws.floats, contact.anisotropy)
     contact.facing = -contact.facing
-    return 1 if law[_FORWARD] != law[_BACKWARD] else 0
+    return law[_FORWARD] != law[_BACKWARD]

@@ -39,19 +39,19 @@ def evaluate_body(ws: Workspace, t: float, y: int, number: int) -> None:
         ws.free_t = math.nan
 
 
-@kernel("i8(ws, f8, i8, i8)")
-def _stands(ws: Workspace, t: float, y: int, number: int) -> int:
+@kernel("b1(ws, f8, i8, i8)")
+def _stands(ws: Workspace, t: float, y: int, number: int) -> bool:
     """Return 1 if a body was evaluated last at this time and state."""
     body = ws.bodies[number]
     if body.version == 0 or body.stood != body.version or body.stood_t != t:
-        return 0
+        return False
     for i in range(body.q, body.q + body.nq):
         if ws.y_stood[i] != ws.floats[y + i]:
-            return 0
+            return False
     for i in range(ws.n_q + body.u, ws.n_q + body.u + body.nu):
         if ws.y_stood[i] != ws.floats[y + i]:
-            return 0
-    return 1
+            return False
+    return True
 
 
 @kernel("void(ws, f8, i8, i8)")
@@ -61,7 +61,7 @@ def evaluate_once(ws: Workspace, t: float, y: int, number: int) -> None:
     What joints and loads do to a block is undone: it is written again, unless the body has none of them.
     """
     body = ws.bodies[number]
-    if _stands(ws, t, y, number) == 1:
+    if _stands(ws, t, y, number):
         if body.flight_function == 0:
             _write(ws, t, y, number)
         return
@@ -73,18 +73,18 @@ def evaluate_once(ws: Workspace, t: float, y: int, number: int) -> None:
         ws.y_stood[i] = ws.floats[y + i]
 
 
-@kernel("i8(ws, f8, i8)")
-def _all_stand(ws: Workspace, t: float, y: int) -> int:
+@kernel("b1(ws, f8, i8)")
+def _all_stand(ws: Workspace, t: float, y: int) -> bool:
     """Return 1 if all bodies with coordinates were evaluated last at this time and state, and nothing acts on them.
 
     Most of what an instant asks for is asked of bodies that stand.
     """
     if ws.free_t != t or ws.n_loads + ws.n_joints > 0:
-        return 0
+        return False
     differ = 0
     for i in range(ws.n_q + ws.n_u):
         differ += 1 if ws.y_stood[i] != ws.floats[y + i] else 0
-    return 1 if differ == 0 else 0
+    return differ == 0
 
 
 @kernel("void(ws, f8, i8)")
@@ -124,7 +124,7 @@ def evaluate_free_bodies(ws: Workspace, t: float, y: int, every: int) -> None:
     ws.load_power = 0.0
     if ws.n_loads + ws.n_joints > 0:
         evaluate_driven_bodies(ws, t, y)
-    if every == 1 and _all_stand(ws, t, y) == 1:
+    if every == 1 and _all_stand(ws, t, y):
         return
     for i in range(ws.n_bodies if every == 1 else ws.n_integrated):
         number = i if every == 1 else ws.integrated[i]

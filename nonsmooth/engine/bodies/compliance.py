@@ -61,15 +61,15 @@ def evaluate_traction(ws: Workspace, c: int, y: int) -> None:
         at(ws.floats, contact.traction_parameters),
         at(ws.floats, out),
     )
-    contact.turned = 0.0
+    contact.dissipated_by_spin = 0.0
     for i in range(3):
-        contact.turned += ws.floats[out + TRACTION_MOMENT + i] * ws.motion[2 + i]
+        contact.dissipated_by_spin += ws.floats[out + TRACTION_MOMENT + i] * ws.motion[2 + i]
 
 
 @kernel("i8(ws, i8, i8)")
 def state_at(ws: Workspace, c: int, y: int) -> int:
     """Return where the inner states of the laws of contact ``c`` stand."""
-    return int(y + ws.n_q + ws.n_u + N_ACCOUNTS + ws.contacts[c].state)
+    return int(y + ws.n_q + ws.n_u + N_ACCOUNTS + ws.contacts[c].inner_states)
 
 
 @kernel("void(ws, i8)")
@@ -79,9 +79,9 @@ def refresh_states(ws: Workspace, y: int) -> None:
         return
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        if contact.state_copy > 0:
-            for i in range(contact.n_state):
-                ws.floats[contact.state_copy + i] = ws.floats[state_at(ws, c, y) + i]
+        if contact.inner_states_copy > 0:
+            for i in range(contact.n_inner_states):
+                ws.floats[contact.inner_states_copy + i] = ws.floats[state_at(ws, c, y) + i]
 
 
 @kernel("void(ws, i8)")
@@ -92,8 +92,8 @@ def begin_contact(ws: Workspace, c: int) -> None:
     """
     contact = ws.contacts[c]
     contact.closing_rate = -contact.rate[0] if contact.rate[0] < -ws.velocity_tolerance else 0.0
-    for i in range(contact.n_state):
-        ws.floats[state_at(ws, c, ws.offsets.y) + i] = ws.floats[contact.state_start + i]
+    for i in range(contact.n_inner_states):
+        ws.floats[state_at(ws, c, ws.offsets.y) + i] = ws.floats[contact.inner_states_at_start + i]
 
 
 @kernel("void(ws, i8, i8)")
@@ -105,11 +105,11 @@ def write_state_rates(ws: Workspace, y: int, out: int) -> None:
         ws.floats[out + ws.n_q + ws.n_u + N_ACCOUNTS + i] = 0.0
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        n = contact.n_state
+        n = contact.n_inner_states
         if n == 0 or contact.mode == OPEN:
             continue
         source = contact.traction_out + FORCE_AND_MOMENT
-        if contact.state_copy > 0:
+        if contact.inner_states_copy > 0:
             source = contact.rates_out
             speed = 0.0 if contact.mode == STICK else length(contact.slip)
             states, parameters = at(ws.floats, state_at(ws, c, y)), at(ws.floats, contact.rates_parameters)
@@ -135,7 +135,7 @@ def write_wrench(ws: Workspace, c: int, f: Floats) -> None:
     """Write row 1 and response 0 of all that the compliant contact ``c`` does, its forces being ``active_forces``."""
     contact = ws.contacts[c]
     force, moment = _in_world(ws, c, f[0], f[1], f[2]), (0.0, 0.0, 0.0)
-    if contact.traction_function != 0:
+    if contact.has_traction_law:
         m = at(ws.floats, contact.traction_out + TRACTION_MOMENT)
         moment = _in_world(ws, c, m[2], m[0], m[1])
     wrench_row(ws, c, 1, force, moment)
@@ -156,9 +156,9 @@ def push_compliant(ws: Workspace) -> None:
     """Add to ``du`` what the touching compliant contacts are known to do, all of it or the normal force alone."""
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        if contact.normal_function == 0 or contact.touching == 0:
+        if not contact.is_compliant or not contact.is_touching:
             continue
-        if contact.traction_function != 0:
+        if contact.has_traction_law:
             rub_by_traction(ws, c, contact.force, ws.offsets.y)
             write_wrench(ws, c, contact.force)
             push_response(ws, c, 0, 1.0, ws.offsets.du)
@@ -166,11 +166,11 @@ def push_compliant(ws: Workspace) -> None:
             push_response(ws, c, 0, contact.compliant_force, ws.offsets.du)
 
 
-@kernel("i8(ws, i8)")
-def rubs_unasked(ws: Workspace, c: int) -> int:
+@kernel("b1(ws, i8)")
+def rubs_unasked(ws: Workspace, c: int) -> bool:
     """Return 1 if the friction of the compliant contact ``c`` is no question: by a law of traction, or without load."""
     contact = ws.contacts[c]
-    return 1 if contact.traction_function != 0 or contact.compliant_force <= 0.0 else 0
+    return contact.has_traction_law or contact.compliant_force <= 0.0
 
 
 @kernel()
@@ -183,7 +183,7 @@ def decouple_normals(ws: Workspace) -> None:
     for a in range(ws.n_active):
         active = ws.actives[a]
         contact = ws.contacts[active.slot]
-        rigid = contact.normal_function == 0
+        rigid = not contact.is_compliant
         for block in range(active.first_block, active.end_block):
             g, d = at(ws.floats, ws.offsets.delassus + DELASSUS * block), ws.block_column[block]
             if d == a and not rigid:
@@ -193,7 +193,7 @@ def decouple_normals(ws: Workspace) -> None:
                     g[i] = g[3 * i] = 0.0
                 g[0] = own
                 continue
-            pushes = ws.contacts[ws.actives[d].slot].normal_function != 0
+            pushes = ws.contacts[ws.actives[d].slot].is_compliant
             for i in range(3):
                 if not rigid:
                     g[i] = 0.0

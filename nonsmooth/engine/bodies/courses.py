@@ -10,13 +10,13 @@ from nonsmooth.engine.memory.modes import OPEN
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
 
-@kernel("i8(ws, i8)")
-def is_on_course(ws: Workspace, c: int) -> int:
-    """Return 1 if contact ``c`` is the closed one of a body on its course, which has no other."""
+@kernel("b1(ws, i8)")
+def has_own_step(ws: Workspace, c: int) -> bool:
+    """True if contact ``c`` is the one closed contact of a body that takes a step of its own (multirate)."""
     contact = ws.contacts[c]
     if contact.mode == OPEN:
-        return 0
-    return int(ws.bodies[contact.body_a].course + ws.bodies[contact.body_b].course)
+        return False
+    return ws.bodies[contact.body_a].has_own_step or ws.bodies[contact.body_b].has_own_step
 
 
 @kernel("i8(ws, i8)")

@@ -35,12 +35,12 @@ def evaluate_geometry(ws: Workspace, c: int) -> None:
     )
     contact.axis_n, contact.axis_1 = contact.normal, contact.tangent
     contact.axis_2 = cross(contact.normal, contact.tangent)
-    if contact.normal_function != 0:
+    if contact.is_compliant:
         contact.overlap = 0.0
-        if contact.gap < 0.0 < contact.beyond:
+        if contact.gap < 0.0 < contact.past_feature:
             # bodies that press into each other are no sign that a contact was passed, as long as another one presses
             contact.overlap = contact.gap
-            contact.gap = length((contact.gap, contact.beyond))
+            contact.gap = length((contact.gap, contact.past_feature))
 
 
 @kernel("v3(F, i8, v3)")
@@ -60,7 +60,7 @@ def evaluate_rates(ws: Workspace, c: int) -> None:
     v = minus(
         _velocity(ws.floats, contact.frame_b, contact.point_b), _velocity(ws.floats, contact.frame_a, contact.point_a)
     )
-    if contact.oriented == 1:
+    if contact.is_anisotropic:
         t1, t2 = contact.tangent, cross(contact.normal, contact.tangent)
         contact.slip_of_tangents = dot(t1, v), dot(t2, v)
         stretch_tangents(ws, c, t1, t2)
@@ -73,13 +73,13 @@ def evaluate_kinematics(ws: Workspace, c: int) -> None:
     contact = ws.contacts[c]
     version_a = ws.bodies[contact.body_a].version
     version_b = ws.bodies[contact.body_b].version
-    if contact.seen_a == version_a and contact.seen_b == version_b:
+    if contact.version_a == version_a and contact.version_b == version_b:
         return
     evaluate_geometry(ws, c)
     evaluate_rates(ws, c)
     # which way one faces hangs on more than its bodies
-    contact.seen_a = version_a if contact.oriented == 0 else UNSEEN
-    contact.seen_b = version_b
+    contact.version_a = version_a if not contact.is_anisotropic else UNSEEN
+    contact.version_b = version_b
 
 
 @kernel("f8(F, i8, i8, v3, v3)")
@@ -128,30 +128,30 @@ def side_wrench(w: Floats, frame: int, point: Vector, force: Vector, moment: Vec
 def _row_a(ws: Workspace, c: int, r: int) -> int:
     """Return where row ``r`` of the first Jacobian of contact ``c`` has the coordinates of the body in contact."""
     contact = ws.contacts[c]
-    return int(contact.jacobian_a + r * ws.articulations[contact.articulation_a].nu + contact.shift_a)
+    return int(contact.jacobian_a + r * ws.articulations[contact.articulation_a].nu + contact.column_a)
 
 
 @kernel("i8(ws, i8, i8)")
 def _row_b(ws: Workspace, c: int, r: int) -> int:
     """Return the same of the second Jacobian."""
     contact = ws.contacts[c]
-    return int(contact.jacobian_b + r * ws.articulations[contact.articulation_b].nu + contact.shift_b)
+    return int(contact.jacobian_b + r * ws.articulations[contact.articulation_b].nu + contact.column_b)
 
 
 @kernel("void(ws, i8, i8, v3, v3)")
 def wrench_row(ws: Workspace, c: int, r: int, force: Vector, moment: Vector) -> None:
     """Write row ``r`` of contact ``c``: what a force and a moment on the second body do, in world components."""
     contact, row_a, row_b = ws.contacts[c], _row_a(ws, c, r), _row_b(ws, c, r)
-    side_wrench(ws.floats, contact.frame_a, contact.point_a, opposite(force), opposite(moment), contact.nu_a, row_a)
-    side_wrench(ws.floats, contact.frame_b, contact.point_b, force, moment, contact.nu_b, row_b)
+    side_wrench(ws.floats, contact.frame_a, contact.point_a, opposite(force), opposite(moment), contact.n_u_a, row_a)
+    side_wrench(ws.floats, contact.frame_b, contact.point_b, force, moment, contact.n_u_b, row_b)
 
 
 @kernel("void(ws, i8, i8, v3)")
 def evaluate_row(ws: Workspace, c: int, r: int, axis: Vector) -> None:
     """Write row ``r`` of the Jacobians of contact ``c``: of the relative velocity along the axis given."""
     contact = ws.contacts[c]
-    side_row(ws.floats, contact.frame_a, contact.point_a, opposite(axis), contact.nu_a, _row_a(ws, c, r))
-    side_row(ws.floats, contact.frame_b, contact.point_b, axis, contact.nu_b, _row_b(ws, c, r))
+    side_row(ws.floats, contact.frame_a, contact.point_a, opposite(axis), contact.n_u_a, _row_a(ws, c, r))
+    side_row(ws.floats, contact.frame_b, contact.point_b, axis, contact.n_u_b, _row_b(ws, c, r))
 
 
 @kernel("void(ws, i8, i8, i8)")
@@ -233,7 +233,7 @@ def evaluate_bias(ws: Workspace, c: int, rows: int) -> None:
     """
     contact = ws.contacts[c]
     n, t1, t2, slip = contact.axis_n, contact.axis_1, contact.axis_2, contact.slip
-    if contact.oriented == 1:
+    if contact.is_anisotropic:
         t1, t2, slip = contact.tangent, cross(contact.normal, contact.tangent), contact.slip_of_tangents
     a, b = frame_at(ws.floats, contact.frame_a), frame_at(ws.floats, contact.frame_b)
     gap = contact.gap
@@ -273,7 +273,7 @@ def evaluate_bias(ws: Workspace, c: int, rows: int) -> None:
     if rows == 3:
         contact.bias[1] = dot(t1, acceleration) + spin * v2 - n1 * rate
         contact.bias[2] = dot(t2, acceleration) - spin * v1 - n2 * rate
-        if contact.oriented == 1:
+        if contact.is_anisotropic:
             stretch_bias(ws, c)
 
 

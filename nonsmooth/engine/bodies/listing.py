@@ -55,13 +55,13 @@ _ACCELERATION = 2.0
 """By how much a unit is taken to speed up within a step; the step is checked afterwards."""
 
 
-@kernel("i8(ws, i8)")
-def _enter(ws: Workspace, declared: int) -> int:
+@kernel("b1(ws, i8)")
+def _enter(ws: Workspace, declared: int) -> bool:
     """Put a declared contact into the next slot, unless it is empty; return 0 if there is no slot."""
-    if is_empty(ws, declared) == 1:
-        return 1
+    if is_empty(ws, declared):
+        return True
     if ws.n_contacts == ws.n_slots:
-        return 0
+        return False
     c = ws.n_contacts
     contact = ws.contacts[c]
     row, floats = (
@@ -73,18 +73,18 @@ def _enter(ws: Workspace, declared: int) -> int:
         ws.body_a[i * ws.n_slots + c] = ws.integers[row + i]
     contact.contact_time, contact.reach = floats[CONTACT_TIME], floats[REACH]
     contact.closing_rate, contact.size = floats[CLOSING_RATE], floats[SIZE]
-    contact.lever_a, contact.lever_b = floats[LEVERS], floats[LEVERS + 1]
-    contact.revolution = floats[REVOLUTION], floats[REVOLUTION + 1], floats[REVOLUTION + 2]
+    contact.support_radius_a, contact.support_radius_b = floats[LEVERS], floats[LEVERS + 1]
+    contact.spin_axis = floats[REVOLUTION], floats[REVOLUTION + 1], floats[REVOLUTION + 2]
     contact.direction = floats[DIRECTION], floats[DIRECTION + 1]
-    contact.mobility, contact.small_force_of = floats[MOBILITY], floats[SMALL_FORCE]
-    contact.mean_span, contact.mean_way, contact.mean_gap = floats[MEAN_SPAN], floats[MEAN_WAY], floats[MEAN_GAP]
-    contact.mean_asked, contact.mean_wait = floats[MEAN_ASKED], floats[MEAN_WAIT]
+    contact.slip_per_force, contact.force_round_off = floats[MOBILITY], floats[SMALL_FORCE]
+    contact.mean_span, contact.mean_gap_change, contact.mean_gap = floats[MEAN_SPAN], floats[MEAN_WAY], floats[MEAN_GAP]
+    contact.mean_forces_asked, contact.mean_forces_wait = floats[MEAN_ASKED], floats[MEAN_WAIT]
     for r in range(3):
         contact.mean_force[r] = floats[MEAN_FORCE + r]
     contact.facing = 1
-    contact.touching = 0
-    contact.seen_a = UNSEEN
-    contact.identity = declared
+    contact.is_touching = False
+    contact.version_a = UNSEEN
+    contact.declared = declared
     # a pair writes what of its block can be other than zero; the contact that had the slot may have left more
     for i in range(PAIR):
         contact.geometry[i] = 0.0
@@ -95,7 +95,7 @@ def _enter(ws: Workspace, declared: int) -> int:
         for i in range(3 * n_u):
             ws.floats[jacobian + i] = 0.0
     ws.n_contacts += 1
-    return 1
+    return True
 
 
 @kernel()
@@ -103,22 +103,26 @@ def _leave(ws: Workspace) -> None:
     """Empty all slots; modes, and what the last event left of the contacts, go back to the catalogue."""
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        declared = contact.identity
+        declared = contact.declared
         floats = at(ws.floats, ws.offsets.catalogue_floats + CATALOGUE_FLOATS * declared)
         ws.catalogue[_WIDTH * declared + _MODE] = contact.mode
-        ws.catalogue[_WIDTH * declared + _AVERAGED] = contact.averaged
+        ws.catalogue[_WIDTH * declared + _AVERAGED] = contact.mode_after_averaging
         floats[DIRECTION], floats[DIRECTION + 1] = contact.direction
         floats[CLOSING_RATE] = contact.closing_rate
-        floats[MOBILITY], floats[SMALL_FORCE] = contact.mobility, contact.small_force_of
-        floats[MEAN_SPAN], floats[MEAN_WAY], floats[MEAN_GAP] = contact.mean_span, contact.mean_way, contact.mean_gap
-        floats[MEAN_ASKED], floats[MEAN_WAIT] = contact.mean_asked, contact.mean_wait
+        floats[MOBILITY], floats[SMALL_FORCE] = contact.slip_per_force, contact.force_round_off
+        floats[MEAN_SPAN], floats[MEAN_WAY], floats[MEAN_GAP] = (
+            contact.mean_span,
+            contact.mean_gap_change,
+            contact.mean_gap,
+        )
+        floats[MEAN_ASKED], floats[MEAN_WAIT] = contact.mean_forces_asked, contact.mean_forces_wait
         for r in range(3):
             floats[MEAN_FORCE + r] = contact.mean_force[r]
     ws.n_contacts = 0
 
 
-@kernel("i8(ws, i8, i8)")
-def _enter_pair(ws: Workspace, one: int, two: int) -> int:
+@kernel("b1(ws, i8, i8)")
+def _enter_pair(ws: Workspace, one: int, two: int) -> bool:
     """Enter the contacts of two units, if there are any; return 0 if there is no slot."""
     unit = ws.units[one]
     low, high = unit.first_partner, unit.end_partner
@@ -130,30 +134,30 @@ def _enter_pair(ws: Workspace, one: int, two: int) -> int:
         else:
             high = middle
     if low == end or ws.partner_unit[low] != two:
-        return 1
+        return True
     for i in range(ws.partner_contact[low], ws.partner_contact[low + 1]):
-        if _enter(ws, ws.paired_contact[i]) == 0:
-            return 0
-    return 1
+        if not _enter(ws, ws.paired_contact[i]):
+            return False
+    return True
 
 
-@kernel("i8(F, i8)")
-def _is_still(w: Floats, place: int) -> int:
+@kernel("b1(F, i8)")
+def _is_still(w: Floats, place: int) -> bool:
     """Return 1 if a frame neither moves nor begins to."""
     frame = frame_at(w, place)
     moves = dot(frame.velocity, frame.velocity) + dot(frame.spin, frame.spin)
     moves += dot(frame.acceleration, frame.acceleration) + dot(frame.spin_acceleration, frame.spin_acceleration)
-    return 1 if moves == 0.0 else 0
+    return moves == 0.0
 
 
-@kernel("i8(ws, i8)")
-def _is_clear(ws: Workspace, number: int) -> int:
+@kernel("b1(ws, i8)")
+def _is_clear(ws: Workspace, number: int) -> bool:
     """Return 1 if the ball of a unit is farther above a wall at rest than the margin: a closed contact has none."""
     wall = ws.walls[number]
     frame, unit = frame_at(ws.floats, wall.frame), ws.units[wall.unit]
     third = frame.rotation[2], frame.rotation[5], frame.rotation[8]
     height = dot(third, minus(unit.place, frame.origin)) - wall.ceiling
-    return 1 if height - unit.radius > ws.margin_of_list else 0
+    return height - unit.radius > ws.margin_of_list
 
 
 @kernel("f8(ws, i8, i8)")
@@ -222,8 +226,8 @@ def list_contacts(ws: Workspace) -> int:
         # the walls of one frame follow one another
         if wall.frame != frame:
             frame, still = wall.frame, _is_still(ws.floats, wall.frame)
-        clear = still == 1 and wall.steady == 1 and _is_clear(ws, i) == 1
-        if not clear and _enter(ws, wall.contact) == 0:
+        clear = still == 1 and wall.steady == 1 and _is_clear(ws, i)
+        if not clear and not _enter(ws, wall.contact):
             return NO_SLOT
     axis = _widest_axis(ws)
     _sort_units(ws, axis)
@@ -235,7 +239,7 @@ def list_contacts(ws: Workspace) -> int:
             two = ws.unit_order[j]
             if _begin(ws, two, axis) > end:
                 break
-            if are_near(ws, one, two) == 1 and _enter_pair(ws, min(one, two), max(one, two)) == 0:
+            if are_near(ws, one, two) and not _enter_pair(ws, min(one, two), max(one, two)):
                 return NO_SLOT
     return RUNNING
 
@@ -279,8 +283,8 @@ def longest_step(ws: Workspace) -> float:
     return longest
 
 
-@kernel("i8(ws, f8)")
-def overran_list(ws: Workspace, h: float) -> int:
+@kernel("b1(ws, f8)")
+def overran_list(ws: Workspace, h: float) -> bool:
     """Return 1 if some unit may have left its way in a step of ``h``, the bodies being evaluated at its end.
 
     No point of a path of length l between two points is farther off than half of l and of the ends' distances.
@@ -289,5 +293,5 @@ def overran_list(ws: Workspace, h: float) -> int:
         unit = ws.units[number]
         path = h * max(unit.speed, _unit_speed(ws, number))
         if unit.way + _way(ws, number) + path > ws.margin_of_list:
-            return 1
-    return 0
+            return True
+    return False

@@ -18,20 +18,20 @@ _WIDTH = len(CATALOGUE)
 _MODE, _CANDIDATE = CATALOGUE.index("mode"), CATALOGUE.index("candidate")
 
 
-@kernel("i8(ws, i8)")
-def is_empty(ws: Workspace, declared: int) -> int:
+@kernel("b1(ws, i8)")
+def is_empty(ws: Workspace, declared: int) -> bool:
     """Return 1 if a declared contact is one of a pool and holds no features."""
     candidate = ws.catalogue[_WIDTH * declared + _CANDIDATE]
-    return 1 if candidate > 0 and ws.floats[candidate] == 0.0 else 0
+    return candidate > 0 and ws.floats[candidate] == 0.0
 
 
-@kernel("i8(ws, i8, i8)")
-def are_near(ws: Workspace, one: int, two: int) -> int:
+@kernel("b1(ws, i8, i8)")
+def are_near(ws: Workspace, one: int, two: int) -> bool:
     """Return 1 if the balls of two units are nearer than the margin of the list."""
     a, b = ws.units[one], ws.units[two]
     way = minus(a.place, b.place)
     near = a.radius + b.radius + ws.margin_of_list
-    return 1 if dot(way, way) <= near * near else 0
+    return dot(way, way) <= near * near
 
 
 @kernel("void(ws, i8, i8, i8)")
@@ -59,7 +59,7 @@ def fill_pools(ws: Workspace) -> int:
         pool = ws.pools[number]
         out, first, contacts = pool.out, pool.first, pool.contacts
         found, n = out + 1, 0
-        if are_near(ws, pool.unit_a, pool.unit_b) == 1:
+        if are_near(ws, pool.unit_a, pool.unit_b):
             ws.floats[out] = ws.margin_of_list
             frame_a, frame_b = ws.units[pool.unit_a].frame, ws.units[pool.unit_b].frame
             call_pair(
@@ -75,13 +75,13 @@ def fill_pools(ws: Workspace) -> int:
             if n > contacts:
                 return NO_SLOT
         for declared in range(first, first + contacts):
-            if is_empty(ws, declared) == 0:
+            if not is_empty(ws, declared):
                 _keep(ws, declared, found, n)
         declared = first
         for i in range(n):
             if ws.floats[found + CANDIDATE * i] == 0.0:
                 continue
-            while declared < first + contacts and is_empty(ws, declared) == 0:
+            while declared < first + contacts and not is_empty(ws, declared):
                 declared += 1
             if declared == first + contacts:
                 return NO_SLOT

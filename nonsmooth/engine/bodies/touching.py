@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.compliance import evaluate_compliant_force, refresh_states
-from nonsmooth.engine.bodies.courses import end_courses_of, is_on_course
+from nonsmooth.engine.bodies.courses import end_courses_of, has_own_step
 from nonsmooth.engine.bodies.kinematics import (
     evaluate_bias,
     evaluate_jacobian,
@@ -28,31 +28,31 @@ def touch(ws: Workspace) -> int:
         approaching = ended = 0
         for c in range(ws.n_contacts):
             approaching = max(approaching, _touch(ws, c))
-            if ws.contacts[c].touching == 1:
+            if ws.contacts[c].is_touching:
                 ended += end_courses_of(ws, c)
     return approaching
 
 
-@kernel("i8(ws, i8)")
-def _touch(ws: Workspace, c: int) -> int:
+@kernel("b1(ws, i8)")
+def _touch(ws: Workspace, c: int) -> bool:
     """Find whether contact ``c`` touches, and evaluate it then; return 1 if it approaches."""
     contact = ws.contacts[c]
-    contact.touching = 0
+    contact.is_touching = False
     evaluate_kinematics(ws, c)
     rate = contact.rate[0]
-    if is_on_course(ws, c) == 1 or (contact.beyond > ws.gap_tolerance and contact.gap > 0.0):
-        return 0
-    contact.touching = 1
-    if contact.normal_function != 0:
+    if has_own_step(ws, c) == 1 or (contact.past_feature > ws.gap_tolerance and contact.gap > 0.0):
+        return False
+    contact.is_touching = True
+    if contact.is_compliant:
         _touch_compliant(ws, c)
-        return 0
+        return False
     near = max(ws.gap_tolerance, ws.time_tolerance * abs(rate))
     if contact.mode == OPEN and contact.gap > near:
-        contact.touching = 0
-        return 0
+        contact.is_touching = False
+        return False
     evaluate_jacobian(ws, c)
     evaluate_bias(ws, c, 3)
-    return 1 if rate < -ws.velocity_tolerance else 0
+    return rate < -ws.velocity_tolerance
 
 
 @kernel("void(ws, i8)")
@@ -63,7 +63,7 @@ def _touch_compliant(ws: Workspace, c: int) -> None:
     end = 0.0 if contact.mode == OPEN else contact.reach
     slow = rate <= ws.velocity_tolerance
     if gap > end + ws.gap_tolerance or (gap > end - ws.gap_tolerance and not slow):
-        contact.touching = 0
+        contact.is_touching = False
         return
     evaluate_jacobian(ws, c)
     evaluate_bias(ws, c, 3)

@@ -136,7 +136,7 @@ def _step(ws: Workspace, n: int, inset: float) -> int:
             ws.reduced[c * free + d] = product(ws.floats, 0.0, ws.offsets.sigma, basis + d * n, n)
         ws.reduced[c * free + c] += _FLOOR
         ws.x[c] = -product(ws.floats, 0.0, row, ws.offsets.right, n)
-    if eliminate(ws.floats, ws.offsets.reduced, free, free, ws.offsets.x, SINGULAR) == 0:
+    if not eliminate(ws.floats, ws.offsets.reduced, free, free, ws.offsets.x, SINGULAR):
         return 0
     for c in range(free):
         ws.sigma[c] = ws.x[c]
@@ -147,8 +147,8 @@ def _step(ws: Workspace, n: int, inset: float) -> int:
     return 1
 
 
-@kernel("i8(ws, i8, f8)")
-def _step_in_band(ws: Workspace, n: int, inset: float) -> int:
+@kernel("b1(ws, i8, f8)")
+def _step_in_band(ws: Workspace, n: int, inset: float) -> bool:
     """Write Newton's step to ``x``: what leaves the null space, by H in ``basis``, is made dear, and cut off then."""
     weight = _CHEAP * largest_diagonal(ws.floats, ws.offsets.basis, n, ws.null_half)
     copy_shifted(ws.floats, ws.offsets.basis, n, ws.null_half, ws.offsets.matrix, weight * _FLOOR_IN_BAND)
@@ -158,11 +158,11 @@ def _step_in_band(ws: Workspace, n: int, inset: float) -> int:
         ws.x[i] = -weight * ws.right[i]
     substitute_band(ws.floats, ws.offsets.matrix, n, ws.null_half, ws.offsets.x)
     project_on_null(ws, n, ws.offsets.x)
-    return 1
+    return True
 
 
-@entry_point("i8(ws, f8, f8)")
-def distribute(ws: Workspace, inset: float, arrived: float) -> int:
+@entry_point("b1(ws, f8, f8)")
+def distribute(ws: Workspace, inset: float, arrived: float) -> bool:
     """Move the forces along the null space into the cones; return 1 if they arrive.
 
     ``active_forces`` is the answer of least norm, ``null`` tells what may be added to it.  The half square of the
@@ -176,16 +176,16 @@ def distribute(ws: Workspace, inset: float, arrived: float) -> int:
         for i in range(n):
             worst = max(worst, abs(ws.right[i]))
         if worst <= arrived:
-            return 1
+            return True
         if (_step_in_band(ws, n, inset) if ws.null_banded == 1 else _step(ws, n, inset)) == 0:
-            return 0
+            return False
         slope = 0.0
         for i in range(n):
             slope += ws.right[i] * ws.x[i]
             ws.sigma[i] = force_of(ws, i)
         # where the distance has its smallest value, and it is not zero, there are no such forces
         if not slope < 0.0:
-            return 0
+            return False
         share, moved = 1.0, 0
         for _halving in range(30):
             for i in range(n):
@@ -196,5 +196,5 @@ def distribute(ws: Workspace, inset: float, arrived: float) -> int:
                 break
             share *= 0.5
         if moved == 0:
-            return 0
-    return 0
+            return False
+    return False

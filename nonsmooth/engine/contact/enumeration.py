@@ -18,8 +18,8 @@ _ENDLESS = 1e30
 """Static coefficient of what is held whatever the friction: no ratio of forces is as large."""
 
 
-@kernel("i8(ws, i8)")
-def _write_modes(ws: Workspace, number: int) -> int:
+@kernel("b1(ws, i8)")
+def _write_modes(ws: Workspace, number: int) -> bool:
     """Write the modes that the digits of ``number`` to base 3 mean; return 1 if they make sense."""
     for a in range(ws.n_active):
         active = ws.actives[a]
@@ -28,8 +28,8 @@ def _write_modes(ws: Workspace, number: int) -> int:
         mode = STICK if choice == 0 else (SLIDE if choice == 1 else OPEN)
         active.mode_tried = mode
         if mode == STICK and active.at_rest == 0:
-            return 0
-    return 1
+            return False
+    return True
 
 
 @kernel("i8(ws)")
@@ -94,16 +94,16 @@ def enumerate_modes(ws: Workspace, first: int) -> int:
     for number in range(first, combinations):
         if interrupted(ws, ws.n_active) == 1:
             return 0
-        if _write_modes(ws, number) == 0:
+        if not _write_modes(ws, number):
             continue
         slips = _start_slips(ws)
         if slips > 0:
             polish(ws)
-        if verify(ws, 0) == 1:
+        if verify(ws, 0):
             return number + 1
         if slips > 0:
             _sweep_slips(ws)
             polish(ws)
-            if verify(ws, 0) == 1:
+            if verify(ws, 0):
                 return number + 1
     return 0

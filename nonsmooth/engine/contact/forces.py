@@ -46,13 +46,13 @@ def resolve(ws: Workspace) -> None:
     interrupted(ws, n * ws.n_active)
     if ws.n_active == 1 and n == 3 and _stick_alone(ws) == 1:
         return
-    if open_band(ws, n, ws.offsets.reduced) == 0:
+    if not open_band(ws, n, ws.offsets.reduced):
         return
     for a in range(ws.n_active):
         active = ws.actives[a]
         for i in range(active.first_unknown, active.end_unknown):
             _write_row(ws, a, i, n)
-    if solve_unknowns(ws, n) == 0:
+    if not solve_unknowns(ws, n):
         for a in range(ws.n_active):
             active = ws.actives[a]
             for i in range(active.first_unknown, active.end_unknown):
@@ -113,8 +113,8 @@ def _write_frictionless_row(ws: Workspace, a: int, i: int, n: int) -> None:
             ws.floats[line + j] = ws.delassus[DELASSUS * block + 3 * r + ws.unknowns[j].direction]
 
 
-@kernel("i8(ws, i8)")
-def solve_unknowns(ws: Workspace, n: int) -> int:
+@kernel("b1(ws, i8)")
+def solve_unknowns(ws: Workspace, n: int) -> bool:
     """Solve ``reduced . x = right`` of the unknowns in ``column``; return 0 if the matrix is doubtfully regular.
 
     Then zeros are written over the band of ``matrix``, for :func:`solve_doubtful`.
@@ -123,12 +123,12 @@ def solve_unknowns(ws: Workspace, n: int) -> int:
     ws.deficient = ws.null_banded = 0
     if n == 1 and ws.reduced[0] != 0.0:
         ws.x[0] = ws.right[0] / ws.reduced[0]
-        return 1
-    if eliminate_reduced(ws, n, DOUBTFUL) == 1:
-        return 1
+        return True
+    if eliminate_reduced(ws, n, DOUBTFUL):
+        return True
     for i in range(n * band_width(n, ws.half_band)):
         ws.matrix[i] = 0.0
-    return 0
+    return False
 
 
 @entry_point("void(ws, i8)")
@@ -142,7 +142,7 @@ def solve_doubtful(ws: Workspace, n: int) -> None:
     """
     full = band_width(n, ws.half_band) == n
     rank = rank_of_semidefinite(ws.floats, ws.offsets.matrix, n) if full else n
-    if rank == n and eliminate_reduced(ws, n, SINGULAR) == 1:
+    if rank == n and eliminate_reduced(ws, n, SINGULAR):
         return
     ws.deficient = 1
     if not full:
@@ -173,8 +173,8 @@ def _least_norm(ws: Workspace, n: int, most: int) -> None:
             subtract_part(ws.floats, ws.offsets.null + i * n, -ws.basis[c * n + i], ws.offsets.basis + c * n, n)
 
 
-@kernel("i8(ws, i8, f8)")
-def eliminate_reduced(ws: Workspace, n: int, least: float) -> int:
+@kernel("b1(ws, i8, f8)")
+def eliminate_reduced(ws: Workspace, n: int, least: float) -> bool:
     """Solve ``reduced . x = right`` by elimination; return 0 if singular."""
     for i in range(n):
         ws.x[i] = ws.right[i]

@@ -122,22 +122,22 @@ def _push_compliant(ws: Workspace) -> None:
         contact = ws.contacts[c]
         force = active.normal_force if sticks == 1 else 1.0
         push_response(ws, c, 0, force, ws.offsets.du)
-        ws.driven_power += force * row(ws, c, 1 - sticks, ws.free_velocities) - contact.turned
-        if contact.normal_function != 0:
+        ws.driven_power += force * row(ws, c, 1 - sticks, ws.free_velocities) - contact.dissipated_by_spin
+        if contact.is_compliant:
             ws.load_power += active.normal_force * contact.rate[0]
 
 
-@kernel("i8(ws)")
-def _solve_held(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _solve_held(ws: Workspace) -> bool:
     """Write the unknown forces to ``x``; return 0 if there is no room for that."""
     n = _list_rows(ws)
-    if open_band(ws, n, ws.offsets.reduced) == 0:
-        return 0
+    if not open_band(ws, n, ws.offsets.reduced):
+        return False
     for a in range(ws.n_active):
         active = ws.actives[a]
         for i in range(active.first_unknown, active.end_unknown):
             _reduce(ws, a, i, n)
-    if solve_unknowns(ws, n) == 0:
+    if not solve_unknowns(ws, n):
         for a in range(ws.n_active):
             active = ws.actives[a]
             if active.tangent_held == 0 and active.normal_held == 1:
@@ -147,7 +147,7 @@ def _solve_held(ws: Workspace) -> int:
             for i in range(active.first_unknown, active.end_unknown):
                 _write_held_row(ws, a, i, n)
         solve_doubtful(ws, n)
-    return 1
+    return True
 
 
 @kernel("i8(ws)")
@@ -214,7 +214,7 @@ def hold_contacts(ws: Workspace, choosing: int) -> int:
     if ws.n_active == 1 and ws.actives[0].normal_held == 1 and _hold_alone(ws) == 1:
         return keeps
     _push_compliant(ws)
-    if _solve_held(ws) == 0:
+    if not _solve_held(ws):
         return keeps
     if ws.deficient == 1:
         if choosing == 1:

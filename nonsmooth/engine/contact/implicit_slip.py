@@ -34,7 +34,7 @@ def _lay(ws: Workspace, a: int) -> None:
     active = ws.actives[a]
     c = active.slot
     contact = ws.contacts[c]
-    contact.turned = 0.0
+    contact.dissipated_by_spin = 0.0
     if contact.mode == SLIDE:
         active.mu = slip_coefficient(ws, c, length(contact.slip))
     else:
@@ -52,14 +52,14 @@ def _lay(ws: Workspace, a: int) -> None:
         ws.acceleration_scale = max(ws.acceleration_scale, abs(free), abs(contact.bias[r]))
 
 
-@kernel("i8(ws)")
-def _halts(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _halts(ws: Workspace) -> bool:
     """Return 1 if a slip is held: whether others share its load, forces that are not unique tell."""
     for a in range(ws.n_active):
         active = ws.actives[a]
         if active.mode_past == SLIDE and active.mode_tried == STICK:
-            return 1
-    return 0
+            return True
+    return False
 
 
 @kernel("i8(ws)")
@@ -71,7 +71,7 @@ def _stop_and_go(ws: Workspace) -> int:
     small = _FAINT * largest
     if ws.deficient == 1:
         shift_forces(ws)
-    if ws.deficient == 1 and _halts(ws) == 1:
+    if ws.deficient == 1 and _halts(ws):
         small = 2.0 * _ARRIVED * largest
         distribute(ws, 0.0, _ARRIVED * largest)
         for a in range(ws.n_active):
@@ -98,8 +98,8 @@ def _stop_and_go(ws: Workspace) -> int:
     return changed
 
 
-@kernel("i8(ws)")
-def oppose_slips(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def oppose_slips(ws: Workspace) -> bool:
     """Find forces whose friction opposes the slip of all that slides, or holds it at zero; return 1 if found.
 
     Of what slides ``mode_past`` is that and ``at_rest`` 1; the accelerations at which it would end without forces are
@@ -111,7 +111,7 @@ def oppose_slips(ws: Workspace) -> int:
         polished = polish(ws)
         if polished == 0:
             if held == 1:
-                return 0
+                return False
             held = 1
             for a in range(ws.n_active):
                 active = ws.actives[a]
@@ -119,32 +119,32 @@ def oppose_slips(ws: Workspace) -> int:
         if polished != 1 or ws.deficient == 1:
             hold_tried(ws)
         if _stop_and_go(ws) == 0:
-            return 1
-    return 0
+            return True
+    return False
 
 
-@kernel("i8(ws)")
-def _oppose_alone(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _oppose_alone(ws: Workspace) -> bool:
     """Do the same for one contact that slides on, whose only unknown is a direction; return 1 if it is found."""
     active, g = ws.actives[0], diagonal_block(ws, 0)
     if ws.n_active > 1 or active.mode_past != SLIDE or active.at_rest == 0 or active.given == 1:
-        return 0
+        return False
     mu, (d1, d2) = active.mu, active.direction
     for _turn in range(_TURNS):
         reduced = g.nn - mu * (g.n1 * d1 + g.n2 * d2)
         if not reduced > 0.0:
-            return 0
+            return False
         force = -active.free[0] / reduced
         p1, p2 = g.n1 - mu * (g.t11 * d1 + g.t12 * d2), g.n2 - mu * (g.t12 * d1 + g.t22 * d2)
         a1, a2 = active.free[1] + force * p1, active.free[2] + force * p2
         across, along = a1 * d2 - a2 * d1, a1 * d1 + a2 * d2
         if abs(across) <= EXACT * max(ws.acceleration_scale, abs(a1), abs(a2)):
             if not along > 0.0 or not force > 0.0:
-                return 0
+                return False
             active.normal_force, active.direction = force, (d1, d2)
             ws.deficient, active.redundant = 0, 0
             friction_of_slip(ws, 0)
-            return 1
+            return True
         # what turning the direction does to the normal force, and to the acceleration
         change = mu * force * (g.n2 * d1 - g.n1 * d2) / reduced
         c1 = change * p1 - mu * force * (g.t12 * d1 - g.t11 * d2)
@@ -153,7 +153,7 @@ def _oppose_alone(ws: Workspace) -> int:
         d1, d2 = d1 - turn * d2, d2 + turn * d1
         size = length((d1, d2))
         d1, d2 = d1 / size, d2 / size
-    return 0
+    return False
 
 
 @kernel()
@@ -187,7 +187,7 @@ def _solve(ws: Workspace) -> int:
     if not ws.acceleration_scale > 0.0:
         # a trial step far too long led to what is no number
         return 0
-    return 1 if _oppose_alone(ws) == 1 else oppose_slips(ws)
+    return 1 if _oppose_alone(ws) else oppose_slips(ws)
 
 
 @kernel("i8(ws)")

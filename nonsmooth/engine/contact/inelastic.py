@@ -42,7 +42,7 @@ def _soften(ws: Workspace, part: float) -> None:
     for a in range(ws.n_active):
         active, own = ws.actives[a], diagonal_block(ws, a)
         # the normal impulse of a contact with a law of its own is given
-        rigid = ws.contacts[active.slot].normal_function == 0
+        rigid = not ws.contacts[active.slot].is_compliant
         along = part * max(active.rigid[1], active.rigid[2])
         own.nn = active.rigid[0] * (1.0 + part if rigid else 1.0)
         own.t11, own.t22 = active.rigid[1] + along, active.rigid[2] + along
@@ -65,21 +65,21 @@ def _keep(ws: Workspace) -> None:
         ws.active_forces_first[i] = ws.active_forces[i]
 
 
-@kernel("i8(ws, i8)")
-def _step_or_stay(ws: Workspace, steps: int) -> int:
+@kernel("b1(ws, i8)")
+def _step_or_stay(ws: Workspace, steps: int) -> bool:
     """Go to the next answer by Newton's method, or stay at the last (0)."""
     _keep(ws)
-    if step_by_newton(ws, steps) == 1:
-        return 1
+    if step_by_newton(ws, steps):
+        return True
     for i in range(3 * ws.n_active):
         ws.active_forces[i] = ws.active_forces_first[i]
-    return 0
+    return False
 
 
-@kernel("i8(ws, f8)")
-def _next_to_rigid(ws: Workspace, part: float) -> int:
+@kernel("b1(ws, f8)")
+def _next_to_rigid(ws: Workspace, part: float) -> bool:
     """Return 1 if contacts that give way by a ``part`` make no rates wrong by more than counts."""
-    return 1 if part * _fastest(ws) <= _TRUE * ws.velocity_tolerance else 0
+    return part * _fastest(ws) <= _TRUE * ws.velocity_tolerance
 
 
 @kernel("i8(ws)")
@@ -96,17 +96,17 @@ def _go_on(ws: Workspace) -> int:
     return settled * _next_to_rigid(ws, part)
 
 
-@kernel("i8(ws)")
-def _follow(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _follow(ws: Workspace) -> bool:
     """Follow impulses from contacts that give way to those that do next to not at all; return 1 if that leads there."""
     found, ratio = 1.0, _RATIO
     _soften(ws, found)
     sweep(ws, SWEEPS)
-    if step_by_newton(ws, STEPS) == 0:
+    if not step_by_newton(ws, STEPS):
         ratio = 1.0
-    while ratio <= _STUCK and _next_to_rigid(ws, found) == 0:
+    while ratio <= _STUCK and not _next_to_rigid(ws, found):
         _soften(ws, ratio * found)
-        if _step_or_stay(ws, STEPS) == 1:
+        if _step_or_stay(ws, STEPS):
             found *= ratio
         else:
             ratio **= 0.5
@@ -128,13 +128,13 @@ def inelastic_impulses(ws: Workspace, moment: float) -> int:
         active.mu_static = active.mu = active.mu if active.at_rest == 0 else active.mu_static
         active.at_rest = active.normal_held = active.tangent_held = 1
         for r in range(3):
-            given = r == 0 and contact.normal_function != 0
+            given = r == 0 and contact.is_compliant
             active.free[r] = moment * active.free[r] + (0.0 if given else contact.rate[r])
     _keep_rigid(ws)
     found = _go_on(ws)
     if found == 0:
         sweep(ws, SWEEPS)
-        if step_by_newton(ws, STEPS) == 1:
+        if step_by_newton(ws, STEPS):
             return 1
         for i in range(3 * ws.n_active):
             ws.active_forces[i] = 0.0

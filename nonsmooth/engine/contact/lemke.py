@@ -161,12 +161,12 @@ def _leaving(ws: Workspace, n: int, s: int) -> int:
     return chosen
 
 
-@entry_point("i8(ws, i8)")
-def search_by_pivots(ws: Workspace, stage: int) -> int:
+@entry_point("b1(ws, i8)")
+def search_by_pivots(ws: Workspace, stage: int) -> bool:
     """Write ``active_forces`` of the faceted problem; return 1 if there are none, its path ending in a ray."""
     m = ws.n_active
     if m > ws.n_pivoted:
-        return 1
+        return True
     write_dense(ws)
     g = size = 0.0
     for i in range(3 * m):
@@ -174,7 +174,7 @@ def search_by_pivots(ws: Workspace, stage: int) -> int:
         size = max(size, abs(ws.free_accelerations[i]))
         ws.active_forces[i] = 0.0
     if size == 0.0:
-        return 0
+        return False
     n = _list_unknowns(ws)
     _lay(ws, n, g, size)
     row, column = _first_row(ws, n), n
@@ -192,7 +192,7 @@ def search_by_pivots(ws: Workspace, stage: int) -> int:
                 column = j
         row = _leaving(ws, n, column)
         if row < 0:
-            return 1
+            return True
     for i in range(n):
         unknown = ws.lemke_row[i] - n
         if unknown < 0 or unknown >= n:
@@ -208,4 +208,4 @@ def search_by_pivots(ws: Workspace, stage: int) -> int:
     for a in range(m):
         if ws.actives[a].at_rest == 0:
             friction_of_slip(ws, a)
-    return 0
+    return False

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.kinematics import evaluate_bias, evaluate_geometry, evaluate_rates, side_entries
 from nonsmooth.engine.contact.problem import slip_coefficient, slip_direction
-from nonsmooth.engine.memory.modes import OPEN, SLIDE
+from nonsmooth.engine.memory.modes import SLIDE
 from nonsmooth.engine.native.kernel import (
     Floats,
     Workspace,
@@ -29,8 +29,8 @@ def lone_slip(ws: Workspace, group: int) -> int:
     contact = ws.contacts[c]
     if ws.group_start[group + 1] - first != 1 or contact.mode != SLIDE or ws.ahead > 0.0:
         return -1
-    special = contact.normal_function != 0 or contact.averaged != OPEN or contact.oriented != 0
-    nu_a, nu_b = contact.nu_a, contact.nu_b
+    special = contact.is_compliant or contact.is_averaged or contact.is_anisotropic
+    nu_a, nu_b = contact.n_u_a, contact.n_u_b
     if special or nu_a + nu_b != 6 or min(nu_a, nu_b) != 0:
         return -1
     one, two = ws.articulations[contact.articulation_a], ws.articulations[contact.articulation_b]
@@ -62,8 +62,8 @@ def _add(w: Floats, first: int, force: float, response: Vector) -> None:
     w[first + 2] += response[2] * force
 
 
-@kernel("i8(ws, i8)")
-def hold_lone_slip(ws: Workspace, c: int) -> int:
+@kernel("b1(ws, i8)")
+def hold_lone_slip(ws: Workspace, c: int) -> bool:
     """Evaluate contact ``c``, write its force, add what that does to ``du``, and note the driven body's power.
 
     The free acceleration stands in ``du``.  Return 0, nothing of this done, if its force moves nothing.
@@ -81,7 +81,7 @@ def hold_lone_slip(ws: Workspace, c: int) -> int:
         n[1] - m1 * t1[1] - m2 * t2[1],
         n[2] - m1 * t1[2] - m2 * t2[2],
     )
-    second = contact.nu_b > 0
+    second = contact.n_u_b > 0
     sign = 1.0 if second else -1.0
     frame = contact.frame_b if second else contact.frame_a
     moving = ws.articulations[contact.articulation_b if second else contact.articulation_a]
@@ -99,7 +99,7 @@ def hold_lone_slip(ws: Workspace, c: int) -> int:
     )
     own = dot(held_1, response_1) + dot(held_2, response_2)
     if own == 0.0:
-        return 0
+        return False
     # on which more force gives more approach
     if own < 0.0:
         ws.singular = c
@@ -108,7 +108,7 @@ def hold_lone_slip(ws: Workspace, c: int) -> int:
     force = (-contact.bias[0] - free) / own
     _add(ws.floats, du, sign * force, response_1)
     _add(ws.floats, du + 3, sign * force, response_2)
-    contact.turned, contact.redundant, contact.holds = 0.0, 0, 0
+    contact.dissipated_by_spin, contact.redundant, contact.holds = 0.0, 0, 0
     contact.force[0], contact.force[1], contact.force[2] = force, -m1 * force, -m2 * force
     ws.driven_power += force * (on_coordinates - contact.rate[0] + m1 * slip[0] + m2 * slip[1])
-    return 1
+    return True

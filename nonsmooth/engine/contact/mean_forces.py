@@ -23,13 +23,13 @@ _LONGEST = 50.0
 """Forces are averaged over so many contact times at most."""
 
 
-@kernel("i8(ws)")
-def is_averaged(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def is_averaged(ws: Workspace) -> bool:
     """Return 1 if the forces of the active contacts are averaged."""
     for a in range(ws.n_active):
-        if ws.contacts[ws.actives[a].slot].averaged != OPEN:
-            return 1
-    return 0
+        if ws.contacts[ws.actives[a].slot].is_averaged:
+            return True
+    return False
 
 
 @kernel("f8(ws)")
@@ -41,22 +41,22 @@ def averaging_time(ws: Workspace) -> float:
     time = 1e300
     for a in range(ws.n_active):
         contact = ws.contacts[ws.actives[a].slot]
-        if contact.normal_function == 0:
+        if not contact.is_compliant:
             time = min(time, contact.contact_time)
     return time if time < 1e300 else 0.0
 
 
-@kernel("i8(ws)")
-def is_settled(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def is_settled(ws: Workspace) -> bool:
     """Return 1 if no active contact slips so slowly that its friction would stop it within a contact time."""
     for a in range(ws.n_active):
         contact = ws.contacts[ws.actives[a].slot]
         speed = length(contact.slip)
         friction = length((contact.force[1], contact.force[2]))
-        slow = speed <= contact.contact_time * contact.mobility * friction
+        slow = speed <= contact.contact_time * contact.slip_per_force * friction
         if slow and speed > ws.velocity_tolerance and contact.force[0] > 0.0:
-            return 0
-    return 1
+            return False
+    return True
 
 
 @kernel("f8(ws, i8)")
@@ -71,7 +71,7 @@ def averaging_span(ws: Workspace, follows: int) -> float:
     span = _LONGEST * least
     for a in range(ws.n_active):
         contact = ws.contacts[ws.actives[a].slot]
-        if contact.averaged != OPEN:
+        if contact.is_averaged:
             span = min(span, contact.mean_span if contact.mean_span > 0.0 else least)
     return float(span)
 
@@ -84,7 +84,7 @@ def measure_spans(ws: Workspace) -> None:
     """
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        if contact.averaged != OPEN:
+        if contact.is_averaged:
             left = max(abs(contact.rate[0]), 0.25 * ws.velocity_tolerance)
             accurate = contact.mean_span * math.sqrt(ws.velocity_tolerance / left)
             contact.mean_span = max(accurate, min(2.0 * contact.mean_span, contact.contact_time))
@@ -99,7 +99,7 @@ def _keep_span(ws: Workspace, span: float) -> None:
     kept = span
     for a in range(ws.n_active):
         active = ws.actives[a]
-        if ws.contacts[active.slot].averaged != active.mode_tried:
+        if ws.contacts[active.slot].mode_after_averaging != active.mode_tried:
             kept = max(0.5 * span, min(span, averaging_time(ws)))
     for a in range(ws.n_active):
         ws.contacts[ws.actives[a].slot].mean_span = kept
@@ -112,10 +112,10 @@ def _solve(ws: Workspace, time: float) -> int:
     for a in range(ws.n_active):
         active = ws.actives[a]
         contact = ws.contacts[active.slot]
-        contact.mobility = slope_of_slip(ws, a)
+        contact.slip_per_force = slope_of_slip(ws, a)
         for r in range(3):
             active.free[r] = contact.bias[r] + row(ws, active.slot, r, ws.offsets.du)
-            active.force[r] = time * contact.mean_force[r] if contact.averaged != OPEN else 0.0
+            active.force[r] = time * contact.mean_force[r] if contact.is_averaged else 0.0
         # what is left of a gap may close
         active.free[0] += max(0.0, contact.gap) / (time * time)
     decouple_normals(ws)
@@ -168,8 +168,8 @@ def take_mean_forces(ws: Workspace, time: float) -> None:
         contact = ws.contacts[active.slot]
         # a gap that opens comes to rest there
         way = time * max(0.0, contact.rate[0])
-        contact.mean_way = way + (contact.mean_way if contact.averaged != OPEN else 0.0)
-        contact.averaged = active.mode_tried
+        contact.mean_gap_change = way + (contact.mean_gap_change if contact.is_averaged else 0.0)
+        contact.mode_after_averaging = active.mode_tried
         contact.mean_gap = contact.gap
         for r in range(3):
             active.force[r] /= time

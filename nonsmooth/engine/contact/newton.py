@@ -103,14 +103,14 @@ def _add_cut(ws: Workspace, a: int, cut: float, c1: float, c2: float) -> None:
             ws.floats[second + j] += cut * c1 * across - c2 * grown
 
 
-@kernel("i8(ws)")
-def _write_jacobian(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _write_jacobian(ws: Workspace) -> bool:
     """Write the derivative of the natural map at the forces at hand to ``matrix``; return 0 if it is too wide."""
     n = 3 * ws.n_active
     for a in range(ws.n_active + 1):
         ws.actives[a].first_unknown = 3 * a
-    if open_band(ws, n, ws.offsets.matrix) == 0:
-        return 0
+    if not open_band(ws, n, ws.offsets.matrix):
+        return False
     for a in range(ws.n_active):
         active = ws.actives[a]
         line = 3 * a
@@ -140,11 +140,11 @@ def _write_jacobian(ws: Workspace) -> int:
                 ws.floats[row + line + r] += _FLOOR
         elif radius > 0.0:
             _add_cut(ws, a, radius / size, y1 / size, y2 / size)
-    return 1
+    return True
 
 
-@entry_point("i8(ws, i8)")
-def search_by_newton(ws: Workspace, stage: int) -> int:
+@entry_point("b1(ws, i8)")
+def search_by_newton(ws: Workspace, stage: int) -> bool:
     """Improve the forces by sweeps, ten times more of them in every stage, and Newton steps; return 1 if settled."""
     sweeps = _SWEEPS
     for _stage in range(stage):
@@ -153,26 +153,26 @@ def search_by_newton(ws: Workspace, stage: int) -> int:
     return step_by_newton(ws, STEPS)
 
 
-@kernel("i8(ws, i8)")
-def step_by_newton(ws: Workspace, steps: int) -> int:
+@kernel("b1(ws, i8)")
+def step_by_newton(ws: Workspace, steps: int) -> bool:
     """Improve the forces by so many Newton steps at most; return 1 if settled."""
     width = 3 * ws.n_active
     square = write_natural_map(ws)
     mean, weight = square, 1.0
     for _step in range(steps):
         if interrupted(ws, ws.n_active * ws.half_band) == 1:
-            return 0
+            return False
         size = 0.0
         for i in range(width):
             size += ws.active_forces[i] * ws.active_forces[i]
         if square <= _SETTLED * _SETTLED * size:
-            return 1
-        if _write_jacobian(ws) == 0:
-            return 0
+            return True
+        if not _write_jacobian(ws):
+            return False
         for i in range(width):
             ws.x[i] = -ws.right[i]
-        if eliminate(ws.floats, ws.offsets.matrix, width, ws.half_band, ws.offsets.x, SINGULAR) == 0:
-            return 0
+        if not eliminate(ws.floats, ws.offsets.matrix, width, ws.half_band, ws.offsets.x, SINGULAR):
+            return False
         for i in range(width):
             ws.active_forces_kept[i] = ws.active_forces[i]
         share, better = 1.0, 0
@@ -187,7 +187,7 @@ def step_by_newton(ws: Workspace, steps: int) -> int:
         if better == 0:
             for i in range(width):
                 ws.active_forces[i] = ws.active_forces_kept[i]
-            return 0
+            return False
         mean = (_MEMORY * weight * mean + square) / (_MEMORY * weight + 1.0)
         weight = _MEMORY * weight + 1.0
-    return 0
+    return False

@@ -57,30 +57,30 @@ def _keep_null_space_force(ws: Workspace, n: int) -> None:
         contact.null_space_force[unknown.direction] = force_of(ws, i) - ws.active_forces_first[i]
 
 
-@kernel("i8(ws, f8, i8)")
-def _choose(ws: Workspace, largest: float, rung: int) -> int:
+@kernel("b1(ws, f8, i8)")
+def _choose(ws: Workspace, largest: float, rung: int) -> bool:
     """Choose forces off every bound by so many quarterings of the largest, from those of least norm; 1 if there are."""
     for i in range(ws.n_unknown):
         set_force(ws, i, ws.active_forces_first[i])
-    return int(distribute(ws, 0.25**rung * largest, _ARRIVED * largest))
+    return distribute(ws, 0.25**rung * largest, _ARRIVED * largest)
 
 
 @kernel("i8(ws, f8)")
 def _choose_farthest(ws: Workspace, largest: float) -> int:
     """Choose forces as far off every bound as can be, within a factor; return 1 if there are any."""
     near, far = 1, 0
-    while _choose(ws, largest, near) == 0:
+    while not _choose(ws, largest, near):
         if near == _RUNGS:
             return 0
         far, near = near, min(2 * near, _RUNGS)
     rung = near
     while near - far > 1:
         rung = (near + far) // 2
-        if _choose(ws, largest, rung) == 1:
+        if _choose(ws, largest, rung):
             near = rung
         else:
             far = rung
-    return int(rung == near or _choose(ws, largest, near) == 1)
+    return int(rung == near or _choose(ws, largest, near))
 
 
 @entry_point("i8(ws)")

@@ -120,17 +120,17 @@ def _list_unknowns(ws: Workspace) -> int:
             if (active.normal_held if r == 0 else active.tangent_held) == 1:
                 list_unknown(ws, n, a, r, 0)
                 n += 1
-        if _starts(ws, a) == 1:
+        if _starts(ws, a):
             list_unknown(ws, n, a, 0, 1)
             n += 1
     ws.first_unknown[ws.n_active] = n
     return n
 
 
-@kernel("i8(ws, i8)")
-def _starts(ws: Workspace, a: int) -> int:
+@kernel("b1(ws, i8)")
+def _starts(ws: Workspace, a: int) -> bool:
     active = ws.actives[a]
-    return 1 if active.at_rest == 1 and active.mode_tried == SLIDE else 0
+    return active.at_rest == 1 and active.mode_tried == SLIDE
 
 
 @kernel("void(ws, i8)")
@@ -156,7 +156,7 @@ def _turn(ws: Workspace, i: int) -> None:
 @kernel("void(ws, i8)")
 def _solve(ws: Workspace, n: int) -> None:
     """Solve Newton's system; where it is singular, for least norm, or a little off where its band is narrow."""
-    if eliminate_reduced(ws, n, SINGULAR) == 1:
+    if eliminate_reduced(ws, n, SINGULAR):
         return
     if band_width(n, ws.half_band) < n:
         for i in range(n):
@@ -188,7 +188,7 @@ def polish(ws: Workspace) -> int:
         if worst <= EXACT or (worst <= _NEAR and worst >= best):
             return 1
         best = min(best, worst)
-        if open_band(ws, n, ws.offsets.reduced) == 0:
+        if not open_band(ws, n, ws.offsets.reduced):
             return 0
         for a in range(ws.n_active):
             active = ws.actives[a]

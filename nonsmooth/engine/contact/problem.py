@@ -108,7 +108,7 @@ def accelerate_touching(ws: Workspace) -> None:
         return
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        if contact.touching == 1:
+        if contact.is_touching:
             accelerate_freely(ws, contact.body_a)
             accelerate_freely(ws, contact.body_b)
 
@@ -150,8 +150,8 @@ def set_up(ws: Workspace) -> None:
     decouple_normals(ws)
 
 
-@entry_point("i8(ws)")
-def solve_contact(ws: Workspace) -> int:
+@entry_point("b1(ws)")
+def solve_contact(ws: Workspace) -> bool:
     """Find modes and forces of the active contacts, ``mode_tried`` holding the past modes; return 1 if found.
 
     The kinematics of the active contacts must be evaluated and :func:`set_up` called.  A past mode of -1 is none.  On
@@ -166,21 +166,21 @@ def solve_contact(ws: Workspace) -> int:
         active.mode_past = active.mode_tried
         if active.mode_tried < 0:
             past = 0
-    if past == 1 and verify(ws, 0) == 1:
-        return 1
+    if past == 1 and verify(ws, 0):
+        return True
     if ws.solver != AUTO:
         return find_modes(ws, ws.solver)
-    if find_modes(ws, NEWTON) == 1 or find_modes(ws, GAUSS_SEIDEL) == 1:
-        return 1
-    if ws.n_active <= MOST_PIVOTED and find_modes(ws, LEMKE) == 1:
-        return 1
+    if find_modes(ws, NEWTON) or find_modes(ws, GAUSS_SEIDEL):
+        return True
+    if ws.n_active <= MOST_PIVOTED and find_modes(ws, LEMKE):
+        return True
     if ws.n_active <= ENUMERATED_AT_LAST:
         return find_modes(ws, ENUMERATION)
-    return 0
+    return False
 
 
-@entry_point("i8(ws)")
-def solve_from_rates(ws: Workspace) -> int:
+@entry_point("b1(ws)")
+def solve_from_rates(ws: Workspace) -> bool:
     """Solve on G and b as given, the friction following from the slip velocities in ``rate``; return 1 if solved."""
     for a in range(ws.n_active):
         write_friction(ws, a)
@@ -192,6 +192,6 @@ def accelerate(ws: Workspace) -> None:
     """Add the accelerations that the contact forces give to ``du``; it holds those of given normal forces."""
     for a in range(ws.n_active):
         active = ws.actives[a]
-        if ws.contacts[active.slot].normal_function != 0:
+        if ws.contacts[active.slot].is_compliant:
             active.normal_force = 0.0
     add_response(ws, ws.offsets.active_forces, ws.offsets.du)

@@ -56,8 +56,8 @@ def _restore_cones(ws: Workspace) -> None:
         active.mu, active.mu_static = active.mu_kept, active.static_kept
 
 
-@kernel("i8(ws)")
-def _guess_by_motion(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _guess_by_motion(ws: Workspace) -> bool:
     """Try the modes that the accelerations tell, but for those of the past; return 1 if they differ."""
     differ = 0
     small = EQUAL * ws.small_acceleration
@@ -75,7 +75,7 @@ def _guess_by_motion(ws: Workspace) -> int:
             active.mode_tried = mode
             if active.at_rest == 1 and mode == SLIDE:
                 active.direction = a1 / slip, a2 / slip
-    return differ
+    return differ != 0
 
 
 @kernel()
@@ -112,31 +112,31 @@ def _open_pulling(ws: Workspace) -> int:
     return opened
 
 
-@kernel("i8(ws)")
-def _accept(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _accept(ws: Workspace) -> bool:
     """Verify the modes under trial; where the forces of least norm pull, open who pulls; return 1 if all is well."""
     for a in range(ws.n_active):
         active = ws.actives[a]
         active.mode_closed = active.mode_tried
         active.direction_closed = active.direction
-    if verify(ws, 0) == 1:
-        return 1
+    if verify(ws, 0):
+        return True
     if ws.deficient == 0:
-        return 0
+        return False
     while ws.effort < _MOST_EFFORT and _open_pulling(ws) > 0:
         polish(ws)
-        if verify(ws, 0) == 1:
-            return 1
+        if verify(ws, 0):
+            return True
     # without the share of those opened the others may not hold: forces that press, though not of least norm
     for a in range(ws.n_active):
         active = ws.actives[a]
         active.mode_tried = active.mode_closed
         active.direction = active.direction_closed
-    return int(verify(ws, 1))
+    return verify(ws, 1)
 
 
-@kernel("i8(ws)")
-def _rubs(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _rubs(ws: Workspace) -> bool:
     """Return 1 if all that slides has the friction of slip."""
     for a in range(ws.n_active):
         active = ws.actives[a]
@@ -145,19 +145,19 @@ def _rubs(ws: Workspace) -> int:
             continue
         (t1, t2), (d1, d2) = active.friction, active.direction
         if not (abs(t1 + pull * d1) <= ws.small_force and abs(t2 + pull * d2) <= ws.small_force):
-            return 0
-    return 1
+            return False
+    return True
 
 
-@kernel("i8(ws)")
-def _hasty(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _hasty(ws: Workspace) -> bool:
     """Return 1 if a contact seems to slide that, once the forces have settled, its static bound may still hold."""
     for a in range(ws.n_active):
         active = ws.actives[a]
         held = active.at_rest == 1 and active.freed == 0 and active.mu_static != active.mu
         if held and active.mode_tried == SLIDE:
-            return 1
-    return 0
+            return True
+    return False
 
 
 @kernel()
@@ -168,23 +168,23 @@ def _take_raw(ws: Workspace) -> None:
         ws.active_forces[i] = ws.active_forces_first[i]
 
 
-@kernel("i8(ws)")
-def _try_by_motion(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _try_by_motion(ws: Workspace) -> bool:
     """Let stick who seems to slide without acceleration, its friction being on the bound by chance; return 1 if right.
 
     Where forces are not unique a solver may well put the friction of some on the bound and let others do with less.
     """
     set_scales(ws)
-    if _guess_by_motion(ws) == 1:
+    if _guess_by_motion(ws):
         polish(ws)
-        if _accept(ws) == 1:
-            return 1
+        if _accept(ws):
+            return True
         _take_raw(ws)
-    return 0
+    return False
 
 
-@kernel("i8(ws)")
-def _accept_raw(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _accept_raw(ws: Workspace) -> bool:
     """Take the forces of the solver as they are; return 1 if they are lawful.
 
     Where sliding contacts share their load at will, the motion hangs on the share, and least norm need not be lawful.
@@ -194,11 +194,11 @@ def _accept_raw(ws: Workspace) -> int:
         active = ws.actives[a]
         active.redundant = 0
     ws.deficient = 0
-    return 1 if judge(ws, 0) == 1 and _rubs(ws) == 1 else 0
+    return judge(ws, 0) and _rubs(ws)
 
 
-@kernel("i8(ws, i8)")
-def _search_round(ws: Workspace, solver: int) -> int:
+@kernel("b1(ws, i8)")
+def _search_round(ws: Workspace, solver: int) -> bool:
     """Search with the freed contacts kept from sticking; return 1 if the answer is verified."""
     stages = newton.STAGES
     if solver == GAUSS_SEIDEL:
@@ -209,7 +209,7 @@ def _search_round(ws: Workspace, solver: int) -> int:
         ws.active_forces_first[i] = 0.0
     for stage in range(stages):
         if ws.effort >= _MOST_EFFORT or interrupted(ws, ws.n_active) == 1:
-            return 0
+            return False
         for i in range(3 * ws.n_active):
             ws.active_forces[i] = ws.active_forces_first[i]
         _write_cones(ws)
@@ -218,20 +218,20 @@ def _search_round(ws: Workspace, solver: int) -> int:
             ws.active_forces_first[i] = ws.active_forces[i]
         identify(ws)
         _restore_cones(ws)
-        if settled == 0 and stage < stages - 1 and _hasty(ws) == 1:
+        if settled == 0 and stage < stages - 1 and _hasty(ws):
             continue
         _keep_found(ws)
-        if _try_by_motion(ws) == 1:
-            return 1
+        if _try_by_motion(ws):
+            return True
         polish(ws)
-        if _accept(ws) == 1:
-            return 1
-        if ws.deficient == 1 and _accept_raw(ws) == 1:
-            return 1
+        if _accept(ws):
+            return True
+        if ws.deficient == 1 and _accept_raw(ws):
+            return True
         _take_found(ws)
         if settled == 1:
-            return 0
-    return 0
+            return False
+    return False
 
 
 @kernel("i8(ws)")
@@ -247,15 +247,15 @@ def _free_sliding(ws: Workspace) -> int:
     return new
 
 
-@kernel("i8(ws, i8)")
-def _search_from(ws: Workspace, solver: int) -> int:
+@kernel("b1(ws, i8)")
+def _search_from(ws: Workspace, solver: int) -> bool:
     """Search, and again while contacts are found to slide that the higher static bound might still hold."""
     for _round in range(1 + ws.n_active):
-        if _search_round(ws, solver) == 1:
-            return 1
+        if _search_round(ws, solver):
+            return True
         if _free_sliding(ws) == 0:
-            return 0
-    return 0
+            return False
+    return False
 
 
 @kernel()
@@ -275,10 +275,10 @@ def _take_answer(ws: Workspace) -> None:
 def _close_idle(ws: Workspace) -> None:
     """Of several sets of forces for the motion found take that of all contacts that it leaves closed."""
     _keep_answer(ws)
-    if _guess_by_motion(ws) == 0:
+    if not _guess_by_motion(ws):
         return
     polish(ws)
-    if _accept(ws) == 1:
+    if _accept(ws):
         return
     _take_answer(ws)
 
@@ -297,12 +297,12 @@ def _prefer_stick(ws: Workspace) -> None:
     if changed == 0:
         return
     polish(ws)
-    if _accept(ws) == 0:
+    if not _accept(ws):
         _take_answer(ws)
 
 
-@entry_point("i8(ws, i8)")
-def find_modes(ws: Workspace, solver: int) -> int:
+@entry_point("b1(ws, i8)")
+def find_modes(ws: Workspace, solver: int) -> bool:
     """Search by one solver, ``mode_past`` holding the past modes; return 1 if a verified answer is found."""
     found = 0
     if solver == ENUMERATION:
@@ -328,4 +328,4 @@ def find_modes(ws: Workspace, solver: int) -> int:
     if found == 1:
         _prefer_stick(ws)
         _close_idle(ws)
-    return found
+    return found != 0

@@ -75,8 +75,8 @@ def small_force(ws: Workspace, a: int) -> float:
     return float(NO_FORCE * size + _SOLVED * ws.small_force)
 
 
-@entry_point("i8(ws, i8)")
-def verify(ws: Workspace, lenient: int) -> int:
+@entry_point("b1(ws, i8)")
+def verify(ws: Workspace, lenient: int) -> bool:
     """Find the forces of the modes under trial; return 1 if modes and forces fulfil the laws themselves.
 
     Where the forces are not unique those of least norm are found; where they break Coulomb's bound, others that
@@ -127,17 +127,17 @@ def _compare(ws: Workspace, lenient: int) -> int:
     return result
 
 
-@kernel("i8(ws, i8)")
-def judge(ws: Workspace, lenient: int) -> int:
+@kernel("b1(ws, i8)")
+def judge(ws: Workspace, lenient: int) -> bool:
     """Return 1 if the ``active_forces`` fulfil the laws in the modes under trial, distributed where not unique."""
     result = _compare(ws, lenient)
-    if result == 2 and distribute(ws, 0.0, _ARRIVED * ws.small_force) == 1:
+    if result == 2 and distribute(ws, 0.0, _ARRIVED * ws.small_force):
         # the share of sliding contacts may have moved with their normal forces: all is looked at again
         for a in range(ws.n_active):
             if ws.actives[a].mode_tried == SLIDE:
                 friction_of_slip(ws, a)
         result = _compare(ws, lenient)
-    return 1 if result == 1 else 0
+    return result == 1
 
 
 @kernel()

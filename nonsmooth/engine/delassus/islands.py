@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.bodies.courses import is_on_course
+from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.delassus.ordering import order_active
 from nonsmooth.engine.memory.modes import OPEN
 from nonsmooth.engine.native.kernel import (
@@ -48,7 +48,7 @@ def group_members(ws: Workspace) -> None:
     """Sort the contacts marked as ``member`` into islands, in the order of their first contacts, and link each."""
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        if contact.member == 1:
+        if contact.is_in_problem:
             for side in range(2):
                 number = contact.articulation_a if side == 0 else contact.articulation_b
                 articulation = ws.articulations[number]
@@ -56,12 +56,12 @@ def group_members(ws: Workspace) -> None:
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
         a, b = contact.articulation_a, contact.articulation_b
-        if contact.member == 1 and ws.articulations[a].nu > 0 and ws.articulations[b].nu > 0:
+        if contact.is_in_problem and ws.articulations[a].nu > 0 and ws.articulations[b].nu > 0:
             ws.articulations[_leader(ws, b)].root = _leader(ws, a)
     groups = members = 0
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        if contact.member == 0:
+        if not contact.is_in_problem:
             continue
         number = _articulation(ws, c)
         root = ws.articulations[_leader(ws, number)]
@@ -70,8 +70,8 @@ def group_members(ws: Workspace) -> None:
             root.group = groups
             ws.group_start[groups] = 0
             groups += 1
-        contact.group_of = root.group
-        ws.group_start[contact.group_of] += 1
+        contact.group = root.group
+        ws.group_start[contact.group] += 1
         members += 1
     # counts become starts, and the contacts fall into their places
     end = members
@@ -83,8 +83,8 @@ def group_members(ws: Workspace) -> None:
     ws.group_start[groups] = members
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        if contact.member == 1:
-            g = contact.group_of
+        if contact.is_in_problem:
+            g = contact.group
             ws.grouped[ws.group_next[g]] = c
             ws.group_next[g] += 1
     ws.n_groups = groups
@@ -99,7 +99,7 @@ def group_closed(ws: Workspace) -> None:
     """Sort the closed contacts into islands, but for those of bodies on their courses."""
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        contact.member = 1 if contact.mode != OPEN and is_on_course(ws, c) == 0 else 0
+        contact.is_in_problem = contact.mode != OPEN and has_own_step(ws, c) == 0
     group_members(ws)
 
 
@@ -108,5 +108,5 @@ def group_touching(ws: Workspace) -> None:
     """Sort the touching contacts that collide, not those that give way, into islands."""
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        contact.member = contact.touching if contact.normal_function == 0 else 0
+        contact.member = contact.touching if not contact.is_compliant else 0
     group_members(ws)

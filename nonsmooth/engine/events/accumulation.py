@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nonsmooth.engine.bodies.compliance import begin_contact, push_compliant
-from nonsmooth.engine.bodies.courses import is_on_course
+from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.bodies.touching import slip_speed, touch
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
@@ -17,7 +17,7 @@ from nonsmooth.engine.events.record import CLOSING_LOSS, DRIVEN_WORK, record_eve
 from nonsmooth.engine.events.twins import closed_twin, take_over
 from nonsmooth.engine.flow.projection import project_rates
 from nonsmooth.engine.flow.self_check import EXPLAINED, NOUGHT
-from nonsmooth.engine.memory.modes import CLOSING, FEATURE_CHANGE, OPEN, SLIDE, STICK
+from nonsmooth.engine.memory.modes import CLOSING, FEATURE_CHANGE, OPEN, SLIDE, STICK, Truncation
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
 _RESTS = 1.0 - 1e-6
@@ -28,10 +28,10 @@ _RESTS = 1.0 - 1e-6
 def provisional_mode(ws: Workspace, c: int) -> None:
     """Give contact ``c`` the mode that its rates tell, until the instant is settled."""
     contact = ws.contacts[c]
-    rigid = contact.normal_function == 0
-    if is_on_course(ws, c) == 1:
+    rigid = not contact.is_compliant
+    if has_own_step(ws, c) == 1:
         return
-    if contact.touching == 0 or contact.released == 1 or (rigid and contact.rate[0] > ws.velocity_tolerance):
+    if not contact.is_touching or contact.was_released or (rigid and contact.rate[0] > ws.velocity_tolerance):
         contact.mode = OPEN
         return
     if contact.mode == OPEN:
@@ -42,8 +42,8 @@ def provisional_mode(ws: Workspace, c: int) -> None:
         contact.direction = contact.slip[0] / speed, contact.slip[1] / speed
 
 
-@kernel("i8(ws, i8, f8)")
-def _is_short(ws: Workspace, c: int, time: float) -> int:
+@kernel("b1(ws, i8, f8)")
+def _is_short(ws: Workspace, c: int, time: float) -> bool:
     """Return 1 if contact ``c`` separates, but no faster than it approaches after a ``time``.
 
     How fast the next step may not be, lest it fly over the touch-down, is kept.
@@ -52,12 +52,12 @@ def _is_short(ws: Workspace, c: int, time: float) -> int:
     rate = contact.rate[0]
     approach = -(contact.bias[0] + row(ws, c, 0, ws.offsets.du))
     if rate <= ws.velocity_tolerance or approach <= 0.0:
-        return 0
+        return False
     # the touch-down is due after 2 rate / approach
     ws.h_first = min(ws.h_first, 3.0 * rate / approach)
     # (a gap that is left closes first)
     short = (rate - approach * time) * time <= -max(0.0, contact.gap)
-    return 1 if short and closed_twin(ws, c) < 0 else 0
+    return short and closed_twin(ws, c) < 0
 
 
 @kernel("i8(ws)")
@@ -80,7 +80,7 @@ def close_contacts(ws: Workspace) -> int:
         which = -1
         for a in range(ws.n_active):
             c = ws.actives[a].slot
-            if ws.contacts[c].rate[0] <= fastest and _is_short(ws, c, time) == 1:
+            if ws.contacts[c].rate[0] <= fastest and _is_short(ws, c, time):
                 which = c
         if which >= 0 and ws.n_active == 1:
             _close(ws, which)
@@ -174,7 +174,7 @@ def stop_slow(ws: Workspace) -> int:
         fastest = _fastest_of_active(ws)
         if fastest < 0:
             continue
-        if ws.truncated == 0 and -ws.contacts[fastest].rate[0] > slow_speed(ws):
+        if ws.event.truncation == Truncation.NONE and -ws.contacts[fastest].rate[0] > slow_speed(ws):
             continue
         if stopped == 0:
             remember(ws)
@@ -189,8 +189,8 @@ def stop_slow(ws: Workspace) -> int:
     return stopped
 
 
-@kernel("i8(ws)")
-def average_slow(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def average_slow(ws: Workspace) -> bool:
     """Let the forces of islands be averaged that approach slowly though they were stopped; return 1 if others approach.
 
     Where contacts had to give way for impulses to be found, these may leave an approach for ever.
@@ -205,9 +205,9 @@ def average_slow(ws: Workspace) -> int:
         if fastest < 0:
             continue
         slow = -ws.contacts[fastest].rate[0] <= slow_speed(ws)
-        if not slow or (is_averaged(ws) == 0 and average_active(ws) == 0):
+        if not slow or (not is_averaged(ws) and not average_active(ws)):
             others = 1
-    return others
+    return others != 0
 
 
 @kernel()
@@ -232,7 +232,7 @@ def stop_creeping(ws: Workspace) -> float:
     creeping = 0
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        rests = contact.touching == 1 and contact.normal_function == 0 and contact.mode == OPEN
+        rests = contact.is_touching and not contact.is_compliant and contact.mode == OPEN
         if rests and contact.rate[0] < -NOUGHT * ws.velocity_tolerance:
             creeping += 1
     if creeping == 0:
@@ -260,20 +260,20 @@ def stop_creeping(ws: Workspace) -> float:
     return loss
 
 
-@kernel("i8(ws)")
-def hand_over(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def hand_over(ws: Workspace) -> bool:
     """Let contacts that approach take the place of closed ones where they are; return 1, or 0 where others collide."""
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        rigid = contact.normal_function == 0
-        approaches = rigid and contact.touching == 1 and contact.rate[0] < -ws.velocity_tolerance
-        contact.closes = 1 if approaches else 0
+        rigid = not contact.is_compliant
+        approaches = rigid and contact.is_touching and contact.rate[0] < -ws.velocity_tolerance
+        contact.takes_over = approaches
         if approaches and closed_twin(ws, c) < 0:
-            return 0
+            return False
     remember(ws)
     which = -1
     for c in range(ws.n_contacts):
-        if ws.contacts[c].closes == 1 and take_over(ws, c) == 1:
+        if ws.contacts[c].takes_over and take_over(ws, c):
             # unless another one that approaches more has taken its twin's place
             which = c
     group_touching(ws)
@@ -282,4 +282,4 @@ def hand_over(ws: Workspace) -> int:
         if _fastest_of_active(ws) >= 0:
             _stop_active(ws)
     record_event(ws, FEATURE_CHANGE, which, 0)
-    return 1
+    return True

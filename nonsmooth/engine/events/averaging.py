@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from nonsmooth.engine.bodies.touching import touch
 from nonsmooth.engine.contact.mean_forces import (
     averaging_time,
@@ -20,54 +22,54 @@ _BURST = 20000.0
 """Evaluations of forces beyond one in a contact time: so many are the stop of a slip, not yet a crowd of them."""
 
 
-@kernel("i8(ws)")
-def average_active(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def average_active(ws: Workspace) -> bool:
     """Let the forces of the active contacts be averaged from now on; return 0 where they cannot be, or are.
 
     A contact by itself has a solution of its own.  Where forces of the instant led nowhere when they were asked for
     last, or not for as long as they had not been asked for, they are asked for again after twice that.
     """
     time = averaging_time(ws)
-    if ws.n_active == 1 or time == 0.0 or is_averaged(ws) == 1:
-        return 0
+    if ws.n_active == 1 or time == 0.0 or is_averaged(ws):
+        return False
     for a in range(ws.n_active):
         contact = ws.contacts[ws.actives[a].slot]
-        again = ws.t - contact.mean_asked <= max(time, contact.mean_wait)
-        contact.mean_wait = max(time, 2.0 * contact.mean_wait) if again else 0.0
-        contact.averaged = SLIDE
+        again = ws.t - contact.mean_forces_asked <= max(time, contact.mean_forces_wait)
+        contact.mean_forces_wait = max(time, 2.0 * contact.mean_forces_wait) if again else 0.0
+        contact.mode_after_averaging = SLIDE
         contact.mean_span = 0.0
         for r in range(3):
             contact.mean_force[r] = 0.0
-    return 1
+    return True
 
 
-@kernel("i8(ws, i8)")
-def average_island_of(ws: Workspace, c: int) -> int:
+@kernel("b1(ws, i8)")
+def average_island_of(ws: Workspace, c: int) -> bool:
     """Let the forces of the island of closed contact ``c`` be averaged from now on; return 0 where they cannot be."""
     if ws.contacts[c].mode == OPEN:
-        return 0
+        return False
     group_closed(ws)
-    activate_group(ws, ws.contacts[c].group_of)
+    activate_group(ws, ws.contacts[c].group)
     return average_active(ws)
 
 
-@kernel("i8(ws, i8)")
-def keeps_averaging(ws: Workspace, ends: int) -> int:
+@kernel("b1(ws, i8)")
+def keeps_averaging(ws: Workspace, ends: int) -> bool:
     """Return 1 if the forces of the active contacts are averaged, and stay so where the last ones end (1)."""
-    if is_averaged(ws) == 0:
-        return 0
+    if not is_averaged(ws):
+        return False
     if ends == 0:
-        return 1
+        return True
     # a contact by itself has forces of its own
     if ws.n_active == 1:
-        return 0
-    if is_settled(ws) == 0:
-        return 1
+        return False
+    if not is_settled(ws):
+        return True
     for a in range(ws.n_active):
         contact = ws.contacts[ws.actives[a].slot]
-        if ws.t < contact.mean_asked + contact.mean_wait:
-            return 1
-    return 0
+        if ws.t < contact.mean_forces_asked + contact.mean_forces_wait:
+            return True
+    return False
 
 
 @kernel()
@@ -79,7 +81,7 @@ def end_averaging(ws: Workspace) -> None:
     touch(ws)
     book_mean_forces(ws)
     ws.closing_loss += project_closed(ws, 1, 1)
-    ws.mean_until = 1e300
+    ws.mean_until = math.inf
 
 
 @kernel("void(ws, i8)")
@@ -117,11 +119,11 @@ def holds_time_up(ws: Workspace) -> int:
     for i in range(ws.n_grouped):
         c = ws.grouped[i]
         contact = ws.contacts[c]
-        speed, friction = length(contact.slip_end), length((contact.force[1], contact.force[2]))
-        turns = contact.contact_time * contact.mobility * friction / max(speed, ws.velocity_tolerance)
-        if contact.mode == SLIDE and contact.averaged == OPEN and turns > fastest:
+        speed, friction = length(contact.slip_at_end), length((contact.force[1], contact.force[2]))
+        turns = contact.contact_time * contact.slip_per_force * friction / max(speed, ws.velocity_tolerance)
+        if contact.mode == SLIDE and not contact.is_averaged and turns > fastest:
             which, fastest = c, turns
-        recent = ws.t - contact.crowd_start <= contact.contact_time
-        if contact.averaged == OPEN and recent and contact.crowd_events > events:
-            busiest, events = c, contact.crowd_events
+        recent = ws.t - contact.burst_start <= contact.contact_time
+        if not contact.is_averaged and recent and contact.burst_events > events:
+            busiest, events = c, contact.burst_events
     return which if which >= 0 else busiest

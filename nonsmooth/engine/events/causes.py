@@ -19,7 +19,7 @@ from nonsmooth.engine.native.kernel import Workspace, kernel
 @kernel("i8(ws, i8)")
 def _closing(ws: Workspace, c: int) -> int:
     """Return what it is when contact ``c`` closes."""
-    return IMPACT if ws.contacts[c].normal_function == 0 else TOUCH
+    return IMPACT if not ws.contacts[c].is_compliant else TOUCH
 
 
 @kernel("i8(ws, i8)")
@@ -27,7 +27,7 @@ def cause_of(ws: Workspace, guard: int) -> int:
     """Return what it means that a guard of a contact has fired."""
     c = contact_of(ws, guard)
     contact = ws.contacts[c]
-    if is_friction_guard(ws, guard) == 0:
+    if not is_friction_guard(ws, guard):
         return _closing(ws, c) if contact.mode == OPEN else LIFT_OFF
     if contact.mode != STICK:
         return SLIP_TO_STICK

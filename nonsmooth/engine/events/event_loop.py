@@ -6,7 +6,7 @@ import math
 
 from nonsmooth.engine.bodies.anisotropy import turn_facing
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
-from nonsmooth.engine.bodies.courses import is_on_course
+from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.bodies.listing import list_contacts, longest_step
 from nonsmooth.engine.delassus.islands import group_closed
 from nonsmooth.engine.events.averaging import average_island_of, end_averaging, holds_time_up
@@ -39,8 +39,8 @@ from nonsmooth.engine.flow.guard_numbers import (
 )
 from nonsmooth.engine.flow.guards import (
     arm_guards,
-    has_changed,
-    is_of_choice,
+    has_other_features,
+    is_of_redundant_force,
     keep_end,
     keep_start,
     watch_features,
@@ -108,7 +108,7 @@ def _take_over(ws: Workspace, h: float) -> int:
     ended = end_courses(ws)
     if ended > 0:
         group_closed(ws)
-    if drifted(ws) == 1:
+    if drifted(ws):
         ws.closing_loss += project_closed(ws, 0, 0)
     return ended
 
@@ -150,10 +150,10 @@ def _end_within(ws: Workspace) -> int:
 def _carry_out(ws: Workspace, cause: int, which: int) -> int:
     """Carry out an event of contact ``which``: update modes and velocities at its instant; return the status."""
     ws.fresh = 0
-    if stalls(ws, which) == 1:
-        if average_island_of(ws, which) == 0:
+    if stalls(ws, which):
+        if not average_island_of(ws, which):
             return STALLED
-        ws.contacts[which].crowd_events = 0
+        ws.contacts[which].burst_events = 0
     return update_at_event(ws, cause, which)
 
 
@@ -167,7 +167,7 @@ def _step(ws: Workspace) -> int:
     check_gaps(ws)
     if ws.failed != RUNNING:
         return int(ws.failed)
-    if ws.mean_until < 1e300 and ws.strayed > 1.0:
+    if ws.mean_until < math.inf and ws.strayed > 1.0:
         end_averaging(ws)
         ws.fresh = 0
         return update_at_event(ws, AVERAGING, ws.stray)
@@ -181,7 +181,7 @@ def _step(ws: Workspace) -> int:
     orient_slips(ws, 1)
     arm_guards(ws)
     which = holds_time_up(ws) if ws.n_grouped > 0 else -1
-    if which >= 0 and average_island_of(ws, which) == 1:
+    if which >= 0 and average_island_of(ws, which):
         ws.fresh = 0
         return update_at_event(ws, AVERAGING, which)
     status = accepted_step(ws)
@@ -215,7 +215,7 @@ def _evaluate_start(ws: Workspace) -> None:
     take_off(ws)
     close_account(ws)
     watch_features(ws)
-    write_guards(ws, ws.t, ws.offsets.y, 1)
+    write_guards(ws, ws.t, ws.offsets.y, forces_are_known=True)
     keep_end(ws)
     bound_speeds(ws)
 
@@ -227,17 +227,17 @@ def _due_at_start(ws: Workspace) -> int:
         contact = ws.contacts[c]
         # a gap that closes exactly where the last step ended is an event of that step
         gap = ws.guards[normal_guard(c)].end
-        arrived = gap <= ws.gap_tolerance and contact.gap_rate_end < -ws.velocity_tolerance
+        arrived = gap <= ws.gap_tolerance and contact.gap_rate_at_end < -ws.velocity_tolerance
         if contact.mode == OPEN and arrived:
             return c
         # what put the contacts on their constraints may have put one past its end
         if contact.mode != OPEN and ws.guards[first_end_guard(ws) + c].end < 0.0:
             return c
-        if is_on_course(ws, c) == 1:
+        if has_own_step(ws, c) == 1:
             continue
         # and may have turned a slip so that its force is another one
-        unique = contact.mode != OPEN and contact.normal_function == 0 and contact.redundant == 0
-        if ws.fresh == 0 and unique and is_violated(ws, c) == 1:
+        unique = contact.mode != OPEN and not contact.is_compliant and not contact.has_redundant_force
+        if ws.fresh == 0 and unique and is_violated(ws, c):
             return c
     return -1
 
@@ -246,12 +246,12 @@ def _due_at_start(ws: Workspace) -> int:
 def _without_step(ws: Workspace, status: int) -> int:
     """Say what follows where no step was accepted, for the reason ``status``; return the status."""
     ws.limit = NO_STEP
-    if status == STEP_TOO_SMALL and leap(ws, ws.time_tolerance) == 1:
+    if status == STEP_TOO_SMALL and leap(ws, ws.time_tolerance):
         return _after_leap(ws)
     if status == STEP_TOO_SMALL:
         which = end_features(ws)
         if which >= 0:
-            changed = has_changed(ws, which)
+            changed = has_other_features(ws, ws.contacts[which])
             _take_over(ws, ws.h)
             return _pass_on(ws, which, changed)
         which = hardest_pressed(ws, 1)
@@ -260,7 +260,7 @@ def _without_step(ws: Workspace, status: int) -> int:
             if outcome != NO_CONTACT_SOLUTION:
                 return int(outcome)
         which = hardest_pressed(ws, 0)
-        if which >= 0 and average_island_of(ws, which) == 1:
+        if which >= 0 and average_island_of(ws, which):
             ws.fresh = 0
             return update_at_event(ws, AVERAGING, which)
     return _up_to_end(ws, status)
@@ -274,7 +274,7 @@ def _after_leap(ws: Workspace) -> int:
     cause, which = 0, -1
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        if contact.mode != OPEN and contact.released != 0 and which < 0:
+        if contact.mode != OPEN and contact.was_released and which < 0:
             cause, which = contact.released, c
         contact.released = 0
     if which >= 0:
@@ -313,7 +313,7 @@ def _whole_step(ws: Workspace) -> int:
 def _step_to_event(ws: Workspace, high: float) -> int:
     """Locate the first event before the fraction ``high`` of the step and carry it out; return the status."""
     ws.fresh, ws.limit = 0, BY_EVENT
-    if choices_bend(ws, high) == 1:
+    if choices_bend(ws, high):
         return _in_part(ws)
     h = locate(ws, ws.h, high)
     if h < 0.0:
@@ -333,7 +333,7 @@ def _in_part(ws: Workspace) -> int:
         return _without_step(ws, STEP_TOO_SMALL)
     if ws.n_integrated == 0 and ws.course_end < math.inf:
         ws.course_end = ws.t + 0.25 * ws.h
-    elif is_held(ws) == 1:
+    elif is_held(ws):
         ws.h_closed = 0.25 * ws.h
     else:
         ws.h_free = 0.25 * ws.h
@@ -345,7 +345,7 @@ def _event(ws: Workspace, h: float, guard: int) -> int:
     """Take over the step of ``h`` at whose end a guard fires, and carry out its event; return the status."""
     if guard >= first_end_guard(ws):
         which = guard - first_end_guard(ws)
-        changed = has_changed(ws, which)
+        changed = has_other_features(ws, ws.contacts[which])
         _commit(ws, h)
         return _pass_on(ws, which, changed)
     if guard >= first_own_guard(ws):
@@ -355,7 +355,7 @@ def _event(ws: Workspace, h: float, guard: int) -> int:
     if cause == STICK_TO_SLIP:
         _break_direction(ws, which)
     _commit(ws, h)
-    if is_of_choice(ws, guard) == 1 and choose_anew(ws) == 1:
+    if is_of_redundant_force(ws, guard) == 1 and choose_anew(ws) == 1:
         return RUNNING
     return _carry_out(ws, cause, which)
 

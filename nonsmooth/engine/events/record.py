@@ -5,7 +5,7 @@ from __future__ import annotations
 from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import BOOKED
-from nonsmooth.engine.memory.modes import AFTER, BEFORE, DURING, GUARD, OPEN, SLIDE
+from nonsmooth.engine.memory.modes import AFTER, BEFORE, DURING, GUARD, OPEN, SLIDE, Truncation
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
 
@@ -45,7 +45,7 @@ def code(ws: Workspace, c: int) -> int:
 def impact_code(ws: Workspace, c: int) -> int:
     """Return the bits of contact ``c`` at the start of an impact, from its rates."""
     contact = ws.contacts[c]
-    if contact.touching == 0:
+    if not contact.is_touching:
         return 0
     bits = 1
     if contact.rate[0] < -ws.velocity_tolerance:
@@ -62,7 +62,7 @@ def remember(ws: Workspace) -> None:
         contact = ws.contacts[c]
         contact.code_before = code(ws, c)
         contact.code_during = contact.code_before
-        contact.averaged_before = contact.averaged
+        contact.averaged_before = contact.mode_after_averaging
         for r in range(3):
             contact.event_impulse[r] = 0.0
     for i in range(ws.n_u):
@@ -98,8 +98,8 @@ def _list_contact(ws: Workspace, c: int, out: int) -> None:
         ws.floats[out + IMPULSES + r] = contact.event_impulse[r]
     ws.floats[out + SLIP_DIRECTION], ws.floats[out + SLIP_DIRECTION + 1] = contact.direction
     ws.floats[out + CLOSED_WITH], ws.floats[out + FACING] = contact.closing_rate, float(contact.facing)
-    ws.floats[out + AVERAGED] = float(contact.averaged)
-    candidate = contact.candidate
+    ws.floats[out + AVERAGED] = float(contact.mode_after_averaging)
+    candidate = contact.features
     for r in range(CANDIDATE):
         ws.floats[out + FEATURES + r] = ws.floats[candidate + r] if candidate > 0 else 0.0
 
@@ -131,14 +131,14 @@ def record_event(ws: Workspace, cause: int, which: int, phases: int) -> None:
     codes = ws.offsets.event_codes + ws.integers_used
     ws.integers[codes + CAUSE], ws.integers[codes + CONTACT], ws.integers[codes + PHASES] = cause, which, phases
     if which >= 0 and cause != GUARD:
-        ws.integers[codes + CONTACT] = ws.contacts[which].identity
-    ws.integers[codes + TRUNCATED] = 1 if ws.truncated > 0 and phases > 0 else 0
+        ws.integers[codes + CONTACT] = ws.contacts[which].declared
+    ws.integers[codes + TRUNCATED] = 1 if ws.event.truncation != Truncation.NONE and phases > 0 else 0
     ws.integers[codes + N_LISTED] = n
     for i in range(n):
         c = ws.listed[i]
         contact = ws.contacts[c]
         _list_contact(ws, c, row + LISTED * i)
-        ws.integers[codes + CODE_HEAD + 2 * i] = contact.identity
+        ws.integers[codes + CODE_HEAD + 2 * i] = contact.declared
         before, during, after = contact.code_before << BEFORE, contact.code_during << DURING, code(ws, c) << AFTER
         ws.integers[codes + CODE_HEAD + 2 * i + 1] = before | during | after
     ws.last_contact = which

@@ -10,14 +10,14 @@ _TIME = 1e-2
 """within this part of its contact time are a stall: bounces close where they become as short as twice that time."""
 
 
-@kernel("i8(ws, i8)")
-def stalls(ws: Workspace, c: int) -> int:
+@kernel("b1(ws, i8)")
+def stalls(ws: Workspace, c: int) -> bool:
     """Count an event of contact ``c``; return 1 if it has so many that time hardly passes.
 
     Counted are those of each contact for itself, so that what happens elsewhere tells nothing of it.
     """
     contact = ws.contacts[c]
-    if abs(ws.t - contact.crowd_start) > max(ws.time_tolerance, _TIME * contact.contact_time):
-        contact.crowd_start, contact.crowd_events = ws.t, 0
-    contact.crowd_events += 1
-    return 1 if contact.crowd_events > _EVENTS else 0
+    if abs(ws.t - contact.burst_start) > max(ws.time_tolerance, _TIME * contact.contact_time):
+        contact.burst_start, contact.burst_events = ws.t, 0
+    contact.burst_events += 1
+    return contact.burst_events > _EVENTS

@@ -51,25 +51,25 @@ def _first_of_compliant(ws: Workspace, c: int) -> float:
     Were it over before the second stage of the step, none would meet a force, and the bodies would pass each other.
     """
     contact = ws.contacts[c]
-    if contact.normal_function == 0 or ws.guards[normal_guard(c)].end > NEAR * ws.gap_tolerance:
+    if not contact.is_compliant or ws.guards[normal_guard(c)].end > NEAR * ws.gap_tolerance:
         return 1e300
     speed = math.sqrt(dot(contact.rate_end, contact.rate_end))
     return float(_FIRST_WAY * contact.size / max(speed, ws.velocity_tolerance))
 
 
-@kernel("i8(ws)")
-def is_held(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def is_held(ws: Workspace) -> bool:
     """Return 1 if some contact is closed."""
     for c in range(ws.n_contacts):
         if ws.contacts[c].mode != OPEN:
-            return 1
-    return 0
+            return True
+    return False
 
 
 @kernel("f8(ws)")
 def longest_wanted(ws: Workspace) -> float:
     """Return what the next step is no longer than, whatever sets off on a course before it."""
-    if is_held(ws) == 0:
+    if not is_held(ws):
         return float(min(ws.h_free, ws.h_max))
     return float(
         min(ws.h_max, max(ws.h_closed, ws.h_course, ws.course_end - ws.t if ws.course_end < math.inf else 0.0))
@@ -81,7 +81,7 @@ def _wanted(ws: Workspace) -> float:
     """Return how long the step is if nothing cuts it short; if nothing is integrated, up to the end of the courses."""
     if ws.n_integrated == 0 and ws.course_end < math.inf:
         return float(min(ws.course_end - ws.t, ws.h_max))
-    return float(min(ws.h_closed if is_held(ws) == 1 else ws.h_free, ws.h_max))
+    return float(min(ws.h_closed if is_held(ws) else ws.h_free, ws.h_max))
 
 
 @kernel("f8(ws, f8)")
@@ -128,11 +128,11 @@ def _limit(ws: Workspace, wanted: float, h: float) -> int:
     return BY_END if h == ws.h_valid else BY_FIRST
 
 
-@kernel("i8(ws, f8)")
-def _overran(ws: Workspace, h: float) -> int:
+@kernel("b1(ws, f8)")
+def _overran(ws: Workspace, h: float) -> bool:
     """Return 1 if the step of ``h`` leads farther than the list of contacts holds."""
     if ws.n_units == 0:
-        return 0
+        return False
     evaluate_driven_bodies(ws, ws.t + h, ws.offsets.y_new)
     return overran_list(ws, h)
 
@@ -147,7 +147,7 @@ def _remember_step(ws: Workspace, h: float, error: float, wanted: float) -> None
     following = h * step_factor(error)
     if h < wanted:
         following = max(following, wanted)
-    if is_held(ws) == 0:
+    if not is_held(ws):
         ws.h_free = following
     elif ws.n_integrated > 0:
         ws.h_closed = following
@@ -172,10 +172,10 @@ def accepted_step(ws: Workspace) -> int:
             h *= 0.5
             wanted = 0.0
             ws.limit = BY_SINGULARITY
-        elif error <= 1.0 and ws.mean_until < 1e300 and astray(ws) > _ASTRAY:
+        elif error <= 1.0 and ws.mean_until < math.inf and astray(ws) > _ASTRAY:
             h *= 0.5
             ws.limit = BY_AVERAGING
-        elif error <= 1.0 and _overran(ws, h) == 1:
+        elif error <= 1.0 and _overran(ws, h):
             h *= 0.5
             ws.limit = BY_LIST
         elif share < 1.0:

@@ -6,7 +6,7 @@ from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.flow.guard_numbers import friction_guard
 from nonsmooth.engine.flow.self_check import NOUGHT
 from nonsmooth.engine.flow.step import STIFF
-from nonsmooth.engine.memory.modes import OPEN, SLIDE
+from nonsmooth.engine.memory.modes import SLIDE
 from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.vectors import length
 
@@ -24,8 +24,8 @@ _BLIND = 0.25
 def _share(ws: Workspace, c: int, h: float) -> float:
     """Return to what part the implicit step of ``h`` is cut in which the slip of contact ``c`` stops."""
     contact = ws.contacts[c]
-    first = length(contact.slip_end)
-    v1, v2 = contact.slip_end
+    first = length(contact.slip_at_end)
+    v1, v2 = contact.slip_at_end
     du = ws.offsets.slopes + ws.n_q
     a1, a2 = row(ws, c, 1, du) + contact.bias[1], row(ws, c, 2, du) + contact.bias[2]
     slowing = -h * (v1 * a1 + v2 * a2) / first
@@ -51,8 +51,8 @@ def share_before_stop(ws: Workspace, h: float) -> float:
     share, none = 1.0, NOUGHT * ws.velocity_tolerance
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        rubs = contact.mode == SLIDE and contact.traction_function == 0 and contact.averaged == OPEN
-        if rubs and length(contact.slip) <= none and length(contact.slip_end) > none:
+        rubs = contact.mode == SLIDE and not contact.has_traction_law and not contact.is_averaged
+        if rubs and length(contact.slip) <= none and length(contact.slip_at_end) > none:
             share = min(share, _share(ws, c, h))
     return share
 
@@ -68,8 +68,8 @@ def stopping(ws: Workspace) -> int:
         return int(ws.halting)
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        if contact.mode == SLIDE and contact.traction_function == 0 and contact.averaged == OPEN:
-            speed = length(contact.slip_end)
+        if contact.mode == SLIDE and not contact.has_traction_law and not contact.is_averaged:
+            speed = length(contact.slip_at_end)
             if speed <= ws.velocity_tolerance and speed < ws.guards[friction_guard(ws, c)].first:
                 return c
     return -1

@@ -17,16 +17,16 @@ _SAME = 1e-5
 approach that its square is of an energy is less than what is promised of one."""
 
 
-@kernel("i8(ws, i8, i8)")
-def _is_twin(ws: Workspace, c: int, other: int) -> int:
+@kernel("b1(ws, i8, i8)")
+def _is_twin(ws: Workspace, c: int, other: int) -> bool:
     """Return 1 if two rigid contacts of the same frames are at one place."""
     one, two = ws.contacts[c], ws.contacts[other]
     if c == other or one.frame_a != two.frame_a or one.frame_b != two.frame_b:
-        return 0
-    if one.normal_function != 0 or two.normal_function != 0:
-        return 0
+        return False
+    if one.is_compliant or two.is_compliant:
+        return False
     turned, moved = minus(one.normal, two.normal), minus(one.point_b, two.point_b)
-    return 1 if dot(turned, turned) <= _SAME**2 and dot(moved, moved) <= (_SAME * one.size) ** 2 else 0
+    return dot(turned, turned) <= _SAME**2 and dot(moved, moved) <= (_SAME * one.size) ** 2
 
 
 @kernel("i8(ws, i8)")
@@ -35,7 +35,7 @@ def closed_twin(ws: Workspace, c: int) -> int:
     for other in range(ws.n_contacts):
         contact = ws.contacts[other]
         closed = contact.mode != OPEN and contact.rate[0] >= -ws.velocity_tolerance
-        if closed and _is_twin(ws, c, other) == 1:
+        if closed and _is_twin(ws, c, other):
             return other
     return -1
 
@@ -49,14 +49,14 @@ def has_replaced(ws: Workspace, c: int) -> int:
     stood = stands = 0
     for other in range(ws.n_contacts):
         contact = ws.contacts[other]
-        if other == c or _is_twin(ws, c, other) == 1:
+        if other == c or _is_twin(ws, c, other):
             stands = 1 if contact.mode != OPEN else stands
             stood = 1 if contact.code_before != 0 else stood
     return stood * stands
 
 
-@kernel("i8(ws, i8)")
-def take_over(ws: Workspace, c: int) -> int:
+@kernel("b1(ws, i8)")
+def take_over(ws: Workspace, c: int) -> bool:
     """Close a contact in place of those at its place; return 1, or 0 if there are none."""
     contact = ws.contacts[c]
     twin, taken = closed_twin(ws, c), 0
@@ -67,6 +67,6 @@ def take_over(ws: Workspace, c: int) -> int:
             contact.mode = ws.contacts[twin].mode
             taken = 1
         ws.contacts[twin].mode = OPEN
-        ws.contacts[twin].member = 0
+        ws.contacts[twin].is_in_problem = False
         twin = closed_twin(ws, c)
-    return taken
+    return taken != 0

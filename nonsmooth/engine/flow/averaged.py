@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.compliance import push_compliant, refresh_states
 from nonsmooth.engine.bodies.kinematics import evaluate_contact
@@ -21,28 +23,28 @@ def reach_end(ws: Workspace) -> None:
     measure_spans(ws)
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        if contact.averaged != OPEN and contact.mode != OPEN:
-            contact.mode = contact.averaged
+        if contact.is_averaged and contact.mode != OPEN:
+            contact.mode = contact.mode_after_averaging
     ws.closing_loss += project_closed(ws, 1, 1)
     for c in range(ws.n_contacts):
-        ws.contacts[c].mean_way = 0.0
+        ws.contacts[c].mean_gap_change = 0.0
 
 
 @kernel("void(ws, i8)")
 def renew_mean_forces(ws: Workspace, follows: int) -> None:
     """Find the mean forces of the closed contacts that are averaged, from now on; after the end of the last (1)."""
-    ws.mean_until = 1e300
+    ws.mean_until = math.inf
     group_closed(ws)
     evaluate_bodies(ws, ws.t, ws.offsets.y)
     refresh_states(ws, ws.offsets.y)
     for i in range(ws.n_grouped):
         c = ws.grouped[i]
         evaluate_contact(ws, c, 3)
-        ws.contacts[c].touching = 1
+        ws.contacts[c].is_touching = True
     book_mean_forces(ws)
     free_acceleration(ws, 1)
     push_compliant(ws)
     for group in range(ws.n_groups):
         activate_group(ws, group)
-        if is_averaged(ws) == 1:
+        if is_averaged(ws):
             find_mean_forces(ws, follows)

@@ -12,7 +12,7 @@ from nonsmooth.engine.delassus.islands import group_closed
 from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.flow.flow import right_hand_side
 from nonsmooth.engine.flow.guard_numbers import first_own_guard
-from nonsmooth.engine.flow.guards import first_fired, has_fired, is_of_choice, write_guards
+from nonsmooth.engine.flow.guards import NO_GUARD, first_fired, has_fired, is_of_redundant_force, write_guards
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
 
@@ -37,30 +37,30 @@ def blend_choices(ws: Workspace, theta: float) -> None:
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
         for r in range(3):
-            first, end = contact.choice_first[r], contact.choice_end[r]
+            first, end = contact.choice_at_start[r], contact.choice_at_end[r]
             contact.null_space_force[r] = first + theta * (end - first)
 
 
-@kernel("i8(ws, f8, i8)")
-def _choose_at(ws: Workspace, elapsed: float, y: int) -> int:
+@kernel("b1(ws, f8, i8)")
+def _choose_at(ws: Workspace, elapsed: float, y: int) -> bool:
     """Choose forces at the time ``elapsed`` in the step and the state ``y``; return 1 if there are any.
 
     Where there are none, what lets forces hold that were chosen would let their end be late.
     """
     if right_hand_side(ws, ws.t + elapsed, y, 1, 0) == 1:
-        return 1
+        return True
     for c in range(ws.n_contacts):
         ws.contacts[c].slack = 0.0
-    return 0
+    return False
 
 
-@kernel("i8(ws)")
-def _passes_bound(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _passes_bound(ws: Workspace) -> bool:
     """Return 1 if a force that is chosen has passed its bound."""
     for i in range(first_own_guard(ws)):
-        if is_of_choice(ws, i) == 1 and has_fired(ws, i) == 1:
-            return 1
-    return 0
+        if is_of_redundant_force(ws, i) == 1 and has_fired(ws, i) == 1:
+            return True
+    return False
 
 
 @kernel("void(ws, f8)")
@@ -70,33 +70,33 @@ def choose_at_end(ws: Workspace, h: float) -> None:
     The guards must be written there, and are for the choice.
     """
     ws.blended = 0
-    if ws.chosen_t != ws.t or ws.stage_time > 0.0 or _passes_bound(ws) == 0:
+    if ws.chosen_t != ws.t or ws.stage_time > 0.0 or not _passes_bound(ws):
         return
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
         for r in range(3):
-            contact.choice_first[r] = contact.null_space_force[r]
+            contact.choice_at_start[r] = contact.null_space_force[r]
     ws.blended = 1
-    if _choose_at(ws, h, ws.offsets.y_new) == 0:
+    if not _choose_at(ws, h, ws.offsets.y_new):
         right_hand_side(ws, ws.t + h, ws.offsets.y_new, 0, 0)
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
         for r in range(3):
-            contact.choice_end[r] = contact.null_space_force[r]
-    write_guards(ws, ws.t + h, ws.offsets.y_new, 1)
+            contact.choice_at_end[r] = contact.null_space_force[r]
+    write_guards(ws, ws.t + h, ws.offsets.y_new, forces_are_known=True)
 
 
-@kernel("i8(ws, f8)")
-def choices_bend(ws: Workspace, high: float) -> int:
+@kernel("b1(ws, f8)")
+def choices_bend(ws: Workspace, high: float) -> bool:
     """Return 1 if forces can be chosen at the fraction ``high`` of the step though those in between pass a bound there.
 
     Where they have no room but that of one value the motion bends it, the less the shorter the step is; within the time
     tolerance that is an event.
     """
     if ws.blended == 0 or high == 1.0 or ws.h <= ws.time_tolerance:
-        return 0
-    fired = first_fired(ws, 1, -1)
-    if not 0 <= fired < first_own_guard(ws) or is_of_choice(ws, fired) == 0:
-        return 0
+        return False
+    fired = first_fired(ws, True, NO_GUARD)
+    if not 0 <= fired < first_own_guard(ws) or is_of_redundant_force(ws, fired) == 0:
+        return False
     state_within(ws, ws.h, high, ws.offsets.y_stage)
-    return int(_choose_at(ws, high * ws.h, ws.offsets.y_stage))
+    return _choose_at(ws, high * ws.h, ws.offsets.y_stage)

@@ -17,7 +17,7 @@ from nonsmooth.engine.bodies.bodies import evaluate_body, evaluate_driven_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
 from nonsmooth.engine.flow.flight import fly
 from nonsmooth.engine.flow.guard_numbers import normal_guard
-from nonsmooth.engine.flow.guards import UNKNOWN_FALL
+from nonsmooth.engine.flow.guards import NO_BOUND
 from nonsmooth.engine.flow.self_check import NOUGHT
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.memory.layout import LAST_STAGE
@@ -54,8 +54,10 @@ def _speed_seen(w: Floats, frame_a: int, frame_b: int) -> float:
 def _axis(ws: Workspace, c: int) -> Vector:
     """Return the axis in space about which the shape with the smaller lever may spin unseen, or zero."""
     contact = ws.contacts[c]
-    frame = frame_at(ws.floats, contact.frame_b if contact.lever_b <= contact.lever_a else contact.frame_a)
-    r, v = frame.rotation, contact.revolution
+    frame = frame_at(
+        ws.floats, contact.frame_b if contact.support_radius_b <= contact.support_radius_a else contact.frame_a
+    )
+    r, v = frame.rotation, contact.spin_axis
     return dot((r[0], r[1], r[2]), v), dot((r[3], r[4], r[5]), v), dot((r[6], r[7], r[8]), v)
 
 
@@ -80,7 +82,7 @@ def bound_speeds(ws: Workspace) -> None:
         contact = ws.contacts[c]
         if contact.mode != OPEN:
             continue
-        a, b, lever, larger = contact.frame_a, contact.frame_b, contact.lever_b, contact.lever_a
+        a, b, lever, larger = contact.frame_a, contact.frame_b, contact.support_radius_b, contact.support_radius_a
         if lever > larger:
             a, b, lever, larger = b, a, larger, lever
         # the contacts of two bodies follow one another
@@ -89,26 +91,26 @@ def bound_speeds(ws: Workspace) -> None:
             speed, spin = _speed_seen(ws.floats, a, b), minus(frame_at(ws.floats, b).spin, seen_from)
             whole, own = math.sqrt(dot(spin, spin)), math.sqrt(dot(seen_from, seen_from))
             last_a, last_b = a, b
-        contact.speed_end = speed
+        contact.speed_at_end = speed
         flies = ws.bodies[contact.body_a].flies + ws.bodies[contact.body_b].flies > 0
         if flies and larger > 0.0:
             ws.fastest_turn = max(ws.fastest_turn, own)
         if lever > 0.0:
             turning = whole
-            if dot(contact.revolution, contact.revolution) > 0.0:
+            if dot(contact.spin_axis, contact.spin_axis) > 0.0:
                 across = _across(spin, _axis(ws, c))
                 turning = math.sqrt(dot(across, across))
             if flies:
                 ws.fastest_turn = max(ws.fastest_turn, turning)
-            contact.speed_end = speed + turning * lever
-            contact.arm_end = arm_of(ws, c)
+            contact.speed_at_end = speed + turning * lever
+            contact.offset_at_end = arm_of(ws, c)
 
 
 @kernel("v3(ws, i8)")
 def arm_of(ws: Workspace, c: int) -> Vector:
     """Return where the witness point of the body with the smaller lever is from its origin; its geometry is known."""
     contact = ws.contacts[c]
-    if contact.lever_b <= contact.lever_a:
+    if contact.support_radius_b <= contact.support_radius_a:
         return minus(contact.point_b, frame_at(ws.floats, contact.frame_b).origin)
     return minus(contact.point_a, frame_at(ws.floats, contact.frame_a).origin)
 
@@ -118,7 +120,7 @@ def _acceleration(ws: Workspace, c: int, side: int, angular: int, du: int) -> Ve
     """Return the acceleration of the origin of a frame, or (1) its angular acceleration."""
     contact = ws.contacts[c]
     frame = contact.frame_a if side == 0 else contact.frame_b
-    n_u = contact.nu_a if side == 0 else contact.nu_b
+    n_u = contact.n_u_a if side == 0 else contact.n_u_b
     first = du + ws.bodies[contact.body_a if side == 0 else contact.body_b].u
     x, y, z = frame_at(ws.floats, frame).spin_acceleration if angular == 1 else frame_at(ws.floats, frame).acceleration
     row = frame + FRAME + 3 * angular * n_u
@@ -139,7 +141,7 @@ def fall_of(ws: Workspace, c: int, du: int) -> Vector:
     surface.
     """
     contact = ws.contacts[c]
-    second = contact.lever_b <= contact.lever_a
+    second = contact.support_radius_b <= contact.support_radius_a
     one, other = (0, 1) if second else (1, 0)
     a = frame_at(ws.floats, contact.frame_a if second else contact.frame_b)
     b = frame_at(ws.floats, contact.frame_b if second else contact.frame_a)
@@ -157,14 +159,14 @@ def fall_of(ws: Workspace, c: int, du: int) -> Vector:
     linear = minus(linear, scaled(2.0, cross(spin, velocity)))
     along = dot(contact.normal, linear)
     speed, rate = math.sqrt(dot(velocity, velocity)), math.sqrt(dot(turning, turning))
-    lever = min(contact.lever_a, contact.lever_b)
+    lever = min(contact.support_radius_a, contact.support_radius_b)
     fall = max(0.0, -along if second else along)
     fall += (math.sqrt(dot(angular, angular)) + rate * rate) * lever
     grows = 0.0
     if lever > 0.0:
         fall += _CURVED * rate * rate * lever
         grows = _CURVED * rate * math.sqrt(dot(linear, linear))
-        if max(contact.lever_a, contact.lever_b) < 1e300:
+        if max(contact.support_radius_a, contact.support_radius_b) < 1e300:
             fall += _CURVED * rate * speed
     return fall, grows, rate
 
@@ -176,9 +178,9 @@ def _expected_closing(ws: Workspace, c: int, du: int) -> float:
     That is for balls to tell: where the surfaces turn with the bodies, gaps that do not close would shorten steps.
     """
     contact = ws.contacts[c]
-    if min(contact.lever_a, contact.lever_b) > 0.0:
+    if min(contact.support_radius_a, contact.support_radius_b) > 0.0:
         return 1e300
-    gap, rate = contact.gap_end, contact.gap_rate_end
+    gap, rate = contact.gap_at_end, contact.gap_rate_at_end
     one, other = _acceleration(ws, c, 0, 0, du), _acceleration(ws, c, 1, 0, du)
     square = rate * rate - 2.0 * dot(contact.normal, minus(other, one)) * gap
     if gap <= ws.gap_tolerance or square < 0.0 or math.sqrt(square) <= rate:
@@ -186,12 +188,12 @@ def _expected_closing(ws: Workspace, c: int, du: int) -> float:
     return float(2.0 * gap / (math.sqrt(square) - rate))
 
 
-@kernel("i8(ws, i8, f8)")
-def _will_be_doubtful(ws: Workspace, c: int, h: float) -> int:
+@kernel("b1(ws, i8, f8)")
+def _will_be_doubtful(ws: Workspace, c: int, h: float) -> bool:
     """Return 1 if the gap of ``c`` may close within the time ``h`` as far as the speeds at its start tell."""
     contact = ws.contacts[c]
-    faces = contact.mode == OPEN and contact.past_first <= 0.0
-    return 1 if faces and ws.guards[normal_guard(c)].end <= 2.0 * h * contact.speed_first else 0
+    faces = contact.mode == OPEN and contact.past_feature_at_start <= 0.0
+    return faces and ws.guards[normal_guard(c)].end <= 2.0 * h * contact.speed_at_start
 
 
 @kernel("f8(ws, f8)")
@@ -203,18 +205,18 @@ def foresee(ws: Workspace, h: float) -> float:
     soonest = 1e300
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        contact.due = 1e300
-        if _will_be_doubtful(ws, c, min(h, soonest)) == 1:
-            contact.due = _expected_closing(ws, c, ws.offsets.slopes + ws.n_q)
-            soonest = min(soonest, contact.due)
+        contact.closing_time = 1e300
+        if _will_be_doubtful(ws, c, min(h, soonest)):
+            contact.closing_time = _expected_closing(ws, c, ws.offsets.slopes + ws.n_q)
+            soonest = min(soonest, contact.closing_time)
     return soonest
 
 
-@kernel("i8(ws, i8)")
-def _flies(ws: Workspace, number: int) -> int:
+@kernel("b1(ws, i8)")
+def _flies(ws: Workspace, number: int) -> bool:
     """Return 1 if it is known without a step where a body will be."""
     body = ws.bodies[number]
-    return 1 if body.nu == 0 or body.flies == 1 else 0
+    return body.nu == 0 or body.flies == 1
 
 
 @kernel("f8(ws, i8)")
@@ -224,7 +226,7 @@ def _closing_of_flying(ws: Workspace, c: int) -> float:
     Newton's method, from when it is due.
     """
     contact = ws.contacts[c]
-    elapsed = contact.due
+    elapsed = contact.closing_time
     for _iteration in range(_CLOSINGS):
         for side in range(2):
             number = contact.body_a if side == 0 else contact.body_b
@@ -241,7 +243,7 @@ def _closing_of_flying(ws: Workspace, c: int) -> float:
         left = contact.gap - aim
         if abs(left) <= 0.5 * aim:
             return float(elapsed)
-        if not rate < -ws.velocity_tolerance or contact.beyond > 0.0 or not elapsed > left / rate:
+        if not rate < -ws.velocity_tolerance or contact.past_feature > 0.0 or not elapsed > left / rate:
             return 1e300
         elapsed -= left / rate
     return 1e300
@@ -256,8 +258,8 @@ def first_of_flying(ws: Workspace, soonest: float) -> float:
     first = 1e300
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        fly_both = _flies(ws, contact.body_a) == 1 and _flies(ws, contact.body_b) == 1
-        if contact.due <= min(ABOUT * soonest, first) and fly_both:
+        fly_both = _flies(ws, contact.body_a) and _flies(ws, contact.body_b)
+        if contact.closing_time <= min(ABOUT * soonest, first) and fly_both:
             first = min(first, _closing_of_flying(ws, c))
     return first
 
@@ -269,19 +271,19 @@ def keep_falls(ws: Workspace, h: float) -> None:
     The bodies stand there; later they would have to be put there.
     """
     for c in range(ws.n_contacts):
-        if _will_be_doubtful(ws, c, h) == 1:
-            ws.contacts[c].fall_first = fall_of(ws, c, ws.offsets.slopes + ws.n_q)
+        if _will_be_doubtful(ws, c, h):
+            ws.contacts[c].acceleration_bound_at_start = fall_of(ws, c, ws.offsets.slopes + ws.n_q)
 
 
-@kernel("i8(f8, f8, f8, f8, f8)")
-def too_far(g0: float, past0: float, g1: float, past1: float, way: float) -> int:
+@kernel("b1(f8, f8, f8, f8, f8)")
+def too_far(g0: float, past0: float, g1: float, past1: float, way: float) -> bool:
     """Return 1 if a gap does not close by speed alone, the surfaces moving by ``way`` at most between its two ends.
 
     Only what faces each other says how far it is apart; of what does so at neither end the smaller number stands in.
     """
     if past0 > 0.0:
-        return 1 if (min(g0, g1) if past1 > 0.0 else g1) > way else 0
-    return 1 if (g0 if past1 > 0.0 else g0 + g1) > way else 0
+        return (min(g0, g1) if past1 > 0.0 else g1) > way
+    return (g0 if past1 > 0.0 else g0 + g1) > way
 
 
 @entry_point("void(ws, f8)")
@@ -294,17 +296,17 @@ def find_doubtful(ws: Workspace, h: float) -> None:
     ws.n_doubtful = ws.n_astray = 0
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        contact.fall_end = UNKNOWN_FALL
+        contact.acceleration_bound_at_end = NO_BOUND
         if contact.mode != OPEN:
             continue
         start = 0.0 if ws.guards[normal_guard(c)].deflated == 1 else ws.guards[normal_guard(c)].first
-        way = h * (contact.speed_first + contact.speed_end)
-        if too_far(start, contact.past_first, contact.gap_end, contact.past_end, way) == 1:
+        way = h * (contact.speed_at_start + contact.speed_at_end)
+        if too_far(start, contact.past_feature_at_start, contact.gap_at_end, contact.past_feature_at_end, way):
             continue
-        if contact.past_first > 0.0 or contact.past_end > 0.0:
+        if contact.past_feature_at_start > 0.0 or contact.past_feature_at_end > 0.0:
             ws.astray[ws.n_astray] = c
             ws.n_astray += 1
             continue
-        contact.fall_end = fall_of(ws, c, ws.offsets.slopes + LAST_STAGE * ws.n_y + ws.n_q)
+        contact.acceleration_bound_at_end = fall_of(ws, c, ws.offsets.slopes + LAST_STAGE * ws.n_y + ws.n_q)
         ws.doubtful[ws.n_doubtful] = c
         ws.n_doubtful += 1

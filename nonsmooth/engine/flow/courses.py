@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.bodies.courses import end_courses_of, is_on_course
+from nonsmooth.engine.bodies.courses import end_courses_of, has_own_step
 from nonsmooth.engine.delassus.islands import group_members
 from nonsmooth.engine.flow.flight import integrate, integrate_velocities
 from nonsmooth.engine.flow.flow import hold_guard, right_hand_side, slope
@@ -51,8 +51,8 @@ def _rider(ws: Workspace, c: int) -> int:
     It is not the only one that moves: with nothing else there are no events but its own.
     """
     contact = ws.contacts[c]
-    rigid = contact.normal_function == 0 and contact.averaged == OPEN and contact.oriented == 0
-    if contact.mode != STICK or not rigid or contact.beyond > 0.0:
+    rigid = not contact.is_compliant and not contact.is_averaged and not contact.is_anisotropic
+    if contact.mode != STICK or not rigid or contact.past_feature > 0.0:
         return -1
     number = contact.body_b
     if _rests(ws, contact.body_a, contact.frame_a) == 0:
@@ -78,9 +78,9 @@ def _find_riders(ws: Workspace) -> int:
     ws.n_integrated = ws.n_spans = 0
     for c in range(ws.n_contacts):
         number = _rider(ws, c)
-        ws.contacts[c].member = 0
+        ws.contacts[c].is_in_problem = False
         if number >= 0:
-            ws.contacts[c].member = 1
+            ws.contacts[c].is_in_problem = True
             integrate(ws, number)
     if ws.n_integrated > 0:
         integrate_velocities(ws)
@@ -110,17 +110,17 @@ def _look_at_forces(ws: Workspace, anew: int) -> None:
         normal = ws.guards[normal_guard(c)]
         if anew == 1:
             contact.feature, normal.armed = int(contact.feature_now), 1
-        is_same = contact.beyond <= 0.0 and int(contact.feature_now) == contact.feature
+        is_same = contact.past_feature <= 0.0 and int(contact.feature_now) == contact.feature
         bears = _rests(ws, contact.body_a, contact.frame_a) + _rests(ws, contact.body_b, contact.frame_b)
-        if not is_same or bears == 0 or contact.holds == 0:
+        if not is_same or bears == 0 or not contact.is_held_by_friction:
             normal.armed = 0
 
 
-@kernel("i8(ws, i8)")
-def _stays_far(ws: Workspace, i: int) -> int:
+@kernel("b1(ws, i8)")
+def _stays_far(ws: Workspace, i: int) -> bool:
     """Return 1 if a guard keeps so much of its greatest that it comes near no bound."""
     guard = ws.guards[i]
-    return 1 if guard.start > 0.0 and guard.start >= _KEPT * guard.end else 0
+    return guard.start > 0.0 and guard.start >= _KEPT * guard.end
 
 
 @kernel("f8(ws, f8, f8)")
@@ -184,27 +184,27 @@ def set_off(ws: Workspace, usual: float, longest: float) -> None:
             ws.course_end = min(ws.course_end, ws.t + h)
 
 
-@kernel("i8(ws, i8)")
-def _is_off(ws: Workspace, c: int) -> int:
+@kernel("b1(ws, i8)")
+def _is_off(ws: Workspace, c: int) -> bool:
     """Return 1 if a closed contact has left its constraints by more than a part of the tolerances."""
     contact = ws.contacts[c]
-    if contact.mode == OPEN or contact.averaged != OPEN:
-        return 0
-    rate, gap = abs(contact.rate_end[0]), abs(contact.gap_end)
-    if contact.normal_function != 0:
+    if contact.mode == OPEN or contact.is_averaged:
+        return False
+    rate, gap = abs(contact.rate_end[0]), abs(contact.gap_at_end)
+    if contact.is_compliant:
         rate = gap = 0.0
     if contact.mode == STICK:
-        rate += abs(contact.slip_end[0]) + abs(contact.slip_end[1])
-    return 1 if rate > _DRIFT * ws.velocity_tolerance or gap > _DRIFT * ws.gap_tolerance else 0
+        rate += abs(contact.slip_at_end[0]) + abs(contact.slip_at_end[1])
+    return rate > _DRIFT * ws.velocity_tolerance or gap > _DRIFT * ws.gap_tolerance
 
 
-@kernel("i8(ws)")
-def drifted(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def drifted(ws: Workspace) -> bool:
     """Return 1 if some closed contact has left its constraints by more than a part of the tolerances."""
     for c in range(ws.n_contacts):
-        if _is_off(ws, c) == 1:
-            return 1
-    return 0
+        if _is_off(ws, c):
+            return True
+    return False
 
 
 @kernel("i8(ws)")
@@ -214,6 +214,6 @@ def end_courses(ws: Workspace) -> int:
     if over:
         ws.course_end = math.inf
     for c in range(ws.n_contacts):
-        if is_on_course(ws, c) == 1 and (over or _is_off(ws, c) == 1):
+        if has_own_step(ws, c) == 1 and (over or _is_off(ws, c)):
             ended += end_courses_of(ws, c)
     return ended

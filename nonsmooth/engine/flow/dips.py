@@ -14,7 +14,7 @@ from nonsmooth.engine.flow.clearance import arm_of, fall_of, too_far
 from nonsmooth.engine.flow.flight import body_within
 from nonsmooth.engine.flow.flow import slip_guard
 from nonsmooth.engine.flow.guard_numbers import friction_guard, normal_guard
-from nonsmooth.engine.flow.guards import grown, has_fired
+from nonsmooth.engine.flow.guards import deflated, has_fired
 from nonsmooth.engine.flow.self_check import NEAR, NOUGHT, blame
 from nonsmooth.engine.memory.layout import PARTS
 from nonsmooth.engine.memory.modes import GAP_UNDECIDED
@@ -58,10 +58,13 @@ def _put(ws: Workspace, h: float, theta: float, c: int) -> None:
 def _largest_fall(ws: Workspace, h: float, c: int) -> float:
     """Return how fast the rate of the gap of ``c`` can fall within the step, from how fast it can at its ends."""
     contact = ws.contacts[c]
-    if contact.fall_first[0] < 0.0:
+    if contact.acceleration_bound_at_start[0] < 0.0:
         _put(ws, h, 0.0, c)
-        contact.fall_first = fall_of(ws, c, ws.offsets.slopes + ws.n_q)
-    (first, grows_first, _), (last, grows_last, _) = contact.fall_first, contact.fall_end
+        contact.acceleration_bound_at_start = fall_of(ws, c, ws.offsets.slopes + ws.n_q)
+    (first, grows_first, _), (last, grows_last, _) = (
+        contact.acceleration_bound_at_start,
+        contact.acceleration_bound_at_end,
+    )
     start, end = first + h * grows_first, last + h * grows_last
     return float(max(start, end) + abs(end - start))
 
@@ -78,7 +81,7 @@ def _write_gap_guard(ws: Workspace, c: int, elapsed: float) -> None:
     """Write the guard of the gap of ``c``, which has been evaluated when this time of the step had elapsed."""
     contact, guard = ws.contacts[c], ws.guards[normal_guard(c)]
     contact.gap_rate = contact.rate[0]
-    guard.value = grown(ws, normal_guard(c), contact.gap, elapsed)
+    guard.value = deflated(ws, normal_guard(c), contact.gap, elapsed)
 
 
 @kernel("void(ws, f8, f8, i8)")
@@ -95,7 +98,7 @@ def look_at_slip(ws: Workspace, h: float, theta: float, c: int) -> None:
     _put(ws, h, theta, c)
     evaluate_rates(ws, c)
     i = friction_guard(ws, c)
-    ws.guards[i].value = grown(ws, i, slip_guard(ws, c), theta * h)
+    ws.guards[i].value = deflated(ws, i, slip_guard(ws, c), theta * h)
 
 
 @kernel("void(ws, f8, f8, i8, i8)")
@@ -106,7 +109,7 @@ def _keep(ws: Workspace, h: float, theta: float, c: int, n: int) -> None:
     if guard.value > 0.0:
         guard.armed = 1
     end.theta, end.gap, end.rate = theta, _above_start(ws, c, contact.gap), contact.gap_rate
-    end.past, end.arm = contact.beyond, arm_of(ws, c)
+    end.past, end.arm = contact.past_feature, arm_of(ws, c)
 
 
 @kernel("void(ws, f8, f8, i8, i8)")
@@ -116,10 +119,10 @@ def _look(ws: Workspace, h: float, theta: float, c: int, n: int) -> None:
     _keep(ws, h, theta, c, n)
 
 
-@kernel("i8(F, i8, i8, f8, f8, f8, f8, f8, f8)")
+@kernel("b1(F, i8, i8, f8, f8, f8, f8, f8, f8)")
 def stays_open(
     w: Floats, ends: int, n: int, h: float, speed: float, fall: float, turning: float, lever: float, tolerance: float
-) -> int:
+) -> bool:
     """Return 1 if a gap stays above minus the tolerance between ends 0 and ``n`` of a part of a step, by the bounds.
 
     It is above both parabolas that fall away from its ends, and lowest where they cross.  A witness point that moves
@@ -129,10 +132,10 @@ def stays_open(
     one, two = part_end(w, ends, 0), part_end(w, ends, n)
     span = (two.theta - one.theta) * h
     g0, r0, g1, r1 = one.gap, one.rate, two.gap, two.rate
-    if too_far(g0, one.past, g1, two.past, span * speed) == 1:
-        return 1
+    if too_far(g0, one.past, g1, two.past, span * speed):
+        return True
     if one.past > 0.0 or two.past > 0.0 or min(g0, g1) < -tolerance:
-        return 0
+        return False
     if turning > 0.0:
         fall += 2.0 * turning * max(0.0, distance(two.arm, one.arm) / span - turning * lever)
     closing = fall * span + r1 - r0
@@ -140,11 +143,11 @@ def stays_open(
     back = g1 - g0 - r0 * span + 0.5 * fall * span * span
     # the bound is not one if either parabola passes over the other end
     if min(ahead, back) < -tolerance:
-        return 0
+        return False
     if closing <= 0.0 or min(ahead, back) <= 0.0:
-        return 1
+        return True
     s = min(ahead / closing, span)
-    return 1 if g0 + s * (r0 - 0.5 * fall * s) >= -tolerance else 0
+    return g0 + s * (r0 - 0.5 * fall * s) >= -tolerance
 
 
 @kernel("f8(ws, f8, i8, f8, i8)")
@@ -160,27 +163,27 @@ def _first_dip(ws: Workspace, h: float, c: int, high: float, stands: int) -> flo
         1,
         0,
     )
-    left.theta, left.gap = 0.0, _above_start(ws, c, contact.gap_first)
-    left.rate, left.past, left.arm = contact.gap_rate_first, contact.past_first, contact.arm_first
-    speed = contact.speed_first + contact.speed_end
+    left.theta, left.gap = 0.0, _above_start(ws, c, contact.gap_at_start)
+    left.rate, left.past, left.arm = contact.gap_rate_at_start, contact.past_feature_at_start, contact.offset_at_start
+    speed = contact.speed_at_start + contact.speed_at_end
     if high < 1.0:
         if stands == 1:
             _keep(ws, h, high, c, 1)
         else:
             _look(ws, h, high, c, 1)
-        if too_far(left.gap, left.past, right.gap, right.past, high * h * speed) == 1:
+        if too_far(left.gap, left.past, right.gap, right.past, high * h * speed):
             return 0.0
     else:
-        right.theta, right.gap = 1.0, _above_start(ws, c, contact.gap_end)
-        right.rate, right.past, right.arm = contact.gap_rate_end, contact.past_end, contact.arm_end
+        right.theta, right.gap = 1.0, _above_start(ws, c, contact.gap_at_end)
+        right.rate, right.past, right.arm = contact.gap_rate_at_end, contact.past_feature_at_end, contact.offset_at_end
     fall = _largest_fall(ws, h, c)
-    lever = min(contact.lever_a, contact.lever_b)
-    turning = contact.turning_first + contact.turning_end if lever > 0.0 else 0.0
+    lever = min(contact.support_radius_a, contact.support_radius_b)
+    turning = contact.turning_bound_at_start + contact.turning_bound_at_end if lever > 0.0 else 0.0
     while n > 0:
         right = part_end(ws.floats, ws.offsets.part_ends, n)
         span = right.theta - left.theta
         if (
-            stays_open(ws.floats, ws.offsets.part_ends, n, h, speed, fall, turning, lever, ws.gap_tolerance) == 0
+            not stays_open(ws.floats, ws.offsets.part_ends, n, h, speed, fall, turning, lever, ws.gap_tolerance)
             and n < PARTS
         ):
             gaps, rates = max(abs(left.gap), abs(right.gap)), max(abs(left.rate), abs(right.rate))

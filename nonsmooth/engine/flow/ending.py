@@ -32,7 +32,7 @@ def end_features(ws: Workspace) -> int:
         for i in range(ws.n_grouped):
             c = ws.grouped[i]
             evaluate_geometry(ws, c)
-            if feature_guard(ws, c) < 0.0:
+            if feature_guard(ws, ws.contacts[c]) < 0.0:
                 return c
         ws.h *= 2.0
     return -1

@@ -15,7 +15,7 @@ from nonsmooth.engine.bodies.compliance import (
     rub_by_traction,
     write_state_rates,
 )
-from nonsmooth.engine.bodies.courses import is_on_course
+from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.bodies.kinematics import evaluate_bias, evaluate_geometry, evaluate_rates
 from nonsmooth.engine.contact.forces import friction_of_slip
 from nonsmooth.engine.contact.held_contacts import hold_contacts, write_rows
@@ -61,10 +61,10 @@ def right_hand_side(ws: Workspace, t: float, y: int, choosing: int, every: int) 
     refresh_states(ws, y)
     for group in range(ws.n_groups):
         c = lone_slip(ws, group)
-        if c >= 0 and hold_lone_slip(ws, c) == 1:
+        if c >= 0 and hold_lone_slip(ws, c):
             continue
         activate_group(ws, group)
-        implicit = ws.ahead > 0.0 and _slides(ws) == 1
+        implicit = ws.ahead > 0.0 and _slides(ws)
         for a in range(ws.n_active):
             active = ws.actives[a]
             c = active.slot
@@ -73,7 +73,7 @@ def right_hand_side(ws: Workspace, t: float, y: int, choosing: int, every: int) 
             contact = ws.contacts[c]
             evaluate_geometry(ws, c)
             evaluate_rates(ws, c)
-            if contact.normal_function != 0:
+            if contact.is_compliant:
                 evaluate_compliant_force(ws, c)
             _set_friction(ws, a, y)
             evaluate_bias(ws, c, 1 + 2 * active.tangent_held)
@@ -95,17 +95,17 @@ def right_hand_side(ws: Workspace, t: float, y: int, choosing: int, every: int) 
     return keeps
 
 
-@kernel("i8(ws)")
-def _slides(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _slides(ws: Workspace) -> bool:
     """Return 1 if one of the active contacts slides, and their forces are none that are averaged."""
     slides = 0
     for a in range(ws.n_active):
         contact = ws.contacts[ws.actives[a].slot]
-        if contact.averaged != OPEN:
-            return 0
+        if contact.is_averaged:
+            return False
         if contact.mode == SLIDE:
             slides = 1
-    return slides
+    return slides != 0
 
 
 @kernel("f8(ws, i8)")
@@ -114,7 +114,7 @@ def _static_margin(ws: Workspace, a: int) -> float:
     active = ws.actives[a]
     c = active.slot
     contact = ws.contacts[c]
-    if contact.averaged != OPEN:
+    if contact.is_averaged:
         return 1.0
     if active.tangent_held == 0:
         return float(ws.velocity_tolerance - length(contact.slip))
@@ -131,17 +131,17 @@ def _set_friction(ws: Workspace, a: int, y: int) -> None:
     contact = ws.contacts[c]
     active.normal_held = 1
     active.tangent_held = 0
-    contact.turned = 0.0
-    if contact.normal_function != 0:
+    contact.dissipated_by_spin = 0.0
+    if contact.is_compliant:
         active.normal_held = 0
         active.normal_force = contact.compliant_force
-        if contact.traction_function != 0:
+        if contact.has_traction_law:
             rub_by_traction(ws, c, active.force, y)
             return
-    elif contact.averaged != OPEN:
+    elif contact.is_averaged:
         active.normal_held = 0
         active.normal_force = contact.mean_force[0]
-    if contact.averaged != OPEN:
+    if contact.is_averaged:
         active.friction = contact.mean_force[1], contact.mean_force[2]
         return
     if contact.mode == STICK:
@@ -164,21 +164,21 @@ def hold_guard(ws: Workspace, c: int) -> float:
     its own: bodies may still overlap there.
     """
     contact = ws.contacts[c]
-    if contact.averaged != OPEN or (contact.normal_function != 0 and contact.beyond > 0.0):
+    if contact.is_averaged or (contact.is_compliant and contact.past_feature > 0.0):
         return 1.0
-    if contact.normal_function != 0:
+    if contact.is_compliant:
         return float(contact.reach - contact.gap)
     return float(contact.force[0])
 
 
-@kernel("i8(ws, i8)")
-def is_violated(ws: Workspace, c: int) -> int:
+@kernel("b1(ws, i8)")
+def is_violated(ws: Workspace, c: int) -> bool:
     """Return 1 if the force of closed contact ``c`` violates its mode by more than what it takes for zero."""
     contact = ws.contacts[c]
     least = hold_guard(ws, c)
-    if contact.holds == 1:
+    if contact.is_held_by_friction:
         least = min(least, contact.static_margin)
-    return 1 if least < WRONG_FORCE * contact.small_force_of else 0
+    return least < WRONG_FORCE * contact.force_round_off
 
 
 @kernel("f8(ws, i8)")
@@ -188,10 +188,10 @@ def slip_guard(ws: Workspace, c: int) -> float:
     In an implicit step, which stops and turns slips itself, it is the slip.
     """
     contact = ws.contacts[c]
-    if contact.traction_function != 0 or contact.averaged != OPEN:
+    if contact.has_traction_law or contact.is_averaged:
         return 1.0
     speed = length(contact.slip)
-    if contact.normal_function != 0 and slip_coefficient(ws, c, speed) == 0.0:
+    if contact.is_compliant and slip_coefficient(ws, c, speed) == 0.0:
         return 1.0
     if ws.stage_time > 0.0:
         return speed
@@ -225,11 +225,11 @@ def slope(ws: Workspace, t: float, y: int, out: int, choosing: int, every: int) 
     for i in range(ws.n_grouped):
         c = ws.grouped[i]
         contact = ws.contacts[c]
-        sticks = contact.mode == STICK and contact.averaged == OPEN
+        sticks = contact.mode == STICK and not contact.is_averaged
         if not sticks:
             for r in range(1, 3):
                 lost -= contact.force[r] * contact.rate[r]
-        lost -= contact.turned
+        lost -= contact.dissipated_by_spin
         hold = hold_guard(ws, c)
         contact.least_force = min(contact.least_force, hold)
         if sticks or hold < 0.0 or slip_guard(ws, c) < 0.0:
@@ -254,8 +254,8 @@ def hardest_pressed(ws: Workspace, sliding: int) -> int:
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
         takes_part = contact.mode == SLIDE if sliding == 1 else contact.mode != OPEN
-        takes_part = takes_part and is_on_course(ws, c) == 0
+        takes_part = takes_part and has_own_step(ws, c) == 0
         force = contact.force[0] if sliding == 1 else abs(contact.force[0])
-        if takes_part and contact.normal_function == 0 and force > most:
+        if takes_part and not contact.is_compliant and force > most:
             hardest, most = c, force
     return hardest

@@ -37,14 +37,14 @@ def orient_slips(ws: Workspace, at_end: int) -> None:
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
         if contact.mode == SLIDE:
-            slip = contact.slip_end if at_end == 1 else contact.slip
+            slip = contact.slip_at_end if at_end == 1 else contact.slip
             speed = length(slip)
             if speed > ws.velocity_tolerance:
                 contact.direction = slip[0] / speed, slip[1] / speed
 
 
-@kernel("i8(ws)")
-def _turned_round(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _turned_round(ws: Workspace) -> bool:
     """Orient the slips by the rates at hand; return 1 if one goes against the direction that friction took it to go.
 
     A slip may turn round without an event, as where a belt pulls on.
@@ -56,7 +56,7 @@ def _turned_round(ws: Workspace) -> int:
         if contact.mode == SLIDE and slip_guard(ws, c) < -ws.velocity_tolerance:
             against = 1
     orient_slips(ws, 0)
-    return against
+    return against != 0
 
 
 @kernel("f8(ws)")
@@ -114,7 +114,7 @@ def _measure_mobilities(ws: Workspace) -> None:
             evaluate_contact(ws, ws.actives[a].slot, 1)
         assemble_delassus(ws)
         for a in range(ws.n_active):
-            ws.contacts[ws.actives[a].slot].mobility = slope_of_slip(ws, a)
+            ws.contacts[ws.actives[a].slot].slip_per_force = slope_of_slip(ws, a)
 
 
 @entry_point("i8(ws, f8)")
@@ -129,7 +129,7 @@ def follow(ws: Workspace, t: float) -> int:
     while ws.t < t:
         ws.stage_time, ws.follows, ws.replaced = 0.0, 0, 0
         slope(ws, ws.t, ws.offsets.y, ws.offsets.slopes, 0, 1)
-        if _turned_round(ws) == 1:
+        if _turned_round(ws):
             slope(ws, ws.t, ws.offsets.y, ws.offsets.slopes, 0, 1)
         take_off(ws)
         for i in range(ws.n_grouped):
@@ -140,7 +140,7 @@ def follow(ws: Workspace, t: float) -> int:
         ws.relaxation = relaxation(ws)
         left = t - ws.t
         h = _found_step(ws, min(wanted, left, ws.mean_until - ws.t))
-        if h < 0.0 and ws.stopped == 0 and leap(ws, ws.time_tolerance) == 1:
+        if h < 0.0 and ws.stopped == 0 and leap(ws, ws.time_tolerance):
             h = ws.time_tolerance
         if h < 0.0:
             return NOT_FINITE if ws.stopped == 1 else STEP_TOO_SMALL
@@ -162,19 +162,19 @@ def follow(ws: Workspace, t: float) -> int:
     return RUNNING
 
 
-@kernel("i8(ws)")
-def _past_bounds(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _past_bounds(ws: Workspace) -> bool:
     """Return 1 if forces that are not unique pull, or pass the bound of their friction."""
     least = largest = 0.0
     for i in range(ws.n_grouped):
         c = ws.grouped[i]
         contact = ws.contacts[c]
-        if contact.redundant == 1:
+        if contact.has_redundant_force:
             largest = max(largest, abs(contact.force[0]))
             least = min(least, hold_guard(ws, c))
-            if contact.holds == 1:
+            if contact.is_held_by_friction:
                 least = min(least, contact.static_margin)
-    return 1 if least < -_EXCESS * largest else 0
+    return least < -_EXCESS * largest
 
 
 @entry_point("void(ws, i8)")

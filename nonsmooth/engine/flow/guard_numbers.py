@@ -21,10 +21,10 @@ def friction_guard(ws: Workspace, c: int) -> int:
     return int(ws.n_contacts + c)
 
 
-@kernel("i8(ws, i8)")
-def is_friction_guard(ws: Workspace, i: int) -> int:
+@kernel("b1(ws, i8)")
+def is_friction_guard(ws: Workspace, i: int) -> bool:
     """Return 1 if guard ``i`` of a contact is that of its friction."""
-    return 1 if i >= ws.n_contacts else 0
+    return i >= ws.n_contacts
 
 
 @kernel("i8(ws, i8)")

@@ -20,7 +20,7 @@ from nonsmooth.engine.delassus.islands import activate_group
 from nonsmooth.engine.flow.flow import right_hand_side
 from nonsmooth.engine.flow.self_check import EXPLAINED
 from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS
-from nonsmooth.engine.memory.modes import LIFT_OFF, OPEN, STICK, STICK_TO_SLIP
+from nonsmooth.engine.memory.modes import LIFT_OFF, STICK, STICK_TO_SLIP
 from nonsmooth.engine.native.kernel import Workspace, frame_at, kernel
 from nonsmooth.engine.numerics.vectors import dot, length, minus
 
@@ -38,9 +38,9 @@ def _stretches(ws: Workspace) -> int:
     longest = 0.0
     for i in range(ws.n_grouped):
         contact = ws.contacts[ws.grouped[i]]
-        way_a = minus(contact.point_a, contact.start_a)
-        way_b = minus(contact.point_b, contact.start_b)
-        contact.way_a, contact.way_b = way_a, way_b
+        way_a = minus(contact.point_a, contact.leap_start_a)
+        way_b = minus(contact.point_b, contact.leap_start_b)
+        contact.leap_a, contact.leap_b = way_a, way_b
         longest = max(longest, dot(way_a, way_a) / contact.size**2, dot(way_b, way_b) / contact.size**2)
     return min(_MOST, 1 + int(longest**0.5 / _PART))
 
@@ -53,16 +53,24 @@ def _set_up(ws: Workspace, part: float) -> None:
         active = ws.actives[a]
         c = active.slot
         contact = ws.contacts[c]
-        (ax, ay, az), (bx, by, bz) = contact.way_a, contact.way_b
-        contact.point_a = contact.start_a[0] + part * ax, contact.start_a[1] + part * ay, contact.start_a[2] + part * az
-        contact.point_b = contact.start_b[0] + part * bx, contact.start_b[1] + part * by, contact.start_b[2] + part * bz
-        contact.seen_a = UNSEEN
+        (ax, ay, az), (bx, by, bz) = contact.leap_a, contact.leap_b
+        contact.point_a = (
+            contact.leap_start_a[0] + part * ax,
+            contact.leap_start_a[1] + part * ay,
+            contact.leap_start_a[2] + part * az,
+        )
+        contact.point_b = (
+            contact.leap_start_b[0] + part * bx,
+            contact.leap_start_b[1] + part * by,
+            contact.leap_start_b[2] + part * bz,
+        )
+        contact.version_a = UNSEEN
         evaluate_rates(ws, c)
         evaluate_jacobian(ws, c)
         speed = length(contact.slip)
         active.mu_static = friction_coefficient(ws, c, 0.0)
         active.mu = slip_coefficient(ws, c, speed)
-        sticks = contact.mode == STICK and contact.released == 0
+        sticks = contact.mode == STICK and not contact.was_released
         active.normal_held = 0 if contact.released == LIFT_OFF else 1
         active.tangent_held = 1 if sticks and active.mu_static > 0.0 else 0
         active.direction = contact.direction
@@ -131,7 +139,7 @@ def _keep_points(ws: Workspace) -> None:
         c = ws.grouped[i]
         contact = ws.contacts[c]
         evaluate_geometry(ws, c)
-        contact.start_a, contact.start_b = contact.point_a, contact.point_b
+        contact.leap_start_a, contact.leap_start_b = contact.point_a, contact.point_b
 
 
 @kernel("i8(ws, f8, f8)")
@@ -147,7 +155,7 @@ def _runs(ws: Workspace, h: float, rate: float) -> int:
         evaluate_rates(ws, c)
         contact = ws.contacts[c]
         spin_a, spin_b = frame_at(ws.floats, contact.frame_a).spin, frame_at(ws.floats, contact.frame_b).spin
-        turning, way = minus(spin_b, spin_a), minus(contact.point_b, contact.start_b)
+        turning, way = minus(spin_b, spin_a), minus(contact.point_b, contact.leap_start_b)
         speed = length(contact.slip) + contact.size * math.sqrt(dot(turning, turning))
         if contact.rate[0] < rate and dot(way, way) > (_FASTER * h * speed) ** 2:
             runs = c
@@ -162,14 +170,14 @@ def measure_noise(ws: Workspace) -> None:
     for i in range(ws.n_grouped):
         contact = ws.contacts[ws.grouped[i]]
         largest = max(largest, abs(contact.force[0]))
-        if contact.mobility > 0.0:
-            largest = max(largest, abs(contact.bias[0]) / contact.mobility)
+        if contact.slip_per_force > 0.0:
+            largest = max(largest, abs(contact.bias[0]) / contact.slip_per_force)
     for i in range(ws.n_grouped):
-        ws.contacts[ws.grouped[i]].small_force_of = NO_FORCE * largest
+        ws.contacts[ws.grouped[i]].force_round_off = NO_FORCE * largest
 
 
-@kernel("i8(ws, f8)")
-def leap(ws: Workspace, h: float) -> int:
+@kernel("b1(ws, f8)")
+def leap(ws: Workspace, h: float) -> bool:
     """Write the state after the time ``h``, too short for steps, to ``y_new``; return 1 if contact points run in it.
 
     ``slopes`` must hold the slope at ``y``, and the closed contacts be grouped.  What the impulses let go is
@@ -177,22 +185,22 @@ def leap(ws: Workspace, h: float) -> int:
     """
     for i in range(ws.n_grouped):
         contact = ws.contacts[ws.grouped[i]]
-        if contact.normal_function != 0:
-            return 0
+        if contact.is_compliant:
+            return False
         contact.released = 0
     _keep_points(ws)
     for i in range(ws.n_y):
         ws.y_new[i] = ws.y[i] + (h * ws.slopes[i] if i < ws.n_q else 0.0)
     evaluate_bodies(ws, ws.t + h, ws.offsets.y_new)
     if _runs(ws, h, 0.0) < 0:
-        return 0
+        return False
     n = _stretches(ws)
     for stretch in range(n):
         for group in range(ws.n_groups):
             activate_group(ws, group)
             _reflect(ws, (stretch + 0.5) / n)
         evaluate_bodies(ws, ws.t + h, ws.offsets.y_new)
-    return 1
+    return True
 
 
 @kernel("i8(ws)")
@@ -205,7 +213,7 @@ def passed_flat(ws: Workspace) -> int:
     approaches, explained = 0, EXPLAINED * ws.velocity_tolerance
     for i in range(ws.n_grouped):
         contact = ws.contacts[ws.grouped[i]]
-        held = contact.normal_function == 0 and contact.averaged == OPEN and contact.past_end <= 0.0
+        held = not contact.is_compliant and not contact.is_averaged and contact.past_feature_at_end <= 0.0
         if held and contact.rate_end[0] < -explained:
             approaches = 1
     if approaches == 0:

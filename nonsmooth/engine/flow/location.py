@@ -22,14 +22,15 @@ from nonsmooth.engine.flow.guard_numbers import (
     number_of_guards,
 )
 from nonsmooth.engine.flow.guards import (
+    NO_GUARD,
     arm_further,
     deflate,
     evaluate_guards,
+    evaluate_motion,
     first_fired,
     is_gap,
     keep_end,
-    kinematic,
-    stand_at,
+    sign_depends_on,
     write_guards,
 )
 from nonsmooth.engine.flow.self_check import EXPLAINED, NEAR, explained_gap
@@ -75,10 +76,10 @@ _BEHIND = 1e-3
 """later by this part of the time that it takes."""
 
 
-@kernel("i8(ws)")
-def _asks_forces(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _asks_forces(ws: Workspace) -> bool:
     """Return 1 if forces are looked at within a step: an implicit one has forces where its stages end only."""
-    return 1 if ws.n_grouped > 0 and ws.stage_time == 0.0 else 0
+    return ws.n_grouped > 0 and ws.stage_time == 0.0
 
 
 @entry_point("void(ws, f8, f8, i8)")
@@ -86,13 +87,13 @@ def guards_within(ws: Workspace, h: float, theta: float, forces: int) -> None:
     """Evaluate the motion and write the guards at the fraction ``theta`` of the step, on the interpolant."""
     state_within(ws, h, theta, ws.offsets.y_stage)
     blend_choices(ws, theta)
-    evaluate_guards(ws, ws.t + theta * h, ws.offsets.y_stage, theta * h, forces)
+    evaluate_guards(ws, ws.t + theta * h, ws.offsets.y_stage, theta * h, forces == 1)
 
 
 @kernel("f8(ws, f8, f8, i8, i8)")
 def _guard_at(ws: Workspace, h: float, theta: float, i: int, forces: int) -> float:
     """Return guard ``i`` at the fraction ``theta`` of the step; of a gap and of a slip nothing else is evaluated."""
-    alone = kinematic(ws, i)
+    alone = sign_depends_on(ws, i)
     if alone == 1:
         look_at_gap(ws, h, theta, i)
     elif alone == 2:
@@ -151,7 +152,7 @@ def _soonest(ws: Workspace) -> float:
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
         gap, rate = contact.gap, contact.gap_rate
-        if contact.mode == OPEN and contact.beyond <= 0.0 and gap > 0.0 and rate < 0.0:
+        if contact.mode == OPEN and contact.past_feature <= 0.0 and gap > 0.0 and rate < 0.0:
             soonest = min(soonest, -gap / rate)
     return soonest
 
@@ -167,7 +168,7 @@ def _advance(ws: Workspace, h: float) -> float:
     for i in range(ws.n_astray):
         c = ws.astray[i]
         contact = ws.contacts[c]
-        speed = contact.speed_first + contact.speed_end
+        speed = contact.speed_at_start + contact.speed_at_end
         way = min(_FARTHEST * contact.size, max(contact.gap, WAY * contact.size))
         if way < least * speed:
             least = way / speed
@@ -186,10 +187,10 @@ def _sampled(ws: Workspace, h: float, high: float) -> float:
         # right at the start nothing has grown yet
         guards_within(ws, h, max(theta, _FAINT), 0)
         if theta > 0.0:
-            if first_fired(ws, 0, -1) >= 0:
+            if first_fired(ws, False, NO_GUARD) >= 0:
                 guards_within(ws, h, theta, _asks_forces(ws))
                 return theta
-            arm_further(ws, 0)
+            arm_further(ws, False)
         way, soonest = _advance(ws, h), (1.0 + _BEHIND) * _soonest(ws)
         looks = looks + 1 if soonest < way and looks < _LOOKS else 0
         theta += (soonest if looks > 0 else way) / h
@@ -221,13 +222,13 @@ def first_crossing(ws: Workspace, h: float) -> float:
     Called right after the step, when bodies and forces stand at its end.
     """
     closed = _asks_forces(ws)
-    write_guards(ws, ws.t + h, ws.offsets.y_new, 1)
+    write_guards(ws, ws.t + h, ws.offsets.y_new, forces_are_known=True)
     choose_at_end(ws, h)
     keep_end(ws)
     bound_speeds(ws)
     find_doubtful(ws, h)
     deflate(ws, h)
-    fired = first_fired(ws, 1, -1)
+    fired = first_fired(ws, True, NO_GUARD)
     # where no stage saw a force or slip that violates its mode or dips, the middle is not looked at
     suspect = ws.suspect == 1
     for c in range(ws.n_contacts):
@@ -239,11 +240,11 @@ def first_crossing(ws: Workspace, h: float) -> float:
     looks = forces + ws.n_own_guards
     if looks > 0:
         guards_within(ws, h, _MIDDLE, forces)
-        if first_fired(ws, forces, -1) >= 0:
+        if first_fired(ws, forces == 1, NO_GUARD) >= 0:
             if forces != closed:
                 guards_within(ws, h, _MIDDLE, closed)
             return _MIDDLE
-        arm_further(ws, forces)
+        arm_further(ws, forces == 1)
         for i in range(number_of_guards(ws)):
             ws.guards[i].middle = ws.guards[i].value
         if forces == 1 and fired < 0:
@@ -258,18 +259,18 @@ def first_crossing(ws: Workspace, h: float) -> float:
             return theta
     blend_choices(ws, 1.0)
     if looks > 0:
-        stand_at(ws, ws.t + h, ws.offsets.y_new)
+        evaluate_motion(ws, ws.t + h, ws.offsets.y_new)
         for i in range(number_of_guards(ws)):
             ws.guards[i].value = ws.guards[i].end
         for c in range(ws.n_contacts):
             contact = ws.contacts[c]
-            contact.gap_rate = contact.gap_rate_end
-            contact.beyond = contact.past_end
+            contact.gap_rate = contact.gap_rate_at_end
+            contact.past_feature = contact.past_feature_at_end
         deflate(ws, h)
     elif fired >= 0 or ws.n_doubtful == 0:
         return 1.0 if fired >= 0 else 0.0
     # guards armed only within the step count as well
-    return 1.0 if first_fired(ws, 1, -1) >= 0 else 0.0
+    return 1.0 if first_fired(ws, True, NO_GUARD) >= 0 else 0.0
 
 
 @kernel("f8(ws, f8, f8, i8, i8)")
@@ -280,7 +281,7 @@ def _event_fraction(ws: Workspace, h: float, high: float, i: int, forces: int) -
     the guard jumps.
     """
     theta = _vanishing(ws, h, high, i, forces)
-    if kinematic(ws, i) > 0:
+    if sign_depends_on(ws, i) > 0:
         guards_within(ws, h, theta, forces)
     return theta
 
@@ -360,7 +361,7 @@ def _behind_jump(ws: Workspace, step: float, i: int) -> float:
         return -1.0
     way = _FINE * ws.time_tolerance
     while way <= EXPLAINED * ws.time_tolerance:
-        evaluate_guards(ws, ws.t + step, ws.offsets.y_new, step, 1)
+        evaluate_guards(ws, ws.t + step, ws.offsets.y_new, step, True)
         if ws.guards[i].value < 0.0:
             return step
         # so short a way is straight
@@ -383,7 +384,7 @@ def _corrected(ws: Workspace, root: float, i: int) -> float:
         blend_choices(ws, step / h)
         if not try_step(ws, step) <= TRUSTED:
             return -1.0
-        write_guards(ws, ws.t + step, ws.offsets.y_new, 1)
+        write_guards(ws, ws.t + step, ws.offsets.y_new, forces_are_known=True)
         value = ws.guards[i].value
         slope = ws.guard_slope
         if ws.guards[i].deflated == 1:
@@ -413,34 +414,34 @@ def _corrected(ws: Workspace, root: float, i: int) -> float:
     return -1.0
 
 
-@kernel("i8(ws, i8)")
-def _overtaken(ws: Workspace, i: int) -> int:
+@kernel("b1(ws, i8)")
+def _overtaken(ws: Workspace, i: int) -> bool:
     """Return 1 if a correction went past the closing of another contact than that of guard ``i``."""
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        if contact.mode == OPEN and c != contact_of(ws, i) and contact.beyond <= 0.0:
+        if contact.mode == OPEN and c != contact_of(ws, i) and contact.past_feature <= 0.0:
             start = min(0.0, ws.guards[normal_guard(c)].start)
             # what closes at one instant does to round-off
             if contact.gap < start - NEAR * ws.gap_tolerance and contact.gap_rate < 0.0:
-                return 1
-    return 0
+                return True
+    return False
 
 
-@kernel("i8(ws, f8, i8)")
-def _hides_another(ws: Workspace, step: float, i: int) -> int:
+@kernel("b1(ws, f8, i8)")
+def _hides_another(ws: Workspace, step: float, i: int) -> bool:
     """Return 1 if the gap of guard ``i``, which jumps, is so deep behind the jump that another one closed before.
 
     It was between two looks that the features of that one came to face each other, and ceased to.  In a step in which
     no gap can become so deep it is the jump of an evaluator.
     """
-    if i >= first_own_guard(ws) or is_friction_guard(ws, i) == 1:
-        return 0
+    if i >= first_own_guard(ws) or is_friction_guard(ws, i):
+        return False
     c = contact_of(ws, i)
     contact = ws.contacts[c]
-    if contact.mode != OPEN or contact.normal_function != 0:
-        return 0
-    reached = step * (contact.speed_first + contact.speed_end)
-    return 1 if explained_gap(ws, c) < -contact.gap < reached else 0
+    if contact.mode != OPEN or contact.is_compliant:
+        return False
+    reached = step * (contact.speed_at_start + contact.speed_at_end)
+    return explained_gap(ws, c) < -contact.gap < reached
 
 
 @entry_point("f8(ws, f8, f8)")
@@ -452,7 +453,7 @@ def locate(ws: Workspace, h: float, high: float) -> float:
     higher.
     """
     closed = _asks_forces(ws)
-    first = first_fired(ws, 1, -1)
+    first = first_fired(ws, True, NO_GUARD)
     of_contact = 0 <= first < first_own_guard(ws)
     if ws.stage_time > 0.0 and of_contact and ws.contacts[contact_of(ws, first)].mode != OPEN:
         # explicit steps, which are short enough then, find out when
@@ -473,11 +474,11 @@ def locate(ws: Workspace, h: float, high: float) -> float:
             first = -1
         else:
             fired = first
-            first = first_fired(ws, closed, fired)
+            first = first_fired(ws, closed == 1, fired)
         if first < 0 and ws.n_astray + ws.n_doubtful > 0:
             earlier = _closed_before(ws, h, theta, contact_of(ws, fired))
             if earlier > 0.0:
-                theta, first = earlier, first_fired(ws, closed, -1)
+                theta, first = earlier, first_fired(ws, closed == 1, NO_GUARD)
             elif ws.n_astray > 0:
                 guards_within(ws, h, theta, closed)
     if first >= 0:
@@ -485,7 +486,7 @@ def locate(ws: Workspace, h: float, high: float) -> float:
         return -1.0
     ws.trigger = fired
     step = theta * h
-    if ws.guard_slope == -math.inf and _hides_another(ws, step, fired) == 1:
+    if ws.guard_slope == -math.inf and _hides_another(ws, step, fired):
         return -1.0
     # a gap without a rate jumps where features come to face each other: there is nothing to follow on the step
     jumps = (
@@ -499,4 +500,4 @@ def locate(ws: Workspace, h: float, high: float) -> float:
     if ws.guard_slope == -math.inf:
         return _behind_jump(ws, step, fired)
     step = _corrected(ws, step, fired)
-    return -1.0 if step > 0.0 and _overtaken(ws, fired) == 1 else step
+    return -1.0 if step > 0.0 and _overtaken(ws, fired) else step

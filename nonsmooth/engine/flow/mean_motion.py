@@ -14,7 +14,6 @@ from nonsmooth.engine.bodies.kinematics import evaluate_contact, evaluate_geomet
 from nonsmooth.engine.contact.mean_forces import averaging_span, find_mean_impulses, gap_after, take_mean_forces
 from nonsmooth.engine.delassus.delassus import add_response
 from nonsmooth.engine.flow.self_check import EXPLAINED, energy_of_bodies, scale_energy, tolerated_gap
-from nonsmooth.engine.memory.modes import OPEN
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
 _SHARE = 0.1
@@ -94,7 +93,7 @@ def _departure(ws: Workspace, time: float) -> float:
     for a in range(ws.n_active):
         active = ws.actives[a]
         contact = ws.contacts[active.slot]
-        if contact.normal_function == 0 and active.normal_force > 0.0 and contact.beyond <= 0.0:
+        if not contact.is_compliant and active.normal_force > 0.0 and contact.past_feature <= 0.0:
             way, force = contact.gap - active.gap_meant, active.normal_force / time
             part = _astray(ws, active.slot, way, force, work)
             # where a gap has no number the forces do not hold
@@ -130,10 +129,10 @@ def astray(ws: Workspace) -> float:
     ws.strayed = 0.0
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        if contact.averaged == OPEN or contact.normal_function != 0 or contact.beyond > 0.0:
+        if not contact.is_averaged or contact.is_compliant or contact.past_feature > 0.0:
             continue
         # what was left of it may close, and one that opens comes to rest
-        way = abs(contact.gap - contact.mean_gap) - abs(contact.mean_gap) - contact.mean_way
+        way = abs(contact.gap - contact.mean_gap) - abs(contact.mean_gap) - contact.mean_gap_change
         part = _astray(ws, c, max(0.0, way), contact.mean_force[0], work)
         if part > ws.strayed:
             ws.strayed, ws.stray = part, c

@@ -62,10 +62,10 @@ def project_rates(ws: Workspace, at_event: int) -> float:
         active = ws.actives[a]
         c = active.slot
         contact = ws.contacts[c]
-        active.normal_held = 1 if contact.normal_function == 0 else 0
+        active.normal_held = 1 if not contact.is_compliant else 0
         active.normal_force = 0.0
         slow = max(abs(contact.rate[1]), abs(contact.rate[2])) <= ws.velocity_tolerance
-        rubs = contact.traction_function != 0
+        rubs = contact.has_traction_law
         active.tangent_held = 1 if contact.mode == STICK or (at_event == 1 and slow and not rubs) else 0
         active.mu = 0.0
         for r in range(3):
@@ -95,8 +95,8 @@ def _damp(ws: Workspace, part: float) -> None:
             diagonal_block(ws, a).entries[4 * r] *= 1.0 + part
 
 
-@kernel("i8(ws)")
-def _add_gaps(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _add_gaps(ws: Workspace) -> bool:
     """Add to ``y_stage`` the velocities that bring the gaps of the active contacts to zero in unit time, along K W.
 
     They are those of damped least squares, damped the more the nearer the gaps are to what the tolerances explain.
@@ -108,17 +108,17 @@ def _add_gaps(ws: Workspace) -> int:
         active = ws.actives[a]
         c = active.slot
         contact = ws.contacts[c]
-        gap = abs(held_gap(ws, c)) if contact.normal_function == 0 else 0.0
+        gap = abs(held_gap(ws, c)) if not contact.is_compliant else 0.0
         worst = max(worst, gap)
         share = max(share, gap / explained_gap(ws, c))
     if worst <= NOUGHT * ws.gap_tolerance or share > 1.0:
-        return 0
+        return False
     assemble_delassus(ws)
     for a in range(m):
         active = ws.actives[a]
         c = active.slot
         contact = ws.contacts[c]
-        active.normal_held = 1 if contact.normal_function == 0 else 0
+        active.normal_held = 1 if not contact.is_compliant else 0
         active.tangent_held = 0
         active.normal_force = active.mu = 0.0
         active.free[0] = held_gap(ws, c)
@@ -126,7 +126,7 @@ def _add_gaps(ws: Workspace) -> int:
         _damp(ws, max(_DAMPING, (0.5 * share / _FARTHEST) ** 2))
     resolve(ws)
     add_response(ws, ws.offsets.active_forces, ws.offsets.y_stage + ws.n_q)
-    return 1
+    return True
 
 
 @kernel("f8(ws)")
@@ -150,11 +150,11 @@ def _stop_alone(ws: Workspace) -> float:
     return float(-0.5 * impulse * rate)
 
 
-@kernel("i8(ws)")
-def _slides_alone(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _slides_alone(ws: Workspace) -> bool:
     """Return 1 if the active contact is one, rigid, and slides."""
     contact = ws.contacts[ws.actives[0].slot]
-    return 1 if ws.n_active == 1 and contact.normal_function == 0 and contact.mode == SLIDE else 0
+    return ws.n_active == 1 and not contact.is_compliant and contact.mode == SLIDE
 
 
 @kernel()
@@ -208,7 +208,7 @@ def _motion_by_gaps(ws: Workspace, number: int, i: int) -> float:
     body, total = ws.bodies[number], 0.0
     for place in range(ws.n_grouped):
         c = ws.grouped[place]
-        if ws.contacts[c].normal_function != 0:
+        if ws.contacts[c].is_compliant:
             continue
         for j in range(ws.n_y):
             ws.y_guess[j] = ws.y[j] if j < ws.n_q else 0.0
@@ -221,15 +221,15 @@ def _motion_by_gaps(ws: Workspace, number: int, i: int) -> float:
     return float(_FARTHEST * total)
 
 
-@kernel("i8(ws, i8)")
-def _is_displaced(ws: Workspace, number: int) -> int:
+@kernel("b1(ws, i8)")
+def _is_displaced(ws: Workspace, number: int) -> bool:
     """Return 1 if the velocities in ``y_stage`` move a body."""
     body = ws.bodies[number]
     first = ws.offsets.y_stage + ws.n_q + body.u
     for i in range(first, first + body.nu):
         if ws.floats[i] != 0.0:
-            return 1
-    return 0
+            return True
+    return False
 
 
 @kernel()
@@ -238,7 +238,7 @@ def _displace(ws: Workspace) -> None:
     # dq = B du: let the bodies turn the displacement into coordinate rates
     for number in range(ws.n_bodies):
         body = ws.bodies[number]
-        if _is_displaced(ws, number) == 0:
+        if not _is_displaced(ws, number):
             continue
         evaluate_body(ws, ws.t, ws.offsets.y_stage, number)
         for i in range(body.nq):
@@ -251,7 +251,7 @@ def _displace(ws: Workspace) -> None:
                 return
     for number in range(ws.n_bodies):
         body = ws.bodies[number]
-        if _is_displaced(ws, number) == 1:
+        if _is_displaced(ws, number):
             for i in range(body.nq):
                 ws.y[body.q + i] += ws.floats[body.tail + i]
     normalise_quaternions(ws)
@@ -283,11 +283,11 @@ def project_closed(ws: Workspace, at_event: int, averaged: int) -> float:
             c = active.slot
             contact = ws.contacts[c]
             evaluate_kinematics(ws, c)
-            past = max(past, contact.beyond)
+            past = max(past, contact.past_feature)
         if past > ws.gap_tolerance:
             # behind the end of a feature its rate is that of another one; the event that comes drops the contact
             continue
-        if at_event == 0 and _slides_alone(ws) == 1:
+        if at_event == 0 and _slides_alone(ws):
             loss += _stop_alone(ws)
             moved += 1
             continue

@@ -40,7 +40,7 @@ def blame(ws: Workspace, status: int, number: int, found: float, allowed: float)
 def held_gap(ws: Workspace, c: int) -> float:
     """Return the gap that a closed contact is to lose; past the end of its features it only tells how far."""
     contact = ws.contacts[c]
-    return float(contact.gap if contact.beyond <= 0.0 else 0.0)
+    return float(contact.gap if contact.past_feature <= 0.0 else 0.0)
 
 
 @kernel("f8(ws, i8)")
@@ -58,7 +58,7 @@ def tolerated_gap(ws: Workspace, c: int) -> float:
         for i in range(3):
             far += abs(point[i]) + abs(arm[i])
         farthest = max(farthest, far)
-    late = ws.time_tolerance * abs(contact.gap_rate_first)
+    late = ws.time_tolerance * abs(contact.gap_rate_at_start)
     return float(EXPLAINED * (ws.gap_tolerance + ws.rtol * farthest + late))
 
 
@@ -66,19 +66,19 @@ def tolerated_gap(ws: Workspace, c: int) -> float:
 def explained_gap(ws: Workspace, c: int) -> float:
     """Return the same [m], and the way on which a gap comes to rest where forces are averaged."""
     contact = ws.contacts[c]
-    way = contact.mean_way if contact.averaged != OPEN else 0.0
+    way = contact.mean_gap_change if contact.is_averaged else 0.0
     return float(tolerated_gap(ws, c) + way)
 
 
-@kernel("i8(ws, i8)")
-def _presses(ws: Workspace, c: int) -> int:
+@kernel("b1(ws, i8)")
+def _presses(ws: Workspace, c: int) -> bool:
     """Return 1 if some contact of the same two frames as contact ``c`` is closed."""
     contact = ws.contacts[c]
     for other in range(ws.n_contacts):
         another = ws.contacts[other]
         if another.mode != OPEN and another.frame_a == contact.frame_a and another.frame_b == contact.frame_b:
-            return 1
-    return 0
+            return True
+    return False
 
 
 @kernel("f8(ws, i8)")
@@ -106,12 +106,12 @@ def check_gaps(ws: Workspace) -> None:
             blame(ws, PASSED, ws.pairs[ws.passed].contact, ws.passed_depth, explained)
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        gap = contact.gap_end
+        gap = contact.gap_at_end
         if contact.mode == OPEN:
             gap = min(0.0, gap)
-            if contact.overlap_end < 0.0 and _presses(ws, c) == 0:
-                gap = contact.overlap_end
-        elif contact.normal_function != 0 or contact.beyond > 0.0:
+            if contact.overlap_at_end < 0.0 and not _presses(ws, c):
+                gap = contact.overlap_at_end
+        elif contact.is_compliant or contact.past_feature > 0.0:
             continue
         # looked at closely only where it is not plainly explained
         if abs(gap) > EXPLAINED * ws.gap_tolerance and abs(gap) > explained_gap(ws, c):
@@ -151,11 +151,11 @@ def check_begun(ws: Workspace) -> None:
     """
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
-        if contact.normal_function == 0 or (contact.mode == OPEN) == (contact.mode_agreed == OPEN):
+        if not contact.is_compliant or (contact.mode == OPEN) == (contact.mode_agreed == OPEN):
             continue
         if contact.mode != OPEN:
             # past its end only what takes over knows the depth
-            if contact.beyond > 0.0:
+            if contact.past_feature > 0.0:
                 ws.jumped -= _stored(ws, c, -_deepest_other(ws, c, 1))
             continue
         tolerated = explained_gap(ws, c)
@@ -234,7 +234,7 @@ def check_end(ws: Workspace) -> None:
     for c in range(ws.n_contacts):
         contact = ws.contacts[c]
         evaluate_geometry(ws, c)
-        contact.gap_end, contact.overlap_end = contact.gap, contact.overlap
+        contact.gap_at_end, contact.overlap_at_end = contact.gap, contact.overlap
     book_mean_forces(ws)
     ws.scale_energy = scale_energy(ws)
     close_account(ws)

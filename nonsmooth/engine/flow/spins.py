@@ -42,12 +42,12 @@ def _slopes(ws: Workspace, number: int) -> int:
     return int(ws.offsets.spin_slopes + 3 * N_STAGES * number)
 
 
-@kernel("i8(F, i8, i8)")
-def _turns(w: Floats, spin: int, rate: int) -> int:
+@kernel("b1(F, i8, i8)")
+def _turns(w: Floats, spin: int, rate: int) -> bool:
     """Return 1 if a spin does not keep its direction."""
     u, v = (w[spin], w[spin + 1], w[spin + 2]), (w[rate], w[rate + 1], w[rate + 2])
     across = cross(u, v)
-    return 1 if dot(across, across) > _KEPT * _KEPT * dot(u, u) * dot(v, v) else 0
+    return dot(across, across) > _KEPT * _KEPT * dot(u, u) * dot(v, v)
 
 
 @kernel()

@@ -14,7 +14,7 @@ from nonsmooth.engine.flow.flow import is_violated, slope
 from nonsmooth.engine.flow.spins import choose_spins, keep_spins, stage_spins, weigh_spins
 from nonsmooth.engine.memory import implicit_tableau, tableau
 from nonsmooth.engine.memory.layout import LAST_STAGE, N_ACCOUNTS, N_STAGES
-from nonsmooth.engine.memory.modes import OPEN, SLIDE
+from nonsmooth.engine.memory.modes import SLIDE
 from nonsmooth.engine.native.kernel import (
     Workspace,
     entry_point,
@@ -96,22 +96,22 @@ def relaxation(ws: Workspace) -> float:
     for i in range(ws.n_grouped):
         c = ws.grouped[i]
         contact = ws.contacts[c]
-        if contact.normal_function != 0:
+        if contact.is_compliant:
             return 0.0
-        if contact.mode == SLIDE and contact.averaged == OPEN:
-            friction, speed = length((contact.force[1], contact.force[2])), length(contact.slip_end)
-            fastest = max(fastest, contact.mobility * friction / max(speed, _SLOWEST * ws.velocity_tolerance))
+        if contact.mode == SLIDE and not contact.is_averaged:
+            friction, speed = length((contact.force[1], contact.force[2])), length(contact.slip_at_end)
+            fastest = max(fastest, contact.slip_per_force * friction / max(speed, _SLOWEST * ws.velocity_tolerance))
     return fastest
 
 
-@kernel("i8(ws)")
-def _holds(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _holds(ws: Workspace) -> bool:
     """Return 1 if no force of a closed contact violates its mode: when it begins to is for explicit steps to find."""
     for i in range(ws.n_grouped):
         c = ws.grouped[i]
-        if is_violated(ws, c) == 1:
-            return 0
-    return 1
+        if is_violated(ws, c):
+            return False
+    return True
 
 
 @kernel("void(ws, f8, i8, i8)")
@@ -160,8 +160,8 @@ def _solve_stage(ws: Workspace, h: float, stage: int) -> int:
     return 0
 
 
-@kernel("i8(ws)")
-def _settle(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _settle(ws: Workspace) -> bool:
     """Write the slope at the start with friction against the slip that a stage makes of it; return 1 if it is found."""
     for i in range(ws.n_y):
         ws.y_guess[i] = 0.0
@@ -169,7 +169,7 @@ def _settle(ws: Workspace) -> int:
     ws.ahead, ws.guess = ws.stage_time, ws.offsets.y_guess + ws.n_q
     slope(ws, ws.t, ws.offsets.y, ws.offsets.slopes + ws.n_y, 0, 0)
     ws.ahead = 0.0
-    return 0 if ws.unsettled == 1 else _holds(ws)
+    return False if ws.unsettled == 1 else _holds(ws)
 
 
 @kernel("f8(ws, f8)")
@@ -183,7 +183,7 @@ def _try_implicit_step(ws: Workspace, h: float) -> float:
     ws.stage_time = implicit_tableau.DIAGONAL * h
     for i in range(n):
         ws.slopes[n + i] = ws.slopes[i]
-    if ws.follows == 0 and _settle(ws) == 0:
+    if ws.follows == 0 and not _settle(ws):
         return math.inf
     for stage in range(2, N_STAGES):
         if _solve_stage(ws, h, stage) == 0:

@@ -11,8 +11,8 @@ from nonsmooth.engine.native.kernel import (
 )
 
 
-@kernel("i8(ws)")
-def change_clock(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def change_clock(ws: Workspace) -> bool:
     """Give the last contact in action its own clock; go back to where it got it if it does not stay alone.
 
     Returns 1 if the clock has changed.
@@ -27,28 +27,28 @@ def change_clock(ws: Workspace) -> int:
     n = STRIDE * ws.n_active
     if ws.lone < 0:
         if acting != 1 or ws.may_be_lone == 0:
-            return 0
+            return False
         phase, state = ws.actives[last].phase, impact_state(ws.floats, ws.offsets.impact_y, last)
         if phase == HELD:
-            return 0
+            return False
         if phase == EXPANSION and not state.energy > state.lost:
             # its own clock runs until the energy is used up, of which the integration's error has left none: a steep
             # force has given all of it back long before the deformation, which ends the phase on the common clock
-            return 0
+            return False
         for i in range(n):
             ws.impact_kept[i] = ws.impact_y[i]
         _keep_phases(ws)
         ws.lone = last
         prepare_guards(ws)
-        return 1
+        return True
     if acting == 0 or (acting == 1 and last == ws.lone):
-        return 0
+        return False
     for i in range(n):
         ws.impact_y[i] = ws.impact_kept[i]
     ws.lone = -1
     ws.may_be_lone = 0
     _restore_phases(ws)
-    return 1
+    return True
 
 
 @kernel()

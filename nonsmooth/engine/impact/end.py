@@ -8,6 +8,7 @@ from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.impact.rates import COMPRESSION, EXPANSION, IDLE, NOISE, efficiency, evaluate_impact_rates
 from nonsmooth.engine.impact.scales import REST
 from nonsmooth.engine.memory.blocks import DELASSUS
+from nonsmooth.engine.memory.modes import Truncation
 from nonsmooth.engine.native.kernel import Workspace, impact_state, kernel
 from nonsmooth.engine.numerics.linear import SINGULAR
 from nonsmooth.engine.numerics.vectors import length
@@ -15,10 +16,8 @@ from nonsmooth.engine.numerics.vectors import length
 _LOCKED = 0.1
 """Forces of which no more than this part is left unbalanced are those of a wedge, not of bodies that part."""
 
-_NEXT_TO_NOTHING = 1e-3
-"""An approach below this part of the fastest approach or slip before an impact counts as none where that has no end."""
-SLOW_END, FAST_END = 1, 2
-"""How an impact that was cut short is over: ``truncated`` holds it until the instant is settled."""
+_NEGLIGIBLE_APPROACH = 1e-3
+"""Approach that is neglected after a truncated impact, relative to the fastest rate before the impact."""
 
 
 @kernel("void(ws, i8)")
@@ -41,20 +40,20 @@ def empty(ws: Workspace, a: int) -> None:
     state.deformation = state.energy = state.lost = 0.0
 
 
-@kernel("i8(ws)")
-def finished(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def finished(ws: Workspace) -> bool:
     """Return 1 if no contact is loaded: compressions that have not come to anything, and do not, are none."""
     for a in range(ws.n_active):
         active = ws.actives[a]
         begins = a == ws.lone or impact_state(ws.floats, ws.offsets.impact_y, a).deformation > 0.0
         comes = begins or active.gap_rate < -NOISE * ws.speed_scale
         if active.phase == EXPANSION or (active.phase == COMPRESSION and comes):
-            return 0
-    return 1
+            return False
+    return True
 
 
-@kernel("i8(ws)")
-def _trapped(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _trapped(ws: Workspace) -> bool:
     """Return 1 if contacts are loaded, but none of them moves, and their forces move nothing.
 
     A point that joints let move across one line only is wedged where that line lies within the cone of friction: slip
@@ -71,7 +70,7 @@ def _trapped(ws: Workspace) -> int:
         loaded = active.phase == COMPRESSION or active.phase == EXPANSION
         still = max(REST * math.sqrt(brought * diagonal_block(ws, a).nn), ws.slow_speed)
         if loaded and abs(active.gap_rate) > still:
-            return 0
+            return False
     size = left = stored = 0.0
     lightest = math.inf
     for a in range(ws.n_active):
@@ -89,16 +88,16 @@ def _trapped(ws: Workspace) -> int:
                     total_size += abs(part)
             size, left = max(size, total_size), max(left, abs(total))
     if left < max(SINGULAR, ws.impact_rtol) * size:
-        return 1
+        return True
     little = left * left * stored < size * size * lightest * ws.slow_speed * ws.slow_speed
-    return 1 if little and left < _LOCKED * size else 0
+    return little and left < _LOCKED * size
 
 
-@kernel("i8(ws)")
-def end_trapped(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def end_trapped(ws: Workspace) -> bool:
     """End the phases of contacts that are trapped, if they are (1); what they have stored is lost to restitution."""
-    if _trapped(ws) == 0:
-        return 0
+    if not _trapped(ws):
+        return False
     for a in range(ws.n_active):
         active = ws.actives[a]
         if active.phase == COMPRESSION or active.phase == EXPANSION:
@@ -107,11 +106,11 @@ def end_trapped(ws: Workspace) -> int:
             active.tangent_held = 0
             empty(ws, a)
             ws.phases += 1
-    return 1
+    return True
 
 
-@kernel("i8(ws)")
-def faded(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def faded(ws: Workspace) -> bool:
     """Return 1 if what is left of the impact, stored or about to be, is below the tolerance, or too slow to bounce."""
     small = max(ws.impact_rtol, 1e-11)
     # behind the impact, what is within the tolerance of velocities is no approach
@@ -123,10 +122,10 @@ def faded(ws: Workspace) -> int:
         stored = state.energy if active.phase != IDLE else 0.0
         least = max(small * small * active.energy_scale, 0.5 * slowest * slowest / diagonal_block(ws, a).nn)
         if active.gap_rate < -slow or stored > least:
-            return 0
+            return False
         if active.gap_rate > slow and stored > 0.0 and active.phase == EXPANSION:
-            return 0
-    return 1
+            return False
+    return True
 
 
 @kernel()
@@ -138,7 +137,7 @@ def cut_short(ws: Workspace) -> None:
         active.phase = IDLE
         active.tangent_held = 0
         empty(ws, a)
-    ws.truncated = 1
+    ws.event.truncation = Truncation.SLOW
 
 
 @kernel()
@@ -156,24 +155,23 @@ def finish(ws: Workspace) -> None:
 
 @kernel("i8(ws)")
 def how_over(ws: Workspace) -> int:
-    """Return how an impact of the active contacts is over that has been cut short, 0 if it is not.
+    """How the impact of the active contacts ended that was cut short: a member of :class:`Truncation`.
 
-    SLOW_END: next to nothing approaches.  Contacts that slip may feed each other's bounces for as long as they do,
-    however small these are.
+    If the approach that remains is negligible, the impact is over. Contacts that slip may feed each other's bounces
+    without end, however small the bounces are.
 
-    FAST_END: a heavy body approaches, and compressions of light ones between it and others stop it little by little.
-    Each of them loses energy, so that the limit of endlessly many is common rest: an inelastic impact.  Where slip is
-    faster than the approach, it may feed the bounces, and where a contact loses nothing they need not fade.
+    A fast approach may remain if the compressions of light bodies stop a heavy one gradually. Each compression loses
+    energy, so the limit of infinitely many is common rest: an inelastic impact. Slip that is faster than the approach
+    may feed the bounces, and a contact without loss never damps them: then the impact has no end.
     """
     before = behind = slip = 0.0
-    loses = 1
-    for a in range(ws.n_active):
-        active = ws.actives[a]
+    loses = True
+    for active in ws.actives:
         before = max(before, abs(active.rate_before[0]), abs(active.rate_before[1]), abs(active.rate_before[2]))
         behind = max(behind, -active.gap_rate)
         slip = max(slip, length(active.slip))
-        if not min(efficiency(ws, a, 0.0), efficiency(ws, a, 1e-300)) < 1.0:
-            loses = 0
-    if behind <= _NEXT_TO_NOTHING * before:
-        return SLOW_END
-    return FAST_END if loses == 1 and slip <= behind else 0
+        if not min(efficiency(ws, active.index, 0.0), efficiency(ws, active.index, 1e-300)) < 1.0:
+            loses = False
+    if behind <= _NEGLIGIBLE_APPROACH * before:
+        return Truncation.SLOW
+    return Truncation.FAST if loses and slip <= behind else Truncation.NONE

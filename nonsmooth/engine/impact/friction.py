@@ -84,18 +84,18 @@ def _hold_idle(ws: Workspace) -> None:
                 active.tangent_held = 1
 
 
-@kernel("i8(ws, i8)")
-def _gets_away(ws: Workspace, a: int) -> int:
+@kernel("b1(ws, i8)")
+def _gets_away(ws: Workspace, a: int) -> bool:
     """Return 1 if the active contact ``a`` slips faster and faster where a contact begins or ends to be pressed.
 
     No force jumps there.  To stop the slip would turn the rates of others by what it has, and it would start again.
     """
     active = ws.actives[a]
     if ws.trigger < 0 or ws.trigger % GUARDS != RATE_GUARD or length(active.slip) <= NOISE * ws.speed_scale:
-        return 0
+        return False
     growth = active.slip[0] * add_product(ws, 0.0, a, 1, ws.offsets.active_forces)
     growth += active.slip[1] * add_product(ws, 0.0, a, 2, ws.offsets.active_forces)
-    return 1 if growth > 0.0 else 0
+    return growth > 0.0
 
 
 @entry_point("void(ws, f8)")
@@ -111,7 +111,7 @@ def choose_friction(ws: Workspace, probe: float) -> None:
         speed = length(active.slip)
         active.mu_static = friction_coefficient(ws, active.slot, 0.0)
         active.mu = slip_coefficient(ws, active.slot, speed)
-        slow = (speed <= active.rest_slip and _gets_away(ws, a) == 0) or active.tangent_held == 1
+        slow = (speed <= active.rest_slip and not _gets_away(ws, a)) or active.tangent_held == 1
         # without friction nothing holds a contact, and nothing can stop a slip, however slow
         active.at_rest = 1 if slow and (active.mu_static > 0.0 or (speed == 0.0 and active.mu > 0.0)) else 0
         open_question = max(open_question, active.at_rest)

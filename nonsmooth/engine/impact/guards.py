@@ -81,7 +81,7 @@ def write_impact_guards(ws: Workspace, y: int) -> None:
         elif phase == HELD:
             active.rate_guard = NOISE + active.normal_force / force_scale
         else:
-            behind = phase == IDLE and ws.faint > 0.0 and contact.waves > 0
+            behind = phase == IDLE and ws.faint > 0.0 and contact.n_waves > 0
             active.rate_guard = (ws.faint if behind else NOISE) + rate
         if phase == EXPANSION:
             lost = state.lost

@@ -19,8 +19,8 @@ _NEXT_TO_ZERO = 1e-3
 """A reduced normal coefficient below this part of the plain one, where steps can shrink no more, is singular."""
 
 
-@kernel("i8(ws)")
-def jam_slips(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def jam_slips(ws: Workspace) -> bool:
     """Stop the slips that are at the Painleve singularity; return 1 if there are any and pushing impulses do that.
 
     In the limit of the singularity friction is at its bound all the way and the gap stays closed, so the
@@ -33,7 +33,7 @@ def jam_slips(ws: Workspace) -> int:
         speed = length(contact.slip)
         active.mu = 0.0
         active.normal_held, active.tangent_held = 1, 1 if contact.mode == STICK else 0
-        if contact.mode == SLIDE and contact.normal_function == 0 and speed > 0.0:
+        if contact.mode == SLIDE and not contact.is_compliant and speed > 0.0:
             active.mu = slip_coefficient(ws, active.slot, speed)
             active.direction = contact.slip[0] / speed, contact.slip[1] / speed
             if reduced_coefficient(ws, a) < _NEXT_TO_ZERO * diagonal_block(ws, a).nn:
@@ -41,16 +41,16 @@ def jam_slips(ws: Workspace) -> int:
         for r in range(3):
             active.free[r] = contact.rate[r]
     if jammed == 0:
-        return 0
+        return False
     resolve(ws)
     for a in range(ws.n_active):
         active = ws.actives[a]
         if not active.force[0] >= 0.0:
-            return 0
+            return False
         for r in range(3):
             active.impulse[r] = active.force[r]
     _split_loss(ws)
-    return 1
+    return True
 
 
 @kernel()

@@ -40,6 +40,7 @@ from nonsmooth.engine.impact.rates import (
 from nonsmooth.engine.impact.scales import grow_scales, scale_impact
 from nonsmooth.engine.impact.step import let_go, try_impact_step, try_linear_step
 from nonsmooth.engine.memory.layout import LAST_STAGE
+from nonsmooth.engine.memory.modes import Truncation
 from nonsmooth.engine.native.kernel import (
     Workspace,
     entry_point,
@@ -93,7 +94,7 @@ def _switch(ws: Workspace, probe: float, trigger: int) -> None:
         loaded = phase == EXPANSION or phase == COMPRESSION
         if loaded and (trigger == guard + ENERGY_GUARD or active.energy_guard < TOGETHER):
             account(ws, a)
-            ws.contacts[active.slot].waves += 1
+            ws.contacts[active.slot].n_waves += 1
             active.phase = IDLE
             # a contact that opens under load leaves the others with forces that they did not have
             friction += 1 if state.lost > 0.0 else 0
@@ -159,7 +160,7 @@ def _turn(ws: Workspace, a: int) -> int:
         return 0
     if phase == EXPANSION:
         account(ws, a)
-        ws.contacts[active.slot].waves += 1
+        ws.contacts[active.slot].n_waves += 1
     active.phase = COMPRESSION
     return 1 if phase == IDLE else 0
 
@@ -177,7 +178,7 @@ def start_impact(ws: Workspace, probe: float, seed: float) -> None:
         active.stored = active.returned = active.booked = 0.0
         active.tangent_held = 0
         pushed = active.gap_rate_before < -NOISE * ws.speed_scale
-        if seed > 0.0 and ws.contacts[active.slot].impacting == 1:
+        if seed > 0.0 and ws.contacts[active.slot].has_no_force:
             # an impact without collision starts from a seed of deformation instead of a speed
             pushed = True
             state.deformation = 1e-3 * active.deformation_scale
@@ -197,8 +198,8 @@ def start_impact(ws: Workspace, probe: float, seed: float) -> None:
         choose_friction(ws, probe)
 
 
-@kernel("i8(ws)")
-def _stopping(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _stopping(ws: Workspace) -> bool:
     """Return 1 if some slip has come next to rest and is still slowing down, or does not get away from there."""
     slow = 0
     for a in range(ws.n_active):
@@ -216,9 +217,9 @@ def _stopping(ws: Workspace) -> int:
             ws.slow_steps = _PATIENCE
     ws.slow_steps = ws.slow_steps + 1 if slow == 1 else 0
     if ws.slow_steps <= _PATIENCE:
-        return 0
+        return False
     ws.slow_steps = 0
-    return 1
+    return True
 
 
 @kernel()
@@ -230,7 +231,7 @@ def _fade(ws: Workspace) -> None:
     for a in range(ws.n_active):
         active = ws.actives[a]
         contact = ws.contacts[active.slot]
-        passed = active.phase == EXPANSION or (active.phase == COMPRESSION and contact.waves > 0)
+        passed = active.phase == EXPANSION or (active.phase == COMPRESSION and contact.n_waves > 0)
         # the energy is known to the tolerance only, the deformation better
         weak = (
             active.normal_force * impact_state(ws.floats, ws.offsets.impact_y, a).deformation
@@ -238,7 +239,7 @@ def _fade(ws: Workspace) -> None:
         )
         if passed and weak and abs(active.gap_rate) <= 0.5 * ws.faint * ws.speed_scale:
             account(ws, a)
-            contact.waves += 1
+            contact.n_waves += 1
             active.phase = IDLE
             active.tangent_held = 0
             empty(ws, a)
@@ -246,14 +247,14 @@ def _fade(ws: Workspace) -> None:
     prepare_guards(ws)
 
 
-@kernel("i8(ws)")
-def _leaves(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _leaves(ws: Workspace) -> bool:
     """Return 1 if a contact at the rim of the window acts, so that its neighbours may be missing."""
     for a in range(ws.n_active):
         active = ws.actives[a]
-        if active.phase != IDLE and ws.contacts[active.slot].rim == 1:
-            return 1
-    return 0
+        if active.phase != IDLE and ws.contacts[active.slot].is_at_rim:
+            return True
+    return False
 
 
 @entry_point("i8(ws, f8)")
@@ -266,7 +267,7 @@ def energetic_impact(ws: Workspace, seed: float) -> int:
     """
     ws.lone = 0 if ws.n_active == 1 else -1
     ws.may_be_lone = 1
-    ws.truncated = 0
+    ws.event.truncation = Truncation.NONE
     ws.slow_steps = 0
     shortest = scale_impact(ws, seed)
     if not shortest > 0.0:
@@ -295,7 +296,7 @@ def run_impact(ws: Workspace, h: float, shortest: float, windowed: int) -> int:
     for _step in range(MOST_STEPS):
         if interrupted(ws, 8 * ws.n_active) == 1:
             return ENDLESS
-        if finished(ws) == 1:
+        if finished(ws):
             finish(ws)
             return FINISHED
         ws.aimed = -1
@@ -330,7 +331,7 @@ def run_impact(ws: Workspace, h: float, shortest: float, windowed: int) -> int:
             continue
         before = 0.0
         h = _pass_switch(ws, h, shortest, windowed)
-        if windowed == 1 and ws.lone < 0 and _leaves(ws) == 1:
+        if windowed == 1 and ws.lone < 0 and _leaves(ws):
             ws.impact_h = h
             return MOVED
         write_impact_slope(ws, ws.offsets.impact_slopes)
@@ -383,7 +384,7 @@ def _step_to_switch(ws: Workspace, h: float, linear: int) -> float:
 @kernel("void(ws, f8)")
 def _go_on(ws: Workspace, shortest: float) -> None:
     """Prepare the next step where no guard has fired in the last."""
-    if _stopping(ws) == 1:
+    if _stopping(ws):
         # close to rest the direction of the slip is stiff, and what is left of it below the tolerance
         choose_friction(ws, first_step(ws, shortest))
         prepare_guards(ws)
@@ -392,7 +393,7 @@ def _go_on(ws: Workspace, shortest: float) -> None:
         ws.phases += 1
         return
     _orient(ws)
-    if end_trapped(ws) == 1:
+    if end_trapped(ws):
         prepare_guards(ws)
         write_impact_slope(ws, ws.offsets.impact_slopes)
         return
@@ -409,9 +410,9 @@ def _pass_switch(ws: Workspace, h: float, shortest: float, windowed: int) -> flo
     if ws.lone >= 0:
         following = _FAR * ws.actives[ws.lone].impulse_scale
     _switch(ws, first_step(ws, shortest), ws.trigger)
-    if ws.n_active > 1 and change_clock(ws) == 1:
+    if ws.n_active > 1 and change_clock(ws):
         following = shortest if ws.lone < 0 else _FAR * ws.actives[ws.lone].impulse_scale
-    if ws.phases > _LONG * (ws.n_colliding if windowed == 1 else ws.n_active) and faded(ws) == 1:
+    if ws.phases > _LONG * (ws.n_colliding if windowed == 1 else ws.n_active) and faded(ws):
         cut_short(ws)
     end_trapped(ws)
     if windowed == 1:

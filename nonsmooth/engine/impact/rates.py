@@ -43,7 +43,7 @@ def normal_force(ws: Workspace, a: int, x: float) -> float:
     if x <= 0.0:
         return 0.0
     contact = ws.contacts[active.slot]
-    return call_scalar(contact.force_function, x, at(ws.floats, contact.force_parameters))
+    return call_scalar(contact.impact_force_function, x, at(ws.floats, contact.impact_force_parameters))
 
 
 @kernel("f8(ws, i8, f8)")

@@ -53,8 +53,10 @@ def scale_impact(ws: Workspace, seed: float) -> float:
         if a != ws.lone:
             contact = ws.contacts[active.slot]
             for _iteration in range(4):
-                force = call_scalar(contact.force_function, x, at(ws.floats, contact.force_parameters))
-                double = call_scalar(contact.force_function, 2.0 * x, at(ws.floats, contact.force_parameters))
+                force = call_scalar(contact.impact_force_function, x, at(ws.floats, contact.impact_force_parameters))
+                double = call_scalar(
+                    contact.impact_force_function, 2.0 * x, at(ws.floats, contact.impact_force_parameters)
+                )
                 if not (force > 0.0 and double > 0.5001 * force):
                     ws.culprit = active.slot
                     return -1.0

@@ -61,7 +61,7 @@ def try_impact_step(ws: Workspace, h: float) -> float:
     weigh_slopes(ws, ws.offsets.error_weights, ws.offsets.impact_slopes, n, h, ws.offsets.impact_stage)
     error = _relative_error(ws, ws.offsets.impact_stage)
     if not error <= 1.0:
-        if _is_stiff(ws, h) == 1:
+        if _is_stiff(ws, h):
             return min(_try_implicit_step(ws, h), error)
         evaluate_impact_rates(ws, ws.offsets.impact_new)
     return error
@@ -109,8 +109,8 @@ def _relative_error(ws: Workspace, errors: int) -> float:
     return worst / float(ws.impact_rtol)
 
 
-@kernel("i8(ws, f8)")
-def _is_stiff(ws: Workspace, h: float) -> int:
+@kernel("b1(ws, f8)")
+def _is_stiff(ws: Workspace, h: float) -> bool:
     """Return 1 if a slip turns too fast for an explicit step of ``h``, and faster than it changes.
 
     One that passes close by rest does both at once, and where it goes hangs on every digit: that is for explicit steps.
@@ -126,8 +126,8 @@ def _is_stiff(ws: Workspace, h: float) -> int:
         turning = length(impact_state(ws.floats, ws.offsets.impact_slopes, a).friction) * max(own.t11, own.t22)
         settled = active.tangent_held == 0 and turning > _SETTLING * length(active.slip_acceleration)
         if settled and h * turning > _STIFF * length(active.slip):
-            return 1
-    return 0
+            return True
+    return False
 
 
 @kernel("void(ws, f8, i8, i8, i8)")
@@ -178,7 +178,7 @@ def _solve_stage(ws: Workspace, h: float, stage: int) -> int:
         for i in range(n):
             ws.floats[guess + i] = ws.floats[here + i]
         _lay_stage(ws, ahead, out, n, guess)
-        if oppose_slips(ws) == 0:
+        if not oppose_slips(ws):
             return 0
         for a in range(ws.n_active):
             active, state = ws.actives[a], impact_state(ws.floats, out, a)
@@ -229,8 +229,8 @@ def _try_implicit_step(ws: Workspace, h: float) -> float:
     return error
 
 
-@kernel("i8(ws, f8)")
-def try_linear_step(ws: Workspace, h: float) -> int:
+@kernel("b1(ws, f8)")
+def try_linear_step(ws: Workspace, h: float) -> bool:
     """Take one step of ``h`` to ``impact_new`` by the midpoint rule; return 1 if the slope is linear and it is exact.
 
     A lone contact whose slip keeps its direction moves like that; the slope at the end tells.
@@ -253,5 +253,5 @@ def try_linear_step(ws: Workspace, h: float) -> int:
             if i < STRIDE * a + DEFORMATION:
                 size = max(size, force)
             if not abs(first + last - 2.0 * half) <= _STRAIGHT * size:
-                return 0
-    return 1
+                return False
+    return True

@@ -23,6 +23,7 @@ from nonsmooth.engine.impact.problem import (
 from nonsmooth.engine.impact.rates import IDLE, NOISE
 from nonsmooth.engine.impact.scales import CIRCLING, scale_impact
 from nonsmooth.engine.memory.layout import TOTALS
+from nonsmooth.engine.memory.modes import Truncation
 from nonsmooth.engine.native.kernel import (
     Workspace,
     entry_point,
@@ -51,11 +52,11 @@ def _gather_colliding(ws: Workspace) -> None:
         c = ws.active[i]
         contact = ws.contacts[c]
         ws.colliding[i] = c
-        contact.phase_kept = IDLE
-        contact.held_kept = 0
-        contact.waves = 0
+        contact.window_phase = IDLE
+        contact.window_sticks = False
+        contact.n_waves = 0
         for j in range(TOTALS):
-            contact.total[j] = 0.0
+            contact.window_totals[j] = 0.0
         for side in range(2):
             articulation = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b]
             entry = side * ws.n_slots + c
@@ -70,11 +71,11 @@ def _draw(ws: Workspace, fastest: float) -> None:
     for i in range(ws.n_colliding):
         c = ws.colliding[i]
         contact = ws.contacts[c]
-        acts = contact.phase_kept != IDLE
+        acts = contact.window_phase != IDLE
         if fastest > 0.0:
             acts = contact.rate[0] < -NOISE * fastest
-        contact.depth = 0 if acts else -1
-        contact.rim = 0
+        contact.layer = 0 if acts else -1
+        contact.is_at_rim = False
         if acts:
             ws.active[m] = c
             m += 1
@@ -89,9 +90,9 @@ def _draw(ws: Workspace, fastest: float) -> None:
                 while entry >= 0:
                     other = entry if entry < ws.n_slots else entry - ws.n_slots
                     neighbour = ws.contacts[other]
-                    if neighbour.depth < 0:
-                        neighbour.depth = layer
-                        neighbour.rim = 1 if layer == _LAYERS else 0
+                    if neighbour.layer < 0:
+                        neighbour.layer = layer
+                        neighbour.is_at_rim = layer == _LAYERS
                         ws.active[m] = other
                         m += 1
                     entry = ws.chain[entry]
@@ -114,11 +115,11 @@ def _load(ws: Workspace) -> None:
         for r in range(3):
             state.impulse[r] = 0.0
         state.work = state.rubbed = 0.0
-        state.deformation = contact.deformation_kept
-        state.energy = contact.energy_kept
-        state.lost = contact.lost_kept
+        state.deformation = contact.window_deformation
+        state.energy = contact.window_energy
+        state.lost = contact.window_lost
         active.stored = active.returned = active.booked = 0.0
-        active.phase = contact.phase_kept
+        active.phase = contact.window_phase
         active.tangent_held = contact.held_kept
 
 
@@ -133,12 +134,16 @@ def _store(ws: Workspace) -> None:
         account(ws, a)
         for r in range(3):
             active.impulse[r] = state.impulse[r]
-            contact.total_impulse[r] += active.impulse[r]
-        contact.total_stored += active.stored
-        contact.total_returned += active.returned
-        contact.total_rubbed += state.rubbed
-        contact.deformation_kept, contact.energy_kept, contact.lost_kept = state.deformation, state.energy, state.lost
-        contact.phase_kept, contact.held_kept = active.phase, active.tangent_held
+            contact.window_impulse[r] += active.impulse[r]
+        contact.window_stored += active.stored
+        contact.window_returned += active.returned
+        contact.window_dissipated += state.rubbed
+        contact.window_deformation, contact.window_energy, contact.window_lost = (
+            state.deformation,
+            state.energy,
+            state.lost,
+        )
+        contact.window_phase, contact.held_kept = active.phase, active.tangent_held
     add_response(ws, ws.offsets.impulse, ws.offsets.u_impact)
 
 
@@ -150,7 +155,7 @@ def windowed_impact(ws: Workspace) -> int:
         active = ws.actives[a]
         fastest = max(fastest, -ws.contacts[active.slot].rate[0])
     ws.may_be_lone = 1
-    ws.truncated = 0
+    ws.event.truncation = Truncation.NONE
     ws.slow_steps = 0
     _gather_colliding(ws)
     outcome = MOVED
@@ -178,10 +183,10 @@ def windowed_impact(ws: Workspace) -> int:
         active.slot = ws.colliding[a]
         contact = ws.contacts[active.slot]
         for r in range(3):
-            active.impulse[r] = contact.total_impulse[r]
+            active.impulse[r] = contact.window_impulse[r]
         active.stored, active.returned, active.rubbed = (
-            contact.total_stored,
-            contact.total_returned,
-            contact.total_rubbed,
+            contact.window_stored,
+            contact.window_returned,
+            contact.window_dissipated,
         )
     return ENDLESS if outcome == MOVED else outcome

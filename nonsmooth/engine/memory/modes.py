@@ -81,6 +81,18 @@ CAUSES = (
     "step of the engine",
 )
 
+
+class Truncation(IntEnum):
+    """How an impact ended that was cut short."""
+
+    NONE = 0
+    """It was not cut short, or has no end."""
+    SLOW = 1
+    """The approach that remains is negligible, relative to the fastest rate before the impact."""
+    FAST = 2
+    """A heavy body approaches, and the compressions of light bodies between it and others stop it gradually."""
+
+
 BY_LAW, COMPLIANT, REFUSE = range(3)
 """What to do where sliding has no contact force."""
 POLICIES = ("impact", "compliant", "refuse")

@@ -88,7 +88,7 @@ PARTS: Mapping[str, Mapping[str, str]] = {
         "closing_loss": "closing_loss",
         "impacts": "impacts",
     },
-    "event": {"n_recorded": "recorded", "n_phases": "phases", "was_truncated": "truncated"},
+    "event": {"n_recorded": "recorded", "n_phases": "phases", "truncation": "truncated"},
     "impact": {
         "lone_contact": "lone",
         "last_guard": "trigger",
@@ -98,7 +98,7 @@ PARTS: Mapping[str, Mapping[str, str]] = {
     },
 }
 """Scalars of the workspace by owner or life: the name in the part, and the scalar."""
-QUESTIONS = frozenset({"follows_a_step", "is_interrupted", "was_truncated"})
+QUESTIONS = frozenset({"follows_a_step", "is_interrupted"})
 """Scalars of parts that are true or false."""
 PACKED: Mapping[str, Fields] = {
     "impact_state": IMPACT_STATE,

@@ -25,14 +25,14 @@ def _half_band(ws: Workspace) -> int:
     return half
 
 
-@kernel("i8(ws, i8, i8)")
-def open_band(ws: Workspace, n: int, matrix: int) -> int:
+@kernel("b1(ws, i8, i8)")
+def open_band(ws: Workspace, n: int, matrix: int) -> bool:
     """Find the band of ``n`` unknowns and clear it at ``matrix``; return 1, or 0 where there is no room for it."""
     ws.half_band = _half_band(ws)
     size = n * band_width(n, ws.half_band)
     if size > MOST_ENTRIES:
         ws.crowded = 1
-        return 0
+        return False
     for i in range(size):
         ws.floats[matrix + i] = 0.0
-    return 1
+    return True

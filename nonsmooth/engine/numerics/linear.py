@@ -49,8 +49,8 @@ def multiply(w: Floats, a: int, n: int, x: int, out: int) -> None:
         w[out + i] = product(w, 0.0, a + i * n, x, n)
 
 
-@kernel("i8(F, i8, i8, i8, i8, f8)")
-def eliminate(w: Floats, a: int, n: int, half: int, x: int, least: float) -> int:
+@kernel("b1(F, i8, i8, i8, i8, f8)")
+def eliminate(w: Floats, a: int, n: int, half: int, x: int, least: float) -> bool:
     """Solve the banded system at ``a`` with right-hand side at ``x``, both overwritten; return 1, or 0 if singular.
 
     Entries farther than ``half`` off the diagonal are zero; exchanges of rows fill some of them.  A pivot below
@@ -69,7 +69,7 @@ def eliminate(w: Floats, a: int, n: int, half: int, x: int, least: float) -> int
             if abs(w[row + j]) > abs(w[best + j]):
                 pivot, best = i, row
         if not abs(w[best + j]) > least * largest:
-            return 0
+            return False
         if pivot != j:
             for c in range(j, right):
                 w[own + c], w[best + c] = w[best + c], w[own + c]
@@ -86,7 +86,7 @@ def eliminate(w: Floats, a: int, n: int, half: int, x: int, least: float) -> int
         for c in range(j + 1, min(n, j + 2 * half + 1)):
             w[x + j] -= w[own + c] * w[x + c]
         w[x + j] /= w[own + j]
-    return 1
+    return True
 
 
 @kernel("v3(v3, v3, v3, v3, f8)")

@@ -42,8 +42,8 @@ def copy_shifted(w: Floats, a: int, n: int, half: int, out: int, shift: float) -
         w[band_row(out, i, n, half) + i] += shift
 
 
-@kernel("i8(ws, i8)")
-def solve_shifted(ws: Workspace, n: int) -> int:
+@kernel("b1(ws, i8)")
+def solve_shifted(ws: Workspace, n: int) -> bool:
     """Solve ``reduced . x = x`` in place, a little added to the diagonal; return 0 if singular all the same."""
     shift = _SHIFT * largest_diagonal(ws.floats, ws.offsets.reduced, n, ws.half_band)
     copy_shifted(ws.floats, ws.offsets.reduced, n, ws.half_band, ws.offsets.matrix, shift)
@@ -83,22 +83,22 @@ def _write_residual(ws: Workspace, n: int, x: int, out: int) -> float:
     return worst
 
 
-@kernel("i8(ws, i8)")
-def _is_symmetric(ws: Workspace, n: int) -> int:
+@kernel("b1(ws, i8)")
+def _is_symmetric(ws: Workspace, n: int) -> bool:
     small = _SYMMETRIC * largest_diagonal(ws.floats, ws.offsets.reduced, n, ws.half_band)
     for i in range(n):
         line = band_row(ws.offsets.reduced, i, n, ws.half_band)
         for j in range(max(0, i - ws.half_band), i):
             if abs(ws.floats[line + j] - ws.floats[band_row(ws.offsets.reduced, j, n, ws.half_band) + i]) > small:
-                return 0
-    return 1
+                return False
+    return True
 
 
 @kernel("void(ws, i8)")
 def _write_square(ws: Workspace, n: int) -> None:
     """Write H, of half band ``null_half``, to ``basis``."""
     half = ws.half_band
-    if _is_symmetric(ws, n) == 1:
+    if _is_symmetric(ws, n):
         ws.null_half = half
         copy_shifted(ws.floats, ws.offsets.reduced, n, half, ws.offsets.basis, 0.0)
         return
@@ -144,7 +144,7 @@ def least_norm_in_band(ws: Workspace, n: int) -> None:
         before = left
         for i in range(n):
             ws.x[i] = ws.sigma[n + i]
-        if solve_shifted(ws, n) == 0:
+        if not solve_shifted(ws, n):
             break
         _remove_null(ws, n, ws.offsets.x)
         for i in range(n):

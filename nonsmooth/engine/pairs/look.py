@@ -41,8 +41,8 @@ def _ask_contacts(ws: Workspace) -> None:
         if contact.mode == OPEN or contact.pair == NO_PAIR:
             continue
         pair = ws.pairs[contact.pair]
-        if pair.closed == 0 or contact.gap_end < pair.deepest:
-            pair.closed, pair.deepest, pair.normal = 1, min(0.0, contact.gap_end), contact.normal
+        if pair.closed == 0 or contact.gap_at_end < pair.deepest:
+            pair.closed, pair.deepest, pair.normal = 1, min(0.0, contact.gap_at_end), contact.normal
 
 
 @kernel()
