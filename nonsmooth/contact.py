@@ -11,6 +11,7 @@ from nonsmooth.binding.compile import bind
 from nonsmooth.binding.law_failure import first_without_value, law_functions, without_value
 from nonsmooth.checks import check_kind, floats
 from nonsmooth.contact_result import MODES, ContactResult
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Heap, Memory, allocate
 from nonsmooth.engine.memory.solvers import ENUMERATION, MOST_ENUMERATED, solver_number
 from nonsmooth.engine.memory.tables import COUNTS
@@ -115,21 +116,21 @@ def solve_contact(
     free = np.linalg.solve(m, h)
     memory = _memory(friction, number)
     write_delassus(memory, scaled.T @ scaled)
-    memory.array("free_accelerations", 3 * n)[:] = s.ravel() + columns.T @ free
-    memory.scalars["acceleration_scale"] = max(np.max(np.abs(s)), np.max(np.abs(columns.T @ free)))
-    memory.array("rate", 3 * n).reshape(n, 3)[:, 1:] = v
+    memory[owners.Problem.free_accelerations][: 3 * n][:] = s.ravel() + columns.T @ free
+    memory[owners.Problem.acceleration_scale] = max(np.max(np.abs(s)), np.max(np.abs(columns.T @ free)))
+    memory[owners.Contact.rate][:n][:, 1:] = v
     with Watch(memory) as watch:
         solved = watch.call("solve_from_rates")
     if solved == 0:
         culprit = _culprit(memory, friction)
         raise RunFailed(f"The solver {solver!r} finds no contact forces that fulfil the laws. {culprit}".strip())
-    f = memory.array("active_forces", 3 * n).reshape(n, 3).copy()
+    f = memory[owners.Problem.forces][: 3 * n].reshape(n, 3).copy()
     return ContactResult(
         normal_force=f[:, 0],
         tangential_force=f[:, 1:],
         acceleration=np.asarray(free + np.linalg.solve(m, columns @ f.ravel()), dtype=np.float64),
-        contact_acceleration=memory.array("acceleration", 3 * n).reshape(n, 3).copy(),
-        modes=tuple(MODES[mode] for mode in memory.array("mode_tried", n)),
+        contact_acceleration=memory[owners.ActiveContact.acceleration][:n].copy(),
+        modes=tuple(MODES[mode] for mode in memory[owners.ActiveContact.mode_tried][:n]),
         _memory=memory,
         _scaled=scaled,
     )
@@ -148,7 +149,7 @@ def check_friction(thing: str, friction: Sequence[FrictionLaw]) -> None:
 
 
 def _culprit(memory: Memory, friction: Sequence[FrictionLaw]) -> str:
-    starts = memory.array("friction_parameters", len(friction))
+    starts = memory[owners.Contact.friction_parameters][: len(friction)]
     return first_without_value(
         without_value(memory.floats[start:], part, (), f"contact {i}")
         for i, (start, law) in enumerate(zip(starts, friction, strict=True))
@@ -159,14 +160,14 @@ def _culprit(memory: Memory, friction: Sequence[FrictionLaw]) -> str:
 def _memory(friction: Sequence[FrictionLaw], solver: int) -> Memory:
     n = len(friction)
     bound = [bind(law.coefficient, "scalar", law.parameters(), type(law).__name__) for law in friction]
-    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_pivoted": n}, ("delassus", "contact"))
-    memory.array("entry_points", len(entry_addresses()))[:] = entry_addresses()
-    memory.scalars["n_active"], memory.scalars["solver"] = n, solver
-    memory.array("active", n)[:] = np.arange(n)
-    memory.array("direction", 2 * n)[::2] = 1.0
-    memory.array("mode_tried", n)[:] = -1
+    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_pivoted": n})
+    memory[owners.Model.entry_points][: len(entry_addresses())][:] = entry_addresses()
+    memory[owners.Problem.n_active], memory[owners.Options.solver] = n, solver
+    memory[owners.Problem.active][:n][:] = np.arange(n)
+    memory[owners.Contact.direction][:, 0] = 1.0
+    memory[owners.ActiveContact.mode_tried][:n][:] = -1
     heap = Heap(memory)
     for i, (address, values) in enumerate(bound):
-        memory.array("friction_function", n)[i] = address
-        memory.array("friction_parameters", n)[i] = heap.store(values)
+        memory[owners.Contact.friction_function][:n][i] = address
+        memory[owners.Contact.friction_parameters][:n][i] = heap.store(values)
     return heap.close()

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import OPEN, SLIDE
 from nonsmooth.engine.memory.solvers import GAUSS_SEIDEL, LEMKE, NEWTON
@@ -65,8 +66,11 @@ class ContactResult:
         changes its normal force, its friction in proportion; one that parts has none.
         """
         n = len(self.modes)
-        mu, d = self._memory.array("mu", n), self._memory.array("active_directions", 2 * n).reshape(n, 2)
-        at_rest = self._memory.array("at_rest", n)
+        mu, d = (
+            self._memory[owners.ActiveContact.friction_coefficient][:n],
+            self._memory[owners.ActiveContact.direction][:n],
+        )
+        at_rest = self._memory[owners.ActiveContact.is_at_rest][:n]
         free = []
         for i, mode in enumerate(self.modes):
             column = np.zeros((3, n, 3))
@@ -106,9 +110,9 @@ class ContactResult:
         s^2 = (largest eigenvalue of G_TT) (largest one of D (G^-1)_NN D), D holding the coefficients: s < 1 proves it.
         """
         n = len(self.modes)
-        mu = self._memory.array("mu", n)
-        static = self._memory.array("mu_static", n)
-        if np.any((static != mu) & (self._memory.array("at_rest", n) == 1)):
+        mu = self._memory[owners.ActiveContact.friction_coefficient][:n]
+        static = self._memory[owners.ActiveContact.static_coefficient][:n]
+        if np.any((static != mu) & (self._memory[owners.ActiveContact.is_at_rest][:n] == 1)):
             return False
         if not np.any(mu > 0.0):
             return True
@@ -139,7 +143,7 @@ class ContactResult:
         small = _SAME * self._size
         whole = {name: getattr(self._memory, name).copy() for name in ("scalars", "floats", "integers")}
         trial = replace(self._memory, **whole)
-        trial.array("mode_past", n)[:] = -1
+        trial[owners.ActiveContact.mode_past][:n][:] = -1
         number = 0
         while number := int(call_entry("enumerate_modes", trial, number)):
             if self._differs(trial, small):
@@ -152,5 +156,7 @@ class ContactResult:
     def _differs(self, trial: Memory, small: float) -> bool:
         n = len(self.modes)
         delassus = read_delassus(trial, n)
-        acceleration = delassus @ trial.array("active_forces", 3 * n) + trial.array("free_accelerations", 3 * n)
+        acceleration = (
+            delassus @ trial[owners.Problem.forces][: 3 * n] + trial[owners.Problem.free_accelerations][: 3 * n]
+        )
         return float(np.max(np.abs(acceleration - self.contact_acceleration.ravel()))) > small

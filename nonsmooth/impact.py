@@ -13,6 +13,7 @@ from nonsmooth.binding.law_failure import first_without_value, law_functions, wi
 from nonsmooth.checks import check_kind, floats, is_finite
 from nonsmooth.contact import check_friction
 from nonsmooth.engine.impact.problem import FINISHED
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Heap, Memory, allocate
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import entry_addresses
@@ -150,30 +151,35 @@ def solve_impact(
     rates = columns.T @ u + z_driven.ravel()
     memory = _memory(impact, friction, tolerance)
     write_delassus(memory, delassus)
-    memory.array("impact_z0", 3 * n)[:] = rates
+    memory[owners.Impact.rates_before][: 3 * n][:] = rates
     outcome = FINISHED
     if np.any(rates[::3] < 0.0):
         with Watch(memory) as watch:
             outcome = int(watch.call("energetic_impact", 0.0))
     if outcome != FINISHED:
         raise RunFailed(f"The impact did not end. {_culprit(memory, impact, friction)}")
-    impulse = memory.array("impulse", 3 * n).reshape(n, 3).copy()
+    impulse = memory[owners.Impact.impulse][: 3 * n].reshape(n, 3).copy()
     return ImpactResult(
         velocity=u + response @ impulse.ravel(),
         normal_impulse=impulse[:, 0],
         tangential_impulse=impulse[:, 1:],
-        stored=memory.array("stored", n).copy(),
-        returned=memory.array("returned", n).copy(),
-        friction_loss=memory.array("rubbed", n).copy(),
-        phases=int(memory.scalars["phases"][0]),
-        steps=int(memory.scalars["impact_steps"][0]),
-        truncated=bool(memory.scalars["truncated"][0]),
+        stored=memory[owners.ActiveContact.energy_stored][:n].copy(),
+        returned=memory[owners.ActiveContact.energy_returned][:n].copy(),
+        friction_loss=memory[owners.ActiveContact.energy_dissipated][:n].copy(),
+        phases=int(memory[owners.Event.n_phases]),
+        steps=int(memory[owners.Totals.n_impact_steps]),
+        truncated=bool(memory[owners.Event.truncation]),
     )
 
 
 def _culprit(memory: Memory, impact: Sequence[ImpactProcess], friction: Sequence[FrictionLaw]) -> str:
     findings = (
-        without_value(memory.floats[int(memory.array(f"{part.name}_parameters", i + 1)[i]) :], part, (), f"contact {i}")
+        without_value(
+            memory.floats[int(memory[getattr(owners.Contact, f"{part.name}_parameters")][i]) :],
+            part,
+            (),
+            f"contact {i}",
+        )
         for i, laws in enumerate(zip(friction, impact, strict=True))
         for part in law_functions(*laws)
     )
@@ -185,21 +191,19 @@ def _memory(impact: Sequence[ImpactProcess], friction: Sequence[FrictionLaw], to
     blocks = []
     for i in range(n):
         for name, law, function in (
-            ("force", impact[i], impact[i].force),
+            ("impact_force", impact[i], impact[i].force),
             ("efficiency", impact[i], impact[i].efficiency),
             ("friction", friction[i], friction[i].coefficient),
         ):
             blocks.append((i, name, *bind(function, "scalar", law.parameters(), type(law).__name__)))
-    memory = allocate(
-        dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_articulations": 0}, ("delassus", "contact", "impact")
-    )
-    memory.array("entry_points", len(entry_addresses()))[:] = entry_addresses()
-    memory.scalars["n_active"] = n
-    memory.scalars["impact_rtol"] = tolerance
-    memory.array("active", n)[:] = np.arange(n)
-    memory.array("direction", 2 * n)[::2] = 1.0
+    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_articulations": 0})
+    memory[owners.Model.entry_points][: len(entry_addresses())][:] = entry_addresses()
+    memory[owners.Problem.n_active] = n
+    memory[owners.Tolerance.impact] = tolerance
+    memory[owners.Problem.active][:n][:] = np.arange(n)
+    memory[owners.Contact.direction][:, 0] = 1.0
     heap = Heap(memory)
     for i, name, address, values in blocks:
-        memory.array(f"{name}_function", n)[i] = address
-        memory.array(f"{name}_parameters", n)[i] = heap.store(values)
+        memory[getattr(owners.Contact, f"{name}_function")][i] = address
+        memory[getattr(owners.Contact, f"{name}_parameters")][i] = heap.store(values)
     return heap.close()

@@ -1,4 +1,4 @@
-"""What an engine of one's own is made of: compiled steps, and scalars and arrays that they work with."""
+"""What an engine of your own is made of: compiled steps, and the numbers that they work with."""
 
 from __future__ import annotations
 
@@ -6,15 +6,29 @@ from collections.abc import Callable
 from typing import Any, TypeVar
 
 from nonsmooth.binding.fingerprint import fingerprint
-from nonsmooth.engine.memory.arrays.arrays import Arrays, fixed, per, real, whole
+from nonsmooth.engine.memory.declare import FloatRow, IntegerRow, Life, Part, array, question, real, whole
+from nonsmooth.engine.memory.sizes import fixed, per
 from nonsmooth.engine.native.kernel import add_step, own_kernel
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
-__all__ = ["Arrays", "fixed", "kernel", "per", "real", "step", "whole"]
+__all__ = [
+    "FloatRow",
+    "IntegerRow",
+    "Life",
+    "Part",
+    "array",
+    "fixed",
+    "kernel",
+    "per",
+    "question",
+    "real",
+    "step",
+    "whole",
+]
 
 
-def step(own: Arrays, signature: str = "void(ws)") -> Callable[[Callable[..., Any]], str]:
+def step(own: type[Part], signature: str = "void(ws)") -> Callable[[Callable[..., Any]], str]:
     """Compile a function ``(ws, *numbers)`` when an engine first calls it; its name becomes what ``call`` takes.
 
     It may call the kernels and entry points of :mod:`nonsmooth.engine`, and those of :func:`kernel`, by their names.
@@ -22,20 +36,20 @@ def step(own: Arrays, signature: str = "void(ws)") -> Callable[[Callable[..., An
 
     Parameters
     ----------
-    own : Arrays
-        Scalars and arrays of the engine's own, which ``S`` has besides those of all: its :attr:`Engine.own`.
+    own : type of Part
+        Numbers of the engine's own, :attr:`Engine.own`: ``ws.NAME`` with the key of the class for its name.
     signature : str
         Types of the result and of the arguments: ``ws``, ``F`` (floats), ``I`` (integers), ``f8``, ``i8``, ``void``.
     """
     return lambda function: add_step(function, own, signature, fingerprint)
 
 
-def kernel(own: Arrays, signature: str = "void(ws)") -> Callable[[_Function], _Function]:
+def kernel(own: type[Part], signature: str = "void(ws)") -> Callable[[_Function], _Function]:
     """Compile a function into the steps that call it; parameters as those of :func:`step`, and tuples of floats.
 
     Parameters
     ----------
-    own : Arrays
+    own : type of Part
         As of :func:`step`.
     signature : str
         Likewise; ``v2`` and ``v3`` are tuples of two and three floats.

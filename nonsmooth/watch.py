@@ -12,6 +12,7 @@ from types import FrameType, TracebackType
 from typing import Any
 
 from nonsmooth.binding import interpreted
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.native.kernel import call_entry, forget_watch, watch_address
 
@@ -58,8 +59,7 @@ class Watch:
             self._begin_to_look()
         self._began = self._last = self._reported = time.perf_counter()
         self._patience, self._settled = float(_FIRST), False
-        record = self._memory.record
-        record["watch"], record["patience"] = self._address, _FIRST
+        self._memory[owners.Request.interrupt_check], self._memory[owners.Request.work_budget] = self._address, _FIRST
         return self
 
     def __exit__(
@@ -68,7 +68,7 @@ class Watch:
         if self._handles:
             signal.signal(signal.SIGINT, signal.default_int_handler)
             self._handles = False
-        self._memory.record["watch"], self._report = 0, None
+        self._memory[owners.Request.interrupt_check], self._report = 0, None
         if error is None:
             self._stop_if_asked()
 

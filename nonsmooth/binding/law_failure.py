@@ -57,7 +57,7 @@ def law_functions(
     if isinstance(normal, CompliantNormalLaw):
         yield LawFunction("normal", normal, normal.force, "compliance")
     if isinstance(impact, ImpactProcess):
-        yield LawFunction("force", impact, impact.force, "scalar")
+        yield LawFunction("impact_force", impact, impact.force, "scalar")
         yield LawFunction("efficiency", impact, impact.efficiency, "scalar")
 
 

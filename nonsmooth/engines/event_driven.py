@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, final
 
 from nonsmooth.engine.memory.modes import POLICIES
+from nonsmooth.engine.memory.owners import Island, Options, Tolerance
 from nonsmooth.engine.memory.solvers import SOLVERS, pivoted_contacts, solver_number
 from nonsmooth.interfaces.engine import Engine
 from nonsmooth.parameters import parameter
@@ -43,9 +44,9 @@ class EventDriven(Engine):
     solver: str = parameter("auto", doc="solver of the contact problem", unit="", choices=SOLVERS)
 
     @property
-    def layers(self) -> tuple[str, ...]:
-        """All."""
-        return ("delassus", "contact", "impact", "flow")
+    def uses_flow(self) -> bool:
+        """Yes."""
+        return True
 
     @property
     def records_contacts(self) -> bool:
@@ -59,21 +60,21 @@ class EventDriven(Engine):
         """Return for how many contacts Lemke's tableau is laid out."""
         return {"n_pivoted": pivoted_contacts(solver_number(self.solver), n_slots)}
 
-    def settings(self, time_scale: float) -> Mapping[str, float]:
+    def settings(self, time_scale: float) -> Mapping[Any, float]:
         """Return tolerances and first steps."""
         step = min(self.largest_step, time_scale / self.steps_per_period)
         return {
-            "solver": solver_number(self.solver),
-            "policy": POLICIES.index(self.painleve),
-            "rtol": self.tolerance,
-            "impact_rtol": self.impact_tolerance,
-            "time_tolerance": self.time_tolerance,
-            "time_resolution": self.time_tolerance,
-            "gap_tolerance": self.gap_tolerance,
-            "velocity_tolerance": self.velocity_tolerance,
-            "h_max": step,
-            "h_free": step,
-            "h_closed": step,
+            Options.solver: solver_number(self.solver),
+            Options.painleve_policy: POLICIES.index(self.painleve),
+            Tolerance.relative: self.tolerance,
+            Tolerance.impact: self.impact_tolerance,
+            Tolerance.time: self.time_tolerance,
+            Tolerance.resolution: self.time_tolerance,
+            Tolerance.gap: self.gap_tolerance,
+            Tolerance.velocity: self.velocity_tolerance,
+            Tolerance.largest_step: step,
+            Island.free_step: step,
+            Island.closed_step: step,
         }
 
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:

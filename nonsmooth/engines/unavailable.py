@@ -31,11 +31,6 @@ class Unavailable(Engine):
     recorded_contacts: bool
 
     @property
-    def layers(self) -> tuple[str, ...]:
-        """None but those that every engine has."""
-        return ()
-
-    @property
     def records_contacts(self) -> bool:
         """As the engine that ran."""
         return self.recorded_contacts

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from nonsmooth.engine.memory.blocks import GAP, GEOMETRY, NORMAL, POINT_A, TANGENT, TRACTION_MOMENT
+from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.blocks import GAP, NORMAL, POINT_A, TANGENT, TRACTION_MOMENT
 from nonsmooth.engine.memory.modes import SLIDE
 from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.histories.cones import beyond_cones
@@ -146,20 +147,27 @@ class _Closed:
     none = np.zeros((0, 2), dtype=np.int64), np.zeros((0, 20))
 
     def __init__(self, laid: LaidOut) -> None:
-        memory, n = laid.memory, int(laid.memory.scalars["n_slots"][0])
-        self._memory = memory
-        self._blocks = memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)
-        self._axes = memory.array("axes", 9 * n).reshape(n, 3, 3)
-        self._forces, self._rates = (memory.array(name, 3 * n).reshape(n, 3) for name in ("force", "rate"))
-        self._slips = memory.array("slip", 2 * n).reshape(n, 2)
+        memory, n = laid.memory, int(laid.memory[owners.Model.n_slots])
+        self._memory, contact = memory, owners.Contact
+        self._blocks = memory[owners.Contact.geometry][:n]
+        self._axes = memory[owners.Contact.axes][:n]
+        self._forces, self._rates = memory[owners.Contact.force], memory[owners.Contact.rate]
+        self._slips = memory[owners.Contact.slip_of_tangents][:n]
         self._grouped, self._identity, self._mode, self._oriented, self._function, self._out = (
-            memory.array(name, n)
-            for name in ("grouped", "identity", "mode", "oriented", "traction_function", "traction_out")
+            memory[one]
+            for one in (
+                owners.Island.grouped,
+                contact.declared,
+                contact.mode,
+                contact.is_anisotropic,
+                contact.traction_function,
+                contact.traction_out,
+            )
         )
 
     def look(self) -> tuple[Integers, Floats]:
         """Return numbers and modes of the closed contacts, and twenty floats of each, in the order of the numbers."""
-        slots = self._grouped[: int(self._memory.scalars["n_grouped"][0])]
+        slots = self._grouped[: int(self._memory[owners.Island.n_grouped])]
         if len(slots) == 0:
             return self.none
         slots = slots[np.argsort(self._identity[slots])]

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, final
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.memory.blocks import GEOMETRY, NORMAL, POINT_A
+from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.blocks import NORMAL, POINT_A
 from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.histories.cones import beyond_cones
 from nonsmooth.histories.visitor import visitor
@@ -79,11 +80,11 @@ class ContactImpulses:
         ends = np.append(begins[1:], len(events))
 
         def look(i: int) -> None:
-            slots = int(memory.scalars["n_contacts"][0])
-            blocks = memory.array("geometry", GEOMETRY * slots).reshape(slots, GEOMETRY)
-            directions = memory.array("axes", 9 * slots).reshape(slots, 3, 3)
+            slots = int(memory[owners.Island.n_contacts])
+            blocks = memory[owners.Contact.geometry][:slots]
+            directions = memory[owners.Contact.axes][:slots]
             slot = np.full(events.n_contacts, -1)
-            slot[memory.array("identity", slots)] = np.arange(slots)
+            slot[memory[owners.Contact.declared][:slots]] = np.arange(slots)
             entries = np.arange(events.first[begins[i]], events.first[ends[i]])
             found = slot[events.listed[entries]]
             entries, found = entries[found >= 0], found[found >= 0]

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from nonsmooth.datasets import Told, dataset
-from nonsmooth.engine.memory.blocks import GAP, GEOMETRY
+from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.blocks import GAP
 from nonsmooth.histories.arrays import Floats
 from nonsmooth.histories.times import of_one, read_times, spoken
 from nonsmooth.histories.visitor import visitor
@@ -82,13 +83,13 @@ class ContactMotion:
         here = np.full((3, len(declared)), np.nan)
 
         def keep(i: int) -> None:
-            n = int(memory.scalars["n_contacts"][0])
-            rates, oriented = memory.array("rate", 3 * n).reshape(n, 3), memory.array("oriented", n)
+            n = int(memory[owners.Island.n_contacts])
+            rates, oriented = memory[owners.Contact.rate][:n], memory[owners.Contact.is_anisotropic][:n]
             # the axes of friction that is not the same in all directions are no unit vectors
-            slips = np.where(oriented[:, None] == 1, memory.array("slip", 2 * n).reshape(n, 2), rates[:, 1:])
+            slips = np.where(oriented[:, None] == 1, memory[owners.Contact.slip_of_tangents][:n], rates[:, 1:])
             here[:] = np.nan
-            here[:, memory.array("identity", n)] = (
-                memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)[:, GAP],
+            here[:, memory[owners.Contact.declared][:n]] = (
+                memory[owners.Contact.geometry][:n][:, GAP],
                 rates[:, 0],
                 np.hypot(*slips.T),
             )

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.histories.arrays import Floats
 from nonsmooth.histories.visitor import visitor
@@ -18,13 +19,12 @@ def coordinate_rates(solution: Solution, times: Floats) -> Floats:
     """Return dq/dt at times [s] of a run, shape [n, n_q]."""
     known = visitor(solution)
     memory, bodies = known.laid.memory, solution.system.bodies
-    tails = memory.array("body_tail", len(bodies)).tolist()
+    tails = memory[owners.Body.tail][: len(bodies)].tolist()
     free = [(tail, body.n_q) for tail, body in zip(tails, bodies, strict=True) if body.n_q > 0]
     table = np.zeros((len(times), solution.q.shape[1]))
 
     def keep(i: int) -> None:
-        record = memory.scalars[0]
-        call_entry("evaluate_free_bodies", memory, float(record["t"]), int(record["y"]), 1)
+        call_entry("evaluate_free_bodies", memory, memory[owners.Island.time], memory.start(owners.Island.y), 1)
         parts = [memory.floats[tail : tail + n] for tail, n in free]
         table[i] = np.concatenate(parts) if parts else 0.0
 

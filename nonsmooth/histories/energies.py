@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from nonsmooth.datasets import Told, dataset
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.histories.arrays import Floats
@@ -93,17 +94,26 @@ class Energies:
         given = read_times("Solution.energies", solution, times)
         row, known = np.atleast_1d(given), visitor(solution)
         laid = known.laid
-        y, scalars = laid.memory.array("y", laid.n_y), laid.memory.scalars
+        y = laid.memory[owners.Island.y]
         first = laid.n_q + laid.n_u
-        table, tails = np.zeros((7, len(row))), laid.memory.array("body_tail", len(laid.system.bodies))
+        table, tails = np.zeros((7, len(row))), laid.memory[owners.Body.tail][: len(laid.system.bodies)]
 
         def keep(i: int) -> None:
-            record = scalars[0]
             driven, rubbed, _, loads = y[first : first + N_ACCOUNTS]
-            call_entry("evaluate_free_bodies", laid.memory, float(record["t"]), int(record["y"]), 1)
+            call_entry(
+                "evaluate_free_bodies",
+                laid.memory,
+                laid.memory[owners.Island.time],
+                laid.memory.start(owners.Island.y),
+                1,
+            )
             table[:2, i] = energies(laid.system.bodies, tails, laid.memory.floats)
-            table[2:4, i] = record["driven_work"] + driven, loads
-            table[4:, i] = record["restitution_loss"], record["friction_loss"] + rubbed, record["closing_loss"]
+            table[2:4, i] = laid.memory[owners.Totals.driven_work] + driven, loads
+            table[4:, i] = (
+                laid.memory[owners.Totals.restitution_loss],
+                laid.memory[owners.Totals.friction_loss] + rubbed,
+                laid.memory[owners.Totals.closing_loss],
+            )
 
         known.visit(row, keep, forces=False)
         kinetic, potential, driven, loads, restitution, friction, closing = table

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from nonsmooth.datasets import Told, dataset
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import AXIS, JOINT_ROW, MOMENT, POINT_B
 from nonsmooth.histories.arrays import Floats
 from nonsmooth.histories.times import of_one, read_times, spoken
@@ -103,14 +104,14 @@ class _Joint:
 
 def _joints(laid: LaidOut) -> list[_Joint]:
     """Return the joints in the order of the system; the engine has them articulation by articulation."""
-    memory, floats = laid.memory, laid.memory.floats
+    memory, floats, joint = laid.memory, laid.memory.floats, owners.Joint
     found: dict[int, _Joint] = {}
     number = 0
     for index, articulation in enumerate(articulations(laid.system)):
-        along = int(memory.array("articulation_x", index + 1)[index])
+        along = int(memory[owners.Articulation.forces][index])
         for tie in articulation.joints:
             origin, out, first, n = (
-                int(memory.array(f"joint_{name}", number + 1)[number]) for name in ("frame_b", "out", "first", "rows")
+                int(memory[one][number]) for one in (joint.frame_b, joint.out, joint.first_row, joint.n_rows)
             )
             rows = floats[out : out + JOINT_ROW * n].reshape(n, JOINT_ROW)
             found[id(tie)] = _Joint(floats[origin : origin + 3], rows, floats[along + first : along + first + n])

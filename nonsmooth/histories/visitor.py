@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, final
 
 import numpy as np
 
-from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CLOSING_RATE, DIRECTION
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.modes import AFTER, CODE, OPEN, REASONS, RUNNING, SLIDE, STICK
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.errors import InvalidInput, RunFailed
@@ -22,8 +22,12 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
     from nonsmooth.solution.track import Track
 
-_MODE, _AVERAGED, _PLACE = (CATALOGUE.index(name) for name in ("mode", "averaged", "candidate"))
-_BOOKED = ("driven_work", "restitution_loss", "friction_loss", "closing_loss")
+_ACCOUNTED = (
+    owners.Totals.driven_work,
+    owners.Totals.restitution_loss,
+    owners.Totals.friction_loss,
+    owners.Totals.closing_loss,
+)
 _MODES = np.array([OPEN, STICK, OPEN, OPEN, OPEN, SLIDE, OPEN, OPEN])
 """Mode of a contact by its bits of Eq. (29) after an event."""
 _SAMPLE, _EVENT, _END = range(3)
@@ -92,7 +96,7 @@ class Visitor:
         found = self._y[rows]
         between = np.flatnonzero(self._time[rows] < times)
         if len(between) > 0:
-            y = self.laid.memory.array("y", self.laid.n_y)
+            y = self.laid.memory[owners.Island.y][: self.laid.n_y]
 
             def keep(i: int) -> None:
                 found[between[i]] = y
@@ -123,9 +127,9 @@ class Visitor:
             self._visit_stored(rows, look)
             return
         self._check_solves("between its samples" if between else "with its forces")
-        scalars = self.laid.memory.scalars
+        memory = self.laid.memory
         # an earlier visit may have been interrupted
-        scalars["stopped"], scalars["failed"] = 0, RUNNING
+        memory[owners.Request.is_interrupted], memory[owners.Run.failure] = 0, RUNNING
         with self._alone, self.laid.watch as watch:
             for i in np.argsort(times, kind="stable").tolist():
                 if rows[i] != here:
@@ -147,12 +151,12 @@ class Visitor:
             As :meth:`visit`, without forces.
         """
         found, memory = self.states(times), self.laid.memory
-        y = memory.array("y", self.laid.n_y)
+        y = memory[owners.Island.y][: self.laid.n_y]
         with self._alone:
             # the contacts that are listed here are not those that an event left
             self._put_event = -2
             for i, row in enumerate(self._row(times).tolist()):
-                memory.scalars["t"], y[:] = times[i], found[i]
+                memory[owners.Island.time], y[:] = times[i], found[i]
                 self._put_modes(int(self._event[row]))
                 self.laid.evaluate()
                 look(i)
@@ -169,13 +173,13 @@ class Visitor:
     def solves(self) -> bool:
         """Whether the engine can be followed between stored states, and asked for forces."""
         recorded = self._engine.records_contacts or not self._system.contacts
-        return recorded and {"delassus", "contact", "flow"} <= set(self._engine.layers)
+        return recorded and self._engine.uses_flow
 
     def _check_solves(self, what: str) -> None:
         if not self.solves:
             raise InvalidInput(
                 "Solution",
-                f"is known {what} only where the engine records contacts and has the layers delassus, contact and flow",
+                f"is known {what} only where the engine records contacts and uses the flow of nonsmooth.engine",
                 self._engine,
                 "States, poses and energies are known at the times of samples and events; for more, run with "
                 "nonsmooth.EventDriven().",
@@ -196,32 +200,33 @@ class Visitor:
         self._put_state(row)
 
     def _put_state(self, row: int) -> None:
-        scalars = self.laid.memory.scalars
-        scalars["t"] = self._time[row]
-        for name, value in zip(_BOOKED, self._booked[row].tolist(), strict=True):
-            scalars[name] = value
-        self.laid.memory.array("y", self.laid.n_y)[:] = self._y[row]
+        memory = self.laid.memory
+        memory[owners.Island.time] = self._time[row]
+        for total, value in zip(_ACCOUNTED, self._booked[row].tolist(), strict=True):
+            memory[total] = value
+        self.laid.memory[owners.Island.y][: self.laid.n_y][:] = self._y[row]
 
     def _put_modes(self, event: int) -> None:
         """Close the contacts that an event left closed, and put them into slots with what they go on with."""
         memory, events, n = self.laid.memory, self._events, self._events.n_contacts
+        contact = owners.Contact
         listed = slice(*events.first[event : event + 2].tolist()) if event >= 0 else slice(0)
         numbers, kept = events.listed[listed], events.listed_memory[listed]
-        rows = memory.array("catalogue", len(CATALOGUE) * n).reshape(n, len(CATALOGUE))
-        floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * n).reshape(n, CATALOGUE_FLOATS)
-        rows[:, _MODE] = rows[:, _AVERAGED] = OPEN
-        rows[numbers, _MODE] = _MODES[events.codes[listed] >> AFTER & CODE]
-        rows[numbers, _AVERAGED] = kept[:, 4]
-        floats[numbers, DIRECTION : DIRECTION + 2], floats[numbers, CLOSING_RATE] = kept[:, :2], kept[:, 2]
+        modes, averaged = memory.declared(contact.mode), memory.declared(contact.mode_after_averaging)
+        modes[:] = averaged[:] = OPEN
+        modes[numbers] = _MODES[events.codes[listed] >> AFTER & CODE]
+        averaged[numbers] = kept[:, 4]
+        memory.declared(contact.direction)[numbers] = kept[:, :2]
+        memory.declared(contact.closing_rate)[numbers] = kept[:, 2]
         # which features the contacts of a pool have is found anew, but for the closed ones
-        places = rows[:, _PLACE]
+        places = memory.declared(contact.features)
         memory.floats[places[places > 0]] = 0.0
         for number, features in zip(numbers.tolist(), kept[:, 5:], strict=True):
             if places[number] > 0:
                 memory.floats[places[number] : places[number] + len(features)] = features
-        memory.scalars["n_contacts"] = 0
+        memory[owners.Island.n_contacts] = 0
         self.laid.list_contacts()
-        slots = int(memory.scalars["n_contacts"][0])
+        slots = int(memory[owners.Island.n_contacts])
         facing = np.ones(n)
         facing[numbers] = kept[:, 3]
-        memory.array("facing", slots)[:] = facing[memory.array("identity", slots)]
+        memory[owners.Contact.facing][:slots][:] = facing[memory[owners.Contact.declared][:slots]]

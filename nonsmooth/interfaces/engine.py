@@ -10,7 +10,7 @@ from nonsmooth.interfaces.engine_report import Cause, Measure
 from nonsmooth.parameters import Component
 
 if TYPE_CHECKING:
-    from nonsmooth.engine.memory.arrays.arrays import Arrays
+    from nonsmooth.engine.memory.declare import Part
     from nonsmooth.engine.memory.memory import Memory
     from nonsmooth.system.system import System
 
@@ -19,21 +19,20 @@ class Engine(Component, ABC):
     """An integrator; its parameters are its options.
 
     All engines share the model: bodies, geometry, contacts, laws, laid out in one memory
-    (:mod:`nonsmooth.engine.memory.tables`), and what comes out of it: samples, events, energies, the state in which a
+    (:mod:`nonsmooth.engine.memory.workspace`), and what comes out of it: samples, events, energies, the state in which a
     run ends.  The contract:
 
     1. ``check`` refuses a system that this engine cannot run, before anything is laid out.
-    2. ``layers`` are those of :mod:`nonsmooth.engine` whose arrays it works with; arrays of the bodies and of what is
-       recorded there always are, all others have no length.  ``own`` are scalars and arrays of its own.
-    3. ``counts`` gives the lengths that its options decide, ``settings`` the scalars of the record ``S``.
+    2. ``own`` declares numbers of its own. All numbers of the workspace are there for every engine.
+    3. ``counts`` gives the counts that its options decide, ``settings`` the scalars that it sets.
     4. ``advance`` goes on, from wherever the memory stands, with steps of its own (:func:`nonsmooth.steps.step`) and
        with entry points of :mod:`nonsmooth.engine`.  All that it needs to go on later, in another process too, it
        leaves in the memory, outside of what comes later in the tables of arrays.
-    5. Samples are due up to the time ``S.t``, the first at ``S.next_sample``: ``begin_sample`` appends one and returns
+    5. Samples are due up to the time ``ws.island.time``, the first at ``ws.output.next_sample``: ``begin_sample`` appends one and returns
        where its state belongs.  An event is appended by ``remember`` before velocities change, and ``record_event``
        after that.  A run is called again with empty buffers where they are half full and it has paused.
     6. Where time stops passing it returns ``STALLED`` and leaves in the memory the state at that instant, and in
-       ``crowd_events`` which contacts hold it up.  That does not yet end the run: an engine that is put together of two
+       ``contact.burst_events`` which contacts hold it up.  That does not yet end the run: an engine that is put together of two
        may let the other one go on from there.
     7. An engine that ``records_contacts`` records an event at the start, and one whenever modes change.  Other engines
        record no event of a system with contacts, because its modes and impulses would be zeros.
@@ -42,14 +41,14 @@ class Engine(Component, ABC):
     """
 
     @property
-    @abstractmethod
-    def layers(self) -> tuple[str, ...]:
-        """Names of the layers of :mod:`nonsmooth.engine` whose arrays it works with."""
+    def own(self) -> type[Part] | None:
+        """Numbers of its own: a class of declarations."""
+        return None
 
     @property
-    def own(self) -> Arrays | None:
-        """Scalars and arrays of its own."""
-        return None
+    def uses_flow(self) -> bool:
+        """Whether the motion between its events is that of the built-in flow, whose tolerances it sets."""
+        return False
 
     @property
     def records_contacts(self) -> bool:
@@ -95,8 +94,8 @@ class Engine(Component, ABC):
         """
 
     @abstractmethod
-    def settings(self, time_scale: float) -> Mapping[str, float]:
-        """Return scalars of the record ``S`` by name.
+    def settings(self, time_scale: float) -> Mapping[Any, float]:
+        """Return scalars of the workspace that it sets, by their declarations: ``{Tolerance.relative: 1e-9}``.
 
         Parameters
         ----------
@@ -106,7 +105,7 @@ class Engine(Component, ABC):
 
     @abstractmethod
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
-        """Go on to the end time ``S.t_end``, a failure, full buffers or ``most_steps``; return the status.
+        """Go on to the end time ``ws.request.t_end``, a failure, full buffers or ``most_steps``; return the status.
 
         Parameters
         ----------
@@ -123,6 +122,6 @@ class Engine(Component, ABC):
         Returns
         -------
         int
-            ``DONE`` at the end time, to which ``S.t`` is set, ``PAUSED`` to be called again, ``STOPPED`` where a guard
+            ``DONE`` at the end time, to which ``ws.island.time`` is set, ``PAUSED`` to be called again, ``STOPPED`` where a guard
             ends the run, a failure of :data:`nonsmooth.engine.memory.modes.REASONS`, or the code of one of its causes.
         """

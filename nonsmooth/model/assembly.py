@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, LISTED, MOST_EVENTS
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.layout import BOOKED, N_ACCOUNTS
 from nonsmooth.engine.memory.memory import Heap, allocate
 from nonsmooth.engine.memory.tables import COUNTS
@@ -13,7 +14,7 @@ from nonsmooth.interfaces import Engine
 from nonsmooth.model.articulations import articulations
 from nonsmooth.model.checks import check_guards, check_start
 from nonsmooth.model.contact_table import ContactTable
-from nonsmooth.model.engine_parts import check_report, counts_of, laid_own, layers_of, settings_of
+from nonsmooth.model.engine_parts import check_report, counts_of, laid_own, settings_of
 from nonsmooth.model.image import Guards
 from nonsmooth.model.laid_out import LaidOut, map_width
 from nonsmooth.model.laying import lay_bodies, lay_guards, lay_joints, lay_loads
@@ -59,7 +60,7 @@ def lay_out(system: System, engine: Engine) -> LaidOut:
 
 
 def _stand(model: LaidOut) -> None:
-    model.memory.array("y", model.n_q + model.n_u)[:] = np.concatenate(model.system.starts())
+    model.memory[owners.Island.y][: model.n_q + model.n_u][:] = np.concatenate(model.system.starts())
     model.list_contacts()
 
 
@@ -89,11 +90,11 @@ def lay(system: System, engine: Engine) -> LaidOut:
         "n_bodies": len(bodies),
         "n_slots": units.n_slots,
         "n_declared": len(contacts),
-        "n_units": len(units.radii),
+        "n_spheres": len(units.radii),
         "n_partners": len(units.pairs),
         "n_paired": len(units.contacts),
-        "n_walls": len(units.walls) if len(units.radii) > 0 else 0,
-        "n_pools": len(units.pools),
+        "n_half_spaces": len(units.walls) if len(units.radii) > 0 else 0,
+        "n_searches": len(units.pools),
         "n_pairs": len(pairs),
         "n_carriers": len(carriers_of(pairs)),
         "n_own_guards": len(system.guards),
@@ -114,9 +115,9 @@ def lay(system: System, engine: Engine) -> LaidOut:
     free = [name for name in COUNTS if name not in counts]
     counts = dict.fromkeys(COUNTS, 0) | counts | {**counts_of(engine, units.n_slots, free)}
     settings = settings_of(engine, system.time_scale)
-    memory = allocate(counts, layers_of(engine), laid_own(engine, counts))
+    memory = allocate(counts, laid_own(engine, counts))
     heap = Heap(memory)
-    memory.array("entry_points", len(entry_addresses()))[:] = entry_addresses()
+    memory[owners.Model.entry_points][: len(entry_addresses())][:] = entry_addresses()
     places = lay_bodies(system, memory, heap)
     lay_joints(memory, heap, groups, places)
     lay_loads(system, memory, heap, places)
@@ -126,6 +127,6 @@ def lay(system: System, engine: Engine) -> LaidOut:
     lay_pools(memory, heap, units.pools, table, units.frames)
     lay_guards(system, memory, heap)
     model = LaidOut(system, heap.close(), n_q, n_u, n_states)
-    for name, value in settings.items():
-        model.memory.scalars[name] = value
+    for scalar, value in settings.items():
+        model.memory[scalar] = value
     return model

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from nonsmooth.binding.source import described
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT, FRAME, GEOMETRY, GUARD, JOINT_ROW, LOAD, PAIR, UNTOUCHED
-from nonsmooth.engine.memory.layout import CATALOGUE
 from nonsmooth.interfaces import ImpactMap, Joint, Load, StatefulFrictionLaw, TractionLaw
 from nonsmooth.model.articulations import articulations
 from nonsmooth.model.image import Guards
@@ -45,7 +45,7 @@ def blocks(model: LaidOut) -> Iterator[Block]:
     """Yield the blocks of loads, bodies and listed contacts; bodies feel loads, contacts both."""
     yield from _blocks_of_bodies(model)
     yield from _blocks_of_flights(model)
-    for slot in range(int(model.memory.scalars["n_contacts"][0])):
+    for slot in range(int(model.memory[owners.Island.n_contacts])):
         yield _block_of_slot(model, slot)
 
 
@@ -54,11 +54,11 @@ def _blocks_of_bodies(model: LaidOut) -> Iterator[Block]:
     for i, tie in enumerate(system.loads):
         assert isinstance(tie.component, Load)
         function = tie.component.evaluator
-        yield Block(_label(tie, function), function, _entry(model, "load_out", i), LOAD, LOAD)
+        yield Block(_label(tie, function), function, _entry(model, owners.Load.out, i), LOAD, LOAD)
     names = system.names.bodies
     for i, body in enumerate(system.bodies):
-        start = _entry(model, "body_out", i)
-        rates = _entry(model, "body_tail", i) - start + body.n_q + body.n_u
+        start = _entry(model, owners.Body.out, i)
+        rates = _entry(model, owners.Body.tail, i) - start + body.n_q + body.n_u
         written = FRAME if body.n_u == 0 else rates
         yield Block(
             functools.partial("body {!r}, {!r}:".format, names[i], body),
@@ -72,14 +72,14 @@ def _blocks_of_bodies(model: LaidOut) -> Iterator[Block]:
 def _blocks_of_flights(model: LaidOut) -> Iterator[Block]:
     names = model.system.names.bodies
     for i, body in enumerate(model.system.bodies):
-        if body.flight is not None and _entry(model, "body_flight_function", i) != 0:
+        if body.flight is not None and _entry(model, owners.Body.ballistic_function, i) != 0:
             label, size = functools.partial("body {!r}, {!r} in flight:".format, names[i], body), body.n_q + body.n_u
-            yield Block(label, body.flight, _entry(model, "body_flight_out", i), size, size)
+            yield Block(label, body.flight, _entry(model, owners.Body.ballistic_out, i), size, size)
 
 
 def _block_of_slot(model: LaidOut, slot: int) -> Block:
-    contact = model.system.contacts[_entry(model, "identity", slot)]
-    function, first = contact.kinematics.evaluator, int(model.memory.scalars["geometry"][0])
+    contact = model.system.contacts[_entry(model, owners.Contact.declared, slot)]
+    function, first = contact.kinematics.evaluator, model.memory.start(owners.Contact.geometry)
     return Block(_label(contact, function), function, first + GEOMETRY * slot, PAIR, PAIR)
 
 
@@ -88,16 +88,18 @@ def _blocks_of_joints_and_laws(model: LaidOut) -> Iterator[Block]:
     for number, tie in enumerate(ties):
         assert isinstance(tie.component, Joint)
         function, size = tie.component.evaluator, JOINT_ROW * tie.component.n_rows
-        yield Block(_label(tie, function), function, _entry(model, "joint_out", number), size, size)
+        yield Block(_label(tie, function), function, _entry(model, owners.Joint.out, number), size, size)
     contacts = model.system.contacts
-    rows = model.memory.array("catalogue", len(CATALOGUE) * len(contacts)).reshape(len(contacts), len(CATALOGUE))
-    for i in np.flatnonzero(rows[:, CATALOGUE.index("traction_out")]):
-        law, starts = contacts[i].friction, dict(zip(CATALOGUE, rows[i].tolist(), strict=True))
+    traction, rates = (
+        model.memory.declared(place) for place in (owners.Contact.traction_out, owners.Contact.rates_out)
+    )
+    for i in np.flatnonzero(traction):
+        law = contacts[i].friction
         assert isinstance(law, (TractionLaw, StatefulFrictionLaw))
         if isinstance(law, TractionLaw):
-            function, start, size = law.traction, starts["traction_out"], FORCE_AND_MOMENT + len(law.initial_state)
+            function, start, size = law.traction, int(traction[i]), FORCE_AND_MOMENT + len(law.initial_state)
         else:
-            function, start, size = law.rates, starts["rates_out"], len(law.initial_state)
+            function, start, size = law.rates, int(rates[i]), len(law.initial_state)
         yield Block(_label(contacts[i], function), function, start, size, size)
 
 
@@ -105,7 +107,7 @@ def _blocks_of_searches(model: LaidOut) -> Iterator[Block]:
     for number, pool in enumerate(find_pools(model.system.contacts)):
         function = pool.search.function
         label = functools.partial(_words, pool.owner, function)
-        yield Block(label, function, _entry(model, "pool_out", number), pool.size, 1)
+        yield Block(label, function, _entry(model, owners.Search.out, number), pool.size, 1)
 
 
 def _label(owner: Tie | Contact, function: Callable[..., None]) -> Callable[[], str]:
@@ -116,17 +118,17 @@ def _words(owner: str, function: Callable[..., None]) -> str:
     return f"{owner}: {described(function)},"
 
 
-def _entry(model: LaidOut, name: str, i: int) -> int:
-    return int(model.memory.array(name, i + 1)[i])
+def _entry(model: LaidOut, declared: Any, i: int) -> int:
+    return int(model.memory[declared][i])
 
 
 def written_past(model: LaidOut, guards: Guards) -> str:
     """Return a sentence that names a function that has written past its block; nothing if none has."""
     memory = model.memory
-    if guards.hold(memory) and not int(memory.record["map_past"]) > 0:
+    if guards.hold(memory) and not int(memory[owners.Run.n_past_map]) > 0:
         return ""
-    slots, listed = (int(memory.scalars[name][0]) for name in ("n_slots", "n_contacts"))
-    behind = memory.array("geometry", GEOMETRY * slots).reshape(slots, GEOMETRY)[:, PAIR:]
+    slots, listed = memory[owners.Model.n_slots], memory[owners.Island.n_contacts]
+    behind = memory[owners.Contact.geometry][:slots][:, PAIR:]
     written = np.flatnonzero(np.any(behind != UNTOUCHED, axis=1))
     pairs = [_block_of_slot(model, int(slot)) for slot in written if slot < listed]
     for block in (
@@ -140,7 +142,7 @@ def written_past(model: LaidOut, guards: Guards) -> str:
         touched = memory.floats[end : end + GUARD] != UNTOUCHED
         if np.any(touched):
             return _sentence(block.label(), block.size, block.size + int(np.argmax(touched)))
-    n = int(memory.scalars["map_past"][0])
+    n = int(memory[owners.Run.n_past_map])
     if n > 0:
         law = model.system.contacts[0].impact
         assert isinstance(law, ImpactMap)

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from nonsmooth.engine.memory import owners
 from nonsmooth.errors import InvalidInput, PluginError
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.interfaces.body import Vector
@@ -54,14 +55,14 @@ def check_start(model: LaidOut, guards: Guards) -> None:
     check_overlaps(model)
     _check_joints(model)
     _check_mobility(model)
-    t, y = float(model.memory.scalars["t"][0]), model.memory.array("y", model.n_q + model.n_u)
+    t, y = float(model.memory[owners.Island.time]), model.memory[owners.Island.y][: model.n_q + model.n_u]
     check_guards(model.system, t, y[: model.n_q], y[model.n_q :])
 
 
 def _check_energy(model: LaidOut) -> None:
     """Raise InvalidInput if numbers of a start are so large that an energy has no finite value."""
     bodies = model.system.bodies
-    found = energies(bodies, model.memory.array("body_tail", len(bodies)), model.memory.floats)
+    found = energies(bodies, model.memory[owners.Body.tail][: len(bodies)], model.memory.floats)
     for what, value in zip(("kinetic", "potential"), found, strict=True):
         if not math.isfinite(value):
             thing, rule = f"start: the {what} energy", "must be finite [J]"
@@ -85,7 +86,7 @@ def _check_joints(model: LaidOut) -> None:
         return
     memory = model.memory
     # speeds of a joint are judged by those of its bodies
-    scale = max(1.0, float(np.max(np.abs(memory.array("y", model.n_q + model.n_u)), initial=0.0)))
+    scale = max(1.0, float(np.max(np.abs(memory[owners.Island.y][: model.n_q + model.n_u]), initial=0.0)))
     number = 0
     for index, articulation in enumerate(articulations(model.system)):
         for tie in articulation.joints:
@@ -95,10 +96,13 @@ def _check_joints(model: LaidOut) -> None:
 
 def _check_joint(model: LaidOut, tie: Tie, number: int, articulation: int, allowed: float) -> None:
     memory = model.memory
-    rows = int(memory.array("joint_rows", number + 1)[number])
-    first = int(memory.array("joint_first", number + 1)[number])
-    for what, unit in (("residual", "m or rad"), ("rate", "m/s or rad/s")):
-        start = int(memory.array(f"articulation_{what}", articulation + 1)[articulation]) + first
+    rows = int(memory[owners.Joint.n_rows][number])
+    first = int(memory[owners.Joint.first_row][number])
+    for what, unit, place in (
+        ("residual", "m or rad", owners.Articulation.residual),
+        ("rate", "m/s or rad/s", owners.Articulation.rate),
+    ):
+        start = int(memory[place][articulation]) + first
         values = memory.floats[start : start + rows]
         if not float(np.max(np.abs(values))) <= allowed:
             raise InvalidInput(

@@ -5,26 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterable, Mapping
 from numbers import Real
+from typing import Any, get_type_hints
 
-from nonsmooth.engine.memory.arrays.arrays import Arrays
-from nonsmooth.engine.memory.memory import NOTHING
-from nonsmooth.engine.memory.tables import ARRAYS_OF, CONSTANT_SCALARS, SCALARS, floats_of, integers_of
+from nonsmooth.engine.memory.declare import Declaration, Part, declarations
+from nonsmooth.engine.memory.tables import CONSTANT_SCALARS
+from nonsmooth.engine.memory.workspace import Workspace
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.interfaces import Engine
 from nonsmooth.interfaces.engine_report import FIRST_CODE
-
-_SETTABLE = tuple(name for name in SCALARS.names or () if name not in CONSTANT_SCALARS)
-
-
-def layers_of(engine: Engine) -> Collection[str]:
-    """Return its layers.
-
-    Raises
-    ------
-    UnknownName
-        If there is none of that name.
-    """
-    return _known(engine, "layers", engine.layers, ARRAYS_OF)
 
 
 def counts_of(engine: Engine, n_slots: int, free: Collection[str]) -> Mapping[str, int]:
@@ -43,51 +31,62 @@ def counts_of(engine: Engine, n_slots: int, free: Collection[str]) -> Mapping[st
     return found
 
 
-def settings_of(engine: Engine, time_scale: float) -> Mapping[str, float]:
+def settings_of(engine: Engine, time_scale: float) -> Mapping[Any, float]:
     """Return the scalars that it sets.
 
     Raises
     ------
     InvalidInput
-        If there is none of that name, it is a count or the place of an array, or a value is no number.
+        If a key is no scalar, is one that sizes the workspace, or a value is no number.
     """
     found = engine.settings(time_scale)
-    for name in _known(engine, "settings", found, (*_SETTABLE, *own_of(engine).scalars)):
-        if not isinstance(found[name], Real):
-            thing = f"{_name(engine)}.settings: {name}"
-            raise InvalidInput(thing, "must be a number", found[name], "Return its value in SI units.")
+    for one, value in found.items():
+        thing, rule = f"{_name(engine)}.settings", "must have scalars of the workspace for its keys"
+        if not (isinstance(one, Declaration) and issubclass(one.owner, Part) and one.size is None):
+            raise InvalidInput(thing, rule, one, "Return for example {Tolerance.relative: 1e-9}.")
+        if one.key in CONSTANT_SCALARS:
+            raise InvalidInput(f"{thing}: {one.key}", "must be none that sizes the workspace", one.key, "Leave it out.")
+        if not isinstance(value, Real):
+            raise InvalidInput(f"{thing}: {one.key}", "must be a number", value, "Return its value in SI units.")
     return found
 
 
-def own_of(engine: Engine) -> Arrays:
-    """Return what it has of its own."""
-    return NOTHING if engine.own is None else engine.own
+def own_of(engine: Engine) -> tuple[type[Part], ...]:
+    """Return the numbers that it has of its own."""
+    return () if engine.own is None else (engine.own,)
 
 
-def laid_own(engine: Engine, counts: Mapping[str, int]) -> Arrays:
-    """Return what it has of its own in a system of these counts.
+def laid_own(engine: Engine, counts: Mapping[str, int]) -> tuple[type[Part], ...]:
+    """Return the numbers that it has of its own in a system of these counts.
 
     Raises
     ------
     InvalidInput
-        If a name is taken, or a length none that the counts give.
+        If it is no class of declarations, its key is taken, or a length is none that the counts give.
     """
-    own, taken = own_of(engine), [*(SCALARS.names or ())]
-    arrays = floats_of([own]), integers_of([own])
-    for name in (*own.scalars, *arrays[0], *arrays[1]):
-        if name in taken or not name.isidentifier():
-            rule = "must be names in Python that no scalar and no other array has"
-            raise InvalidInput(f"{_name(engine)}.own", rule, name, "Begin them with the name of the engine.")
-        taken.append(name)
-    for name, size in (arrays[0] | arrays[1]).items():
-        try:
-            length = size(counts)
-        except KeyError as error:
-            raise UnknownName(f"{_name(engine)}.own: {name}: count", str(error.args[0]), counts) from error
-        if not (isinstance(length, int) and length >= 0):
-            rule = "must have a whole number for its length, not negative"
-            raise InvalidInput(f"{_name(engine)}.own: {name}", rule, length, "Take per(...) or fixed(...).")
-    return own
+    for own in own_of(engine):
+        thing = f"{_name(engine)}.own"
+        if not (isinstance(own, type) and issubclass(own, Part)):
+            raise InvalidInput(thing, "must be a class of declarations, a Part", own, "Write class Own(Part, key=...).")
+        taken = get_type_hints(Workspace)
+        if own.key in taken or not own.key.isidentifier():
+            rule = "must have for its key a name in Python that no other owner has"
+            raise InvalidInput(thing, rule, own.key, "Take the name of the engine.")
+        for name, one in declarations(own).items():
+            _check_length(f"{thing}: {name}", one, counts)
+    return own_of(engine)
+
+
+def _check_length(thing: str, declared: Declaration, counts: Mapping[str, int]) -> None:
+    if declared.size is None:
+        return
+    try:
+        length = declared.size(counts)
+    except KeyError as error:
+        raise UnknownName(f"{thing}: count", str(error.args[0]), counts) from error
+    if not (isinstance(length, int) and length >= 0):
+        rule = "must have a whole number for its length, not negative"
+        raise InvalidInput(thing, rule, length, "Take per(...) or fixed(...).")
 
 
 def check_report(engine: Engine) -> None:
@@ -98,7 +97,8 @@ def check_report(engine: Engine) -> None:
     InvalidInput
         If a measure is no scalar of its own, a cause has a code that is taken, or the promised residual is no part.
     """
-    _known(engine, "verdict", [one.name for one in engine.verdict], own_of(engine).scalars)
+    scalars = [name for own in own_of(engine) for name, one in declarations(own).items() if one.size is None]
+    _known(engine, "verdict", [one.name for one in engine.verdict], scalars)
     codes = [cause.code for cause in engine.causes]
     if len({*codes}) < len(codes) or min(codes, default=FIRST_CODE) < FIRST_CODE:
         rule = f"must have codes of their own, {FIRST_CODE} or more"

@@ -9,8 +9,9 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import CANDIDATE
-from nonsmooth.engine.memory.layout import CATALOGUE
+from nonsmooth.engine.memory.declare import declarations
 from nonsmooth.errors import InvalidInput
 from nonsmooth.model.articulations import articulations
 from nonsmooth.model.image import Booleans, Difference, Integers
@@ -18,22 +19,25 @@ from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.pools import find_pools
 from nonsmooth.system.contact import Contact
 
-_GIVEN = (*(name for name in CATALOGUE if name.endswith("_parameters")), "state_start", "axis")
-_WRITTEN = ("traction_out", "rates_out")
-_OF_JOINTS = ("inverse", "jacobian", "r", "y", "factor", "residual", "rate", "bias", "x")
-_OF_SLOTS = ("jacobian_a", "jacobian_b", "response_a", "response_b")
+_GIVEN = (
+    *(one for one in declarations(owners.DeclaredContact).values() if one.name.endswith("_parameters")),
+    owners.DeclaredContact.inner_states_at_start,  # type: ignore[attr-defined]
+    owners.DeclaredContact.anisotropy,  # type: ignore[attr-defined]
+)
 _REMEDY = "It is damaged, or made up: take another."
 
 
 def parameter_places(model: LaidOut) -> Integers:
     """Return the places of all parameters of functions, counted from where the blocks begin."""
-    memory, rows = model.memory, _rows(model)
-    given, written = np.unique(np.concatenate([starts for _, starts, _ in _given(model)])), _written(model, rows)
+    memory, contact = model.memory, owners.Contact
+    given, written = np.unique(np.concatenate([starts for _, starts, _ in _given(model)])), _written(model)
     # a function without parameters leads to the block behind it
     begins = np.setdiff1d(given[given > 0], written)
     order = np.unique(np.concatenate([given, written, [memory.tables]]))
     found = _ranges(begins, order[np.searchsorted(order, begins, side="right")])
-    candidates, copies, n_states = (rows[:, CATALOGUE.index(name)] for name in ("candidate", "state_copy", "n_state"))
+    candidates, copies, n_states = (
+        memory.declared(one) for one in (contact.features, contact.inner_states_copy, contact.n_inner_states)
+    )
     changing = [
         _ranges(candidates[candidates > 0], candidates[candidates > 0] + CANDIDATE + 1),
         _ranges(copies[copies > 0], (copies + n_states)[copies > 0]),
@@ -41,40 +45,32 @@ def parameter_places(model: LaidOut) -> Integers:
     return np.setdiff1d(found, np.concatenate(changing)) - memory.blocks
 
 
-def _rows(model: LaidOut) -> Integers:
-    n = len(model.system.contacts)
-    return model.memory.array("catalogue", len(CATALOGUE) * n).reshape(n, len(CATALOGUE))
-
-
 def _given(model: LaidOut) -> Iterator[tuple[str, Integers, Sequence[object]]]:
     """Yield what leads to parameters, where they begin, 0 where there are none, and whose they are."""
-    system, memory, rows = model.system, model.memory, _rows(model)
-    owners: dict[str, Sequence[object]] = {
-        "body": [f"body {name!r}" for name in system.names.bodies],
-        "joint": [joint for articulation in articulations(system) for joint in articulation.joints],
-        "load": system.loads,
-        "pool": [pool.owner for pool in find_pools(system.contacts)],
-        "own_guard": system.watched,
-    }
-    for kind, parts in owners.items():
-        yield "parameters", memory.array(f"{kind}_parameters", len(parts)), parts
-    yield "parameters in flight", memory.array("body_flight_parameters", len(system.bodies)), owners["body"]
-    for name in _GIVEN:
-        yield name.replace("_", " "), rows[:, CATALOGUE.index(name)], system.contacts
+    system, memory = model.system, model.memory
+    bodies = [f"body {name!r}" for name in system.names.bodies]
+    yield "parameters", memory[owners.Body.parameters], bodies
+    joints = [joint for articulation in articulations(system) for joint in articulation.joints]
+    yield "parameters", memory[owners.Joint.parameters], joints
+    yield "parameters", memory[owners.Load.parameters], system.loads
+    yield "parameters", memory[owners.Search.parameters], [pool.owner for pool in find_pools(system.contacts)]
+    yield "parameters", memory[owners.OwnGuard.parameters], system.watched
+    yield "ballistic parameters", memory[owners.Body.ballistic_parameters], bodies
+    for one in _GIVEN:
+        yield one.name.replace("_", " "), memory[one], system.contacts
 
 
-def _written(model: LaidOut, rows: Integers) -> Integers:
+def _written(model: LaidOut) -> Integers:
     """Return where blocks begin that functions or the engine write."""
-    memory, s = model.memory, model.memory.scalars[0]
-    counts = {"body": "n_bodies", "joint": "n_joints", "load": "n_loads", "pool": "n_pools"}
-    found = [memory.array(f"{kind}_out", int(s[count])) for kind, count in counts.items()]
-    found += [rows[:, CATALOGUE.index(name)] for name in _WRITTEN]
-    flights = memory.array("body_flight_out", int(s["n_bodies"]))
-    found.append(flights[flights > 0])
-    n = int(s["n_articulations"])
-    jointed = memory.array("articulation_rows", n) > 0
-    found += [memory.array(f"articulation_{name}", n)[jointed] for name in _OF_JOINTS]
-    slots = [memory.array(name, int(s["n_slots"])) for name in _OF_SLOTS]
+    memory, joint, contact = model.memory, owners.Articulation, owners.Contact
+    found = [memory[one.out] for one in (owners.Body, owners.Joint, owners.Load, owners.Search)]
+    found += [memory.declared(contact.traction_out), memory.declared(contact.rates_out)]
+    ballistic = memory[owners.Body.ballistic_out]
+    found.append(ballistic[ballistic > 0])
+    jointed = memory[joint.n_rows] > 0
+    of_joints = joint.inverse, joint.jacobian, joint.response, joint.solved_response, joint.factor
+    found += [memory[one][jointed] for one in (*of_joints, joint.residual, joint.rate, joint.bias, joint.forces)]
+    slots = [memory[one] for one in (contact.jacobian_a, contact.jacobian_b, contact.response_a, contact.response_b)]
     # without coordinates they have no length
     return np.unique(np.concatenate(found + (slots if len(np.unique(slots)) > 1 else [])))
 
@@ -96,14 +92,14 @@ def check_parameters(model: LaidOut, difference: Difference, others: Booleans) -
     if len(wrong) > 0:
         at, said = int(difference.places[2][wrong[0]]), float(difference.bits[2][wrong[:1]].view(np.float64)[0])
         place = model.memory.blocks + at
-        start, number, name, owners = max(
-            (int(start), number, name, owners)
-            for name, starts, owners in _given(model)
+        start, number, name, parts = max(
+            (int(start), number, name, parts)
+            for name, starts, parts in _given(model)
             for number, start in enumerate(starts.tolist())
             if 0 < start <= place
         )
         raise InvalidInput(
-            f"State.continuation: number {place - start} of the {name} of {owners[number]}",
+            f"State.continuation: number {place - start} of the {name} of {parts[number]}",
             f"must be {float(model.memory.floats[place]):.9g}, as the model has it",
             said,
             _REMEDY,
@@ -118,7 +114,7 @@ def check_candidates(model: LaidOut) -> None:
     InvalidInput
         If one does not.
     """
-    places = _rows(model)[:, CATALOGUE.index("candidate")]
+    places = model.memory.declared(owners.Contact.features)
     numbers = np.flatnonzero(places > 0)
     for number in numbers[model.memory.floats[places[numbers]] != 0.0].tolist():
         contact = model.system.contacts[number]

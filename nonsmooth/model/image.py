@@ -5,14 +5,15 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import cast, final
+from typing import Any, cast, final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import UNTOUCHED
-from nonsmooth.engine.memory.layout import CATALOGUE
-from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.engine.memory.declare import Life, Part, declarations
+from nonsmooth.engine.memory.memory import Memory, view_of
 from nonsmooth.engine.memory.modes import SLIDE
 from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, N_SCALARS, SCALARS
 from nonsmooth.errors import InvalidInput
@@ -21,9 +22,6 @@ from nonsmooth.types import Array
 
 Integers = NDArray[np.int64]
 Booleans = NDArray[np.bool_]
-_WIDTH = len(CATALOGUE)
-_OWN = CATALOGUE[-2:]
-"""Of a contact in a slot, not of its declaration: its mode, and that in which its averaged forces end."""
 _REMEDY = "It is damaged, or of another model: take one that a run left."
 _UNTOUCHED = int(np.float64(UNTOUCHED).view(np.int64))
 
@@ -64,11 +62,16 @@ class Image:
         """The blocks that the assembly appended."""
         return self.parts[2].view(np.float64)
 
-    def array(self, name: str, size: int) -> np.ndarray:
-        """Return a view of ``size`` entries of the named array, as the memory does."""
-        part = self.parts[1].view(np.float64) if name in FLOAT_ARRAYS else self.parts[3]
-        start = int(self.record[name])
-        return part[start : start + size]
+    def __getitem__(self, declared: Any) -> Any:
+        """Return a scalar, or a view of an array, as the memory does."""
+        if declared.size is None and issubclass(declared.owner, Part):
+            return self.record[declared.key].item()
+        part = self.parts[1].view(np.float64) if declared.key in FLOAT_ARRAYS else self.parts[3]
+        return view_of(declared, self.record, part)
+
+    def declared(self, declared: Any) -> np.ndarray:
+        """Return a view of what the declared contacts hold of a number of contacts."""
+        return np.asarray(self[getattr(owners.DeclaredContact, declared.name)])
 
     def put(self, memory: Memory) -> None:
         """Give a memory of the same system this content."""
@@ -183,19 +186,18 @@ class Difference:
         """
         for own, places, bits in zip(memory.bits, self.places, self.bits, strict=True):
             own[places] = bits
-        # functions stand elsewhere in every process: slots take them from the catalogue of this one
-        record = memory.scalars[0]
-        n, slots, declared = int(record["n_contacts"]), int(record["n_slots"]), int(record["n_declared"])
-        catalogue = memory.array("catalogue", _WIDTH * declared).reshape(declared, _WIDTH)
-        _check("n_contacts", np.array([n]), slots + 1)
-        _check("identity", memory.array("identity", n), declared)
-        for name in _OWN:
-            _check(name, np.append(memory.array(name, n), catalogue[:, CATALOGUE.index(name)]), SLIDE + 1)
-        units = int(record["n_units"])
-        _check("unit_order", memory.array("unit_order", units), units)
-        # the arrays of the catalogue's entries follow one another, and the last are each slot's own
-        own = memory.array(CATALOGUE[0], _WIDTH * slots).reshape(_WIDTH, slots)
-        own[: -len(_OWN), :n] = catalogue[memory.array("identity", n), : -len(_OWN)].T
+        # functions stand elsewhere in every process: listed contacts take them from the declared ones of this one
+        n, contact = memory[owners.Island.n_contacts], owners.Contact
+        n_declared, n_spheres = memory[owners.Model.n_declared], memory[owners.Model.n_spheres]
+        _check("n_contacts", np.array([n]), memory[owners.Model.n_slots] + 1)
+        _check("declared", memory[contact.declared][:n], n_declared)
+        for mode in (contact.mode, contact.mode_after_averaging):
+            _check(mode.name, np.append(memory[mode][:n], memory.declared(mode)), SLIDE + 1)
+        _check("sphere_order", memory[owners.Island.sphere_order], n_spheres)
+        for name, one in declarations(owners.DeclaredContact).items():
+            if one.life is Life.PARAMETER and not one.is_float and not one.inside[0]:
+                declared = memory[contact.declared][:n]
+                memory[getattr(contact, name)][:n] = memory[one][declared]
 
 
 def _check(name: str, numbers: Integers, bound: int) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engine.numerics.linear import SINGULAR
 from nonsmooth.interfaces import CompliantNormalLaw
@@ -30,8 +31,8 @@ def immobile_contact(model: LaidOut) -> tuple[Contact, list[Tie], float] | None:
         return None
     memory = model.memory
     call_entry("touch", memory)
-    n = int(memory.scalars["n_contacts"][0])
-    touching, identity = memory.array("touching", n), memory.array("identity", n)
+    n = int(memory[owners.Island.n_contacts])
+    touching, identity = memory[owners.Contact.is_touching][:n], memory[owners.Contact.declared][:n]
     for slot in np.flatnonzero(touching == 1).tolist():
         contact = model.system.contacts[int(identity[slot])]
         if isinstance(contact.normal, CompliantNormalLaw):
@@ -56,15 +57,18 @@ def held_by(joints: list[Tie]) -> str:
 
 def _mobilities(model: LaidOut, slot: int, side: str) -> tuple[float, float]:
     """Return the mobility along the normal that one side of a contact gives it, with and without joints [1/kg]."""
-    memory, n = model.memory, int(model.memory.scalars["n_contacts"][0])
-    number = int(memory.array(f"articulation_{side}", n)[slot])
+    memory = model.memory
+    contact, articulation = owners.Contact, owners.Articulation
+    fields = {
+        "a": (contact.articulation_a, contact.jacobian_a, contact.response_a),
+        "b": (contact.articulation_b, contact.jacobian_b, contact.response_b),
+    }
+    number, *places = (int(memory[field][slot]) for field in fields[side])
     n_u, first, count, start = (
-        int(memory.array(f"articulation_{field}", number + 1)[number]) for field in ("nu", "body", "bodies", "u")
+        int(memory[field][number])
+        for field in (articulation.n_u, articulation.first_body, articulation.n_bodies, articulation.u)
     )
-    row, response = (
-        memory.floats[place : place + n_u]
-        for place in (int(memory.array(f"{name}_{side}", n)[slot]) for name in ("jacobian", "response"))
-    )
+    row, response = (memory.floats[place : place + n_u] for place in places)
     free = sum(_free_mobility(model, body, row, start) for body in range(first, first + count))
     return float(row @ response), free
 
@@ -72,7 +76,7 @@ def _mobilities(model: LaidOut, slot: int, side: str) -> tuple[float, float]:
 def inverse_mass(model: LaidOut, number: int) -> np.ndarray:
     """Return the inverse mass matrix of a body alone, as it was evaluated last, shape [n_u, n_u]."""
     memory, body = model.memory, model.system.bodies[number]
-    tail = int(memory.array("body_tail", number + 1)[number])
+    tail = int(memory[owners.Body.tail][number])
     start = tail + body.n_q + body.n_u
     return np.asarray(memory.floats[start : start + body.n_u**2].reshape(body.n_u, body.n_u))
 
@@ -82,6 +86,6 @@ def _free_mobility(model: LaidOut, number: int, row: np.ndarray, start: int) -> 
     body = model.system.bodies[number]
     if body.n_u == 0:
         return 0.0
-    u = int(model.memory.array("body_u", number + 1)[number])
+    u = int(model.memory[owners.Body.u][number])
     own = row[u - start : u - start + body.n_u]
     return float(own @ inverse_mass(model, number) @ own)

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from nonsmooth.binding.compile import parameter_names
-from nonsmooth.engine.memory.blocks import FRAME, GEOMETRY
+from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import NOT_FINITE, RUNNING
@@ -80,7 +81,7 @@ class LaidOut:
         if status != RUNNING:
             raise InvalidInput(
                 "contacts of the system",
-                f"must not be so many near each other: there is room for {int(self.memory.scalars['n_slots'][0])}",
+                f"must not be so many near each other: there is room for {int(self.memory[owners.Model.n_slots])}",
                 "more of them",
                 "Place the bodies farther apart, or take coarser meshes.",
             )
@@ -93,12 +94,12 @@ class LaidOut:
         """Return kinetic and potential energy [J] of the present state."""
         self.evaluate()
         bodies = self.system.bodies
-        return energies(bodies, self.memory.array("body_tail", len(bodies)), self.memory.floats)
+        return energies(bodies, self.memory[owners.Body.tail][: len(bodies)], self.memory.floats)
 
     def places(self) -> list[list[Place]]:
         """Return position [m] and rotation matrix of every frame of every body, as they were evaluated last."""
         found, memory = list[list[Place]](), self.memory
-        for body, start in zip(self.system.bodies, memory.array("body_out", len(self.system.bodies)), strict=True):
+        for body, start in zip(self.system.bodies, memory[owners.Body.out][: len(self.system.bodies)], strict=True):
             width = FRAME + 6 * body.n_u
             frames = memory.floats[start : start + len(body.frames) * width].reshape(-1, width)
             found.append([(frame[:3].copy(), frame[3:12].reshape(3, 3).copy()) for frame in frames])
@@ -107,10 +108,10 @@ class LaidOut:
     def gaps(self) -> np.ndarray:
         """Return the gaps [m, n_contacts] at the present state; infinite for contacts too far to be listed."""
         self.evaluate()
-        n = int(self.memory.scalars["n_contacts"][0])
+        n = int(self.memory[owners.Island.n_contacts])
         gaps = np.full(len(self.system.contacts), np.inf)
-        listed = self.memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)[:, 0]
-        gaps[self.memory.array("identity", n)] = listed
+        listed = self.memory[owners.Contact.geometry][:n][:, 0]
+        gaps[self.memory[owners.Contact.declared][:n]] = listed
         return gaps
 
     def rates(self) -> tuple[np.ndarray, np.ndarray]:
@@ -119,11 +120,11 @@ class LaidOut:
         Those of contacts that are too far to be listed are not a number.
         """
         self.evaluate()
-        total, n = len(self.system.contacts), int(self.memory.scalars["n_contacts"][0])
+        total, n = len(self.system.contacts), int(self.memory[owners.Island.n_contacts])
         gaps, rates = np.full(total, np.nan), np.full((total, 3), np.nan)
-        listed = self.memory.array("identity", n)
-        gaps[listed] = self.memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)[:, 0]
-        rates[listed] = self.memory.array("rate", 3 * n).reshape(n, 3)
+        listed = self.memory[owners.Contact.declared][:n]
+        gaps[listed] = self.memory[owners.Contact.geometry][:n][:, 0]
+        rates[listed] = self.memory[owners.Contact.rate][:n]
         return gaps, rates
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from nonsmooth.binding.bounds import FRAMES, try_out
 from nonsmooth.binding.compile import bind
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import FRAME, JOINT_ROW, LOAD
 from nonsmooth.engine.memory.memory import Heap, Memory
 from nonsmooth.interfaces import Body, Joint, Load
@@ -33,16 +34,16 @@ class Place:
 Places = Mapping[int, Place]
 
 
-def _write(memory: Memory, kind: str, number: int, values: Mapping[str, float]) -> None:
+def _write(memory: Memory, owner: type, number: int, values: Mapping[str, float]) -> None:
     for name, value in values.items():
-        memory.array(f"{kind}_{name}", number + 1)[number] = value
+        memory[getattr(owner, name)][number] = value
 
 
 def lay_bodies(system: System, memory: Memory, heap: Heap) -> dict[int, Place]:
     """Lay the bodies; return where each stands, by its id."""
     gravity = dict(zip(("gravity_x", "gravity_y", "gravity_z"), system.gravity, strict=True))
     n_q = sum(body.n_q for body in system.bodies)
-    scale = memory.array("y_scale", int(memory.scalars["n_y"][0]))
+    scale = memory[owners.Step.y_scale][: int(memory[owners.Model.n_y])]
     held = {id(body) for tie in (*system.joints, *system.loads) for body in (tie.first, tie.second)}
     places = {}
     i_q = i_u = 0
@@ -58,8 +59,8 @@ def lay_bodies(system: System, memory: Memory, heap: Heap) -> dict[int, Place]:
         fields = {
             "q": i_q,
             "u": i_u,
-            "nq": body.n_q,
-            "nu": body.n_u,
+            "n_q": body.n_q,
+            "n_u": body.n_u,
             "function": address,
             "parameters": heap.store(values),
             "out": out,
@@ -69,7 +70,7 @@ def lay_bodies(system: System, memory: Memory, heap: Heap) -> dict[int, Place]:
         }
         if body.flight is not None and id(body) not in held:
             fields |= _flight(body.flight, body, offered, heap, (q, u))
-        _write(memory, "body", i, fields)
+        _write(memory, owners.Body, i, fields)
         places[id(body)] = Place(i, body.n_u, i_u, tuple(out + frame * f for f in range(len(body.frames))))
         q_scale, u_scale = body.scales
         first = n_q + i_u
@@ -85,7 +86,11 @@ def _flight(
     owner, size = type(body).__name__, body.n_q + body.n_u
     address, values = bind(function, "body", offered, owner)
     try_out(function, "body", offered, values, size, owner, (0.0, *map(tuple, start)))
-    return {"flight_function": address, "flight_parameters": heap.store(values), "flight_out": heap.output(size)}
+    return {
+        "ballistic_function": address,
+        "ballistic_parameters": heap.store(values),
+        "ballistic_out": heap.output(size),
+    }
 
 
 def lay_joints(memory: Memory, heap: Heap, articulations: Sequence[Articulation], places: Places) -> None:
@@ -103,30 +108,29 @@ def lay_joints(memory: Memory, heap: Heap, articulations: Sequence[Articulation]
             joint += 1
         fields = {
             "u": u,
-            "nu": n,
-            "body": articulation.first,
-            "bodies": len(bodies),
+            "n_u": n,
+            "first_body": articulation.first,
+            "n_bodies": len(bodies),
             "inverse": heap.block(n * n) if ties else _inverse(memory, articulation.first),
-            "joint": first,
-            "joints": len(ties),
-            "rows": rows,
-            "driven": int(any(tie.first.n_u == 0 or tie.second.n_u == 0 for tie in ties)),
+            "first_joint": first,
+            "n_joints": len(ties),
+            "n_rows": rows,
+            "is_driven": int(any(tie.first.n_u == 0 or tie.second.n_u == 0 for tie in ties)),
             "jacobian": heap.block(rows * n),
-            "r": heap.block(rows * n),
-            "y": heap.block(rows * n),
+            "response": heap.block(rows * n),
+            "solved_response": heap.block(rows * n),
             "factor": heap.block(rows * rows),
             "residual": heap.block(rows),
             "rate": heap.block(rows),
             "bias": heap.block(rows),
-            "x": heap.block(rows),
+            "forces": heap.block(rows),
         }
-        _write(memory, "articulation", number, fields)
+        _write(memory, owners.Articulation, number, fields)
 
 
 def _inverse(memory: Memory, body: int) -> int:
     """Return where a body writes its M^-1."""
-    part = {name: int(memory.array(f"body_{name}", body + 1)[body]) for name in ("tail", "nq", "nu")}
-    return part["tail"] + part["nq"] + part["nu"]
+    return int(memory[owners.Body.tail][body] + memory[owners.Body.n_q][body] + memory[owners.Body.n_u][body])
 
 
 def _lay_joint(memory: Memory, heap: Heap, number: int, tie: Tie, first: int, places: Places) -> int:
@@ -138,16 +142,16 @@ def _lay_joint(memory: Memory, heap: Heap, number: int, tie: Tie, first: int, pl
     fields = {
         "function": address,
         "parameters": heap.store(values),
-        "first": first,
-        "rows": joint.n_rows,
+        "first_row": first,
+        "n_rows": joint.n_rows,
         "out": heap.output(size),
     }
     for side, body, frame in (("a", tie.first, tie.frames[0]), ("b", tie.second, tie.frames[1])):
         place = places[id(body)]
         fields[f"frame_{side}"] = place.frames[frame]
-        fields[f"nu_{side}"] = body.n_u
-        fields[f"shift_{side}"] = place.shift
-    _write(memory, "joint", number, fields)
+        fields[f"n_u_{side}"] = body.n_u
+        fields[f"column_{side}"] = place.shift
+    _write(memory, owners.Joint, number, fields)
     return joint.n_rows
 
 
@@ -163,12 +167,12 @@ def lay_loads(system: System, memory: Memory, heap: Heap, places: Places) -> Non
         for side, body, frame in (("a", tie.first, tie.frames[0]), ("b", tie.second, tie.frames[1])):
             fields[f"frame_{side}"] = places[id(body)].frames[frame]
             fields[f"body_{side}"] = places[id(body)].number
-        _write(memory, "load", number, fields)
+        _write(memory, owners.Load, number, fields)
 
 
 def lay_guards(system: System, memory: Memory, heap: Heap) -> None:
     """Lay the guards of the scenario's own."""
     for number, guard in enumerate(system.guards):
         address, values = bind(guard.value, "guard", guard.parameters(), type(guard).__name__)
-        fields = {"function": address, "parameters": heap.store(values), "ends": int(guard.ends_run)}
-        _write(memory, "own_guard", number, fields)
+        fields = {"function": address, "parameters": heap.store(values), "ends_the_run": int(guard.ends_run)}
+        _write(memory, owners.OwnGuard, number, fields)

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from nonsmooth.engine.memory.layout import CATALOGUE
+from nonsmooth.engine.memory import owners
 from nonsmooth.errors import InvalidInput
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.laying_contacts import COLUMN, by_kind, kind_of, lay_law_floats
+from nonsmooth.model.laying_contacts import by_kind, kind_of, lay_law_floats
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
 
-_OF_GEOMETRY = ("geometry_parameters", "candidate")
+_OF_GEOMETRY = ("geometry_parameters", "features")
 
 
 def lay_laws(model: LaidOut, system: System) -> LaidOut:
@@ -24,17 +24,16 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
     """
     _check_same(model.system, system)
     memory, contacts = model.memory, system.contacts
-    rows = memory.array("catalogue", len(CATALOGUE) * len(contacts)).reshape(len(contacts), len(CATALOGUE))
     kinds = by_kind(contacts)
     for numbers in kinds:
         before, after = (kind_of(memory, one.contacts[numbers[0]]) for one in (model.system, system))
         if (before.offsets, len(before.block)) != (after.offsets, len(after.block)):
             _refuse(contacts[numbers[0]], model.system.contacts[numbers[0]])
         for name, value in after.fields.items():
-            rows[numbers, COLUMN[name]] = value
+            memory.declared(getattr(owners.Contact, name))[numbers] = value
         # behind what belongs to the geometry, whose tables stand somewhere
         first = min((at for name, at in after.offsets.items() if name not in _OF_GEOMETRY), default=len(after.block))
-        starts = rows[numbers, COLUMN["geometry_parameters"]]
+        starts = memory.declared(owners.Contact.geometry_parameters)[numbers]
         places = starts[:, None] + np.arange(first, len(after.block))
         memory.floats[places] = after.block[first:]
     lay_law_floats(memory, contacts, kinds)

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nonsmooth.engine.memory.blocks import GEOMETRY
-from nonsmooth.engine.memory.layout import CATALOGUE
+from nonsmooth.engine.memory import owners
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.solids.placed import Placed, overlap
@@ -36,7 +35,9 @@ def check_overlaps(model: LaidOut) -> None:
     InvalidInput
         If two overlap.
     """
-    found = deepest_overlap(model, model.memory.array("identity", int(model.memory.scalars["n_contacts"][0])).tolist())
+    found = deepest_overlap(
+        model, model.memory[owners.Contact.declared][: int(model.memory[owners.Island.n_contacts])].tolist()
+    )
     if found is not None:
         contact, depth = found
         kinds = " and ".join(type(shape).__name__ for shape in contact.shapes)
@@ -62,9 +63,9 @@ def deepest_overlap(model: LaidOut, numbers: Sequence[int]) -> tuple[Contact, fl
         Contacts of the system that are looked at.
     """
     contacts, memory = model.system.contacts, model.memory
-    n = int(memory.scalars["n_contacts"][0])
-    blocks = memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)
-    slots = {number: slot for slot, number in enumerate(memory.array("identity", n).tolist())}
+    n = int(memory[owners.Island.n_contacts])
+    blocks = memory[owners.Contact.geometry][:n]
+    slots = {number: slot for slot, number in enumerate(memory[owners.Contact.declared][:n].tolist())}
     for same, one, two in solid_pairs(model, numbers, within=0.0):
         contact, near = contacts[same[0]], [slots[number] for number in same if number in slots]
         least = min((float(blocks[slot, 0]) for slot in near), default=0.0)
@@ -116,8 +117,6 @@ def solid_pairs(
 
 def frames_of(model: LaidOut, number: int) -> tuple[Vector, Vector]:
     """Return position [m] and rotation matrix, row by row, of both frames of a contact, shape [12] each."""
-    width = len(CATALOGUE)
-    row = model.memory.array("catalogue", width * (number + 1))[width * number :]
-    first, second = (int(row[CATALOGUE.index(name)]) for name in ("frame_a", "frame_b"))
-    floats = model.memory.floats
+    floats, declared = model.memory.floats, model.memory.declared
+    first, second = (int(declared(frame)[number]) for frame in (owners.Contact.frame_a, owners.Contact.frame_b))
     return floats[first : first + _ENDS], floats[second : second + _ENDS]

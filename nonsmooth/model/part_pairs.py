@@ -10,8 +10,8 @@ from operator import attrgetter
 
 import numpy as np
 
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import PART_RINGS, RING
-from nonsmooth.engine.memory.layout import CATALOGUE
 from nonsmooth.engine.memory.memory import Heap, Memory
 from nonsmooth.engine.pairs.look import NO_PAIR
 from nonsmooth.interfaces import ConvexPart
@@ -145,14 +145,13 @@ def numbers_of(part: ConvexPart) -> list[float]:
 
 def lay_part_pairs(memory: Memory, heap: Heap, pairs: Sequence[PartPair], places: Places) -> None:
     """Lay the pairs, and say of each contact whose pair it is."""
-    n, width = int(memory.scalars["n_declared"][0]), len(CATALOGUE)
-    of_contact = memory.array("catalogue", width * n).reshape(n, width)[:, CATALOGUE.index("pair")]
+    of_contact = memory.declared(owners.Contact.pair)
     of_contact[:] = NO_PAIR
     stand = {(place.number, frame): at for place in places.values() for frame, at in enumerate(place.frames)}
     carriers = carriers_of(pairs)
     numbers = {side: number for number, side in enumerate(carriers)}
-    memory.array("carrier_frame", len(carriers))[:] = [stand[side] for side in carriers]
-    memory.array("carrier_lever", len(carriers))[:] = list(carriers.values())
+    memory[owners.Carrier.frame][: len(carriers)][:] = [stand[side] for side in carriers]
+    memory[owners.Carrier.radius][: len(carriers)][:] = list(carriers.values())
     starts: dict[tuple[int, int], int] = {}
     for number, pair in enumerate(pairs):
         for key, part in zip(pair.shapes, pair.parts, strict=True):
@@ -172,6 +171,6 @@ def lay_part_pairs(memory: Memory, heap: Heap, pairs: Sequence[PartPair], places
             "size": pair.size,
         }
         for name, value in fields.items():
-            memory.array(f"pair_{name}", len(pairs))[number] = value
+            memory[getattr(owners.Pair, name)][number] = value
         if number == pair.group:
             of_contact[np.array(pair.contacts)] = number

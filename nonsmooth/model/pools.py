@@ -12,6 +12,7 @@ from nonsmooth.binding import interpreted
 from nonsmooth.binding.bounds import try_out
 from nonsmooth.binding.compile import bind, parameter_place
 from nonsmooth.binding.source import described
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.memory import Heap, Memory
 from nonsmooth.errors import InvalidInput
@@ -94,21 +95,21 @@ def lay_pools(
             "function": address,
             "parameters": start,
             "out": heap.output(pool.size),
-            "first": first,
-            "contacts": len(pool.contacts),
-            "unit_a": one,
-            "unit_b": two,
+            "first_contact": first,
+            "n_contacts": len(pool.contacts),
+            "sphere_a": one,
+            "sphere_b": two,
         }
         for name, value in row.items():
-            memory.array(f"pool_{name}", number + 1)[number] = value
+            memory[getattr(owners.Search, name)][number] = value
         for unit in (one, two):
-            memory.array("unit_lever", unit + 1)[unit] = memory.array("unit_radius", unit + 1)[unit]
+            memory[owners.Sphere.feature_radius][unit] = memory[owners.Sphere.radius][unit]
 
 
 def failed_search(memory: Memory, contacts: Sequence[Contact]) -> str:
     """Return a sentence that names the search that gave no number of features; nothing if all did."""
     for number, pool in enumerate(find_pools(contacts)):
-        found = memory.floats[int(memory.array("pool_out", number + 1)[number])]
+        found = memory.floats[int(memory[owners.Search.out][number])]
         if not found >= 0.0:
             function = pool.search.function
             what = interpreted.noted(function) or f"raises or gives {found:g}"

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.interfaces import Body
 from nonsmooth.model.contact_table import ContactTable
@@ -134,18 +135,18 @@ def lay_units(memory: Memory, units: Units, places: dict[tuple[int, int], int]) 
     if n == 0:
         return
     for side, unit in units.frames.items():
-        memory.array("unit_frame", n)[unit] = places[side]
-    memory.array("unit_radius", n)[:] = units.radii
-    memory.array("unit_order", n)[:] = range(n)
-    memory.scalars["margin_of_list"] = memory.scalars["widest_margin"] = _MARGIN * float(units.radii.min())
+        memory[owners.Sphere.frame][:n][unit] = places[side]
+    memory[owners.Sphere.radius][:n][:] = units.radii
+    memory[owners.Island.sphere_order][:n][:] = range(n)
+    memory[owners.Island.list_margin] = memory[owners.Options.widest_margin] = _MARGIN * float(units.radii.min())
     one, two = units.pairs.T
-    memory.array("unit_partner", n + 1)[1:] = np.cumsum(np.bincount(one, minlength=n))
-    memory.array("partner_unit", len(two))[:] = two
-    memory.array("partner_contact", len(two) + 1)[1:] = np.cumsum(units.counts)
-    memory.array("paired_contact", len(units.contacts))[:] = units.contacts
+    memory[owners.Sphere.first_partner][: n + 1][1:] = np.cumsum(np.bincount(one, minlength=n))
+    memory[owners.Model.partner][: len(two)][:] = two
+    memory[owners.Model.partner_contact][: len(two) + 1][1:] = np.cumsum(units.counts)
+    memory[owners.Model.paired_contact][: len(units.contacts)][:] = units.contacts
     for i, wall in enumerate(units.walls):
-        memory.array("wall_contact", i + 1)[i] = wall.contact
-        memory.array("wall_unit", i + 1)[i] = wall.unit
-        memory.array("wall_frame", i + 1)[i] = places[wall.side]
-        memory.array("wall_ceiling", i + 1)[i] = wall.ceiling
-        memory.array("wall_steady", i + 1)[i] = wall.steady
+        memory[owners.HalfSpace.contact][i] = wall.contact
+        memory[owners.HalfSpace.sphere][i] = wall.unit
+        memory[owners.HalfSpace.frame][i] = places[wall.side]
+        memory[owners.HalfSpace.ceiling][i] = wall.ceiling
+        memory[owners.HalfSpace.is_steady][i] = wall.steady

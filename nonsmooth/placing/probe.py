@@ -7,6 +7,7 @@ from typing import final
 
 import numpy as np
 
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engines.event_driven import EventDriven
@@ -55,12 +56,12 @@ class Probe:
         return self.model.system.contacts
 
     def _part(self, name: str, first: int, size: int) -> Vector:
-        start = int(self.model.memory.array(f"body_{name}", self.number + 1)[self.number]) + first
+        start = int(self.model.memory[getattr(owners.Body, name)][self.number]) + first
         return self.model.memory.floats[start : start + size]
 
     def _state(self, offset: int, name: str, size: int) -> Vector:
-        start = offset + int(self.model.memory.array(f"body_{name}", self.number + 1)[self.number])
-        return self.model.memory.array("y", self.model.n_y)[start : start + size]
+        start = offset + int(self.model.memory[getattr(owners.Body, name)][self.number])
+        return self.model.memory[owners.Island.y][: self.model.n_y][start : start + size]
 
     @property
     def q(self) -> Vector:
@@ -94,7 +95,7 @@ class Probe:
         """Return the gaps of its contacts [m]; bounds from below where shapes are too far apart to be looked at."""
         self.model.list_contacts()
         gaps = np.asarray(self.model.gaps())
-        margin = float(self.model.memory.scalars["margin_of_list"][0])
+        margin = float(self.model.memory[owners.Island.list_margin])
         for number in np.flatnonzero(np.isinf(gaps)).tolist():
             one, two = frames_of(self.model, number)
             apart = float(np.linalg.norm(one[:3] - two[:3])) - sum(self.contacts[number].extents)
@@ -105,7 +106,7 @@ class Probe:
         """Return gap rate and slip velocity [m/s] of its contacts for velocities, shape [n, 3]."""
         self.u[:] = u
         call_entry("evaluate_at", self.model.memory)
-        n = int(self.model.memory.scalars["n_contacts"][0])
+        n = int(self.model.memory[owners.Island.n_contacts])
         rates = np.full((len(self.contacts), 3), np.nan)
-        rates[self.model.memory.array("identity", n)] = self.model.memory.array("rate", 3 * n).reshape(n, 3)
+        rates[self.model.memory[owners.Contact.declared][:n]] = self.model.memory[owners.Contact.rate][:n]
         return rates

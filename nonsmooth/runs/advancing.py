@@ -7,6 +7,7 @@ from typing import Any, final
 
 import numpy as np
 
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.modes import CONDITION_MET, DONE, PAUSED, REASONS
 from nonsmooth.engine.memory.tables import places
 from nonsmooth.errors import InvalidInput, UnknownName
@@ -15,9 +16,9 @@ from nonsmooth.model.image import Image
 from nonsmooth.model.laid_out import LaidOut
 
 _STATUSES = tuple(status for status in REASONS if status != CONDITION_MET)
-_WATCH = places("work", "patience", "calls")
+_WATCH = places("request.n_work", "request.work_budget", "run.n_calls")
 """What changes although nothing is done."""
-(_CALLS,) = places("calls").tolist()
+(_CALLS,) = places("run.n_calls").tolist()
 
 
 @final
@@ -56,7 +57,7 @@ class Advancing:
         if status not in self._statuses:
             names = "DONE, PAUSED, STOPPED, a failure of nonsmooth.engine.memory.modes or a code of its causes"
             raise InvalidInput(f"{thing}: its status", f"must be {names}", status, "Return PAUSED to be called again.")
-        t, t_end = (float(self._memory.record[name]) for name in ("t", "t_end"))
+        t, t_end = (self._memory[one] for one in (owners.Island.time, owners.Request.t_end))
         if status == DONE and t != t_end:
             rule = f"must be at the end time {t_end:.9g} s where it is DONE"
             raise InvalidInput(f"{thing}: S.t", rule, t, "Return PAUSED to be called again, or set S.t to S.t_end.")
@@ -72,13 +73,13 @@ class Advancing:
             raise InvalidInput(
                 f"{type(self._engine).__name__}.advance",
                 "must do a step where it need not be wary and the buffers are empty",
-                f"nothing done at t = {float(self._memory.record['t']):.9g} s",
+                f"nothing done at t = {self._memory[owners.Island.time]:.9g} s",
                 "Return DONE at S.t_end; where time stops passing, STALLED.",
             )
         return status
 
     def _is_as(self, image: Image) -> bool:
-        if self._memory.record["t"] != image.record["t"]:
+        if self._memory[owners.Island.time] != image[owners.Island.time]:
             return False
         (now, *others), (then, *kept) = self._memory.bits, image.parts
         differ = now != then

@@ -11,7 +11,8 @@ from nonsmooth.binding import interpreted
 from nonsmooth.binding.compile import parameter_names
 from nonsmooth.binding.law_failure import REMEDY, Finding, first_without_value, law_functions, without_value
 from nonsmooth.binding.source import described, raised
-from nonsmooth.engine.memory.layout import CATALOGUE, N_ACCOUNTS
+from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.modes import (
     GAP_UNDECIDED,
     GAP_UNEXPLAINED,
@@ -65,31 +66,30 @@ def _culprit(model: LaidOut, status: int) -> str:
     found = first_without_value(_law_findings(model)) or _guard_without_value(model)
     if found:
         return found
-    state = model.memory.array("y", model.n_y)
+    state = model.memory[owners.Island.y][: model.n_y]
     if not np.all(np.isfinite(state)):
         return "The state itself is not finite: check the motions and the bodies."
     return ""
 
 
 def _law_findings(model: LaidOut) -> Iterator[Finding | None]:
-    first_state = model.n_q + model.n_u + N_ACCOUNTS
+    first_state, made = model.n_q + model.n_u + N_ACCOUNTS, owners.Contact
     for number, contact in enumerate(model.system.contacts):
-        row = model.memory.array("catalogue", len(CATALOGUE) * (number + 1))[len(CATALOGUE) * number :]
-        start, n = (int(row[CATALOGUE.index(name)]) for name in ("state", "n_state"))
-        state = model.memory.array("y", model.n_y)[first_state + start :][:n]
+        start, n = (int(model.memory.declared(one)[number]) for one in (made.inner_states, made.n_inner_states))
+        state = model.memory[owners.Island.y][: model.n_y][first_state + start :][:n]
         for part in law_functions(contact.friction, contact.impact, contact.normal):
-            parameters = int(row[CATALOGUE.index(f"{part.name}_parameters")])
+            parameters = int(model.memory.declared(getattr(owners.Contact, f"{part.name}_parameters"))[number])
             yield without_value(model.memory.floats[parameters:], part, state, str(contact))
 
 
 def _in_the_blocks(model: LaidOut) -> str:
     """Evaluate bodies, loads and contacts at the last state, at its time, at the end of the step and shortly after."""
-    scalars = model.memory.scalars
-    t = float(scalars["t"][0])
-    for time in (t, t + float(scalars["h"][0]), t + 10.0 * float(scalars["time_tolerance"][0])):
-        scalars["t"] = time
+    memory = model.memory
+    t = memory[owners.Island.time]
+    for time in (t, t + memory[owners.Step.h], t + 10.0 * memory[owners.Tolerance.time]):
+        memory[owners.Island.time] = time
         call_entry("evaluate_at", model.memory)
-        scalars["t"] = t
+        memory[owners.Island.time] = t
         for block in blocks(model):
             if not np.all(np.isfinite(model.memory.floats[block.start : block.start + block.written])):
                 what = interpreted.noted(block.function) or "raises or gives a number that is not finite"
@@ -100,20 +100,24 @@ def _in_the_blocks(model: LaidOut) -> str:
 def _in_the_map(model: LaidOut) -> str:
     """Run the impact map, as plain Python, on the set that collided last."""
     memory = model.memory
-    n = int(memory.scalars["n_active"][0])
+    n = int(memory[owners.Problem.n_active])
     law = model.system.contacts[0].impact if model.system.contacts else None
-    if n == 0 or not isinstance(law, ImpactMap) or np.all(np.isfinite(memory.array("impulse", 3 * n))):
+    if n == 0 or not isinstance(law, ImpactMap) or np.all(np.isfinite(memory[owners.Impact.impulse][: 3 * n])):
         return ""
     names = parameter_names(law.impulses, "map")
-    given = memory.array("map_block", n * len(names)).reshape(-1, n)
-    delassus, rates, out = memory.array("matrix", 9 * n * n), memory.array("impact_z0", 3 * n), np.zeros(3 * n)
+    given = memory[owners.Impact.map_block][: n * len(names)].reshape(-1, n)
+    delassus, rates, out = (
+        memory[owners.Problem.matrix][: 9 * n * n],
+        memory[owners.Impact.rates_before][: 3 * n],
+        np.zeros(3 * n),
+    )
     try:
         law.impulses(n, delassus.copy(), rates.copy(), out, **dict(zip(names, given.copy(), strict=True)))
         what = "gives impulses that are not finite"
     except Exception as error:
         what = raised(law.impulses, error)
-    listed = memory.array("identity", int(memory.scalars["n_contacts"][0]))
-    among = [str(model.system.contacts[int(i)]) for i in listed[memory.array("active", n)]]
+    listed = memory[owners.Contact.declared][: int(memory[owners.Island.n_contacts])]
+    among = [str(model.system.contacts[int(i)]) for i in listed[memory[owners.Problem.active][:n]]]
     before = " ".join(np.array2string(rates.reshape(n, 3), precision=6, threshold=30, separator=", ").split())
     return (
         f"{type(law).__name__}: {described(law.impulses)}, {what} for the rates {before} m/s "
@@ -123,12 +127,12 @@ def _in_the_map(model: LaidOut) -> str:
 
 def _guard_without_value(model: LaidOut) -> str:
     """Look at the guards at the end of the step that failed."""
-    scalars, state = model.memory.scalars[0], model.memory.array("y_new", model.n_y)
+    memory, state = model.memory, model.memory[owners.Step.y_new]
     q, u = state[: model.n_q], state[model.n_q : model.n_q + model.n_u]
     for watched in model.system.watched:
         guard = watched.guard
-        value = guard_value(guard, float(scalars["t"] + scalars["h"]), q, u)
+        value = guard_value(guard, memory[owners.Island.time] + memory[owners.Step.h], q, u)
         if not isinstance(value, float) or not math.isfinite(value):
             what = raised(guard.value, value) if isinstance(value, Exception) else f"gives {value!r}"
-            return f"{watched}: {described(guard.value)}, {what} within {float(scalars['h']):g} s."
+            return f"{watched}: {described(guard.value)}, {what} within {memory[owners.Step.h]:g} s."
     return ""

@@ -6,14 +6,15 @@ import hashlib
 
 import numpy as np
 
-from nonsmooth.engine.memory.layout import CATALOGUE
+from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.declare import Life, declarations
 from nonsmooth.engine.memory.tables import (
-    ARRAYS_OF,
     CONSTANT_SCALARS,
     COUNTS,
     FLOAT_ARRAYS,
     INTEGER_ARRAYS,
     N_SCALARS,
+    OWNERS,
     SCALARS,
     places,
 )
@@ -24,18 +25,17 @@ from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.laying_contacts import by_kind
 from nonsmooth.parameters import rules
 
-_FUNCTIONS = tuple(name for name in INTEGER_ARRAYS if name.endswith("_function") or name == "entry_points")
-_CHANGING = {
-    *("facing", "touching", "identity", "block_start", "catalogue", "unit_order", "own_guard_spent"),
-    *("body_flies", "body_turns", "body_course", "body_closed", "body_version", "body_stood", "body_accelerated"),
-    *("integrated", "seen_a", "seen_b"),
-    *CATALOGUE,
-}
-"""Integers of the bodies that a run changes; all others say where something stands."""
-_STANDING = (*_FUNCTIONS, *(name for name in ARRAYS_OF["bodies"].integers if name not in _CHANGING))
-_NUMERICS = tuple(ARRAYS_OF["numerics"].floats)
-_COLUMNS = [i for i, name in enumerate(CATALOGUE) if name.endswith("_function")]
-_LAYOUT = hashlib.blake2b(repr((SCALARS.names, (*FLOAT_ARRAYS,), (*INTEGER_ARRAYS,), CATALOGUE)).encode()).digest()
+_FUNCTIONS = tuple(name for name in INTEGER_ARRAYS if name.endswith("_function") or name == "model.entry_points")
+_FUNCTIONS += tuple(name for name in INTEGER_ARRAYS if name.endswith(".function"))
+_STANDING = tuple(
+    one.key
+    for owner in OWNERS
+    for one in declarations(owner).values()
+    if one.key in INTEGER_ARRAYS and one.life is Life.PARAMETER and (owner is not owners.Contact or one.is_of_slot)
+)
+"""Integers that no run changes: they say where something stands."""
+_NUMERICS = tuple(one.key for one in declarations(owners.Coefficients).values())
+_LAYOUT = hashlib.blake2b(repr((SCALARS.names, (*FLOAT_ARRAYS,), (*INTEGER_ARRAYS,))).encode()).digest()
 
 
 def digest(model: LaidOut, blank: Image, engine: Engine) -> str:
@@ -47,13 +47,10 @@ def digest(model: LaidOut, blank: Image, engine: Engine) -> str:
     scalars, blocks, integers = scalars.copy(), blocks.copy(), integers.copy()
     memory, record = model.memory, scalars[:N_SCALARS].view(SCALARS)
     # functions stand elsewhere in every process, and so do the tables of copies
-    record["impact_map"] = record["impact_map"] != 0
+    record["options.impact_map"] = record["options.impact_map"] != 0
     for name in _FUNCTIONS:
         start = int(record[name][0])
         integers[start : start + _size(record, name)] = 0
-    declared, width = int(record["n_declared"][0]), len(CATALOGUE)
-    start = int(record["catalogue"][0])
-    integers[start : start + width * declared].reshape(declared, width)[:, _COLUMNS] = 0
     for place, _, _ in memory.references:
         blocks[place - memory.blocks] = 0
     found = hashlib.blake2b(_LAYOUT + _kinds(model) + _said(engine))
@@ -77,11 +74,14 @@ def changing(model: LaidOut, blank: Image) -> tuple[Booleans, ...]:
     ranges, numerics = (
         [np.arange(_size(record, name)) + int(record[name][0]) for name in names] for names in (_STANDING, _NUMERICS)
     )
-    start, width = int(record["catalogue"][0]), len(CATALOGUE)
-    rows = start + np.arange(width * int(record["n_declared"][0])).reshape(-1, width)
     blocks = np.array([place - model.memory.blocks for place, _, _ in model.memory.references], dtype=np.int64)
-    integers = np.concatenate([*ranges, rows[:, :-1].ravel()]).astype(np.int64)
-    standing = places(*CONSTANT_SCALARS, "impact_map", "watch"), np.concatenate(numerics), blocks, integers
+    integers = np.concatenate(ranges).astype(np.int64)
+    standing = (
+        places(*CONSTANT_SCALARS, "options.impact_map", "request.interrupt_check"),
+        np.concatenate(numerics),
+        blocks,
+        integers,
+    )
     made = tuple(np.ones(len(part), bool) for part in (*blank.parts, blank.parts[2]))
     for part, those in zip(made, (*standing, parameter_places(model)), strict=True):
         part[those] = False
@@ -89,7 +89,7 @@ def changing(model: LaidOut, blank: Image) -> tuple[Booleans, ...]:
 
 
 def _size(record: np.ndarray, name: str) -> int:
-    return int((FLOAT_ARRAYS | INTEGER_ARRAYS)[name]({count: int(record[count][0]) for count in COUNTS}))
+    return int({**FLOAT_ARRAYS, **INTEGER_ARRAYS}[name]({count: int(record[f"model.{count}"][0]) for count in COUNTS}))
 
 
 def _said(engine: Engine) -> bytes:

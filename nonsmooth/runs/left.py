@@ -9,8 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import CANDIDATE
-from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CLOSING_RATE, DIRECTION, N_ACCOUNTS
+from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.limits import LIMITS
 from nonsmooth.engine.memory.tables import record_with
 from nonsmooth.interfaces import Engine, StatefulFrictionLaw, TractionLaw
@@ -27,8 +28,6 @@ from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import Continuation, Floats, State
 from nonsmooth.solution.suspicion import suspicions
 from nonsmooth.system.system import System
-
-_MODE, _PLACE = CATALOGUE.index("mode"), CATALOGUE.index("candidate")
 
 
 class Left(NamedTuple):
@@ -73,29 +72,37 @@ class Left(NamedTuple):
         recorded : Recorded
             What it recorded.
         """
-        record, state = self.now.record, self.state()
+        now, state = self.now, self.state()
         counters = Counters(
-            steps=int(record["steps"]),
-            rejected=int(record["rejected"]),
-            impacts=int(record["impacts"]),
-            impact_steps=int(record["impact_steps"]),
-            limits={word: int(n) for word, n in zip(LIMITS, self.now.array("limits", len(LIMITS)), strict=True) if n},
-            gap_looks=int(record["gap_looks"]),
-            listings=int(record["listings"]),
+            steps=now[owners.Totals.n_steps],
+            rejected=now[owners.Totals.n_rejected],
+            impacts=now[owners.Totals.n_impacts],
+            impact_steps=now[owners.Totals.n_impact_steps],
+            limits={
+                word: int(n)
+                for word, n in zip(LIMITS, self.now[owners.Totals.n_steps_limited][: len(LIMITS)], strict=True)
+                if n
+            },
+            gap_looks=now[owners.Totals.n_gap_evaluations],
+            listings=now[owners.Totals.n_listings],
             wall_seconds=wall,
         )
         status, message = said
         if status == "done":
-            worst = float(record["open_t"]), float(record["open_energy"]), float(record["open_share"])
-            tolerances = float(record["rtol"]), float(record["impact_rtol"])
+            worst = (
+                now[owners.Run.worst_energy_time],
+                now[owners.Run.worst_energy],
+                now[owners.Run.worst_energy_ratio],
+            )
+            tolerances = now[owners.Tolerance.relative], now[owners.Tolerance.impact]
             bodies = dict(zip(self.system.names.bodies, self.system.bodies, strict=True))
-            moved = recorded.rows[:, 0], recorded.rows[:, 1 : 1 + int(record["n_q"])]
-            scale = float(record["scale_energy"])
+            moved = recorded.rows[:, 0], recorded.rows[:, 1 : 1 + now[owners.Model.n_q]]
+            scale = now[owners.Run.energy_scale]
             known = Solution.known(self.system, recorded, End(state, counters, status, message))
             found = suspicions(
                 self.engine,
                 worst,
-                (float(record["jump_t"]), float(record["jumped"])),
+                (now[owners.Run.jump_time], now[owners.Run.jumped_energy]),
                 0.0 if self._stores() else known.friction_gain,
                 state.energy,
                 bodies,
@@ -109,7 +116,11 @@ class Left(NamedTuple):
             if found:
                 status, message = "suspect", f"{message}, but {found}"
         cause, own = cause_of(self.engine, code), self.now.parts[0].view(record_with(own_of(self.engine)))[0]
-        verdict = {measure: float(own[measure.name]) for measure in self.engine.verdict}
+        verdict = {
+            measure: float(own[f"{part.key}.{measure.name}"])
+            for part in own_of(self.engine)
+            for measure in self.engine.verdict
+        }
         return End(state, counters, status, message, cause.name if cause else "", verdict)
 
     def _stores(self) -> bool:
@@ -119,7 +130,7 @@ class Left(NamedTuple):
     def _floor(self) -> float:
         """Return the work of the forces on all bodies, as they are now, on a way as long as the bodies [J]."""
         now, total = self.now, 0.0
-        tails = now.array("body_tail", len(self.system.bodies)) - now.first
+        tails = now[owners.Body.tail][: len(self.system.bodies)] - now.first
         for body, tail in zip(self.system.bodies, tails.tolist(), strict=True):
             size = size_of(body)
             if body.n_u > 0 and math.isfinite(size):
@@ -129,23 +140,22 @@ class Left(NamedTuple):
 
     def state(self) -> State:
         """Return the state in which the model is now."""
-        now, record = self.now, self.now.record
-        n_q, n_u, n, slots = (int(record[name]) for name in ("n_q", "n_u", "n_declared", "n_contacts"))
-        y = now.array("y", int(record["n_y"]))
-        rows = now.array("catalogue", len(CATALOGUE) * n).reshape(n, len(CATALOGUE))
-        floats = now.array("catalogue_floats", CATALOGUE_FLOATS * n).reshape(n, CATALOGUE_FLOATS)
-        modes, rates = rows[:, _MODE].copy(), floats[:, CLOSING_RATE].copy()
-        directions = floats[:, DIRECTION : DIRECTION + 2].copy()
+        now, model = self.now, owners.Model
+        n_q, n_u, n, slots = (now[one] for one in (model.n_q, model.n_u, model.n_declared, owners.Island.n_contacts))
+        y = now[owners.Island.y][: now[owners.Model.n_y]]
+        contact = owners.Contact
+        modes, rates = now.declared(contact.mode).copy(), now.declared(contact.closing_rate).copy()
+        directions = now.declared(contact.direction).copy()
         # what stands in a slot is newer than what the catalogue keeps of it
-        listed = now.array("identity", slots)
-        modes[listed] = now.array("mode", slots)
-        directions[listed] = now.array("direction", 2 * slots).reshape(slots, 2)
-        rates[listed] = now.array("closing_rate", slots)
-        features, places = np.zeros((n, CANDIDATE)), rows[:, _PLACE]
+        listed = now[owners.Contact.declared][:slots]
+        modes[listed] = now[owners.Contact.mode][:slots]
+        directions[listed] = now[owners.Contact.direction][:slots]
+        rates[listed] = now[owners.Contact.closing_rate][:slots]
+        features, places = np.zeros((n, CANDIDATE)), now.declared(contact.features)
         for number in np.flatnonzero(places > 0).tolist():
             features[number] = now.blocks[places[number] - now.first :][:CANDIDATE]
         state = State(
-            float(record["t"]),
+            now[owners.Island.time],
             y[:n_q],
             y[n_q : n_q + n_u],
             modes,
@@ -153,21 +163,21 @@ class Left(NamedTuple):
             rates,
             features,
             y[n_q + n_u + N_ACCOUNTS :],
-            now.array("own_guard_spent", int(record["n_own_guards"])),
+            now[owners.OwnGuard.has_just_fired][: now[owners.Model.n_own_guards]],
             self._account(y[n_q + n_u :]),
         )
         return state.with_continuation(Continuation(self.key(), Difference.between(self.blank, self.before), self.told))
 
     def _account(self, integrated: Floats) -> EnergyAccount:
-        now, record, bodies = self.now, self.now.record, self.system.bodies
+        now, bodies = self.now, self.system.bodies
         driven, rubbed, exchanged, loads = integrated[:N_ACCOUNTS].tolist()
         return EnergyAccount(
             *self.start,
-            *energies(bodies, now.array("body_tail", len(bodies)) - now.first, now.blocks),
-            driven_work=float(record["driven_work"]) + driven,
-            restitution_loss=float(record["restitution_loss"]),
-            friction_loss=float(record["friction_loss"]) + rubbed,
-            closing_loss=float(record["closing_loss"]),
+            *energies(bodies, now[owners.Body.tail][: len(bodies)] - now.first, now.blocks),
+            driven_work=now[owners.Totals.driven_work] + driven,
+            restitution_loss=now[owners.Totals.restitution_loss],
+            friction_loss=now[owners.Totals.friction_loss] + rubbed,
+            closing_loss=now[owners.Totals.closing_loss],
             exchanged_in_flow=exchanged,
             load_work=loads,
         )

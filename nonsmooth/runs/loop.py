@@ -6,6 +6,7 @@ import sys
 from collections.abc import Callable
 from typing import NamedTuple
 
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.modes import CONDITION_MET, DONE, PAUSED, STOPPED
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Engine
@@ -73,7 +74,7 @@ def run_engine(
         Whatever ``progress`` or ``until`` raises.
     """
     memory = model.memory
-    t_end = float(memory.record["t_end"])
+    t_end = float(memory[owners.Request.t_end])
     report = None if progress is None else lambda t: progress(t, t_end)
     status, interrupted, trouble = PAUSED, False, ""
     image, before = begun, records.n_passed
@@ -106,12 +107,12 @@ def run_engine(
                 if status == PAUSED and so_far is not None and until is not None and _is_met(until, so_far):
                     status = CONDITION_MET
                 if progress is not None:
-                    progress(float(memory.record["t"]), t_end)
+                    progress(float(memory[owners.Island.time]), t_end)
     except KeyboardInterrupt:
         records.drain()
         status, interrupted = PAUSED, True
         # a program goes on behind it as if it had come to its end
-        told = f"interrupted at t = {float(memory.record['t']):.9g} s: the run returns what it has"
+        told = f"interrupted at t = {memory[owners.Island.time]:.9g} s: the run returns what it has"
         print(f"{told}, with the status 'interrupted'", file=sys.stderr, flush=True)
     except FileError as error:
         records.drain()

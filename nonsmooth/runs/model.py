@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import NoReturn, final
 
 from nonsmooth.checks import check_callable, check_kind, is_finite
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.tables import places
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import Engine
@@ -41,7 +42,13 @@ from nonsmooth.solution.state import Floats, State
 from nonsmooth.system.system import System
 
 _T_END, _INTERVAL, _FIRST, _NEXT, _SPAN, _INDEX, _CAPACITY = places(
-    "t_end", "sample_interval", "sample_start", "next_sample", "sample_span", "sample_index", "sample_capacity"
+    "request.t_end",
+    "request.sample_interval",
+    "request.sample_start",
+    "output.next_sample",
+    "request.sample_span",
+    "output.sample_index",
+    "model.sample_capacity",
 ).tolist()
 _DEFAULT_SAMPLES = 2000
 _MOST_SAMPLES = 10**8
@@ -253,7 +260,7 @@ class Model:
             if not self._goes_on(state):
                 check_start_numbers(self._laid, state)
         interval = check_times("run", t_end, sample_interval, state.time)
-        _check_steps(t_end - state.time, float(self._laid.memory.scalars["h_max"][0]))
+        _check_steps(t_end - state.time, float(self._laid.memory[owners.Tolerance.largest_step]))
         where = None if output is None else Output.to(output)
         self._seize("run")
         try:
@@ -450,7 +457,7 @@ class Model:
                     )
         except MemoryError as error:
             # nothing that needs more of it than a text
-            reached = float(laid.memory.record["t"])
+            reached = float(laid.memory[owners.Island.time])
             raise RunFailed(
                 f"At t = {reached:.9g} s the memory ran out: {error}. What was computed does not fit there. Give an "
                 "output folder, which keeps what is written so far, a shorter run, or fewer samples."

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.modes import CONDITION_MET, DONE, PAUSED, REASONS, STOPPED
 from nonsmooth.interfaces import Cause, Engine
 from nonsmooth.model.blocks import written_past
@@ -20,11 +21,11 @@ def reason(model: LaidOut, guards: Guards, ending: Ending, engine: Engine) -> tu
     """Return the status of a run that has ended, in a word, and why it did; ``guards`` are those of the model."""
     past, status = written_past(model, guards), ending.status
     if ending.trouble:
-        return "failed", f"At t = {float(model.memory.record['t']):.9g} s {ending.trouble}"
+        return "failed", f"At t = {model.memory[owners.Island.time]:.9g} s {ending.trouble}"
     if (cause := cause_of(engine, status)) and not past:
-        said = f"At t = {float(model.memory.record['t']):.9g} s {cause.reason}. {cause.remedy}".strip()
+        said = f"At t = {model.memory[owners.Island.time]:.9g} s {cause.reason}. {cause.remedy}".strip()
         return "failed" if cause.is_failure else "done", said
     if past or status not in (DONE, STOPPED, CONDITION_MET, PAUSED):
-        message = f"At t = {float(model.memory.record['t']):.9g} s {REASONS[status]}."
+        message = f"At t = {model.memory[owners.Island.time]:.9g} s {REASONS[status]}."
         return "failed", f"{message} {past or culprit(model, status) or ending.hint}".strip()
     return "interrupted" if ending.interrupted else "done", REASONS[status]

@@ -11,6 +11,7 @@ from typing import final
 import numpy as np
 
 from nonsmooth.engine.events.record import CODE_HEAD
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.limits import BY_ERROR, LIMITS
 from nonsmooth.engine.memory.modes import (
@@ -71,8 +72,8 @@ class Pace:
     _told: bool = False
 
     def __post_init__(self) -> None:
-        self._t = self._begun = float(self.begun.record["t"])
-        self._limits = self._since = self.begun.array("limits", len(LIMITS))
+        self._t = self._begun = float(self.begun[owners.Island.time])
+        self._limits = self._since = self.begun[owners.Totals.n_steps_limited][: len(LIMITS)]
 
     def look(self, status: int) -> None:
         """Look at what the engine has done since the last look, before its buffers are emptied; it came to a status.
@@ -85,7 +86,7 @@ class Pace:
         (t, limits), before = self._now(), self._t
         passes = int(np.sum(limits - self._limits))
         self._t, self._limits = t, limits
-        passing = t - before > _HARDLY * passes * (float(self.model.memory.record["t_end"]) - self._begun)
+        passing = t - before > _HARDLY * passes * (float(self.model.memory[owners.Request.t_end]) - self._begun)
         if passing:
             self._passes, self._passed, self._since = 0, 0.0, limits
             self._last.clear()
@@ -107,11 +108,11 @@ class Pace:
 
     def _now(self) -> tuple[float, np.ndarray]:
         memory = self.model.memory
-        return float(memory.scalars["t"][0]), memory.array("limits", len(LIMITS)).copy()
+        return float(memory[owners.Island.time]), memory[owners.Totals.n_steps_limited][: len(LIMITS)].copy()
 
     def _new_events(self) -> Iterable[_Event]:
         memory = self.model.memory
-        codes = memory.array("event_codes", int(memory.scalars["integers_used"][0])).tolist()
+        codes = memory[owners.Output.event_codes][: int(memory[owners.Output.integers_used])].tolist()
         at = 0
         while at < len(codes):
             yield codes[at], codes[at + 1]
@@ -119,7 +120,7 @@ class Pace:
 
     def _far_off(self, t: float) -> str:
         """Return a sentence on how many steps as long as the last ones are left."""
-        t_end, step = float(self.model.memory.record["t_end"]), self._passed / self._passes
+        t_end, step = float(self.model.memory[owners.Request.t_end]), self._passed / self._passes
         left = f"is {(t_end - t) / step:.1g} steps away, which take days" if step > 0.0 else "is out of reach"
         return f"with steps of {step:.2g} s, as the last {self._passes} are on average, t_end = {t_end:.9g} s {left}."
 
@@ -146,7 +147,7 @@ class Pace:
 def _of_error(model: LaidOut) -> str:
     """Return a sentence that names the coordinate, velocity or inner state with the largest error of the last step."""
     memory, n = model.memory, model.n_y
-    error, scale, y = (memory.array(name, n) for name in ("y_stage", "y_scale", "y"))
+    error, scale, y = (memory[one] for one in (owners.Step.y_stage, owners.Step.y_scale, owners.Island.y))
     size = scale + np.abs(y)
     relative = np.divide(np.abs(error), size, out=np.zeros(n), where=size > 0.0)
     relative[model.n_q + model.n_u :][:N_ACCOUNTS] = 0.0
@@ -162,8 +163,8 @@ def _of_error(model: LaidOut) -> str:
 def _involved(model: LaidOut) -> str:
     """Return a sentence that names the contacts that were dealt with last."""
     memory = model.memory
-    slots = memory.array("active", int(memory.scalars["n_active"][0]))
-    numbers = memory.array("identity", int(memory.scalars["n_contacts"][0]))[slots].tolist()
+    slots = memory[owners.Problem.active][: int(memory[owners.Problem.n_active])]
+    numbers = memory[owners.Contact.declared][: int(memory[owners.Island.n_contacts])][slots].tolist()
     names = model.system.names.contacts
     return f"In contact are {_listed([repr(names[i]) for i in numbers[:_NAMED]], len(numbers))}." if numbers else ""
 

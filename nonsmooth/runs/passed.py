@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.engine.memory import owners
 from nonsmooth.model.image import Image
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.overlaps import deepest_overlap
@@ -36,8 +37,8 @@ def passed(model: LaidOut, rows: Floats) -> str:
     size = min(contacts[i].size for i in numbers)
     try:
         for row in rows[_apart(rows[:, 1 : 1 + model.n_q], _MOVED * size)]:
-            model.memory.scalars["t"] = row[0]
-            model.memory.array("y", model.n_y)[:] = row[1 : 1 + model.n_y]
+            model.memory[owners.Island.time] = row[0]
+            model.memory[owners.Island.y][: model.n_y][:] = row[1 : 1 + model.n_y]
             model.list_contacts()
             model.evaluate()
             found = deepest_overlap(model, numbers)

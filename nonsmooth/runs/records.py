@@ -16,6 +16,7 @@ from nonsmooth.engine.events.record import (
     LISTED,
     SLIP_DIRECTION,
 )
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.engine.memory.modes import AFTER, BEFORE, DURING, OPEN, SLIDE, START
 from nonsmooth.engine.memory.tables import places
@@ -30,13 +31,15 @@ from nonsmooth.solution.track import row_of
 _BEFORE_THE_FIRST, _BEHIND_THE_LAST = -1, -2
 _ROUND_OFF = 1e-9
 """Part of the time between two samples below which a time is that of a sample."""
-_BOOKED = places("driven_work", "restitution_loss", "friction_loss", "closing_loss")
+_BOOKED = places("totals.driven_work", "totals.restitution_loss", "totals.friction_loss", "totals.closing_loss")
 _CODES = 1 << BEFORE | 1 << DURING | 1 << AFTER
-_FILLED = places("n_events", "n_samples", "floats_used", "integers_used", "last_floats").tolist()
+_FILLED = places(
+    "output.n_events", "output.n_samples", "output.floats_used", "output.integers_used", "output.last_floats"
+).tolist()
 _EVENTS, _SAMPLES, _FLOATS, _INTEGERS, _ = _FILLED
-_CALLS, _TOLD, _INDEX = places("calls", "told", "sample_index").tolist()
+_CALLS, _TOLD, _INDEX = places("run.n_calls", "request.n_known_events", "output.sample_index").tolist()
 _T, _START, _INTERVAL, _NEXT, _RESOLUTION = places(
-    "t", "sample_start", "sample_interval", "next_sample", "time_tolerance"
+    "island.time", "request.sample_start", "request.sample_interval", "output.next_sample", "tolerance.time"
 ).tolist()
 
 
@@ -88,9 +91,9 @@ class Records:
         key, n_events, n_samples = integers.item(_CALLS), integers.item(_EVENTS), integers.item(_SAMPLES)
         if key not in self._parts:
             part = (
-                memory.array("events", integers.item(_FLOATS)).copy(),
-                memory.array("event_codes", integers.item(_INTEGERS)).copy(),
-                memory.array("samples", n_samples * width).reshape(n_samples, width).copy(),
+                memory[owners.Output.event_numbers][: integers.item(_FLOATS)].copy(),
+                memory[owners.Output.event_codes][: integers.item(_INTEGERS)].copy(),
+                memory[owners.Output.samples][: n_samples * width].reshape(n_samples, width).copy(),
             )
             self._events += n_events
             self._parts[key] = part
@@ -160,7 +163,7 @@ class Records:
         t, interval = floats.item(_T), floats.item(_INTERVAL)
         if integers.item(_INDEX) > 0 and t - (floats.item(_NEXT) - interval) <= _ROUND_OFF * interval:
             return
-        row = np.concatenate([[t], memory.array("y", self.model.n_y), floats[_BOOKED]])
+        row = np.concatenate([[t], memory[owners.Island.y][: self.model.n_y], floats[_BOOKED]])
         self._parts[_BEHIND_THE_LAST] = np.zeros(0), np.zeros(0, np.int64), row[None]
 
     @property

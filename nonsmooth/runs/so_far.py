@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias, final
 
+from nonsmooth.engine.memory import owners
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.solution.events import Events
@@ -31,18 +32,18 @@ class RunSoFar:
     @property
     def time(self) -> float:
         """Time reached [s]."""
-        return float(self._model.memory.scalars["t"][0])
+        return float(self._model.memory[owners.Island.time])
 
     @property
     def q(self) -> Floats:
         """Coordinates of all bodies, shape [n_q]."""
-        return self._model.memory.array("y", self._model.n_q).copy()
+        return self._model.memory[owners.Island.y][: self._model.n_q].copy()
 
     @property
     def u(self) -> Floats:
         """Velocities of all bodies, shape [n_u]."""
         n_q, n_u = self._model.n_q, self._model.n_u
-        return self._model.memory.array("y", n_q + n_u)[n_q:].copy()
+        return self._model.memory[owners.Island.y][: n_q + n_u][n_q:].copy()
 
     @property
     def n_events(self) -> int:
@@ -57,7 +58,7 @@ class RunSoFar:
     @property
     def n_impacts(self) -> int:
         """Impacts so far in this run."""
-        return int(self._model.memory.scalars["impacts"][0])
+        return int(self._model.memory[owners.Totals.n_impacts])
 
     @property
     def events(self) -> Events:

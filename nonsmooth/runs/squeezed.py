@@ -10,10 +10,10 @@ from typing import NamedTuple
 import numpy as np
 
 from nonsmooth.certificates import coefficient_of
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import (
     AXIS,
     GAP,
-    GEOMETRY,
     JOINT_ROW,
     MOMENT,
     NORMAL,
@@ -79,7 +79,7 @@ def squeezed(model: LaidOut, status: int) -> str:
     if status not in _STATUSES:
         return ""
     call_entry("evaluate_at", model.memory)
-    contacts = [hold for slot in range(int(model.memory.scalars["n_contacts"][0])) for hold in _driven(model, slot)]
+    contacts = [hold for slot in range(int(model.memory[owners.Island.n_contacts])) for hold in _driven(model, slot)]
     for one, two in (*itertools.combinations(contacts, 2), *itertools.product(contacts, _jointed(model))):
         way = two.point - one.point
         length = float(np.linalg.norm(way))
@@ -87,7 +87,7 @@ def squeezed(model: LaidOut, status: int) -> str:
             continue
         line = way / length
         nearer = float(line @ (one.velocity - two.velocity))
-        if one.bears(line) and two.bears(-line) and nearer > float(model.memory.scalars["velocity_tolerance"][0]):
+        if one.bears(line) and two.bears(-line) and nearer > float(model.memory[owners.Tolerance.velocity]):
             name = model.system.names.bodies[one.body]
             return (
                 f"The body {name!r} is squeezed between driven ones: the {one.name} and the {two.name} press on it "
@@ -114,16 +114,16 @@ def _velocity(model: LaidOut, place: int, point: np.ndarray) -> np.ndarray:
 
 def _driven(model: LaidOut, slot: int) -> list[_Hold]:
     """Return the contact of a slot, if it is closed, rigid, and one of a driven body with another one."""
-    memory, n = model.memory, int(model.memory.scalars["n_contacts"][0])
-    contact = model.system.contacts[int(memory.array("identity", n)[slot])]
-    block = memory.array("geometry", GEOMETRY * n)[GEOMETRY * slot :]
+    memory = model.memory
+    contact = model.system.contacts[int(memory[owners.Contact.declared][slot])]
+    block = memory[owners.Contact.geometry][slot]
     found = _free(model, contact.first, contact.second)
-    closed = block[GAP] <= _CLOSED * float(memory.scalars["gap_tolerance"][0])
+    closed = block[GAP] <= _CLOSED * float(memory[owners.Tolerance.gap])
     if found is None or not closed or not isinstance(contact.friction, FrictionLaw):
         return []
     body, second = found
     own, other = (POINT_B, POINT_A) if second else (POINT_A, POINT_B)
-    place = int(memory.array("frame_a" if second else "frame_b", n)[slot])
+    place = int(memory[owners.Contact.frame_a if second else owners.Contact.frame_b][slot])
     velocity = _velocity(model, place, block[other : other + 3])
     normal = (1.0 if second else -1.0) * block[NORMAL : NORMAL + 3]
     return [_Hold(str(contact), body, block[own : own + 3].copy(), velocity, normal, contact.friction)]
@@ -131,16 +131,16 @@ def _driven(model: LaidOut, slot: int) -> list[_Hold]:
 
 def _jointed(model: LaidOut) -> Iterator[_Hold]:
     """Yield the joints that hold a point of a free body at a driven one, along one axis or more."""
-    memory, n = model.memory, len(model.system.joints)
+    memory = model.memory
     for number, joint in enumerate(model.system.joints):
         found = _free(model, joint.first, joint.second)
-        count, start = (int(memory.array(name, n)[number]) for name in ("joint_rows", "joint_out"))
+        count, start = (int(memory[one][number]) for one in (owners.Joint.n_rows, owners.Joint.out))
         rows = memory.floats[start : start + JOINT_ROW * count].reshape(count, JOINT_ROW)
         rows = rows[~np.any(rows[:, MOMENT : MOMENT + 3], axis=1)]
         if found is None or len(rows) == 0:
             continue
         body, second = found
         own, other = (POINT_B, POINT_A) if second else (POINT_A, POINT_B)
-        place = int(memory.array("joint_frame_a" if second else "joint_frame_b", n)[number])
+        place = int(memory[owners.Joint.frame_a if second else owners.Joint.frame_b][number])
         velocity = _velocity(model, place, rows[0, other : other + 3])
         yield _Hold(str(joint), body, rows[0, own : own + 3].copy(), velocity, rows[:, AXIS : AXIS + 3], None)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from nonsmooth.checks import is_finite
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import CANDIDATE
-from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CLOSING_RATE, DIRECTION, N_ACCOUNTS
-from nonsmooth.engine.memory.limits import LIMITS
+from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
@@ -17,9 +17,23 @@ from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.solution.state import Continuation, Integers, State
 from nonsmooth.system.given import check_quaternion
 
-_MODE, _PLACE = CATALOGUE.index("mode"), CATALOGUE.index("candidate")
-_COUNTERS = ("steps", "rejected", "impacts", "impact_steps", "gap_looks", "listings")
-_OUTPUT = ("n_events", "n_samples", "floats_used", "integers_used", "last_floats", "stopped")
+_COUNTERS = (
+    owners.Totals.n_steps,
+    owners.Totals.n_rejected,
+    owners.Totals.n_impacts,
+    owners.Totals.n_impact_steps,
+    owners.Totals.n_gap_evaluations,
+    owners.Totals.n_listings,
+    owners.Totals.n_steps_limited,
+)
+_OUTPUT = (
+    owners.Output.n_events,
+    owners.Output.n_samples,
+    owners.Output.floats_used,
+    owners.Output.integers_used,
+    owners.Output.last_floats,
+    owners.Request.is_interrupted,
+)
 """What stands in buffers that Python has emptied."""
 _WHOLE = ("modes", "guards_spent")
 _NUMBERS = ("q", "u", "slip_directions", "closing_rates", "features", "law_states")
@@ -92,7 +106,7 @@ def begin(model: LaidOut, blank: Image, state: State) -> None:
     InvalidInput
         If these are too many, or a closed contact has features that are not near each other.
     """
-    if model.memory.scalars["n_pools"][0] > 0 and np.any(state.modes):
+    if model.memory[owners.Model.n_searches] > 0 and np.any(state.modes):
         _check_features(model, blank, state)
     _place(model, blank, state, state.modes)
 
@@ -100,8 +114,7 @@ def begin(model: LaidOut, blank: Image, state: State) -> None:
 def _check_features(model: LaidOut, blank: Image, state: State) -> None:
     """Raise InvalidInput if a search does not find the features of a closed contact: nobody else knows them."""
     _place(model, blank, state, np.full(len(state.modes), OPEN))
-    n = len(state.modes)
-    places = model.memory.array("catalogue", len(CATALOGUE) * n).reshape(n, len(CATALOGUE))[:, _PLACE]
+    places = model.memory.declared(owners.Contact.features)
     for number in np.flatnonzero((places > 0) & (state.modes != OPEN)).tolist():
         if not np.array_equal(model.memory.floats[places[number] :][:CANDIDATE], state.features[number]):
             raise InvalidInput(
@@ -115,19 +128,18 @@ def _check_features(model: LaidOut, blank: Image, state: State) -> None:
 def _place(model: LaidOut, blank: Image, state: State, modes: Integers) -> None:
     """Put a model where a state is, with such modes, and list the contacts that are near each other there."""
     blank.put(model.memory)
-    memory, scalars, n = model.memory, model.memory.scalars, len(model.system.contacts)
-    scalars["t"] = state.time
-    y = memory.array("y", model.n_y)
+    memory = model.memory
+    memory[owners.Island.time] = state.time
+    y = memory[owners.Island.y][: model.n_y]
     y[: model.n_q], y[model.n_q : model.n_q + model.n_u] = state.q, state.u
     y[model.n_q + model.n_u + N_ACCOUNTS :] = state.law_states
-    rows = memory.array("catalogue", len(CATALOGUE) * n).reshape(n, len(CATALOGUE))
-    floats = memory.array("catalogue_floats", CATALOGUE_FLOATS * n).reshape(n, CATALOGUE_FLOATS)
-    rows[:, _MODE], floats[:, CLOSING_RATE] = modes, state.closing_rates
-    floats[:, DIRECTION : DIRECTION + 2] = state.slip_directions
-    places = rows[:, _PLACE]
+    memory.declared(owners.Contact.mode)[:] = modes
+    memory.declared(owners.Contact.closing_rate)[:] = state.closing_rates
+    memory.declared(owners.Contact.direction)[:] = state.slip_directions
+    places = memory.declared(owners.Contact.features)
     for number in np.flatnonzero((places > 0) & (state.features[:, 0] != 0.0)).tolist():
         memory.floats[places[number] :][:CANDIDATE] = state.features[number]
-    memory.array("own_guard_spent", len(model.system.guards))[:] = state.guards_spent
+    memory[owners.OwnGuard.has_just_fired][: len(model.system.guards)][:] = state.guards_spent
     model.list_contacts()
 
 
@@ -142,7 +154,7 @@ def check_closed(model: LaidOut, state: State) -> None:
     if not np.any(state.modes):
         return
     gaps = model.gaps()
-    allowed = _NOT_CLOSED * float(model.memory.scalars["gap_tolerance"][0])
+    allowed = _NOT_CLOSED * float(model.memory[owners.Tolerance.gap])
     for number in np.flatnonzero(state.modes).tolist():
         normal = model.system.contacts[number].normal
         reach = normal.reach if isinstance(normal, CompliantNormalLaw) else 0.0
@@ -166,20 +178,19 @@ def go_on(model: LaidOut, blank: Image, state: State, changing: tuple[Booleans, 
         If what comes from a file cannot be of such a run.
     """
     continuation = _continue(model, blank, state, changing)
-    scalars = model.memory.scalars
-    for name in (*_COUNTERS, *_OUTPUT):
-        scalars[name] = 0
-    model.memory.array("limits", len(LIMITS))[:] = 0
-    scalars["told"], scalars["resumed"] = continuation.told, 1
+    memory = model.memory
+    for one in (*_COUNTERS, *_OUTPUT):
+        memory[one] = 0
+    memory[owners.Request.n_known_events], memory[owners.Request.is_resumed] = continuation.told, 1
 
 
 def restore(model: LaidOut, blank: Image, state: State, changing: tuple[Booleans, ...]) -> None:
     """Put a model where a run was cut off, in the midst of whatever it was told at its start; as :func:`go_on`."""
     _continue(model, blank, state, changing)
-    scalars = model.memory.scalars
-    for name in _OUTPUT:
-        scalars[name] = 0
-    scalars["resumed"] = scalars["started"]
+    memory = model.memory
+    for one in _OUTPUT:
+        memory[one] = 0
+    memory[owners.Request.is_resumed] = memory[owners.Run.has_started]
 
 
 def _continue(model: LaidOut, blank: Image, state: State, changing: tuple[Booleans, ...]) -> Continuation:
@@ -191,7 +202,7 @@ def _continue(model: LaidOut, blank: Image, state: State, changing: tuple[Boolea
     check_parameters(model, continuation.difference, others)
     continuation.difference.within(tuple(may_change)).put(model.memory)
     check_candidates(model)
-    t, told = float(model.memory.scalars["t"][0]), continuation.told
+    t, told = float(model.memory[owners.Island.time]), continuation.told
     if not t <= state.time or told < 0:
         raise InvalidInput(
             "State.continuation", f"must begin before {state.time:.9g} s", (t, told), "It is damaged: take another."

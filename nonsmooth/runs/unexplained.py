@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nonsmooth.binding.source import described
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.modes import (
     GAP_UNDECIDED,
     GAP_UNEXPLAINED,
@@ -32,13 +33,16 @@ _PRESSED = (
 
 def unexplained(model: LaidOut, status: int) -> str:
     """Return a sentence that names the contact or body and the figure that the run stumbled over; "" if it is none."""
-    scalars = model.memory.scalars[0]
-    found, allowed, number = float(scalars["found"]), float(scalars["allowed"]), int(scalars["blamed"])
+    found, allowed, number = (
+        model.memory[owners.Run.found],
+        model.memory[owners.Run.allowed],
+        model.memory[owners.Run.failed_number],
+    )
     if status == GAP_UNEXPLAINED:
-        n = int(scalars["n_contacts"])
-        contact = model.system.contacts[int(model.memory.array("identity", n)[number])]
+        n = model.memory[owners.Island.n_contacts]
+        contact = model.system.contacts[int(model.memory[owners.Contact.declared][:n][number])]
         said = f"The {contact}: the gap is {found:.3g} m, of which tolerances explain {allowed:.3g} m."
-        if model.memory.array("mode", n)[number] != OPEN and (others := _other_holds(model, number)):
+        if model.memory[owners.Contact.mode][:n][number] != OPEN and (others := _other_holds(model, number)):
             return f"{said} It is closed, and {others} hold its bodies otherwise. {_PRESSED}"
         return f"{said} It jumps in {described(contact.kinematics.evaluator)}. {_CHECK} {_SHIFT}"
     if status == PASSED:
@@ -50,10 +54,10 @@ def unexplained(model: LaidOut, status: int) -> str:
             "thousandth of its size, give it feet or a rounding, or take shorter steps, EventDriven(largest_step=...)."
         )
     if status == GAP_UNDECIDED:
-        n = int(scalars["n_contacts"])
-        contact = model.system.contacts[int(model.memory.array("identity", n)[number])]
+        n = model.memory[owners.Island.n_contacts]
+        contact = model.system.contacts[int(model.memory[owners.Contact.declared][:n][number])]
         return (
-            f"The {contact}: its gap is {found:.3g} m and hardly changes within a step of {float(scalars['h']):.3g} s. "
+            f"The {contact}: its gap is {found:.3g} m and hardly changes within a step of {model.memory[owners.Step.h]:.3g} s. "
             "Place the bodies farther apart or in contact, or take a smaller tolerance: EventDriven(tolerance=...)."
         )
     if status == JOINTS_APART:
@@ -97,8 +101,8 @@ def _light(model: LaidOut) -> str:
 
 def _other_holds(model: LaidOut, number: int) -> str:
     """Return the names of other pairs of bodies in closed contact with a body of the contact of a slot, "" if none."""
-    n = int(model.memory.scalars["n_contacts"][0])
-    modes, identity = model.memory.array("mode", n), model.memory.array("identity", n)
+    n = int(model.memory[owners.Island.n_contacts])
+    modes, identity = model.memory[owners.Contact.mode][:n], model.memory[owners.Contact.declared][:n]
     contact = model.system.contacts[int(identity[number])]
     own = {id(body) for body in (contact.first, contact.second) if body.n_u > 0}
     pairs = dict[tuple[int, int], str]()

@@ -6,12 +6,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, final
 
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.modes import PAUSED, REASONS, STOPPED
 from nonsmooth.interfaces import Cause, Engine, Measure
 from nonsmooth.solution.solution import Solution
 
 if TYPE_CHECKING:
-    from nonsmooth.engine.memory.arrays.arrays import Arrays
+    from nonsmooth.engine.memory.declare import Part
     from nonsmooth.engine.memory.memory import Memory
     from nonsmooth.system.system import System
 
@@ -33,12 +34,12 @@ class Budgeted(Engine):
     steps: int
 
     @property
-    def layers(self) -> tuple[str, ...]:
-        """Those of the engine."""
-        return self.engine.layers
+    def uses_flow(self) -> bool:
+        """As the engine."""
+        return self.engine.uses_flow
 
     @property
-    def own(self) -> Arrays | None:
+    def own(self) -> type[Part] | None:
         """Those of the engine."""
         return self.engine.own
 
@@ -70,15 +71,15 @@ class Budgeted(Engine):
         """Return those of the engine."""
         return self.engine.counts(n_slots)
 
-    def settings(self, time_scale: float) -> Mapping[str, float]:
+    def settings(self, time_scale: float) -> Mapping[Any, float]:
         """Return those of the engine."""
         return self.engine.settings(time_scale)
 
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
         """Go on as far as the budget reaches."""
-        left = self.steps - int(memory.record["steps"])
+        left = self.steps - int(memory[owners.Totals.n_steps])
         status = self.engine.advance(call, memory, min(most_steps, left), wary) if left > 0 else PAUSED
-        spent = status == PAUSED and int(memory.record["steps"]) >= self.steps
+        spent = status == PAUSED and int(memory[owners.Totals.n_steps]) >= self.steps
         return STOPPED if spent else status
 
     def spent(self, solution: Solution) -> bool:

@@ -10,6 +10,7 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, PAIR, ROTATION, SPIN, VELOCITY
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engines.event_driven import EventDriven
@@ -98,28 +99,28 @@ class Rig:
     def put(self, poses: Sequence[Pose], u: Array) -> None:
         """Put the bodies somewhere, with velocities and angular velocities in world axes, shape [12]."""
         q = np.concatenate([np.concatenate(pose) for pose in poses])
-        self._model.memory.array("y", 26)[:] = np.concatenate([q, u])
+        self._model.memory[owners.Island.y][:26][:] = np.concatenate([q, u])
         call_entry("evaluate_at", self._model.memory)
 
-    def _row(self, name: str, width: int) -> Array:
-        return self._model.memory.array(name, width).copy()
+    def _row(self, declared: Any) -> Array:
+        return np.array(self._model.memory[declared][0])
 
     @property
     def geometry(self) -> Array:
         """The geometry block, shape [31]."""
-        return self._row("geometry", PAIR)
+        return self._row(owners.Contact.geometry)[:PAIR]
 
     @property
     def axes(self) -> Array:
         """Normal and tangents, shape [3, 3]."""
-        return self._row("axes", 9).reshape(3, 3)
+        return self._row(owners.Contact.axes).reshape(3, 3)
 
     @property
     def rate(self) -> Array:
         """Gap rate and slip velocity [m/s], shape [3]."""
-        return self._row("rate", 3)
+        return self._row(owners.Contact.rate)
 
     @property
     def bias(self) -> Array:
         """Their derivatives while u' = 0, shape [3]."""
-        return self._row("bias", 3)
+        return self._row(owners.Contact.bias)

@@ -28,6 +28,7 @@ import nonsmooth as ns
 from bodies import BoxBody, Dumbbell, Ellipsoid, EllipsoidBody, Harmonic, HullBody, Plate, RigidBody
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.binding.compile import bind
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from nonsmooth.engine.memory.layout import CATALOGUE
 from nonsmooth.engine.native.kernel import address_of, call_pair, entry_addresses
@@ -151,7 +152,7 @@ def _instrument(model: LaidOut, accounts: dict[str, np.ndarray], searches: list[
     n_slots, n_declared = (int(memory.scalars[name][0]) for name in ("n_slots", "n_declared"))
     column = CATALOGUE.index("geometry_function")
     catalogue = memory.array("catalogue", len(CATALOGUE) * n_declared).reshape(n_declared, -1)[:, column]
-    in_slots = memory.array("geometry_function", n_slots)[: int(memory.scalars["n_contacts"][0])]
+    in_slots = memory[owners.Contact.geometry_function][:n_slots][: int(memory[owners.Island.n_contacts])]
     for functions in (catalogue, in_slots):
         functions[:] = [shims[int(one)] for one in functions]
     prototype = ctypes.CFUNCTYPE(ctypes.c_int64, *[ctypes.c_void_p] * 3)
@@ -164,7 +165,7 @@ def _instrument(model: LaidOut, accounts: dict[str, np.ndarray], searches: list[
         return status
 
     kept = prototype(timed_search)
-    memory.array("entry_points", len(ENTRY_POINTS))[_SEARCH] = ctypes.cast(kept, ctypes.c_void_p).value
+    memory[owners.Model.entry_points][: len(ENTRY_POINTS)][_SEARCH] = ctypes.cast(kept, ctypes.c_void_p).value
     return kept
 
 
@@ -176,7 +177,7 @@ def profile(build: Callable[[], ns.System], t_end: float, engine: Engine | None 
         accounts: dict[str, np.ndarray] = {}
         searches: list[float] = []
         model = assemble(build(), integrator)
-        model.memory.scalars["t_end"], model.memory.scalars["sample_interval"] = t_end, t_end / 10.0
+        model.memory[owners.Request.t_end], model.memory[owners.Request.sample_interval] = t_end, t_end / 10.0
         kept = _instrument(model, accounts, searches) if instrumented else None
         began = time.perf_counter()
         run_engine(integrator, model, Records(model), Image.of(model.memory), None, KeepsNothing())

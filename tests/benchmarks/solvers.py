@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory, allocate
 from nonsmooth.engine.memory.solvers import ENUMERATION, MOST_ENUMERATED, SOLVERS
 from nonsmooth.engine.memory.tables import COUNTS
@@ -65,15 +66,15 @@ def lay_out(problem: Problem, solver: int) -> Memory:
     """Return the engine's memory with the problem in it."""
     n = len(problem.bias) // 3
     memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_pivoted": n}, ("delassus", "contact"))
-    memory.array("entry_points", len(entry_addresses()))[:] = entry_addresses()
-    memory.scalars["n_active"], memory.scalars["solver"] = n, solver
-    memory.scalars["acceleration_scale"] = np.max(np.abs(problem.bias))
-    memory.array("active", n)[:] = np.arange(n)
+    memory[owners.Model.entry_points][: len(entry_addresses())][:] = entry_addresses()
+    memory[owners.Problem.n_active], memory[owners.Options.solver] = n, solver
+    memory[owners.Problem.acceleration_scale] = np.max(np.abs(problem.bias))
+    memory[owners.Problem.active][:n][:] = np.arange(n)
     write_delassus(memory, problem.delassus)
-    memory.array("free_accelerations", 3 * n)[:] = problem.bias
-    memory.array("mu", n)[:] = memory.array("mu_static", n)[:] = FRICTION
-    memory.array("at_rest", n)[:] = 1
-    memory.array("active_directions", 2 * n)[::2] = 1.0
+    memory[owners.Problem.free_accelerations][: 3 * n][:] = problem.bias
+    memory[owners.ActiveContact.friction_coefficient][:n][:] = memory[owners.ActiveContact.static_coefficient][:n][:] = FRICTION
+    memory[owners.ActiveContact.is_at_rest][:n][:] = 1
+    __FLAT(memory[owners.ActiveContact.direction], 2 * n)[::2] = 1.0
     return memory
 
 
@@ -83,8 +84,8 @@ def measure(problem: Problem, solver: int, repetitions: int) -> tuple[float, boo
     n = len(problem.bias) // 3
     least, solved = np.inf, False
     for _ in range(repetitions):
-        memory.array("mode_tried", n)[:] = -1
-        memory.array("active_directions", 2 * n).reshape(n, 2)[:] = (1.0, 0.0)
+        memory[owners.ActiveContact.mode_tried][:n][:] = -1
+        memory[owners.ActiveContact.direction][:n][:] = (1.0, 0.0)
         began = time.perf_counter()
         solved = call_entry("solve_contact", memory) == 1
         least = min(least, time.perf_counter() - began)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 import nonsmooth as ns
 from bodies import FreeBody, Rest
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import GEOMETRY
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engines.event_driven import EventDriven
@@ -113,22 +114,22 @@ class Rig:
         self._system.place(self._bodies[1], position=(0.0, 0.0, 50.0))
         self._model = assemble(self._system, EventDriven())
         # polyhedra have so many contacts that only those of near bodies are listed
-        self._model.memory.scalars["margin_of_list"] = self._model.memory.scalars["widest_margin"] = margin
+        self._model.memory[owners.Island.list_margin] = self._model.memory[owners.Options.widest_margin] = margin
         self._model.list_contacts()
 
     def listed(self) -> float:
         """List the contacts near each other; return how far others are at least [m]."""
         self._model.list_contacts()
-        return float(self._model.memory.scalars["margin_of_list"][0])
+        return float(self._model.memory[owners.Island.list_margin])
 
     def put(self, poses: Any, u: Any) -> None:
         """Put the bodies at (position, quaternion) each, with velocities u [12]."""
         q = np.concatenate([np.concatenate(pose) for pose in poses])
-        self._model.memory.array("y", 26)[:] = np.concatenate([q, u])
+        self._model.memory[owners.Island.y][:26][:] = np.concatenate([q, u])
         call_entry("evaluate_at", self._model.memory)
 
     def _rows(self, name: str, width: int) -> Array:
-        n = int(self._model.memory.scalars["n_contacts"][0])
+        n = int(self._model.memory[owners.Island.n_contacts])
         return self._model.memory.array(name, width * n).reshape(n, width).copy()
 
     @property

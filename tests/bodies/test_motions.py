@@ -24,6 +24,7 @@ from bodies import (
     Sphere,
     Table,
 )
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.modes import IMPACT
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engines.event_driven import EventDriven
@@ -109,10 +110,10 @@ class _Frame:
 
     def __init__(self, motion: Motion) -> None:
         self.model = lay_out(ns.System([DrivenBody(motion, (Sphere(1.0),))]), EventDriven())
-        self.out = int(self.model.memory.array("body_out", 1)[0])
+        self.out = int(self.model.memory[owners.Body.out][:1][0])
 
     def __call__(self, t: float) -> Any:
-        self.model.memory.scalars["t"] = t
+        self.model.memory[owners.Island.time] = t
         call_entry("evaluate_at", self.model.memory)
         return self.model.memory.floats[self.out : self.out + 24].copy()
 

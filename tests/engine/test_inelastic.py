@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from laws import Coulomb
 from nonsmooth.contact import _memory
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.model.delassus import write_delassus
 from tests.benchmarks.solvers import bodies
@@ -48,11 +49,11 @@ def impact(delassus: Floats, rates: Floats, at_hand: Floats | float = 0.0) -> tu
     n = len(rates) // 3
     memory = _memory([Coulomb(FRICTION)] * n, 0)
     write_delassus(memory, delassus)
-    memory.scalars["velocity_tolerance"] = REST
-    memory.array("free_accelerations", 3 * n)[:] = rates
-    memory.array("active_forces", 3 * n)[:] = at_hand
+    memory[owners.Tolerance.velocity] = REST
+    memory[owners.Problem.free_accelerations][: 3 * n][:] = rates
+    memory[owners.Problem.forces][: 3 * n][:] = at_hand
     found = call_entry("inelastic_impulses", memory, 1.0) == 1
-    return found, memory.array("active_forces", 3 * n).reshape(n, 3).copy()
+    return found, memory[owners.Problem.forces][: 3 * n].reshape(n, 3).copy()
 
 
 def assert_lawful(seed: int) -> None:

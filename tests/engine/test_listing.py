@@ -8,6 +8,7 @@ import pytest
 from bodies import Ball, ConstantVelocity, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth import System, simulate
+from nonsmooth.engine.memory import owners
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Motion
 from nonsmooth.model.assembly import assemble
@@ -44,9 +45,9 @@ def _gaps(system: System, places: np.ndarray) -> np.ndarray:
 
 
 def _listed(model: LaidOut) -> np.ndarray:
-    n = int(model.memory.scalars["n_contacts"][0])
+    n = int(model.memory[owners.Island.n_contacts])
     listed = np.zeros(len(model.system.contacts), bool)
-    listed[model.memory.array("identity", n)] = True
+    listed[model.memory[owners.Contact.declared][:n]] = True
     return listed
 
 
@@ -60,7 +61,7 @@ def test_what_is_near_is_listed(seed: int) -> None:
     system, _ = _system(places, Rest())
     model = assemble(system, EventDriven())
     gaps, listed = _gaps(system, places), _listed(model)
-    margin = float(model.memory.scalars["margin_of_list"][0])
+    margin = float(model.memory[owners.Island.list_margin])
     assert np.all(listed[gaps < margin])
     walls = np.array([isinstance(contact.first, Plate) for contact in system.contacts])
     assert not np.any(listed[walls & (gaps > margin)])

@@ -27,6 +27,7 @@ from bodies import (
     Triangles,
 )
 from laws import Coulomb, EnergeticImpact, LinearCompliant, Unilateral
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import (
     GAP,
     NORMAL,
@@ -249,16 +250,16 @@ def test_an_overlap_is_told_where_there_is_one_and_nowhere_else(kinds: tuple[str
     system = _system(*(CONVEX[kind]() for kind in kinds))
     model, rng = lay(system, ns.EventDriven()), np.random.default_rng(7)
     memory = model.memory
-    n = int(memory.scalars["n_pairs"][0])
+    n = int(memory[owners.Model.n_pairs])
     if kinds == ("ball", "ball"):
         assert n == 0
         return
     solids = [body.frames[0][0].solid for body in system.bodies]
-    y = memory.array("y", 14)
+    y = memory[owners.Island.y][:14]
 
     def at(distance: float, pose: tuple[np.ndarray, np.ndarray, np.ndarray]) -> tuple[Any, Any]:
         y[:3], y[3:7], y[7:10], y[10:14] = 0.0, pose[0], distance * pose[2], pose[1]
-        memory.scalars["t"] = rng.uniform()
+        memory[owners.Island.time] = rng.uniform()
         model.list_contacts()
         model.evaluate()
         placed = [Placed(solid, *place[0]) for solid, place in zip(solids, model.places(), strict=True)]  # type: ignore[arg-type]
@@ -273,11 +274,11 @@ def test_an_overlap_is_told_where_there_is_one_and_nowhere_else(kinds: tuple[str
         for depth in (-1e-3, -1e-9, 1e-9, 1e-6, 1e-4, 3e-3, 1e-2):
             found = penetration(*at(high - depth, pose), 1e-12)
             lower, upper = (0.0, 0.0) if found is None else (found.lower, found.upper)
-            memory.array("pair_direction", 3 * n)[:] = 0.0
-            memory.scalars["passed_depth"] = 0.0
+            __FLAT(memory[owners.Pair.direction], 3 * n)[:] = 0.0
+            memory[owners.Run.passed_depth] = 0.0
             call_entry("look_at_pairs", memory)
-            allowed = memory.array("pair_allowed", n)[0]
-            told = memory.scalars["passed_depth"][0] if memory.scalars["passed"][0] >= 0 else 0.0
+            allowed = memory[owners.Pair.allowed][:n][0]
+            told = memory[owners.Run.passed_depth] if memory[owners.Run.passed_pair] >= 0 else 0.0
             assert told <= 1.002 * upper + 1e-12
             assert told > 0.0 or lower <= 1.01 * allowed
 

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from bodies import Ball, Plate
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth import System
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory, allocate
 from nonsmooth.engine.memory.modes import NO_SLOT, STICK
 from nonsmooth.engine.memory.tables import COUNTS
@@ -51,8 +52,8 @@ def _started(system: System) -> Memory:
 def _sizes(memory: Memory) -> tuple[int, int, int]:
     """Return the numbers of closed contacts, of stored blocks, and the half band of the last forces."""
     scalars = memory.scalars[0]
-    m = int(scalars["n_grouped"])
-    return m, int(memory.array("block_start", m + 1)[m]), int(scalars["half_band"])
+    m = int(scalars["island.n_grouped"])
+    return m, int(memory[owners.Island.block_start][m]), int(scalars["problem.half_band"])
 
 
 @pytest.mark.parametrize("shuffled", [False, True])
@@ -67,7 +68,7 @@ def test_chain_costs_what_it_is_long(shuffled: bool) -> None:
     for n in (16, 64):
         memory = _started(_row(n, random.permutation(n) if shuffled else np.arange(n), False))
         call_entry("project_closed", memory, 1, 0)
-        call_entry("right_hand_side", memory, 0.0, int(memory.scalars["y"][0]), 0, 1)
+        call_entry("right_hand_side", memory, 0.0, int(memory[owners.Island.y]), 0, 1)
         narrow[n] = _sizes(memory)[2]
     assert narrow == {16: 1, 64: 1}
 
@@ -77,9 +78,9 @@ def test_row_on_a_plate_costs_what_it_is_long() -> None:
     bands = []
     for n in (10, 20, 40):
         memory = _started(_row(n, np.random.default_rng(n).permutation(n), True))
-        call_entry("right_hand_side", memory, 0.0, int(memory.scalars["y"][0]), 0, 1)
+        call_entry("right_hand_side", memory, 0.0, int(memory[owners.Island.y]), 0, 1)
         m, blocks, half = _sizes(memory)
-        assert memory.scalars["null_banded"][0] == 1
+        assert memory[owners.Problem.is_null_space_banded] == 1
         # a contact with the plate meets up to two of the row, one of the row two with the plate and two of its own
         assert (m, blocks) == (2 * n - 1, n + 2 * (n - 1) + 3 * (n - 1) + 2 * (n - 2))
         bands.append(half)
@@ -89,18 +90,18 @@ def test_row_on_a_plate_costs_what_it_is_long() -> None:
 def _memory(matrix: Any, bias: Any, mu: float, sliding: Any) -> Memory:
     n = len(bias) // 3
     memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n}, ("delassus", "contact"))
-    memory.array("entry_points", len(entry_addresses()))[:] = entry_addresses()
-    memory.scalars["n_active"] = n
-    memory.scalars["acceleration_scale"] = np.max(np.abs(bias))
-    memory.array("active", n)[:] = np.arange(n)
+    memory[owners.Model.entry_points][: len(entry_addresses())][:] = entry_addresses()
+    memory[owners.Problem.n_active] = n
+    memory[owners.Problem.acceleration_scale] = np.max(np.abs(bias))
+    memory[owners.Problem.active][:n][:] = np.arange(n)
     write_delassus(memory, matrix)
-    memory.array("free_accelerations", 3 * n)[:] = bias
-    memory.array("mu", n)[:] = memory.array("mu_static", n)[:] = mu
-    memory.array("active_directions", 2 * n)[::2] = 1.0
-    memory.array("direction", 2 * n)[::2] = 1.0
-    memory.array("normal_held", n)[:] = 1
-    memory.array("tangent_held", n)[:] = memory.array("at_rest", n)[:] = ~np.asarray(sliding)
-    memory.array("mode_tried", n)[:] = STICK
+    memory[owners.Problem.free_accelerations][: 3 * n][:] = bias
+    memory[owners.ActiveContact.friction_coefficient][:n][:] = memory[owners.ActiveContact.static_coefficient][:n][:] = mu
+    __FLAT(memory[owners.ActiveContact.direction], 2 * n)[::2] = 1.0
+    __FLAT(memory[owners.Contact.direction], 2 * n)[::2] = 1.0
+    memory[owners.ActiveContact.is_normal_force_unknown][:n][:] = 1
+    memory[owners.ActiveContact.sticks][:n][:] = memory[owners.ActiveContact.is_at_rest][:n][:] = ~np.asarray(sliding)
+    memory[owners.ActiveContact.mode_tried][:n][:] = STICK
     return memory
 
 
@@ -137,8 +138,8 @@ def test_regular_band_is_solved(n: int, seed: int, mu: float) -> None:
     sliding = random.random(n) < 0.3
     memory = _memory(matrix, bias, mu, sliding)
     call_entry("resolve", memory)
-    assert int(memory.array("block_start", n + 1)[n]) == 3 * n - 2
-    f = memory.array("active_forces", 3 * n)
+    assert int(memory[owners.Island.block_start][n]) == 3 * n - 2
+    f = memory[owners.Problem.forces][: 3 * n]
     held = np.ones(3 * n, bool)
     held[1::3] = held[2::3] = ~sliding
     left = (matrix @ f + bias)[held]
@@ -160,11 +161,11 @@ def test_least_norm_in_a_band_is_that_of_the_pseudoinverse(n: int, share: float)
     memories = [_memory(g, bias, 0.2, sliding) for g in (matrix, matrix + TINY)]
     for memory in memories:
         call_entry("resolve", memory)
-    assert [int(memory.scalars["null_banded"][0]) for memory in memories] == [1, 0]
-    assert [int(memory.scalars["deficient"][0]) for memory in memories] == [1, 1]
-    forces = [memory.array("active_forces", 3 * m) for memory in memories]
+    assert [int(memory[owners.Problem.is_null_space_banded]) for memory in memories] == [1, 0]
+    assert [int(memory[owners.Problem.is_deficient]) for memory in memories] == [1, 1]
+    forces = [memory[owners.Problem.forces][: 3 * m] for memory in memories]
     np.testing.assert_allclose(forces[0], forces[1], rtol=0, atol=1e-10 * np.max(np.abs(forces[1])))
-    marked = [memory.array("redundant", m).tolist() for memory in memories]
+    marked = [memory[owners.ActiveContact.has_redundant_force][:m].tolist() for memory in memories]
     assert marked[0] == marked[1]
     columns = np.zeros((3 * m, 0))
     for i in range(m):
@@ -189,16 +190,16 @@ def test_contact_problem_in_a_band_has_the_dense_motion(push: float) -> None:
     for g in (matrix, matrix + TINY):
         memory = _memory(g, jacobian @ free, 0.3, np.zeros(len(matrix) // 3, bool))
         assert call_entry("solve_contact", memory) == 1
-        motions.append(matrix @ memory.array("active_forces", len(matrix)) + jacobian @ free)
+        motions.append(matrix @ memory[owners.Problem.forces][: len(matrix)] + jacobian @ free)
     np.testing.assert_allclose(motions[0], motions[1], rtol=0, atol=1e-8)
 
 
 def test_too_many_blocks_end_the_run() -> None:
     """Without room for the blocks of an island the run ends with that reason, and nothing is written beyond them."""
     memory = assemble(_row(6, np.arange(6), False), EventDriven()).memory
-    memory.scalars["n_slots"] = 2
+    memory[owners.Model.n_slots] = 2
     assert call_entry("advance", memory, 0, 0) == NO_SLOT
-    assert memory.array("block_start", 6).tolist() == [0, 1, 2, 3, 4, 5]
+    assert memory[owners.Island.block_start][:6].tolist() == [0, 1, 2, 3, 4, 5]
 
 
 def test_a_matrix_goes_in_and_out() -> None:
@@ -206,4 +207,4 @@ def test_a_matrix_goes_in_and_out() -> None:
     matrix = _weighted(_balls_on_plate(4))
     memory = _memory(matrix, np.ones(len(matrix)), 0.0, np.zeros(len(matrix) // 3, bool))
     np.testing.assert_array_equal(read_delassus(memory, len(matrix) // 3), matrix)
-    assert int(memory.array("block_start", 8)[7]) < 49
+    assert int(memory[owners.Island.block_start][:8][7]) < 49

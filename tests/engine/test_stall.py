@@ -12,6 +12,7 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, Plate, Rest
 from laws import EnergeticImpact, Frictionless, Unilateral
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import PAUSED, STALLED
 from nonsmooth.interfaces import Engine
@@ -84,10 +85,10 @@ class Relay(Engine):
         if status != STALLED:
             return status
         n_q, n_u, n = (int(memory.record[name]) for name in ("n_q", "n_u", "n_contacts"))
-        assert np.max(memory.array("crowd_events", n)) > 100
-        memory.array("crowd_events", n)[:] = 0
-        memory.array("y", n_q + n_u)[n_q:] = 0.0
-        memory.record["started"] = 0
+        assert np.max(memory[owners.Contact.burst_events][:n]) > 100
+        memory[owners.Contact.burst_events][:n][:] = 0
+        memory[owners.Island.y][: n_q + n_u][n_q:] = 0.0
+        memory[owners.Run.has_started] = 0
         return PAUSED
 
 

@@ -10,7 +10,8 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, BoxBody, CapsuleBody, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth.engine.memory.blocks import GEOMETRY, PAST_END
+from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.blocks import PAST_END
 from nonsmooth.engine.memory.modes import CAUSES
 from nonsmooth.engine.native.kernel import PLAIN, call_entry
 from nonsmooth.engines.event_driven import EventDriven
@@ -84,7 +85,7 @@ def test_closings_bring_to_rest_lose_energy_and_push_nothing_into_anything(kind:
         n = len(system.contacts)
         for e in np.flatnonzero(events.cause == CAUSES.index("closing of an accumulation")):
             closings += 1
-            y = model.memory.array("y", model.n_y)
+            y = model.memory[owners.Island.y][: model.n_y]
             kinetic = []
             for u in (events.u_before[e], events.u_after[e]):
                 y[: model.n_q], y[model.n_q : model.n_q + model.n_u] = events.q[e], u
@@ -93,8 +94,8 @@ def test_closings_bring_to_rest_lose_energy_and_push_nothing_into_anything(kind:
             assert kinetic[1] <= kinetic[0] + 1e-9 * scale
             assert kinetic[0] - kinetic[1] == pytest.approx(events.closing_loss[e], abs=1e-6 * scale)
             call_entry("evaluate_at", model.memory)
-            geometry = model.memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)
-            rates = model.memory.array("rate", 3 * n).reshape(n, 3)[:, 0]
+            geometry = model.memory[owners.Contact.geometry][:n]
+            rates = model.memory[owners.Contact.rate][:n][:, 0]
             # past the end of its features a gap has no rate
             touching = (np.abs(geometry[:, 0]) < _GAP) & (geometry[:, PAST_END] <= 0.0)
             assert np.all(rates[touching] > -_RATE)

@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bodies import Dumbbell, Harmonic
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engines.event_driven import EventDriven
@@ -185,7 +186,7 @@ def test_engine_equals_the_derivation(build: Any, numbers: Any, state: Any) -> N
     mass, normal, slip, normal_bias, slip_bias, force, to_u, to_u_rate, axes, centre = numbers(
         *q, *rate, body.total_mass, body.centre_distance, body.radius, j1, j2, GRAVITY
     )
-    out = int(model.memory.array("body_out", 2)[1])
+    out = int(model.memory[owners.Body.out][:2][1])
     block = floats[out : out + 111]
     np.testing.assert_allclose(block[:3], centre.ravel(), rtol=0, atol=1e-13)
     np.testing.assert_allclose(block[3:12].reshape(3, 3), axes, rtol=0, atol=2e-15 * 4)
@@ -196,31 +197,31 @@ def test_engine_equals_the_derivation(build: Any, numbers: Any, state: Any) -> N
     bias = to_u_rate.ravel()
     engine_force = floats[tail : tail + 6]
     _close(to_u.T @ (engine_force - engine_mass @ bias), force.ravel(), scale=_size(engine_mass @ bias))
-    jacobian = np.stack([floats[int(j) : int(j) + 18].reshape(3, 6) for j in model.memory.array("jacobian_b", 2)])
+    jacobian = np.stack([floats[int(j) : int(j) + 18].reshape(3, 6) for j in model.memory[owners.Contact.jacobian_b][:2]])
     w_engine, n_engine = jacobian[:, 0].T, jacobian[:, 1:].reshape(4, 6).T
     _close(to_u.T @ w_engine, normal)
     _close(to_u.T @ n_engine, slip)
     omega = 2.0 * math.pi * motion.frequency
     phase = omega * time + motion.phase
     plate = motion.amplitude * np.array([np.sin(phase), omega * np.cos(phase), -(omega**2) * np.sin(phase)])
-    rates = model.memory.array("rate", 6).reshape(2, 3)
+    rates = model.memory[owners.Contact.rate][:2]
     _close(rates[:, 0], (normal.T @ rate).ravel() - plate[1], scale=_size(rate))
     _close(rates[:, 1:].ravel(), (slip.T @ rate).ravel(), scale=_size(rate))
-    prescribed = model.memory.array("prescribed_rate", 6).reshape(2, 3)
+    prescribed = model.memory[owners.Contact.prescribed_rate][:2]
     _close(prescribed, np.array([[-plate[1], 0.0, 0.0]] * 2), scale=_size(rate))
     # the engine's bias is g'' and v' with u' = 0, that is q'' = -T^-1 T' q'
     still = -np.linalg.solve(to_u, bias)
     expected_n = (normal.T @ still) + normal_bias.ravel() - plate[2]
     expected_t = (slip.T @ still) + slip_bias.ravel()
     scale = _size(plate[2]) + _size(jacobian) * _size(still)
-    engine_bias = model.memory.array("bias", 6).reshape(2, 3)
+    engine_bias = model.memory[owners.Contact.bias][:2]
     _close(engine_bias[:, 0], expected_n, scale=scale)
     _close(engine_bias[:, 1:].ravel(), expected_t, scale=scale)
     gaps = model.gaps()
     z1, beta = q[2], q[4]
     expected = np.array([z1, z1 + body.centre_distance * math.sin(beta)]) - body.radius - plate[0]
     np.testing.assert_allclose(gaps, expected, rtol=0, atol=1e-15)
-    assert float(scalars["t"][0]) == time
+    assert float(scalars["island.time"][0]) == time
 
 
 def _model_at(build: Any, body: Dumbbell, motion: Harmonic, q: Any, rate: Any, time: float) -> Any:
@@ -229,8 +230,8 @@ def _model_at(build: Any, body: Dumbbell, motion: Harmonic, q: Any, rate: Any, t
     model = assemble(system, EventDriven())
     start = build.paper_start(body, q, rate)
     names = ("position", "orientation", "velocity", "angular_velocity")
-    model.memory.array("y", 13)[:] = np.concatenate([start[n] for n in names])
-    model.memory.scalars["t"] = time
+    model.memory[owners.Island.y][:13][:] = np.concatenate([start[n] for n in names])
+    model.memory[owners.Island.time] = time
     call_entry("evaluate_at", model.memory)
     return model
 

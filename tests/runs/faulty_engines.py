@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import nonsmooth as ns
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import DONE, PAUSED
 from nonsmooth.interfaces import Engine
@@ -108,7 +109,7 @@ class DoneAtOnce(Blind):
 
 class WithoutSamples(Blind):
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
-        memory.record["t"] = memory.record["t_end"]
+        memory[owners.Island.time] = memory[owners.Request.t_end]
         return DONE
 
 

@@ -8,6 +8,7 @@ from typing import Any, final
 
 import numpy as np
 
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import DONE, PAUSED
 from nonsmooth.errors import InvalidInput
@@ -49,7 +50,7 @@ class Midpoint(Engine):
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
         """Step as far as the step fits, and the rest at the end."""
         s = memory.scalars[0]
-        y = memory.array("y", int(s["n_y"]))
+        y = memory[owners.Island.y][: int(s["n_y"])]
         for _ in range(most_steps):
             if s["t"] >= s["t_end"]:
                 return DONE

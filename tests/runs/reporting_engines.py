@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import DONE, PAUSED, START, STEP, STICK
 from nonsmooth.interfaces import Cause, Measure
@@ -40,20 +41,20 @@ class Resting(Blind):
 
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
         record = memory.record
-        n, y = int(record["n_contacts"]), memory.array("y", int(record["n_y"]))
-        while record["next_sample"] <= record["t_end"]:
-            if 2 * record["n_samples"] > record["sample_capacity"]:
+        n, y = int(record["island.n_contacts"]), memory[owners.Island.y][: int(record["model.n_y"])]
+        while record["output.next_sample"] <= record["request.t_end"]:
+            if 2 * record["output.n_samples"] > record["model.sample_capacity"]:
                 return PAUSED
-            index, record["t"] = int(record["sample_index"]), record["next_sample"]
+            index, record["island.time"] = int(record["output.sample_index"]), record["output.next_sample"]
             if index == 0:
-                record["t"] += self.first * record["sample_interval"]
+                record["island.time"] += self.first * record["request.sample_interval"]
             call("remember")
-            memory.array("mode", n)[:] = STICK
-            memory.array("event_impulse", 3 * n)[::3] = IMPULSE
+            memory[owners.Contact.mode][:n][:] = STICK
+            __FLAT(memory[owners.Contact.event_impulse], 3 * n)[::3] = IMPULSE
             call("record_event", STEP if index else START, -1, 0)
             place = call("begin_sample")
             memory.floats[place : place + len(y)] = y
-        record["t"] = record["t_end"]
+        record["island.time"] = record["request.t_end"]
         return DONE
 
 
@@ -102,17 +103,17 @@ class Judged(Blind):
 
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
         record = memory.record
-        n_q, n_u = int(record["n_q"]), int(record["n_u"])
+        n_q, n_u = int(record["model.n_q"]), int(record["model.n_u"])
         for _ in range(most_steps):
-            before = float(record["t"])
+            before = float(record["island.time"])
             status = Midpoint(self.step).advance(call, memory, 1, wary)
-            fall = -float(memory.array("y", n_q + n_u)[-4])
+            fall = -float(memory[owners.Island.y][: n_q + n_u][-4])
             record["fastest_fall"] = max(float(record["fastest_fall"]), fall)
-            if record["t"] > max(before, 0.0505):
-                record["driven_work"] += self.gain
+            if record["island.time"] > max(before, 0.0505):
+                record["totals.driven_work"] += self.gain
             for speed, code in ((self.most, TOO_FAST), (self.enough, SLOW)):
                 if fall >= speed:
                     return code
-            if status == DONE or record["t"] == before:
+            if status == DONE or record["island.time"] == before:
                 return status
         return PAUSED

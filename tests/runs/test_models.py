@@ -15,6 +15,7 @@ import pytest
 
 import nonsmooth as ns
 from bodies import Ball, Harmonic
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import Guard
 from nonsmooth.parameters import parameter
@@ -29,8 +30,8 @@ SCENARIOS = (("dumbbell", 0.4), ("dice_throw", 0.05), ("newtons_cradle", 0.4), (
 def _spoil(model: ns.Model) -> None:
     """Fill what no run may read before it has written it."""
     memory = model._laid.memory
-    memory.floats[int(memory.scalars["events"][0]) : memory.blocks] = math.nan
-    memory.integers[int(memory.scalars["event_codes"][0]) :] = -7
+    memory.floats[int(memory[owners.Output.event_numbers]) : memory.blocks] = math.nan
+    memory.integers[int(memory[owners.Output.event_codes]) :] = -7
 
 
 @pytest.mark.fast_cases(3)

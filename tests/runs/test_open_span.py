@@ -7,6 +7,7 @@ import re
 import nonsmooth as ns
 from bodies import Ball, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory
 from tests.testing.engine_dummies import Dummy
 
@@ -15,8 +16,8 @@ _WORK = 0.01
 
 
 def _book(memory: Memory, call: int) -> None:
-    if 0.25 < memory.record["t"] < 0.3:
-        memory.record["driven_work"] += _WORK
+    if 0.25 < memory[owners.Island.time] < 0.3:
+        memory[owners.Totals.driven_work] += _WORK
 
 
 def _bouncing(engine: ns.EventDriven | Dummy) -> ns.Solution:

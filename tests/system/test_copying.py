@@ -14,6 +14,7 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, Plate
 from laws import Coulomb
+from nonsmooth.engine.memory import owners
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.model.assembly import assemble
 from nonsmooth.plugins import registry
@@ -88,6 +89,6 @@ def test_every_scenario_can_be_sent_to_another_process(name: str) -> None:
     """Its system comes out of the pickle with the same starts, and lies in the engine with the same gaps."""
     system = registry.load("scenarios", name)().build()
     one, other = (assemble(made, EventDriven()) for made in (system, _pickled(system)))
-    np.testing.assert_array_equal(one.memory.array("y", one.n_y), other.memory.array("y", other.n_y))
+    np.testing.assert_array_equal(one.memory[owners.Island.y][: one.n_y], other.memory[owners.Island.y][: other.n_y])
     np.testing.assert_array_equal(one.gaps(), other.gaps())
     assert one.energy() == other.energy()

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from nonsmooth.engine.events.record import CODE_HEAD
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Engine
@@ -20,62 +21,62 @@ def _none(memory: Memory, call: int) -> None:
 
 
 def _push(memory: Memory, call: int) -> None:
-    if memory.scalars["t"][0] == 0.0 and memory.record["n_bodies"] == 1:
-        memory.array("y", 4)[3] += 0.1
+    if memory[owners.Island.time] == 0.0 and memory[owners.Model.n_bodies] == 1:
+        memory[owners.Island.y][:4][3] += 0.1
 
 
 def _late(memory: Memory, call: int) -> None:
-    if memory.scalars["t"][0] == 0.0:
-        memory.scalars["next_sample"] += 0.01
+    if memory[owners.Island.time] == 0.0:
+        memory[owners.Output.next_sample] += 0.01
 
 
 def _skip(memory: Memory, call: int) -> None:
-    if memory.scalars["sample_index"][0] > 1000:
-        memory.scalars["sample_index"] += 1
-        memory.scalars["next_sample"] += memory.scalars["sample_interval"]
+    if memory[owners.Output.sample_index] > 1000:
+        memory[owners.Output.sample_index] += 1
+        memory[owners.Output.next_sample] += memory[owners.Request.sample_interval]
 
 
 def _gain(memory: Memory, call: int) -> None:
-    if memory.record["n_bodies"] == 1:
-        memory.scalars["driven_work"] += 0.01
+    if memory[owners.Model.n_bodies] == 1:
+        memory[owners.Totals.driven_work] += 0.01
 
 
 def _age(memory: Memory, call: int) -> None:
-    memory.array("y", 1)[0] += 1e-12 * call
+    memory[owners.Island.y][:1][0] += 1e-12 * call
 
 
 def _forget(memory: Memory, call: int) -> None:
-    if memory.scalars["resumed"][0] == 1:
-        memory.array("y", 1)[0] += 1e-12
+    if memory[owners.Request.is_resumed] == 1:
+        memory[owners.Island.y][:1][0] += 1e-12
 
 
 def _turn(memory: Memory, call: int) -> None:
     """Turn the box that tumbles a little, at constant length of its quaternion."""
-    if memory.record["n_q"] == 14:
-        four = memory.array("y", 14)[10:]
+    if memory[owners.Model.n_q] == 14:
+        four = memory[owners.Island.y][:14][10:]
         four[:2] = 0.8 * four[0] - 0.6 * four[1], 0.6 * four[0] + 0.8 * four[1]
 
 
 def _throw(memory: Memory, call: int) -> None:
     """Throw the ball over the driven plate up."""
-    if memory.record["n_bodies"] == 2 and memory.record["n_q"] == 7 and memory.record["t"] == 0.0:
-        memory.array("y", 10)[9] += 0.5
+    if memory[owners.Model.n_bodies] == 2 and memory[owners.Model.n_q] == 7 and memory[owners.Island.time] == 0.0:
+        memory[owners.Island.y][:10][9] += 0.5
 
 
 def _sink(memory: Memory, call: int) -> None:
     """Overlook the contacts of the heap."""
-    if memory.record["n_bodies"] == 11:
+    if memory[owners.Model.n_bodies] == 11:
         _overlook(memory, call)
 
 
 def _open(memory: Memory, call: int) -> None:
     """Record the contact of the first event as open."""
-    if memory.record["integers_used"] > CODE_HEAD:
-        memory.array("event_codes", CODE_HEAD + 2)[CODE_HEAD + 1] = 0
+    if memory[owners.Output.integers_used] > CODE_HEAD:
+        memory[owners.Output.event_codes][: CODE_HEAD + 2][CODE_HEAD + 1] = 0
 
 
 def _overlook(memory: Memory, call: int) -> None:
-    memory.scalars["n_contacts"] = memory.scalars["n_units"] = 0
+    memory[owners.Island.n_contacts] = memory[owners.Model.n_spheres] = 0
 
 
 @dataclass(frozen=True)

@@ -49,7 +49,7 @@ def stretch_tangents(ws: Workspace, c: int, t1: Vector, t2: Vector) -> None:
     v1, v2 = contact.slip_of_tangents
     forward = e1 * v1 + e2 * v2
     # one that sticks faces against what holds it: in the stages of a step its slip is not quite none
-    if contact.mode != STICK and abs(forward) > ws.velocity_tolerance:
+    if contact.mode != STICK and abs(forward) > ws.tolerance.velocity:
         contact.facing = 1 if forward > 0.0 else -1
     along, across = law[_FORWARD] if contact.facing == 1 else law[_BACKWARD], law[_ACROSS]
     contact.stretch_1, contact.stretch_2 = (along * e1, along * e2), (-across * e2, across * e1)
@@ -82,7 +82,7 @@ def along_tangents(ws: Workspace, c: int, friction: Pair) -> Pair:
 @kernel()
 def face_slips(ws: Workspace) -> None:
     """Let contacts that stuck before an impact face against the slip that it leaves."""
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         if contact.is_anisotropic and contact.mode == STICK:
             contact.mode = SLIDE

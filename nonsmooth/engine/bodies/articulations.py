@@ -51,13 +51,13 @@ def _write_rows(ws: Workspace, joint_number: int, number: int) -> None:
         at(ws.floats, joint.parameters),
         at(ws.floats, joint.out),
     )
-    for r in range(joint.rows):
-        row, i = joint_row(ws.floats, joint.out, r), joint.first + r
+    for r in range(joint.n_rows):
+        row, i = joint_row(ws.floats, joint.out, r), joint.first_row + r
         axis, moment = row.axis, row.moment
-        line = articulation.jacobian + i * articulation.nu
-        side_a, side_b = line + joint.shift_a, line + joint.shift_b
-        side_wrench(ws.floats, frame_a, row.point_a, opposite(axis), opposite(moment), joint.nu_a, side_a)
-        side_wrench(ws.floats, frame_b, row.point_b, axis, moment, joint.nu_b, side_b)
+        line = articulation.jacobian + i * articulation.n_u
+        side_a, side_b = line + joint.column_a, line + joint.column_b
+        side_wrench(ws.floats, frame_a, row.point_a, opposite(axis), opposite(moment), joint.n_u_a, side_a)
+        side_wrench(ws.floats, frame_b, row.point_b, axis, moment, joint.n_u_b, side_b)
         ws.floats[articulation.residual + i] = row.residual
         ws.floats[articulation.bias + i] = row.bias
         ws.floats[articulation.rate + i] = _speed(ws.floats, frame_b, axis, row.point_b, moment) - _speed(
@@ -69,17 +69,17 @@ def _write_rows(ws: Workspace, joint_number: int, number: int) -> None:
 def _inverse_masses(ws: Workspace, number: int) -> None:
     """Write M^-1 of the articulation's bodies to K and R = A M^-1."""
     articulation = ws.articulations[number]
-    n, m = articulation.nu, articulation.rows
-    matrix, jacobian, r = articulation.inverse, articulation.jacobian, articulation.r
+    n, m = articulation.n_u, articulation.n_rows
+    matrix, jacobian, r = articulation.inverse, articulation.jacobian, articulation.response
     for i in range(n * n):
         ws.floats[matrix + i] = 0.0
     for i in range(n * m):
         ws.floats[r + i] = 0.0
-    for one in range(articulation.body, articulation.body + articulation.bodies):
+    for one in range(articulation.first_body, articulation.first_body + articulation.n_bodies):
         body = ws.bodies[one]
-        n_u = body.nu
+        n_u = body.n_u
         shift = body.u - articulation.u
-        inverse = body.tail + body.nq + n_u
+        inverse = body.tail + body.n_q + n_u
         for i in range(n_u):
             for j in range(n_u):
                 entry = ws.floats[inverse + i * n_u + j]
@@ -129,11 +129,11 @@ def substitute(w: Floats, a: int, n: int, x: int, stride: int) -> None:
 def evaluate_articulation(ws: Workspace, number: int) -> None:
     """Write K, Y, residuals and rates of the joints, the part of u that is not prescribed, and the driven power."""
     articulation = ws.articulations[number]
-    for joint in range(articulation.joint, articulation.joint + articulation.joints):
+    for joint in range(articulation.first_joint, articulation.first_joint + articulation.n_joints):
         _write_rows(ws, joint, number)
     _inverse_masses(ws, number)
-    n, m = articulation.nu, articulation.rows
-    jacobian, r, y = articulation.jacobian, articulation.r, articulation.y
+    n, m = articulation.n_u, articulation.n_rows
+    jacobian, r, y = articulation.jacobian, articulation.response, articulation.solved_response
     matrix, factor = articulation.inverse, articulation.factor
     for i in range(m):
         for j in range(i + 1):
@@ -159,10 +159,10 @@ def evaluate_articulation(ws: Workspace, number: int) -> None:
 def _power(ws: Workspace, number: int) -> float:
     """Return the power of the bodies' own forces on the velocities ``u_free``."""
     articulation, power = ws.articulations[number], 0.0
-    for one in range(articulation.body, articulation.body + articulation.bodies):
+    for one in range(articulation.first_body, articulation.first_body + articulation.n_bodies):
         body = ws.bodies[one]
-        for i in range(body.nu):
-            power += ws.floats[body.tail + body.nq + i] * ws.u_free[body.u + i]
+        for i in range(body.n_u):
+            power += ws.floats[body.tail + body.n_q + i] * ws.island.u_free[body.u + i]
     return power
 
 
@@ -170,11 +170,11 @@ def _power(ws: Workspace, number: int) -> float:
 def _prescribe(ws: Workspace, number: int) -> None:
     """Take off the velocities that driven bodies impose through joints, and book their power but for contact forces."""
     articulation = ws.articulations[number]
-    if articulation.driven == 0:
+    if not articulation.is_driven:
         return
-    n, m = articulation.nu, articulation.rows
-    u, x = ws.offsets.u_free + articulation.u, articulation.x
-    ws.driven_power -= _power(ws, number)
+    n, m = articulation.n_u, articulation.n_rows
+    u, x = ws.island.u_free.start + articulation.u, articulation.forces
+    ws.step.driven_power -= _power(ws, number)
     for line in range(m):
         total = 0.0
         for c in range(n):
@@ -182,19 +182,19 @@ def _prescribe(ws: Workspace, number: int) -> None:
         ws.floats[x + line] = total
     for line in range(m):
         for c in range(n):
-            ws.floats[u + c] -= ws.floats[articulation.y + line * n + c] * ws.floats[x + line]
-    ws.driven_power += _power(ws, number)
+            ws.floats[u + c] -= ws.floats[articulation.solved_response + line * n + c] * ws.floats[x + line]
+    ws.step.driven_power += _power(ws, number)
     substitute(ws.floats, articulation.factor, m, x, 1)
     for line in range(m):
-        ws.driven_power -= ws.floats[x + line] * ws.floats[articulation.bias + line]
+        ws.step.driven_power -= ws.floats[x + line] * ws.floats[articulation.bias + line]
 
 
 @kernel("void(ws, i8)")
 def constrain(ws: Workspace, number: int) -> None:
     """Subtract from the accelerations ``du`` of an articulation what its joints do not allow: Y^T (A du + bias)."""
     articulation = ws.articulations[number]
-    n, m = articulation.nu, articulation.rows
-    du, x = ws.offsets.du + articulation.u, articulation.x
+    n, m = articulation.n_u, articulation.n_rows
+    du, x = ws.island.du.start + articulation.u, articulation.forces
     for line in range(m):
         total = ws.floats[articulation.bias + line]
         for c in range(n):
@@ -202,4 +202,4 @@ def constrain(ws: Workspace, number: int) -> None:
         ws.floats[x + line] = total
     for line in range(m):
         for c in range(n):
-            ws.floats[du + c] -= ws.floats[articulation.y + line * n + c] * ws.floats[x + line]
+            ws.floats[du + c] -= ws.floats[articulation.solved_response + line * n + c] * ws.floats[x + line]

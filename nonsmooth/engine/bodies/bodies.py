@@ -25,7 +25,7 @@ from nonsmooth.engine.numerics.vectors import minus, opposite
 def _write(ws: Workspace, t: float, y: int, number: int) -> None:
     """Let one body write its output block at time ``t`` and the state at offset ``y``."""
     body = ws.bodies[number]
-    q, u = at(ws.floats, y + body.q), at(ws.floats, y + ws.n_q + body.u)
+    q, u = at(ws.floats, y + body.q), at(ws.floats, y + ws.model.n_q + body.u)
     call_body(body.function, t, q, u, at(ws.floats, body.parameters), at(ws.floats, body.out))
 
 
@@ -35,21 +35,21 @@ def evaluate_body(ws: Workspace, t: float, y: int, number: int) -> None:
     body = ws.bodies[number]
     _write(ws, t, y, number)
     body.version += 1
-    if body.nu > 0:
-        ws.free_t = math.nan
+    if body.n_u > 0:
+        ws.island.free_time = math.nan
 
 
 @kernel("b1(ws, f8, i8, i8)")
 def _stands(ws: Workspace, t: float, y: int, number: int) -> bool:
     """Return 1 if a body was evaluated last at this time and state."""
     body = ws.bodies[number]
-    if body.version == 0 or body.stood != body.version or body.stood_t != t:
+    if body.version == 0 or body.evaluated_version != body.version or body.evaluated_time != t:
         return False
-    for i in range(body.q, body.q + body.nq):
-        if ws.y_stood[i] != ws.floats[y + i]:
+    for i in range(body.q, body.q + body.n_q):
+        if ws.island.y_evaluated[i] != ws.floats[y + i]:
             return False
-    for i in range(ws.n_q + body.u, ws.n_q + body.u + body.nu):
-        if ws.y_stood[i] != ws.floats[y + i]:
+    for i in range(ws.model.n_q + body.u, ws.model.n_q + body.u + body.n_u):
+        if ws.island.y_evaluated[i] != ws.floats[y + i]:
             return False
     return True
 
@@ -62,15 +62,15 @@ def evaluate_once(ws: Workspace, t: float, y: int, number: int) -> None:
     """
     body = ws.bodies[number]
     if _stands(ws, t, y, number):
-        if body.flight_function == 0:
+        if body.ballistic_function == 0:
             _write(ws, t, y, number)
         return
     evaluate_body(ws, t, y, number)
-    body.stood, body.stood_t = body.version, t
-    for i in range(body.q, body.q + body.nq):
-        ws.y_stood[i] = ws.floats[y + i]
-    for i in range(ws.n_q + body.u, ws.n_q + body.u + body.nu):
-        ws.y_stood[i] = ws.floats[y + i]
+    body.evaluated_version, body.evaluated_time = body.version, t
+    for i in range(body.q, body.q + body.n_q):
+        ws.island.y_evaluated[i] = ws.floats[y + i]
+    for i in range(ws.model.n_q + body.u, ws.model.n_q + body.u + body.n_u):
+        ws.island.y_evaluated[i] = ws.floats[y + i]
 
 
 @kernel("b1(ws, f8, i8)")
@@ -79,34 +79,34 @@ def _all_stand(ws: Workspace, t: float, y: int) -> bool:
 
     Most of what an instant asks for is asked of bodies that stand.
     """
-    if ws.free_t != t or ws.n_loads + ws.n_joints > 0:
+    if ws.island.free_time != t or ws.model.n_loads + ws.model.n_joints > 0:
         return False
     differ = 0
-    for i in range(ws.n_q + ws.n_u):
-        differ += 1 if ws.y_stood[i] != ws.floats[y + i] else 0
+    for i in range(ws.model.n_q + ws.model.n_u):
+        differ += 1 if ws.island.y_evaluated[i] != ws.floats[y + i] else 0
     return differ == 0
 
 
 @kernel("void(ws, f8, i8)")
 def evaluate_driven_bodies(ws: Workspace, t: float, y: int) -> None:
     """Let the bodies without coordinates write their output blocks, unless they stand there already."""
-    if t == ws.driven_t:
+    if t == ws.island.driven_time:
         return
-    ws.driven_t = t
-    for number in range(ws.n_bodies):
-        if ws.bodies[number].nu == 0:
+    ws.island.driven_time = t
+    for number in range(ws.model.n_bodies):
+        if ws.bodies[number].n_u == 0:
             evaluate_body(ws, t, y, number)
 
 
 @kernel("void(ws, f8, i8)")
 def evaluate_integrated_bodies(ws: Workspace, t: float, y: int) -> None:
     """Let the bodies that are integrated write their output blocks, where there are neither loads nor joints."""
-    interrupted(ws, ws.n_contacts + ws.n_bodies)
-    ws.free_velocities = y + ws.n_q
-    ws.driven_power = 0.0
-    ws.load_power = 0.0
-    for i in range(ws.n_integrated):
-        evaluate_body(ws, t, y, ws.integrated[i])
+    interrupted(ws, ws.island.n_contacts + ws.model.n_bodies)
+    ws.island.velocities = y + ws.model.n_q
+    ws.step.driven_power = 0.0
+    ws.step.load_power = 0.0
+    for i in range(ws.island.n_integrated):
+        evaluate_body(ws, t, y, ws.island.integrated[i])
 
 
 @entry_point("void(ws, f8, i8, i8)")
@@ -115,41 +115,41 @@ def evaluate_free_bodies(ws: Workspace, t: float, y: int, every: int) -> None:
 
     That is every one of them (1), or those that are integrated.
     """
-    if every == 0 and ws.n_loads + ws.n_joints == 0:
+    if every == 0 and ws.model.n_loads + ws.model.n_joints == 0:
         evaluate_integrated_bodies(ws, t, y)
         return
-    interrupted(ws, ws.n_contacts + ws.n_bodies)
-    ws.free_velocities = y + ws.n_q
-    ws.driven_power = 0.0
-    ws.load_power = 0.0
-    if ws.n_loads + ws.n_joints > 0:
+    interrupted(ws, ws.island.n_contacts + ws.model.n_bodies)
+    ws.island.velocities = y + ws.model.n_q
+    ws.step.driven_power = 0.0
+    ws.step.load_power = 0.0
+    if ws.model.n_loads + ws.model.n_joints > 0:
         evaluate_driven_bodies(ws, t, y)
     if every == 1 and _all_stand(ws, t, y):
         return
-    for i in range(ws.n_bodies if every == 1 else ws.n_integrated):
-        number = i if every == 1 else ws.integrated[i]
+    for i in range(ws.model.n_bodies if every == 1 else ws.island.n_integrated):
+        number = i if every == 1 else ws.island.integrated[i]
         body = ws.bodies[number]
-        if body.nu == 0:
+        if body.n_u == 0:
             continue
-        if ws.n_loads > 0 and body.flight_function == 0:
+        if ws.model.n_loads > 0 and body.ballistic_function == 0:
             # loads add to what a body may leave unwritten
-            force = body.tail + body.nq
-            for j in range(body.nu):
+            force = body.tail + body.n_q
+            for j in range(body.n_u):
                 ws.floats[force + j] = 0.0
         if every == 1:
             evaluate_once(ws, t, y, number)
         else:
             evaluate_body(ws, t, y, number)
     if every == 1:
-        ws.free_t = t
-    for load in range(ws.n_loads):
+        ws.island.free_time = t
+    for load in range(ws.model.n_loads):
         _apply(ws, load, t, y)
-    if ws.n_joints > 0:
-        for i in range(ws.n_u):
-            ws.u_free[i] = ws.floats[y + ws.n_q + i]
-        ws.free_velocities = ws.offsets.u_free
-        for number in range(ws.n_articulations):
-            if ws.articulations[number].rows > 0:
+    if ws.model.n_joints > 0:
+        for i in range(ws.model.n_u):
+            ws.island.u_free[i] = ws.floats[y + ws.model.n_q + i]
+        ws.island.velocities = ws.island.u_free.start
+        for number in range(ws.model.n_articulations):
+            if ws.articulations[number].n_rows > 0:
                 evaluate_articulation(ws, number)
 
 
@@ -170,8 +170,8 @@ def _apply(ws: Workspace, number: int, t: float, y: int) -> None:
     for side in range(2):
         body = ws.bodies[load.body_a if side == 0 else load.body_b]
         frame = load.frame_a if side == 0 else load.frame_b
-        n_u = body.nu
-        generalised = body.tail + body.nq
+        n_u = body.n_u
+        generalised = body.tail + body.n_q
         force = opposite(wrench.force) if side == 0 else wrench.force
         moment = opposite(wrench.moment) if side == 0 else wrench.moment
         x, y_, z = minus(wrench.point, frame_at(ws.floats, frame).origin)
@@ -191,12 +191,12 @@ def _apply(ws: Workspace, number: int, t: float, y: int) -> None:
                 + mz * ws.floats[o + 2 * n_u]
             )
             ws.floats[generalised + j] += added
-            ws.load_power += added * ws.floats[y + ws.n_q + body.u + j]
+            ws.step.load_power += added * ws.floats[y + ws.model.n_q + body.u + j]
 
 
 @entry_point()
 def evaluate_at(ws: Workspace) -> None:
     """Evaluate all bodies and contacts at the present time and state."""
-    evaluate_bodies(ws, ws.t, ws.offsets.y)
-    for c in range(ws.n_contacts):
+    evaluate_bodies(ws, ws.island.time, ws.island.y.start)
+    for c in range(ws.island.n_contacts):
         evaluate_contact(ws, c, 3)

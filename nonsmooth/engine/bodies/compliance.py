@@ -39,7 +39,7 @@ def evaluate_compliant_force(ws: Workspace, c: int) -> None:
 @kernel("void(ws, i8)")
 def _evaluate_motion(ws: Workspace, c: int) -> None:
     """Write slip velocity and relative angular velocity of contact ``c`` along its unit tangents and normal."""
-    contact, motion = ws.contacts[c], at(ws.floats, ws.offsets.motion)
+    contact, motion = ws.contacts[c], at(ws.floats, ws.problem.motion.start)
     turning = minus(frame_at(ws.floats, contact.frame_b).spin, frame_at(ws.floats, contact.frame_a).spin)
     motion[0], motion[1] = contact.slip
     motion[2] = dot(contact.axis_1, turning)
@@ -56,28 +56,28 @@ def evaluate_traction(ws: Workspace, c: int, y: int) -> None:
     call_traction(
         contact.traction_function,
         contact.compliant_force,
-        at(ws.floats, ws.offsets.motion),
+        at(ws.floats, ws.problem.motion.start),
         at(ws.floats, state_at(ws, c, y)),
         at(ws.floats, contact.traction_parameters),
         at(ws.floats, out),
     )
     contact.dissipated_by_spin = 0.0
     for i in range(3):
-        contact.dissipated_by_spin += ws.floats[out + TRACTION_MOMENT + i] * ws.motion[2 + i]
+        contact.dissipated_by_spin += ws.floats[out + TRACTION_MOMENT + i] * ws.problem.motion[2 + i]
 
 
 @kernel("i8(ws, i8, i8)")
 def state_at(ws: Workspace, c: int, y: int) -> int:
     """Return where the inner states of the laws of contact ``c`` stand."""
-    return int(y + ws.n_q + ws.n_u + N_ACCOUNTS + ws.contacts[c].inner_states)
+    return int(y + ws.model.n_q + ws.model.n_u + N_ACCOUNTS + ws.contacts[c].inner_states)
 
 
 @kernel("void(ws, i8)")
 def refresh_states(ws: Workspace, y: int) -> None:
     """Let the friction coefficients see the inner states as they are at ``y``."""
-    if ws.n_states == 0:
+    if ws.model.n_states == 0:
         return
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         if contact.inner_states_copy > 0:
             for i in range(contact.n_inner_states):
@@ -91,19 +91,19 @@ def begin_contact(ws: Workspace, c: int) -> None:
     Of one that is closed from the start that rate is none: by what round-off leaves of it no damping is scaled.
     """
     contact = ws.contacts[c]
-    contact.closing_rate = -contact.rate[0] if contact.rate[0] < -ws.velocity_tolerance else 0.0
+    contact.closing_rate = -contact.rate[0] if contact.rate[0] < -ws.tolerance.velocity else 0.0
     for i in range(contact.n_inner_states):
-        ws.floats[state_at(ws, c, ws.offsets.y) + i] = ws.floats[contact.inner_states_at_start + i]
+        ws.floats[state_at(ws, c, ws.island.y.start) + i] = ws.floats[contact.inner_states_at_start + i]
 
 
 @kernel("void(ws, i8, i8)")
 def write_state_rates(ws: Workspace, y: int, out: int) -> None:
     """Write the rates of the inner states of all contacts to the slope ``out``; those of open contacts are zero."""
-    if ws.n_states == 0:
+    if ws.model.n_states == 0:
         return
-    for i in range(ws.n_states):
-        ws.floats[out + ws.n_q + ws.n_u + N_ACCOUNTS + i] = 0.0
-    for c in range(ws.n_contacts):
+    for i in range(ws.model.n_states):
+        ws.floats[out + ws.model.n_q + ws.model.n_u + N_ACCOUNTS + i] = 0.0
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         n = contact.n_inner_states
         if n == 0 or contact.mode == OPEN:
@@ -154,16 +154,16 @@ def rub_by_traction(ws: Workspace, c: int, f: Floats, y: int) -> None:
 @kernel()
 def push_compliant(ws: Workspace) -> None:
     """Add to ``du`` what the touching compliant contacts are known to do, all of it or the normal force alone."""
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         if not contact.is_compliant or not contact.is_touching:
             continue
         if contact.has_traction_law:
-            rub_by_traction(ws, c, contact.force, ws.offsets.y)
+            rub_by_traction(ws, c, contact.force, ws.island.y.start)
             write_wrench(ws, c, contact.force)
-            push_response(ws, c, 0, 1.0, ws.offsets.du)
+            push_response(ws, c, 0, 1.0, ws.island.du.start)
         else:
-            push_response(ws, c, 0, contact.compliant_force, ws.offsets.du)
+            push_response(ws, c, 0, contact.compliant_force, ws.island.du.start)
 
 
 @kernel("b1(ws, i8)")
@@ -180,12 +180,12 @@ def decouple_normals(ws: Workspace) -> None:
     What they do is in the free accelerations already.  Their rows and columns of G become those of contacts that
     nothing couples, whose forces come out as given.
     """
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        contact = ws.contacts[active.slot]
+        contact = ws.contacts[active.contact]
         rigid = not contact.is_compliant
         for block in range(active.first_block, active.end_block):
-            g, d = at(ws.floats, ws.offsets.delassus + DELASSUS * block), ws.block_column[block]
+            g, d = at(ws.floats, ws.island.delassus.start + DELASSUS * block), ws.island.block_column[block]
             if d == a and not rigid:
                 own = g[0] if g[0] > 0.0 else 1.0
                 active.free[0] = -own * contact.compliant_force
@@ -193,7 +193,7 @@ def decouple_normals(ws: Workspace) -> None:
                     g[i] = g[3 * i] = 0.0
                 g[0] = own
                 continue
-            pushes = ws.contacts[ws.actives[d].slot].is_compliant
+            pushes = ws.contacts[ws.actives[d].contact].is_compliant
             for i in range(3):
                 if not rigid:
                     g[i] = 0.0

@@ -24,6 +24,6 @@ def end_courses_of(ws: Workspace, c: int) -> int:
     """End the courses of the bodies of contact ``c``, which stay where they are; return how many."""
     contact = ws.contacts[c]
     one, two = ws.bodies[contact.body_a], ws.bodies[contact.body_b]
-    ended = one.course + two.course
-    one.course = two.course = 0
+    ended = one.has_own_step + two.has_own_step
+    one.has_own_step = two.has_own_step = False
     return int(ended)

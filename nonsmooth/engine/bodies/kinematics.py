@@ -128,14 +128,14 @@ def side_wrench(w: Floats, frame: int, point: Vector, force: Vector, moment: Vec
 def _row_a(ws: Workspace, c: int, r: int) -> int:
     """Return where row ``r`` of the first Jacobian of contact ``c`` has the coordinates of the body in contact."""
     contact = ws.contacts[c]
-    return int(contact.jacobian_a + r * ws.articulations[contact.articulation_a].nu + contact.column_a)
+    return int(contact.jacobian_a + r * ws.articulations[contact.articulation_a].n_u + contact.column_a)
 
 
 @kernel("i8(ws, i8, i8)")
 def _row_b(ws: Workspace, c: int, r: int) -> int:
     """Return the same of the second Jacobian."""
     contact = ws.contacts[c]
-    return int(contact.jacobian_b + r * ws.articulations[contact.articulation_b].nu + contact.column_b)
+    return int(contact.jacobian_b + r * ws.articulations[contact.articulation_b].n_u + contact.column_b)
 
 
 @kernel("void(ws, i8, i8, v3, v3)")
@@ -163,7 +163,7 @@ def evaluate_row_response(ws: Workspace, c: int, r: int, s: int) -> None:
     contact = ws.contacts[c]
     for side in range(2):
         articulation = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b]
-        n_u = articulation.nu
+        n_u = articulation.n_u
         jacobian = (contact.jacobian_a if side == 0 else contact.jacobian_b) + r * n_u
         response = (contact.response_a if side == 0 else contact.response_b) + s * n_u
         multiply(ws.floats, articulation.inverse, n_u, jacobian, response)
@@ -176,7 +176,7 @@ def push_response(ws: Workspace, c: int, s: int, force: float, du: int) -> None:
     for side in range(2):
         articulation = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b]
         response = contact.response_a if side == 0 else contact.response_b
-        n_u = articulation.nu
+        n_u = articulation.n_u
         for i in range(n_u):
             ws.floats[du + articulation.u + i] += ws.floats[response + s * n_u + i] * force
 
@@ -186,8 +186,8 @@ def row(ws: Workspace, c: int, r: int, du: int) -> float:
     """Return row ``r`` (n, t1, t2) of [W N]^T du of contact ``c``."""
     contact = ws.contacts[c]
     a, b = ws.articulations[contact.articulation_a], ws.articulations[contact.articulation_b]
-    total = product(ws.floats, 0.0, contact.jacobian_a + r * a.nu, du + a.u, a.nu)
-    return float(product(ws.floats, total, contact.jacobian_b + r * b.nu, du + b.u, b.nu))
+    total = product(ws.floats, 0.0, contact.jacobian_a + r * a.n_u, du + a.u, a.n_u)
+    return float(product(ws.floats, total, contact.jacobian_b + r * b.n_u, du + b.u, b.n_u))
 
 
 @kernel("void(ws, i8)")
@@ -199,7 +199,7 @@ def evaluate_jacobian(ws: Workspace, c: int) -> None:
     evaluate_row(ws, c, 2, contact.axis_2)
     for r in range(3):
         evaluate_row_response(ws, c, r, r)
-        contact.prescribed_rate[r] = contact.rate[r] - row(ws, c, r, ws.free_velocities)
+        contact.prescribed_rate[r] = contact.rate[r] - row(ws, c, r, ws.island.velocities)
 
 
 @kernel("v3(F, i8, v3, v3, v3)")

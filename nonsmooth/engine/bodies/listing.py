@@ -15,38 +15,17 @@ from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.kinematics import UNSEEN
 from nonsmooth.engine.bodies.pools import are_near, fill_pools, is_empty
 from nonsmooth.engine.memory.blocks import PAIR
-from nonsmooth.engine.memory.layout import (
-    CATALOGUE,
-    CATALOGUE_FLOATS,
-    CLOSING_RATE,
-    CONTACT_TIME,
-    DIRECTION,
-    LEVERS,
-    MEAN_ASKED,
-    MEAN_FORCE,
-    MEAN_GAP,
-    MEAN_SPAN,
-    MEAN_WAIT,
-    MEAN_WAY,
-    MOBILITY,
-    REACH,
-    REVOLUTION,
-    SIZE,
-    SMALL_FORCE,
-)
 from nonsmooth.engine.memory.modes import NO_SLOT, RUNNING
 from nonsmooth.engine.native.kernel import (
     Floats,
     Workspace,
-    at,
+    copy_fields,
     entry_point,
     frame_at,
     kernel,
 )
 from nonsmooth.engine.numerics.vectors import distance, dot, minus
 
-_WIDTH = len(CATALOGUE)
-_MODE, _AVERAGED = CATALOGUE.index("mode"), CATALOGUE.index("averaged")
 _SPENT = 0.6
 """A list is drawn anew when a unit has used up this part of its way."""
 _NARROWEST = 2.0**-12
@@ -60,27 +39,11 @@ def _enter(ws: Workspace, declared: int) -> bool:
     """Put a declared contact into the next slot, unless it is empty; return 0 if there is no slot."""
     if is_empty(ws, declared):
         return True
-    if ws.n_contacts == ws.n_slots:
+    if ws.island.n_contacts == ws.model.n_slots:
         return False
-    c = ws.n_contacts
+    c = ws.island.n_contacts
     contact = ws.contacts[c]
-    row, floats = (
-        ws.offsets.catalogue + _WIDTH * declared,
-        at(ws.floats, ws.offsets.catalogue_floats + CATALOGUE_FLOATS * declared),
-    )
-    # the arrays of the catalogue's entries follow one another
-    for i in range(_WIDTH):
-        ws.body_a[i * ws.n_slots + c] = ws.integers[row + i]
-    contact.contact_time, contact.reach = floats[CONTACT_TIME], floats[REACH]
-    contact.closing_rate, contact.size = floats[CLOSING_RATE], floats[SIZE]
-    contact.support_radius_a, contact.support_radius_b = floats[LEVERS], floats[LEVERS + 1]
-    contact.spin_axis = floats[REVOLUTION], floats[REVOLUTION + 1], floats[REVOLUTION + 2]
-    contact.direction = floats[DIRECTION], floats[DIRECTION + 1]
-    contact.slip_per_force, contact.force_round_off = floats[MOBILITY], floats[SMALL_FORCE]
-    contact.mean_span, contact.mean_gap_change, contact.mean_gap = floats[MEAN_SPAN], floats[MEAN_WAY], floats[MEAN_GAP]
-    contact.mean_forces_asked, contact.mean_forces_wait = floats[MEAN_ASKED], floats[MEAN_WAIT]
-    for r in range(3):
-        contact.mean_force[r] = floats[MEAN_FORCE + r]
+    copy_fields(ws.declared_contacts[declared], contact)
     contact.facing = 1
     contact.is_touching = False
     contact.version_a = UNSEEN
@@ -90,53 +53,39 @@ def _enter(ws: Workspace, declared: int) -> bool:
         contact.geometry[i] = 0.0
     # Jacobians keep zeros where other bodies of an articulation stand
     for side in range(2):
-        n_u = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b].nu
+        n_u = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b].n_u
         jacobian = contact.jacobian_a if side == 0 else contact.jacobian_b
         for i in range(3 * n_u):
             ws.floats[jacobian + i] = 0.0
-    ws.n_contacts += 1
+    ws.island.n_contacts += 1
     return True
 
 
 @kernel()
 def _leave(ws: Workspace) -> None:
     """Empty all slots; modes, and what the last event left of the contacts, go back to the catalogue."""
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
-        declared = contact.declared
-        floats = at(ws.floats, ws.offsets.catalogue_floats + CATALOGUE_FLOATS * declared)
-        ws.catalogue[_WIDTH * declared + _MODE] = contact.mode
-        ws.catalogue[_WIDTH * declared + _AVERAGED] = contact.mode_after_averaging
-        floats[DIRECTION], floats[DIRECTION + 1] = contact.direction
-        floats[CLOSING_RATE] = contact.closing_rate
-        floats[MOBILITY], floats[SMALL_FORCE] = contact.slip_per_force, contact.force_round_off
-        floats[MEAN_SPAN], floats[MEAN_WAY], floats[MEAN_GAP] = (
-            contact.mean_span,
-            contact.mean_gap_change,
-            contact.mean_gap,
-        )
-        floats[MEAN_ASKED], floats[MEAN_WAIT] = contact.mean_forces_asked, contact.mean_forces_wait
-        for r in range(3):
-            floats[MEAN_FORCE + r] = contact.mean_force[r]
-    ws.n_contacts = 0
+        copy_fields(contact, ws.declared_contacts[contact.declared])
+    ws.island.n_contacts = 0
 
 
 @kernel("b1(ws, i8, i8)")
 def _enter_pair(ws: Workspace, one: int, two: int) -> bool:
     """Enter the contacts of two units, if there are any; return 0 if there is no slot."""
-    unit = ws.units[one]
+    unit = ws.spheres[one]
     low, high = unit.first_partner, unit.end_partner
     end = high
     while low < high:
         middle = (low + high) // 2
-        if ws.partner_unit[middle] < two:
+        if ws.model.partner[middle] < two:
             low = middle + 1
         else:
             high = middle
-    if low == end or ws.partner_unit[low] != two:
+    if low == end or ws.model.partner[low] != two:
         return True
-    for i in range(ws.partner_contact[low], ws.partner_contact[low + 1]):
-        if not _enter(ws, ws.paired_contact[i]):
+    for i in range(ws.model.partner_contact[low], ws.model.partner_contact[low + 1]):
+        if not _enter(ws, ws.model.paired_contact[i]):
             return False
     return True
 
@@ -153,34 +102,34 @@ def _is_still(w: Floats, place: int) -> bool:
 @kernel("b1(ws, i8)")
 def _is_clear(ws: Workspace, number: int) -> bool:
     """Return 1 if the ball of a unit is farther above a wall at rest than the margin: a closed contact has none."""
-    wall = ws.walls[number]
-    frame, unit = frame_at(ws.floats, wall.frame), ws.units[wall.unit]
+    wall = ws.half_spaces[number]
+    frame, unit = frame_at(ws.floats, wall.frame), ws.spheres[wall.sphere]
     third = frame.rotation[2], frame.rotation[5], frame.rotation[8]
     height = dot(third, minus(unit.place, frame.origin)) - wall.ceiling
-    return height - unit.radius > ws.margin_of_list
+    return height - unit.radius > ws.island.list_margin
 
 
 @kernel("f8(ws, i8, i8)")
 def _begin(ws: Workspace, number: int, axis: int) -> float:
     """Return where the ball of a unit begins along an axis."""
-    unit = ws.units[number]
+    unit = ws.spheres[number]
     return float(unit.places[axis] - unit.radius)
 
 
 @kernel("void(ws, i8)")
 def _sort_units(ws: Workspace, axis: int) -> None:
     """Sort the units by where their balls begin along an axis; they nearly are, from the last time."""
-    for i in range(1, ws.n_units):
-        unit = ws.unit_order[i]
+    for i in range(1, ws.model.n_spheres):
+        unit = ws.island.sphere_order[i]
         begin = _begin(ws, unit, axis)
         j = i - 1
         while j >= 0:
-            other = ws.unit_order[j]
+            other = ws.island.sphere_order[j]
             if _begin(ws, other, axis) <= begin:
                 break
-            ws.unit_order[j + 1] = other
+            ws.island.sphere_order[j + 1] = other
             j -= 1
-        ws.unit_order[j + 1] = unit
+        ws.island.sphere_order[j + 1] = unit
 
 
 @kernel("i8(ws)")
@@ -188,8 +137,8 @@ def _widest_axis(ws: Workspace) -> int:
     best, widest = 0, -1.0
     for axis in range(3):
         low, high = 1e300, -1e300
-        for number in range(ws.n_units):
-            place = ws.units[number].places[axis]
+        for number in range(ws.model.n_spheres):
+            place = ws.spheres[number].places[axis]
             low, high = min(low, place), max(high, place)
         if high - low > widest:
             best, widest = axis, high - low
@@ -200,43 +149,43 @@ def _widest_axis(ws: Workspace) -> int:
 def list_contacts(ws: Workspace) -> int:
     """Fill the slots for the present state; return the status."""
     _leave(ws)
-    ws.fresh = 0
-    ws.listings += 1
-    if ws.n_units == 0:
-        for declared in range(ws.n_declared):
+    ws.island.follows_a_step = False
+    ws.totals.n_listings += 1
+    if ws.model.n_spheres == 0:
+        for declared in range(ws.model.n_declared):
             _enter(ws, declared)
         return RUNNING
-    evaluate_bodies(ws, ws.t, ws.offsets.y)
-    for number in range(ws.n_units):
-        unit = ws.units[number]
+    evaluate_bodies(ws, ws.island.time, ws.island.y.start)
+    for number in range(ws.model.n_spheres):
+        unit = ws.spheres[number]
         frame = frame_at(ws.floats, unit.frame)
         unit.place = frame.origin
         for i in range(9):
             unit.axes[i] = frame.rotation[i]
-    ws.margin_of_list = min(ws.widest_margin, 2.0 * ws.margin_of_list)
+    ws.island.list_margin = min(ws.options.widest_margin, 2.0 * ws.island.list_margin)
     status = fill_pools(ws)
-    while status == NO_SLOT and ws.margin_of_list > _NARROWEST * ws.widest_margin:
-        ws.margin_of_list *= 0.5
+    while status == NO_SLOT and ws.island.list_margin > _NARROWEST * ws.options.widest_margin:
+        ws.island.list_margin *= 0.5
         status = fill_pools(ws)
     if status != RUNNING:
         return status
     frame = still = -1
-    for i in range(ws.n_walls):
-        wall = ws.walls[i]
+    for i in range(ws.model.n_half_spaces):
+        wall = ws.half_spaces[i]
         # the walls of one frame follow one another
         if wall.frame != frame:
             frame, still = wall.frame, _is_still(ws.floats, wall.frame)
-        clear = still == 1 and wall.steady == 1 and _is_clear(ws, i)
+        clear = still == 1 and wall.is_steady and _is_clear(ws, i)
         if not clear and not _enter(ws, wall.contact):
             return NO_SLOT
     axis = _widest_axis(ws)
     _sort_units(ws, axis)
-    for i in range(ws.n_units):
-        one = ws.unit_order[i]
-        unit = ws.units[one]
-        end = unit.places[axis] + unit.radius + ws.margin_of_list
-        for j in range(i + 1, ws.n_units):
-            two = ws.unit_order[j]
+    for i in range(ws.model.n_spheres):
+        one = ws.island.sphere_order[i]
+        unit = ws.spheres[one]
+        end = unit.places[axis] + unit.radius + ws.island.list_margin
+        for j in range(i + 1, ws.model.n_spheres):
+            two = ws.island.sphere_order[j]
             if _begin(ws, two, axis) > end:
                 break
             if are_near(ws, one, two) and not _enter_pair(ws, min(one, two), max(one, two)):
@@ -247,9 +196,9 @@ def list_contacts(ws: Workspace) -> int:
 @kernel("f8(ws, i8)")
 def _way(ws: Workspace, number: int) -> float:
     """Return how far a unit is from where it was listed, and its farthest point if turning counts."""
-    unit = ws.units[number]
+    unit = ws.spheres[number]
     frame = frame_at(ws.floats, unit.frame)
-    way, lever = distance(frame.origin, unit.place), unit.lever
+    way, lever = distance(frame.origin, unit.place), unit.feature_radius
     if lever > 0.0:
         square = 0.0
         for i in range(9):
@@ -260,11 +209,11 @@ def _way(ws: Workspace, number: int) -> float:
 
 @kernel("f8(ws, i8)")
 def _unit_speed(ws: Workspace, number: int) -> float:
-    unit = ws.units[number]
+    unit = ws.spheres[number]
     frame = frame_at(ws.floats, unit.frame)
     speed = math.sqrt(dot(frame.velocity, frame.velocity))
-    if unit.lever > 0.0:
-        speed += unit.lever * math.sqrt(dot(frame.spin, frame.spin))
+    if unit.feature_radius > 0.0:
+        speed += unit.feature_radius * math.sqrt(dot(frame.spin, frame.spin))
     return speed
 
 
@@ -272,11 +221,11 @@ def _unit_speed(ws: Workspace, number: int) -> float:
 def longest_step(ws: Workspace) -> float:
     """Return for how long the list holds, the bodies being evaluated; 0 if it must be drawn anew."""
     longest = 1e300
-    for number in range(ws.n_units):
-        unit, way, speed = ws.units[number], _way(ws, number), _unit_speed(ws, number)
-        left = 0.5 * ws.margin_of_list - way
-        unit.way, unit.speed = way, speed
-        if left < 0.5 * (1.0 - _SPENT) * ws.margin_of_list:
+    for number in range(ws.model.n_spheres):
+        unit, way, speed = ws.spheres[number], _way(ws, number), _unit_speed(ws, number)
+        left = 0.5 * ws.island.list_margin - way
+        unit.distance, unit.speed = way, speed
+        if left < 0.5 * (1.0 - _SPENT) * ws.island.list_margin:
             return 0.0
         if speed * longest * _ACCELERATION > left:
             longest = left / (_ACCELERATION * speed)
@@ -289,9 +238,9 @@ def overran_list(ws: Workspace, h: float) -> bool:
 
     No point of a path of length l between two points is farther off than half of l and of the ends' distances.
     """
-    for number in range(ws.n_units):
-        unit = ws.units[number]
+    for number in range(ws.model.n_spheres):
+        unit = ws.spheres[number]
         path = h * max(unit.speed, _unit_speed(ws, number))
-        if unit.way + _way(ws, number) + path > ws.margin_of_list:
+        if unit.distance + _way(ws, number) + path > ws.island.list_margin:
             return True
     return False

@@ -9,35 +9,31 @@ how far they may come from each other while the list stands.
 from __future__ import annotations
 
 from nonsmooth.engine.memory.blocks import CANDIDATE
-from nonsmooth.engine.memory.layout import CATALOGUE, CATALOGUE_FLOATS, CLOSING_RATE, DIRECTION
 from nonsmooth.engine.memory.modes import NO_SLOT, NOT_FINITE, OPEN, RUNNING
 from nonsmooth.engine.native.kernel import Workspace, at, call_pair, kernel
 from nonsmooth.engine.numerics.vectors import dot, minus
-
-_WIDTH = len(CATALOGUE)
-_MODE, _CANDIDATE = CATALOGUE.index("mode"), CATALOGUE.index("candidate")
 
 
 @kernel("b1(ws, i8)")
 def is_empty(ws: Workspace, declared: int) -> bool:
     """Return 1 if a declared contact is one of a pool and holds no features."""
-    candidate = ws.catalogue[_WIDTH * declared + _CANDIDATE]
+    candidate = ws.declared_contacts[declared].features
     return candidate > 0 and ws.floats[candidate] == 0.0
 
 
 @kernel("b1(ws, i8, i8)")
 def are_near(ws: Workspace, one: int, two: int) -> bool:
     """Return 1 if the balls of two units are nearer than the margin of the list."""
-    a, b = ws.units[one], ws.units[two]
+    a, b = ws.spheres[one], ws.spheres[two]
     way = minus(a.place, b.place)
-    near = a.radius + b.radius + ws.margin_of_list
+    near = a.radius + b.radius + ws.island.list_margin
     return dot(way, way) <= near * near
 
 
 @kernel("void(ws, i8, i8, i8)")
 def _keep(ws: Workspace, declared: int, found: int, n: int) -> None:
     """Empty an open contact whose features are not among ``n`` that were found; cross them out where they are."""
-    candidate = ws.catalogue[_WIDTH * declared + _CANDIDATE]
+    candidate = ws.declared_contacts[declared].features
     for i in range(n):
         same = 1
         for r in range(CANDIDATE):
@@ -46,22 +42,22 @@ def _keep(ws: Workspace, declared: int, found: int, n: int) -> None:
         if same == 1:
             ws.floats[found + CANDIDATE * i] = 0.0
             return
-    if ws.catalogue[_WIDTH * declared + _MODE] == OPEN:
+    if ws.declared_contacts[declared].mode == OPEN:
         ws.floats[candidate] = 0.0
-        floats = at(ws.floats, ws.offsets.catalogue_floats + CATALOGUE_FLOATS * declared)
-        floats[DIRECTION], floats[DIRECTION + 1], floats[CLOSING_RATE] = 1.0, 0.0, 0.0
+        contact = ws.declared_contacts[declared]
+        contact.direction, contact.closing_rate = (1.0, 0.0), 0.0
 
 
 @kernel("i8(ws)")
 def fill_pools(ws: Workspace) -> int:
     """Put the features nearer than the margin into the contacts of their pools; return the status."""
-    for number in range(ws.n_pools):
-        pool = ws.pools[number]
-        out, first, contacts = pool.out, pool.first, pool.contacts
+    for number in range(ws.model.n_searches):
+        pool = ws.searches[number]
+        out, first, contacts = pool.out, pool.first_contact, pool.n_contacts
         found, n = out + 1, 0
-        if are_near(ws, pool.unit_a, pool.unit_b):
-            ws.floats[out] = ws.margin_of_list
-            frame_a, frame_b = ws.units[pool.unit_a].frame, ws.units[pool.unit_b].frame
+        if are_near(ws, pool.sphere_a, pool.sphere_b):
+            ws.floats[out] = ws.island.list_margin
+            frame_a, frame_b = ws.spheres[pool.sphere_a].frame, ws.spheres[pool.sphere_b].frame
             call_pair(
                 pool.function,
                 at(ws.floats, frame_a),
@@ -85,9 +81,9 @@ def fill_pools(ws: Workspace) -> int:
                 declared += 1
             if declared == first + contacts:
                 return NO_SLOT
-            candidate = ws.catalogue[_WIDTH * declared + _CANDIDATE]
+            candidate = ws.declared_contacts[declared].features
             for r in range(CANDIDATE):
                 ws.floats[candidate + r] = ws.floats[found + CANDIDATE * i + r]
         for declared in range(first, first + contacts):
-            ws.floats[ws.catalogue[_WIDTH * declared + _CANDIDATE] + CANDIDATE] = 2.0 * ws.margin_of_list
+            ws.floats[ws.declared_contacts[declared].features + CANDIDATE] = 2.0 * ws.island.list_margin
     return RUNNING

@@ -21,12 +21,12 @@ def touch(ws: Workspace) -> int:
 
     What bodies on their courses stand on is left out; the course of one that something else touches ends.
     """
-    evaluate_bodies(ws, ws.t, ws.offsets.y)
-    refresh_states(ws, ws.offsets.y)
+    evaluate_bodies(ws, ws.island.time, ws.island.y.start)
+    refresh_states(ws, ws.island.y.start)
     approaching, ended = 0, 1
     while ended > 0:
         approaching = ended = 0
-        for c in range(ws.n_contacts):
+        for c in range(ws.island.n_contacts):
             approaching = max(approaching, _touch(ws, c))
             if ws.contacts[c].is_touching:
                 ended += end_courses_of(ws, c)
@@ -40,19 +40,19 @@ def _touch(ws: Workspace, c: int) -> bool:
     contact.is_touching = False
     evaluate_kinematics(ws, c)
     rate = contact.rate[0]
-    if has_own_step(ws, c) == 1 or (contact.past_feature > ws.gap_tolerance and contact.gap > 0.0):
+    if has_own_step(ws, c) == 1 or (contact.past_feature > ws.tolerance.gap and contact.gap > 0.0):
         return False
     contact.is_touching = True
     if contact.is_compliant:
         _touch_compliant(ws, c)
         return False
-    near = max(ws.gap_tolerance, ws.time_tolerance * abs(rate))
+    near = max(ws.tolerance.gap, ws.tolerance.time * abs(rate))
     if contact.mode == OPEN and contact.gap > near:
         contact.is_touching = False
         return False
     evaluate_jacobian(ws, c)
     evaluate_bias(ws, c, 3)
-    return rate < -ws.velocity_tolerance
+    return rate < -ws.tolerance.velocity
 
 
 @kernel("void(ws, i8)")
@@ -61,8 +61,8 @@ def _touch_compliant(ws: Workspace, c: int) -> None:
     contact = ws.contacts[c]
     gap, rate = contact.gap, contact.rate[0]
     end = 0.0 if contact.mode == OPEN else contact.reach
-    slow = rate <= ws.velocity_tolerance
-    if gap > end + ws.gap_tolerance or (gap > end - ws.gap_tolerance and not slow):
+    slow = rate <= ws.tolerance.velocity
+    if gap > end + ws.tolerance.gap or (gap > end - ws.tolerance.gap and not slow):
         contact.is_touching = False
         return
     evaluate_jacobian(ws, c)

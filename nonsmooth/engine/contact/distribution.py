@@ -28,11 +28,11 @@ def _disc_excess(ws: Workspace, i: int, a: int) -> float:
     """Write the friction of a contact with a given normal force less its projection on the disc; return its square."""
     active = ws.actives[a]
     t1, t2 = active.friction
-    bound, size = active.mu_static * active.normal_force, length(active.friction)
+    bound, size = active.static_coefficient * active.normal_force, length(active.friction)
     out = max(0.0, size - bound)
-    ws.right[i] = ws.right[i + 1] = 0.0
+    ws.problem.right[i] = ws.problem.right[i + 1] = 0.0
     if out > 0.0:
-        ws.right[i], ws.right[i + 1] = out * t1 / size, out * t2 / size
+        ws.problem.right[i], ws.problem.right[i + 1] = out * t1 / size, out * t2 / size
     return float(out * out)
 
 
@@ -41,7 +41,7 @@ def _add_disc_curve(ws: Workspace, i: int, a: int, line1: int, line2: int, facto
     """Add the Hessian of the half square of what :func:`_disc_excess` writes."""
     active = ws.actives[a]
     t1, t2 = active.friction
-    bound, size = active.mu_static * active.normal_force, length(active.friction)
+    bound, size = active.static_coefficient * active.normal_force, length(active.friction)
     if size > bound:
         c1, c2, round_ = t1 / size, t2 / size, 1.0 - bound / size
         ws.floats[line1 + i] += factor * (c1 * c1 + round_ * c2 * c2)
@@ -58,26 +58,26 @@ def _excess(ws: Workspace, n: int, inset: float) -> float:
         unknown = ws.unknowns[i]
         a = unknown.contact
         active = ws.actives[a]
-        if unknown.direction == 1 and active.normal_held == 0:
+        if unknown.direction == 1 and not active.is_normal_force_unknown:
             square += _disc_excess(ws, i, a)
         if unknown.direction != 0:
             continue
-        normal = active.normal_force - inset * active.redundant
-        ws.right[i] = min(0.0, normal)
-        if active.tangent_held == 1:
+        normal = active.normal_force - inset * active.has_redundant_force
+        ws.problem.right[i] = min(0.0, normal)
+        if active.sticks:
             t1, t2 = active.friction
-            mu, size = active.mu_static, length(active.friction)
-            ws.right[i + 1] = ws.right[i + 2] = 0.0
+            mu, size = active.static_coefficient, length(active.friction)
+            ws.problem.right[i + 1] = ws.problem.right[i + 2] = 0.0
             if mu * size <= -normal:
-                ws.right[i + 1], ws.right[i + 2] = t1, t2
+                ws.problem.right[i + 1], ws.problem.right[i + 2] = t1, t2
             elif size > mu * normal:
                 out = (size - mu * normal) / (1.0 + mu * mu)
-                ws.right[i] = -mu * out
-                ws.right[i + 1], ws.right[i + 2] = out * t1 / size, out * t2 / size
+                ws.problem.right[i] = -mu * out
+                ws.problem.right[i + 1], ws.problem.right[i + 2] = out * t1 / size, out * t2 / size
             else:
-                ws.right[i] = 0.0
-            square += ws.right[i + 1] ** 2 + ws.right[i + 2] ** 2
-        square += ws.right[i] ** 2
+                ws.problem.right[i] = 0.0
+            square += ws.problem.right[i + 1] ** 2 + ws.problem.right[i + 2] ** 2
+        square += ws.problem.right[i] ** 2
     return 0.5 * square
 
 
@@ -88,17 +88,17 @@ def _add_curve(ws: Workspace, n: int, matrix: int, half: int, factor: float, ins
         unknown = ws.unknowns[i]
         a = unknown.contact
         active = ws.actives[a]
-        if unknown.direction == 1 and active.normal_held == 0:
+        if unknown.direction == 1 and not active.is_normal_force_unknown:
             _add_disc_curve(ws, i, a, band_row(matrix, i, n, half), band_row(matrix, i + 1, n, half), factor)
         if unknown.direction != 0:
             continue
-        normal, h = active.normal_force - inset * active.redundant, band_row(matrix, i, n, half) + i
-        if active.tangent_held == 0:
+        normal, h = active.normal_force - inset * active.has_redundant_force, band_row(matrix, i, n, half) + i
+        if not active.sticks:
             ws.floats[h] += factor if normal < 0.0 else 0.0
             continue
         h1, h2 = band_row(matrix, i + 1, n, half) + i, band_row(matrix, i + 2, n, half) + i
         t1, t2 = active.friction
-        mu, size = active.mu_static, length(active.friction)
+        mu, size = active.static_coefficient, length(active.friction)
         if mu * size <= -normal:
             ws.floats[h] += factor
             ws.floats[h1 + 1] += factor
@@ -121,43 +121,50 @@ def _add_curve(ws: Workspace, n: int, matrix: int, half: int, factor: float, ins
 @kernel("i8(ws, i8, f8)")
 def _step(ws: Workspace, n: int, inset: float) -> int:
     """Write Newton's step along the basis of the null space to ``x``; return 0 if there is none."""
-    free, basis = n - ws.held_rank, ws.offsets.basis + ws.held_rank * n
+    free, basis = n - ws.problem.rank, ws.problem.basis.start + ws.problem.rank * n
     for i in range(n * n):
-        ws.matrix[i] = 0.0
-    _add_curve(ws, n, ws.offsets.matrix, n, 1.0, inset)
+        ws.problem.matrix[i] = 0.0
+    _add_curve(ws, n, ws.problem.matrix.start, n, 1.0, inset)
     for c in range(free):
         row = basis + c * n
         for i in range(n):
             active, total = ws.actives[ws.unknowns[i].contact], 0.0
             for j in range(active.first_unknown, active.end_unknown):
-                total += ws.matrix[i * n + j] * ws.floats[row + j]
-            ws.sigma[i] = total
+                total += ws.problem.matrix[i * n + j] * ws.floats[row + j]
+            ws.problem.sigma[i] = total
         for d in range(free):
-            ws.reduced[c * free + d] = product(ws.floats, 0.0, ws.offsets.sigma, basis + d * n, n)
-        ws.reduced[c * free + c] += _FLOOR
-        ws.x[c] = -product(ws.floats, 0.0, row, ws.offsets.right, n)
-    if not eliminate(ws.floats, ws.offsets.reduced, free, free, ws.offsets.x, SINGULAR):
+            ws.problem.reduced[c * free + d] = product(ws.floats, 0.0, ws.problem.sigma.start, basis + d * n, n)
+        ws.problem.reduced[c * free + c] += _FLOOR
+        ws.problem.x[c] = -product(ws.floats, 0.0, row, ws.problem.right.start, n)
+    if not eliminate(ws.floats, ws.problem.reduced.start, free, free, ws.problem.x.start, SINGULAR):
         return 0
     for c in range(free):
-        ws.sigma[c] = ws.x[c]
+        ws.problem.sigma[c] = ws.problem.x[c]
     for i in range(n):
-        ws.x[i] = 0.0
+        ws.problem.x[i] = 0.0
     for c in range(free):
-        subtract_part(ws.floats, ws.offsets.x, -ws.sigma[c], basis + c * n, n)
+        subtract_part(ws.floats, ws.problem.x.start, -ws.problem.sigma[c], basis + c * n, n)
     return 1
 
 
 @kernel("b1(ws, i8, f8)")
 def _step_in_band(ws: Workspace, n: int, inset: float) -> bool:
     """Write Newton's step to ``x``: what leaves the null space, by H in ``basis``, is made dear, and cut off then."""
-    weight = _CHEAP * largest_diagonal(ws.floats, ws.offsets.basis, n, ws.null_half)
-    copy_shifted(ws.floats, ws.offsets.basis, n, ws.null_half, ws.offsets.matrix, weight * _FLOOR_IN_BAND)
-    _add_curve(ws, n, ws.offsets.matrix, ws.null_half, weight, inset)
-    factorise_band(ws.floats, ws.offsets.matrix, n, ws.null_half, 0.1 * weight * _FLOOR_IN_BAND)
+    weight = _CHEAP * largest_diagonal(ws.floats, ws.problem.basis.start, n, ws.problem.null_half_band)
+    copy_shifted(
+        ws.floats,
+        ws.problem.basis.start,
+        n,
+        ws.problem.null_half_band,
+        ws.problem.matrix.start,
+        weight * _FLOOR_IN_BAND,
+    )
+    _add_curve(ws, n, ws.problem.matrix.start, ws.problem.null_half_band, weight, inset)
+    factorise_band(ws.floats, ws.problem.matrix.start, n, ws.problem.null_half_band, 0.1 * weight * _FLOOR_IN_BAND)
     for i in range(n):
-        ws.x[i] = -weight * ws.right[i]
-    substitute_band(ws.floats, ws.offsets.matrix, n, ws.null_half, ws.offsets.x)
-    project_on_null(ws, n, ws.offsets.x)
+        ws.problem.x[i] = -weight * ws.problem.right[i]
+    substitute_band(ws.floats, ws.problem.matrix.start, n, ws.problem.null_half_band, ws.problem.x.start)
+    project_on_null(ws, n, ws.problem.x.start)
     return True
 
 
@@ -169,27 +176,27 @@ def distribute(ws: Workspace, inset: float, arrived: float) -> bool:
     distance to the cones, moved up by ``inset`` [N] where forces are not unique, is convex along the null space, and
     its smallest value is sought by Newton's method until no force is out by more than ``arrived`` [N].
     """
-    n = ws.n_unknown
+    n = ws.problem.n_unknown
     square = _excess(ws, n, inset)
     for _round in range(_STEPS):
         worst = 0.0
         for i in range(n):
-            worst = max(worst, abs(ws.right[i]))
+            worst = max(worst, abs(ws.problem.right[i]))
         if worst <= arrived:
             return True
-        if (_step_in_band(ws, n, inset) if ws.null_banded == 1 else _step(ws, n, inset)) == 0:
+        if (_step_in_band(ws, n, inset) if ws.problem.is_null_space_banded else _step(ws, n, inset)) == 0:
             return False
         slope = 0.0
         for i in range(n):
-            slope += ws.right[i] * ws.x[i]
-            ws.sigma[i] = force_of(ws, i)
+            slope += ws.problem.right[i] * ws.problem.x[i]
+            ws.problem.sigma[i] = force_of(ws, i)
         # where the distance has its smallest value, and it is not zero, there are no such forces
         if not slope < 0.0:
             return False
         share, moved = 1.0, 0
         for _halving in range(30):
             for i in range(n):
-                set_force(ws, i, ws.sigma[i] + share * ws.x[i])
+                set_force(ws, i, ws.problem.sigma[i] + share * ws.problem.x[i])
             new = _excess(ws, n, inset)
             if new <= square + 1e-4 * share * slope:
                 square, moved = new, 1

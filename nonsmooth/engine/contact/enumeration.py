@@ -21,13 +21,13 @@ _ENDLESS = 1e30
 @kernel("b1(ws, i8)")
 def _write_modes(ws: Workspace, number: int) -> bool:
     """Write the modes that the digits of ``number`` to base 3 mean; return 1 if they make sense."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         choice = number % 3
         number //= 3
         mode = STICK if choice == 0 else (SLIDE if choice == 1 else OPEN)
         active.mode_tried = mode
-        if mode == STICK and active.at_rest == 0:
+        if mode == STICK and not active.is_at_rest:
             return False
     return True
 
@@ -36,27 +36,27 @@ def _write_modes(ws: Workspace, number: int) -> bool:
 def _start_slips(ws: Workspace) -> int:
     """Point the incipient slips along the accelerations without their friction; return how many there are."""
     count = 0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        if active.at_rest == 1 and active.mode_tried == SLIDE:
+        if active.is_at_rest and active.mode_tried == SLIDE:
             count += 1
     if count == 0:
         return 0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        active.mu_kept = active.mu
-        if active.at_rest == 1:
-            active.mu = 0.0
+        active.coefficient_kept = active.friction_coefficient
+        if active.is_at_rest:
+            active.friction_coefficient = 0.0
     hold_tried(ws)
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        active.mu = active.mu_kept
-    for a in range(ws.n_active):
+        active.friction_coefficient = active.coefficient_kept
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        if active.at_rest == 0 or active.mode_tried != SLIDE:
+        if not active.is_at_rest or active.mode_tried != SLIDE:
             continue
-        a1 = add_product(ws, active.free[1], a, 1, ws.offsets.active_forces)
-        a2 = add_product(ws, active.free[2], a, 2, ws.offsets.active_forces)
+        a1 = add_product(ws, active.free[1], a, 1, ws.problem.forces.start)
+        a2 = add_product(ws, active.free[2], a, 2, ws.problem.forces.start)
         norm = length((a1, a2))
         active.direction = a1 / norm if norm > 0.0 else 1.0, a2 / norm if norm > 0.0 else 0.0
     return count
@@ -65,18 +65,18 @@ def _start_slips(ws: Workspace) -> int:
 @kernel()
 def _sweep_slips(ws: Workspace) -> None:
     """Point the incipient slips by sweeps with the modes held: Newton's method may have gone to a slip backwards."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         mode = active.mode_tried
-        active.normal_held = 0 if mode == OPEN else 1
-        active.static_kept = active.mu_static
-        active.mu_static = _ENDLESS if mode == STICK else 0.0
+        active.is_normal_force_unknown = not (mode == OPEN)
+        active.static_kept = active.static_coefficient
+        active.static_coefficient = _ENDLESS if mode == STICK else 0.0
         for r in range(3):
             active.force[r] = 0.0
     gauss_seidel(ws, _SWEEPS)
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        active.mu_static = active.static_kept
+        active.static_coefficient = active.static_kept
 
 
 @entry_point("i8(ws, i8)")
@@ -86,13 +86,13 @@ def enumerate_modes(ws: Workspace, first: int) -> int:
     The directions of incipient slip start from those without friction and, where Newton's method leads astray from
     there, from sweeps.
     """
-    if ws.n_active > MOST_ENUMERATED:
+    if ws.problem.n_active > MOST_ENUMERATED:
         return 0
     combinations = 1
-    for _a in range(ws.n_active):
+    for _a in range(ws.problem.n_active):
         combinations *= 3
     for number in range(first, combinations):
-        if interrupted(ws, ws.n_active) == 1:
+        if interrupted(ws, ws.problem.n_active) == 1:
             return 0
         if not _write_modes(ws, number):
             continue

@@ -43,26 +43,26 @@ _COUPLED = 1e-7
 def resolve(ws: Workspace) -> None:
     """Complete ``active_forces``; where the forces are not unique, take those of least norm and mark the contacts."""
     n = _collect(ws)
-    interrupted(ws, n * ws.n_active)
-    if ws.n_active == 1 and n == 3 and _stick_alone(ws) == 1:
+    interrupted(ws, n * ws.problem.n_active)
+    if ws.problem.n_active == 1 and n == 3 and _stick_alone(ws) == 1:
         return
-    if not open_band(ws, n, ws.offsets.reduced):
+    if not open_band(ws, n, ws.problem.reduced.start):
         return
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         for i in range(active.first_unknown, active.end_unknown):
             _write_row(ws, a, i, n)
     if not solve_unknowns(ws, n):
-        for a in range(ws.n_active):
+        for a in range(ws.problem.n_active):
             active = ws.actives[a]
             for i in range(active.first_unknown, active.end_unknown):
                 _write_frictionless_row(ws, a, i, n)
         solve_doubtful(ws, n)
     for i in range(n):
-        set_force(ws, i, ws.x[i])
-    for a in range(ws.n_active):
+        set_force(ws, i, ws.problem.x[i])
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        if active.normal_held == 1 and active.tangent_held == 0:
+        if active.is_normal_force_unknown and not active.sticks:
             friction_of_slip(ws, a)
 
 
@@ -75,7 +75,7 @@ def _stick_alone(ws: Workspace) -> int:
     forces = solve_three(rows[0], rows[1], rows[2], right, DOUBTFUL)
     if forces[0] != forces[0]:
         return 0
-    ws.n_unknown, ws.deficient, ws.null_banded = 3, 0, 0
+    ws.problem.n_unknown, ws.problem.is_deficient, ws.problem.is_null_space_banded = 3, False, False
     active.normal_force, active.friction = forces[0], (forces[1], forces[2])
     return 1
 
@@ -85,19 +85,21 @@ def _write_row(ws: Workspace, a: int, i: int, n: int) -> None:
     """Write the row of unknown ``i``, one of contact ``a``: what the unknowns and the given forces do to it."""
     active = ws.actives[a]
     r = ws.unknowns[i].direction
-    ws.right[i] = -add_product(ws, active.free[r], a, r, ws.offsets.active_forces)
-    line = band_row(ws.offsets.reduced, i, n, ws.half_band)
+    ws.problem.right[i] = -add_product(ws, active.free[r], a, r, ws.problem.forces.start)
+    line = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band)
     for block in range(active.first_block, active.end_block):
-        pushing = ws.actives[ws.block_column[block]]
-        g = at(ws.floats, ws.offsets.delassus + DELASSUS * block + 3 * r)
+        pushing = ws.actives[ws.island.block_column[block]]
+        g = at(ws.floats, ws.island.delassus.start + DELASSUS * block + 3 * r)
         out = line + pushing.first_unknown
-        if pushing.normal_held == 1:
+        if pushing.is_normal_force_unknown:
             ws.floats[out] = g[0]
-            if pushing.tangent_held == 0:
+            if not pushing.sticks:
                 # the friction of a sliding contact moves with its normal force
-                ws.floats[out] -= pushing.mu * (pushing.direction[0] * g[1] + pushing.direction[1] * g[2])
+                ws.floats[out] -= pushing.friction_coefficient * (
+                    pushing.direction[0] * g[1] + pushing.direction[1] * g[2]
+                )
             out += 1
-        if pushing.tangent_held == 1:
+        if pushing.sticks:
             ws.floats[out], ws.floats[out + 1] = g[1], g[2]
 
 
@@ -106,11 +108,11 @@ def _write_frictionless_row(ws: Workspace, a: int, i: int, n: int) -> None:
     """Write row ``i`` of what the unknowns would do without the friction of sliding contacts to ``matrix``."""
     active = ws.actives[a]
     r = ws.unknowns[i].direction
-    line = band_row(ws.offsets.matrix, i, n, ws.half_band)
+    line = band_row(ws.problem.matrix.start, i, n, ws.problem.half_band)
     for block in range(active.first_block, active.end_block):
-        pushing = ws.actives[ws.block_column[block]]
+        pushing = ws.actives[ws.island.block_column[block]]
         for j in range(pushing.first_unknown, pushing.end_unknown):
-            ws.floats[line + j] = ws.delassus[DELASSUS * block + 3 * r + ws.unknowns[j].direction]
+            ws.floats[line + j] = ws.island.delassus[DELASSUS * block + 3 * r + ws.unknowns[j].direction]
 
 
 @kernel("b1(ws, i8)")
@@ -119,15 +121,15 @@ def solve_unknowns(ws: Workspace, n: int) -> bool:
 
     Then zeros are written over the band of ``matrix``, for :func:`solve_doubtful`.
     """
-    ws.n_unknown = n
-    ws.deficient = ws.null_banded = 0
-    if n == 1 and ws.reduced[0] != 0.0:
-        ws.x[0] = ws.right[0] / ws.reduced[0]
+    ws.problem.n_unknown = n
+    ws.problem.is_deficient = ws.problem.is_null_space_banded = False
+    if n == 1 and ws.problem.reduced[0] != 0.0:
+        ws.problem.x[0] = ws.problem.right[0] / ws.problem.reduced[0]
         return True
     if eliminate_reduced(ws, n, DOUBTFUL):
         return True
-    for i in range(n * band_width(n, ws.half_band)):
-        ws.matrix[i] = 0.0
+    for i in range(n * band_width(n, ws.problem.half_band)):
+        ws.problem.matrix[i] = 0.0
     return False
 
 
@@ -140,19 +142,19 @@ def solve_doubtful(ws: Workspace, n: int) -> None:
     friction gives that a small pivot of its own.  Least norm stays in the band, or is treated in full where the band
     fills it.
     """
-    full = band_width(n, ws.half_band) == n
-    rank = rank_of_semidefinite(ws.floats, ws.offsets.matrix, n) if full else n
+    full = band_width(n, ws.problem.half_band) == n
+    rank = rank_of_semidefinite(ws.floats, ws.problem.matrix.start, n) if full else n
     if rank == n and eliminate_reduced(ws, n, SINGULAR):
         return
-    ws.deficient = 1
+    ws.problem.is_deficient = True
     if not full:
-        ws.null_banded = 1
+        ws.problem.is_null_space_banded = True
         least_norm_in_band(ws, n)
     else:
         _least_norm(ws, n, rank)
     for i in range(n):
         if null_entry(ws, i, i) > _COUPLED:
-            ws.actives[ws.unknowns[i].contact].redundant = 1
+            ws.actives[ws.unknowns[i].contact].has_redundant_force = True
 
 
 @kernel("void(ws, i8, i8)")
@@ -161,58 +163,71 @@ def _least_norm(ws: Workspace, n: int, most: int) -> None:
 
     A basis of its null space is kept in the last rows of ``basis``, and the projector on it in ``null``.
     """
-    transpose(ws.floats, ws.offsets.reduced, n, ws.offsets.matrix)
-    ws.held_rank = minimum_norm(
-        ws.floats, ws.offsets.matrix, n, ws.offsets.right, ws.offsets.x, ws.offsets.basis, ws.offsets.sigma, most
+    transpose(ws.floats, ws.problem.reduced.start, n, ws.problem.matrix.start)
+    ws.problem.rank = minimum_norm(
+        ws.floats,
+        ws.problem.matrix.start,
+        n,
+        ws.problem.right.start,
+        ws.problem.x.start,
+        ws.problem.basis.start,
+        ws.problem.sigma.start,
+        most,
     )
-    complete(ws.floats, ws.offsets.basis, n, ws.held_rank)
+    complete(ws.floats, ws.problem.basis.start, n, ws.problem.rank)
     for i in range(n):
         for j in range(n):
-            ws.null[i * n + j] = 0.0
-        for c in range(ws.held_rank, n):
-            subtract_part(ws.floats, ws.offsets.null + i * n, -ws.basis[c * n + i], ws.offsets.basis + c * n, n)
+            ws.problem.null[i * n + j] = 0.0
+        for c in range(ws.problem.rank, n):
+            subtract_part(
+                ws.floats,
+                ws.problem.null.start + i * n,
+                -ws.problem.basis[c * n + i],
+                ws.problem.basis.start + c * n,
+                n,
+            )
 
 
 @kernel("b1(ws, i8, f8)")
 def eliminate_reduced(ws: Workspace, n: int, least: float) -> bool:
     """Solve ``reduced . x = right`` by elimination; return 0 if singular."""
     for i in range(n):
-        ws.x[i] = ws.right[i]
-    for i in range(n * band_width(n, ws.half_band)):
-        ws.matrix[i] = ws.reduced[i]
-    return eliminate(ws.floats, ws.offsets.matrix, n, ws.half_band, ws.offsets.x, least)
+        ws.problem.x[i] = ws.problem.right[i]
+    for i in range(n * band_width(n, ws.problem.half_band)):
+        ws.problem.matrix[i] = ws.problem.reduced[i]
+    return eliminate(ws.floats, ws.problem.matrix.start, n, ws.problem.half_band, ws.problem.x.start, least)
 
 
 @kernel("f8(ws, i8, i8)")
 def null_entry(ws: Workspace, i: int, j: int) -> float:
     """Return an entry of the projector on the null space; those outside of a band count as zero."""
-    if ws.null_banded == 0:
-        return ws.null[i * ws.n_unknown + j]
-    if abs(i - j) > ws.null_half:
+    if not ws.problem.is_null_space_banded:
+        return ws.problem.null[i * ws.problem.n_unknown + j]
+    if abs(i - j) > ws.problem.null_half_band:
         return 0.0
-    return ws.floats[band_row(ws.offsets.reduced, i, ws.n_unknown, ws.null_half) + j]
+    return ws.floats[band_row(ws.problem.reduced.start, i, ws.problem.n_unknown, ws.problem.null_half_band) + j]
 
 
 @kernel("i8(ws)")
 def _collect(ws: Workspace) -> int:
     """List the unknown components and write the given ones; return how many are unknown."""
     n = 0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        active.redundant = 0
+        active.has_redundant_force = False
         active.first_unknown = n
-        if active.normal_held == 1:
+        if active.is_normal_force_unknown:
             list_unknown(ws, n, a, 0, 0)
             n += 1
             active.normal_force = 0.0
         active.friction = 0.0, 0.0
-        if active.tangent_held == 1:
+        if active.sticks:
             list_unknown(ws, n, a, 1, 0)
             list_unknown(ws, n + 1, a, 2, 0)
             n += 2
         else:
             friction_of_slip(ws, a)
-    ws.first_unknown[ws.n_active] = n
+    ws.problem.first_unknown[ws.problem.n_active] = n
     return n
 
 
@@ -220,7 +235,7 @@ def _collect(ws: Workspace) -> int:
 def friction_of_slip(ws: Workspace, a: int) -> None:
     """Write the friction of the sliding active contact ``a``, -mu f_N d."""
     active = ws.actives[a]
-    pull = -active.mu * active.normal_force
+    pull = -active.friction_coefficient * active.normal_force
     active.friction = pull * active.direction[0], pull * active.direction[1]
 
 
@@ -228,7 +243,7 @@ def friction_of_slip(ws: Workspace, a: int) -> None:
 def reduced_coefficient(ws: Workspace, a: int) -> float:
     """Return the gap acceleration per normal force of the sliding active contact ``a``, its friction included."""
     active, own = ws.actives[a], diagonal_block(ws, a)
-    return float(own.nn - active.mu * (active.direction[0] * own.n1 + active.direction[1] * own.n2))
+    return float(own.nn - active.friction_coefficient * (active.direction[0] * own.n1 + active.direction[1] * own.n2))
 
 
 @kernel()
@@ -238,29 +253,29 @@ def evaluate_margins(ws: Workspace) -> None:
     A contact whose tangential force is not unique obeys two bounds: the sum rule of its group, Eq. (38),
     and the plain bound for the part of its force that is unique.
     """
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        if active.tangent_held == 0:
-            active.margin = 0.0
+        if not active.sticks:
+            active.static_margin = 0.0
             continue
-        if active.redundant == 1:
+        if active.has_redundant_force:
             _group_margin(ws, a)
         else:
-            active.margin = active.mu_static * active.normal_force - length(active.friction)
+            active.static_margin = active.static_coefficient * active.normal_force - length(active.friction)
 
 
 @kernel("void(ws, i8)")
 def _group_margin(ws: Workspace, a: int) -> None:
     active = ws.actives[a]
-    own = active.first_unknown + active.normal_held
-    first, end = 0, ws.n_unknown - 1
-    if ws.null_banded == 1:
-        first, end = max(0, own - ws.null_half), min(end, own + ws.null_half)
+    own = active.first_unknown + active.is_normal_force_unknown
+    first, end = 0, ws.problem.n_unknown - 1
+    if ws.problem.is_null_space_banded:
+        first, end = max(0, own - ws.problem.null_half_band), min(end, own + ws.problem.null_half_band)
     bound = sum1 = sum2 = 0.0
     for i in range(first, end):
         unknown = ws.unknowns[i]
         sharing = ws.actives[unknown.contact]
-        if unknown.direction != 1 or sharing.redundant == 0:
+        if unknown.direction != 1 or not sharing.has_redundant_force:
             continue
         coupling = (
             abs(null_entry(ws, own, i))
@@ -269,7 +284,7 @@ def _group_margin(ws: Workspace, a: int) -> None:
             + abs(null_entry(ws, own + 1, i + 1))
         )
         if coupling > _COUPLED or unknown.contact == a:
-            bound += sharing.mu_static * sharing.normal_force
+            bound += sharing.static_coefficient * sharing.normal_force
             sum1 += sharing.friction[0]
             sum2 += sharing.friction[1]
     group = bound - length((sum1, sum2))
@@ -284,4 +299,4 @@ def _group_margin(ws: Workspace, a: int) -> None:
         else:
             e1, e2 = p12, p22
         unique = abs(e1 * t2 - e2 * t1) / length((e1, e2))
-    active.margin = min(group, active.mu_static * active.normal_force - unique)
+    active.static_margin = min(group, active.static_coefficient * active.normal_force - unique)

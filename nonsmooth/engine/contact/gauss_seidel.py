@@ -14,10 +14,10 @@ SWEEPS = 20
 @kernel("i8(ws, i8)")
 def sweep(ws: Workspace, sweeps: int) -> int:
     """Improve the forces by some sweeps; return 1 if they have settled."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        active.normal_held = 1
-        active.tangent_held = 0
+        active.is_normal_force_unknown = True
+        active.sticks = False
     return gauss_seidel(ws, sweeps)
 
 

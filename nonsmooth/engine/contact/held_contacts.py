@@ -26,20 +26,20 @@ from nonsmooth.engine.numerics.linear import band_row, product, solve_three
 def write_rows(ws: Workspace, a: int) -> None:
     """Write rows and columns of the active contact ``a``: Jacobian rows 0 to 2, or 0 and that of the column, 1."""
     active = ws.actives[a]
-    c = active.slot
+    c = active.contact
     contact = ws.contacts[c]
     n, t1, t2 = contact.axis_n, contact.axis_1, contact.axis_2
-    if active.tangent_held == 1:
+    if active.sticks:
         evaluate_row(ws, c, 0, n)
         evaluate_row(ws, c, 1, t1)
         evaluate_row(ws, c, 2, t2)
         for r in range(3):
             evaluate_row_response(ws, c, r, r)
         return
-    if active.normal_held == 0:
+    if not active.is_normal_force_unknown:
         write_wrench(ws, c, active.force)
         return
-    m1, m2 = active.mu * active.direction[0], active.mu * active.direction[1]
+    m1, m2 = active.friction_coefficient * active.direction[0], active.friction_coefficient * active.direction[1]
     push = (
         n[0] - m1 * t1[0] - m2 * t2[0],
         n[1] - m1 * t1[1] - m2 * t2[1],
@@ -57,7 +57,7 @@ def coupling(ws: Workspace, c: int, r: int, d: int, s: int) -> float:
     total = 0.0
     for side in range(2):
         articulation = contact.articulation_a if side == 0 else contact.articulation_b
-        n_u = ws.articulations[articulation].nu
+        n_u = ws.articulations[articulation].n_u
         jacobian = (contact.jacobian_a if side == 0 else contact.jacobian_b) + r * n_u
         if n_u > 0 and pushing.articulation_a == articulation:
             total = product(ws.floats, total, jacobian, pushing.response_a + s * n_u, n_u)
@@ -70,14 +70,14 @@ def coupling(ws: Workspace, c: int, r: int, d: int, s: int) -> float:
 def _list_rows(ws: Workspace) -> int:
     """List the rows of the active contacts; return how many there are."""
     n = 0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        active.redundant = 0
+        active.has_redundant_force = False
         active.first_unknown = n
-        for r in range(1 - active.normal_held, 1 + 2 * active.tangent_held):
+        for r in range(1 - active.is_normal_force_unknown, 1 + 2 * active.sticks):
             list_unknown(ws, n, a, r, 0)
             n += 1
-    ws.first_unknown[ws.n_active] = n
+    ws.problem.first_unknown[ws.problem.n_active] = n
     return n
 
 
@@ -85,64 +85,64 @@ def _list_rows(ws: Workspace) -> int:
 def _reduce(ws: Workspace, a: int, i: int, n: int) -> None:
     """Write row ``i`` of the reduced matrix, one of contact ``a``, and what it lacks to vanish without forces."""
     active = ws.actives[a]
-    c, r = active.slot, ws.unknowns[i].direction
+    c, r = active.contact, ws.unknowns[i].direction
     contact = ws.contacts[c]
-    ws.right[i] = -contact.bias[r] - row(ws, c, r, ws.offsets.du)
-    line = band_row(ws.offsets.reduced, i, n, ws.half_band)
+    ws.problem.right[i] = -contact.bias[r] - row(ws, c, r, ws.island.du.start)
+    line = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band)
     for block in range(active.first_block, active.end_block):
-        pushing = ws.actives[ws.block_column[block]]
+        pushing = ws.actives[ws.island.block_column[block]]
         for j in range(pushing.first_unknown, pushing.end_unknown):
-            ws.floats[line + j] = coupling(ws, c, r, pushing.slot, ws.unknowns[j].direction)
+            ws.floats[line + j] = coupling(ws, c, r, pushing.contact, ws.unknowns[j].direction)
     # a sliding contact on which more force gives more approach
     if r == 0 and contact.mode == SLIDE and ws.floats[line + i] <= 0.0:
-        ws.singular = c
+        ws.island.singular_contact = c
 
 
 @kernel("void(ws, i8, i8, i8)")
 def _write_held_row(ws: Workspace, a: int, i: int, n: int) -> None:
     """Write row ``i`` of what the unknowns would do without friction to ``matrix``, response 1 of slips being that."""
     active = ws.actives[a]
-    c, r = active.slot, ws.unknowns[i].direction
-    line = band_row(ws.offsets.matrix, i, n, ws.half_band)
+    c, r = active.contact, ws.unknowns[i].direction
+    line = band_row(ws.problem.matrix.start, i, n, ws.problem.half_band)
     for block in range(active.first_block, active.end_block):
-        pushing = ws.actives[ws.block_column[block]]
+        pushing = ws.actives[ws.island.block_column[block]]
         for j in range(pushing.first_unknown, pushing.end_unknown):
-            column = ws.unknowns[j].direction + 1 - pushing.tangent_held
-            ws.floats[line + j] = coupling(ws, c, r, pushing.slot, column)
+            column = ws.unknowns[j].direction + 1 - pushing.sticks
+            ws.floats[line + j] = coupling(ws, c, r, pushing.contact, column)
 
 
 @kernel()
 def _push_compliant(ws: Workspace) -> None:
     """Add to ``du`` what the active compliant contacts are known to do, and note the powers."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        if active.normal_held == 1:
+        if active.is_normal_force_unknown:
             continue
-        c, sticks = active.slot, active.tangent_held
+        c, sticks = active.contact, active.sticks
         contact = ws.contacts[c]
         force = active.normal_force if sticks == 1 else 1.0
-        push_response(ws, c, 0, force, ws.offsets.du)
-        ws.driven_power += force * row(ws, c, 1 - sticks, ws.free_velocities) - contact.dissipated_by_spin
+        push_response(ws, c, 0, force, ws.island.du.start)
+        ws.step.driven_power += force * row(ws, c, 1 - sticks, ws.island.velocities) - contact.dissipated_by_spin
         if contact.is_compliant:
-            ws.load_power += active.normal_force * contact.rate[0]
+            ws.step.load_power += active.normal_force * contact.rate[0]
 
 
 @kernel("b1(ws)")
 def _solve_held(ws: Workspace) -> bool:
     """Write the unknown forces to ``x``; return 0 if there is no room for that."""
     n = _list_rows(ws)
-    if not open_band(ws, n, ws.offsets.reduced):
+    if not open_band(ws, n, ws.problem.reduced.start):
         return False
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         for i in range(active.first_unknown, active.end_unknown):
             _reduce(ws, a, i, n)
     if not solve_unknowns(ws, n):
-        for a in range(ws.n_active):
+        for a in range(ws.problem.n_active):
             active = ws.actives[a]
-            if active.tangent_held == 0 and active.normal_held == 1:
-                evaluate_row_response(ws, active.slot, 0, 1)
-        for a in range(ws.n_active):
+            if not active.sticks and active.is_normal_force_unknown:
+                evaluate_row_response(ws, active.contact, 0, 1)
+        for a in range(ws.problem.n_active):
             active = ws.actives[a]
             for i in range(active.first_unknown, active.end_unknown):
                 _write_held_row(ws, a, i, n)
@@ -154,12 +154,12 @@ def _solve_held(ws: Workspace) -> bool:
 def _stick_alone(ws: Workspace) -> int:
     """Hold an island of one rigid contact that sticks; return 0, nothing done, where it is doubtful what holds it."""
     active = ws.actives[0]
-    c = active.slot
+    c = active.contact
     contact = ws.contacts[c]
     row_0 = coupling(ws, c, 0, c, 0), 0.0, 0.0
     row_1 = coupling(ws, c, 1, c, 0), coupling(ws, c, 1, c, 1), 0.0
     row_2 = coupling(ws, c, 2, c, 0), coupling(ws, c, 2, c, 1), coupling(ws, c, 2, c, 2)
-    bias, du = contact.bias, ws.offsets.du
+    bias, du = contact.bias, ws.island.du.start
     right = (
         -bias[0] - row(ws, c, 0, du),
         -bias[1] - row(ws, c, 1, du),
@@ -168,11 +168,16 @@ def _stick_alone(ws: Workspace) -> int:
     forces = solve_three(row_0, row_1, row_2, right, DOUBTFUL)
     if forces[0] != forces[0]:
         return 0
-    ws.n_unknown, ws.deficient, ws.null_banded, active.redundant = 3, 0, 0, 0
+    ws.problem.n_unknown, ws.problem.is_deficient, ws.problem.is_null_space_banded, active.has_redundant_force = (
+        3,
+        False,
+        False,
+        False,
+    )
     active.normal_force, active.friction = forces[0], (forces[1], forces[2])
     for r in range(3):
         push_response(ws, c, r, active.force[r], du)
-        ws.driven_power += active.force[r] * (row(ws, c, r, ws.free_velocities) - contact.rate[r])
+        ws.step.driven_power += active.force[r] * (row(ws, c, r, ws.island.velocities) - contact.rate[r])
     return 1
 
 
@@ -183,23 +188,28 @@ def _hold_alone(ws: Workspace) -> int:
     If it does not stick its only row is a division; return 0, nothing done, if its force moves nothing.
     """
     active = ws.actives[0]
-    if active.tangent_held == 1:
+    if active.sticks:
         return int(_stick_alone(ws))
-    c = active.slot
+    c = active.contact
     contact = ws.contacts[c]
     own = coupling(ws, c, 0, c, 0)
     if own == 0.0:
         return 0
     if contact.mode == SLIDE and own < 0.0:
-        ws.singular = c
-    ws.n_unknown, ws.deficient, ws.null_banded, active.redundant = 1, 0, 0, 0
-    force = (-contact.bias[0] - row(ws, c, 0, ws.offsets.du)) / own
+        ws.island.singular_contact = c
+    ws.problem.n_unknown, ws.problem.is_deficient, ws.problem.is_null_space_banded, active.has_redundant_force = (
+        1,
+        False,
+        False,
+        False,
+    )
+    force = (-contact.bias[0] - row(ws, c, 0, ws.island.du.start)) / own
     active.normal_force = force
-    push_response(ws, c, 0, force, ws.offsets.du)
+    push_response(ws, c, 0, force, ws.island.du.start)
     friction_of_slip(ws, 0)
     (t1, t2), (v1, v2) = active.friction, contact.slip
-    on_coordinates = force * row(ws, c, 1, ws.free_velocities)
-    ws.driven_power += on_coordinates - force * contact.rate[0] - t1 * v1 - t2 * v2
+    on_coordinates = force * row(ws, c, 1, ws.island.velocities)
+    ws.step.driven_power += on_coordinates - force * contact.rate[0] - t1 * v1 - t2 * v2
     return 1
 
 
@@ -211,28 +221,28 @@ def hold_contacts(ws: Workspace, choosing: int) -> int:
     the null-space force of those not unique is chosen anew; return 0 if there is none that keeps every bound, else 1.
     """
     keeps = 1
-    if ws.n_active == 1 and ws.actives[0].normal_held == 1 and _hold_alone(ws) == 1:
+    if ws.problem.n_active == 1 and ws.actives[0].is_normal_force_unknown and _hold_alone(ws) == 1:
         return keeps
     _push_compliant(ws)
     if not _solve_held(ws):
         return keeps
-    if ws.deficient == 1:
+    if ws.problem.is_deficient:
         if choosing == 1:
             keeps = choose_null_space_force(ws)
         add_null_space_force(ws)
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        c = active.slot
+        c = active.contact
         contact = ws.contacts[c]
-        sticks = active.tangent_held
+        sticks = active.sticks
         for i in range(active.first_unknown, active.end_unknown):
-            r, force = ws.unknowns[i].direction, ws.x[i]
+            r, force = ws.unknowns[i].direction, ws.problem.x[i]
             active.force[r] = force
-            push_response(ws, c, r, force, ws.offsets.du)
+            push_response(ws, c, r, force, ws.island.du.start)
             # the power of what the coordinates do not move: that of the force less that on them
-            ws.driven_power += force * row(ws, c, r + 1 - sticks, ws.free_velocities)
-        if sticks == 0 and active.normal_held == 1:
+            ws.step.driven_power += force * row(ws, c, r + 1 - sticks, ws.island.velocities)
+        if sticks == 0 and active.is_normal_force_unknown:
             friction_of_slip(ws, a)
         for r in range(3):
-            ws.driven_power -= active.force[r] * contact.rate[r]
+            ws.step.driven_power -= active.force[r] * contact.rate[r]
     return keeps

@@ -32,30 +32,30 @@ _TURNS = 8
 def _lay(ws: Workspace, a: int) -> None:
     """Write acceleration without forces, coefficients, mode and slip direction of active contact ``a``."""
     active = ws.actives[a]
-    c = active.slot
+    c = active.contact
     contact = ws.contacts[c]
     contact.dissipated_by_spin = 0.0
     if contact.mode == SLIDE:
-        active.mu = slip_coefficient(ws, c, length(contact.slip))
+        active.friction_coefficient = slip_coefficient(ws, c, length(contact.slip))
     else:
-        active.mu = friction_coefficient(ws, c, 0.0)
-    active.mu_static = active.mu
+        active.friction_coefficient = friction_coefficient(ws, c, 0.0)
+    active.static_coefficient = active.friction_coefficient
     active.mode_tried = active.mode_past = contact.mode
-    active.given = 0
-    active.at_rest = 1 if active.mu > 0.0 else 0
+    active.has_given_force = False
+    active.is_at_rest = active.friction_coefficient > 0.0
     active.direction = contact.direction
     for r in range(3):
-        free = row(ws, c, r, ws.offsets.du)
+        free = row(ws, c, r, ws.island.du.start)
         active.free[r] = free + contact.bias[r]
         if r > 0 and contact.mode == SLIDE:
-            active.free[r] = free + contact.rate[r] / ws.ahead - row(ws, c, r, ws.guess)
-        ws.acceleration_scale = max(ws.acceleration_scale, abs(free), abs(contact.bias[r]))
+            active.free[r] = free + contact.rate[r] / ws.problem.stage_time - row(ws, c, r, ws.problem.guess)
+        ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, abs(free), abs(contact.bias[r]))
 
 
 @kernel("b1(ws)")
 def _halts(ws: Workspace) -> bool:
     """Return 1 if a slip is held: whether others share its load, forces that are not unique tell."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         if active.mode_past == SLIDE and active.mode_tried == STICK:
             return True
@@ -66,32 +66,32 @@ def _halts(ws: Workspace) -> bool:
 def _stop_and_go(ws: Workspace) -> int:
     """Hold the slips that friction would turn round, and let go those that it cannot hold; return how many."""
     largest = 0.0
-    for i in range(3 * ws.n_active):
-        largest = max(largest, abs(ws.active_forces[i]))
+    for i in range(3 * ws.problem.n_active):
+        largest = max(largest, abs(ws.problem.forces[i]))
     small = _FAINT * largest
-    if ws.deficient == 1:
+    if ws.problem.is_deficient:
         shift_forces(ws)
-    if ws.deficient == 1 and _halts(ws):
+    if ws.problem.is_deficient and _halts(ws):
         small = 2.0 * _ARRIVED * largest
         distribute(ws, 0.0, _ARRIVED * largest)
-        for a in range(ws.n_active):
+        for a in range(ws.problem.n_active):
             if ws.actives[a].mode_tried == SLIDE:
                 friction_of_slip(ws, a)
     changed = 0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        if active.mode_past != SLIDE or active.at_rest == 0:
+        if active.mode_past != SLIDE or not active.is_at_rest:
             continue
         if active.mode_tried == STICK:
             t1, t2 = active.friction
             norm = length(active.friction)
-            if norm > active.mu * active.normal_force + small:
+            if norm > active.friction_coefficient * active.normal_force + small:
                 active.mode_tried = SLIDE
                 active.direction = -t1 / norm, -t2 / norm
                 changed += 1
             continue
-        a1 = add_product(ws, active.free[1], a, 1, ws.offsets.active_forces)
-        a2 = add_product(ws, active.free[2], a, 2, ws.offsets.active_forces)
+        a1 = add_product(ws, active.free[1], a, 1, ws.problem.forces.start)
+        a2 = add_product(ws, active.free[2], a, 2, ws.problem.forces.start)
         if a1 * active.direction[0] + a2 * active.direction[1] < 0.0:
             active.mode_tried = STICK
             changed += 1
@@ -107,16 +107,16 @@ def oppose_slips(ws: Workspace) -> bool:
     held break away.
     """
     held = 0
-    for _round in range(2 * (2 + ws.n_active)):
+    for _round in range(2 * (2 + ws.problem.n_active)):
         polished = polish(ws)
         if polished == 0:
             if held == 1:
                 return False
             held = 1
-            for a in range(ws.n_active):
+            for a in range(ws.problem.n_active):
                 active = ws.actives[a]
-                active.mode_tried = STICK if active.at_rest == 1 else active.mode_past
-        if polished != 1 or ws.deficient == 1:
+                active.mode_tried = STICK if active.is_at_rest else active.mode_past
+        if polished != 1 or ws.problem.is_deficient:
             hold_tried(ws)
         if _stop_and_go(ws) == 0:
             return True
@@ -127,9 +127,9 @@ def oppose_slips(ws: Workspace) -> bool:
 def _oppose_alone(ws: Workspace) -> bool:
     """Do the same for one contact that slides on, whose only unknown is a direction; return 1 if it is found."""
     active, g = ws.actives[0], diagonal_block(ws, 0)
-    if ws.n_active > 1 or active.mode_past != SLIDE or active.at_rest == 0 or active.given == 1:
+    if ws.problem.n_active > 1 or active.mode_past != SLIDE or not active.is_at_rest or active.has_given_force:
         return False
-    mu, (d1, d2) = active.mu, active.direction
+    mu, (d1, d2) = active.friction_coefficient, active.direction
     for _turn in range(_TURNS):
         reduced = g.nn - mu * (g.n1 * d1 + g.n2 * d2)
         if not reduced > 0.0:
@@ -138,11 +138,11 @@ def _oppose_alone(ws: Workspace) -> bool:
         p1, p2 = g.n1 - mu * (g.t11 * d1 + g.t12 * d2), g.n2 - mu * (g.t12 * d1 + g.t22 * d2)
         a1, a2 = active.free[1] + force * p1, active.free[2] + force * p2
         across, along = a1 * d2 - a2 * d1, a1 * d1 + a2 * d2
-        if abs(across) <= EXACT * max(ws.acceleration_scale, abs(a1), abs(a2)):
+        if abs(across) <= EXACT * max(ws.problem.acceleration_scale, abs(a1), abs(a2)):
             if not along > 0.0 or not force > 0.0:
                 return False
             active.normal_force, active.direction = force, (d1, d2)
-            ws.deficient, active.redundant = 0, 0
+            ws.problem.is_deficient, active.has_redundant_force = False, False
             friction_of_slip(ws, 0)
             return True
         # what turning the direction does to the normal force, and to the acceleration
@@ -159,17 +159,17 @@ def _oppose_alone(ws: Workspace) -> bool:
 @kernel()
 def _note(ws: Workspace) -> None:
     """Add what the forces do to ``du``, and note power and what is held."""
-    add_response(ws, ws.offsets.active_forces, ws.offsets.du)
-    for a in range(ws.n_active):
+    add_response(ws, ws.problem.forces.start, ws.island.du.start)
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        c = active.slot
+        c = active.contact
         contact = ws.contacts[c]
         slides = contact.mode == SLIDE
         if slides and reduced_coefficient(ws, a) <= 0.0:
-            ws.singular = c
-        active.tangent_held = 0 if slides else 1
+            ws.island.singular_contact = c
+        active.sticks = not (slides)
         for r in range(3):
-            ws.driven_power += active.force[r] * (row(ws, c, r, ws.free_velocities) - contact.rate[r])
+            ws.step.driven_power += active.force[r] * (row(ws, c, r, ws.island.velocities) - contact.rate[r])
         if slides and active.mode_tried == STICK:
             # whatever the state from which it was found has of it
             contact.slip = 0.0, 0.0
@@ -178,13 +178,13 @@ def _note(ws: Workspace) -> None:
 @kernel("i8(ws)")
 def _solve(ws: Workspace) -> int:
     """Find the ``active_forces`` with which a stage ends, as the contacts face; return 1 if they are found."""
-    ws.acceleration_scale = 0.0
-    for a in range(ws.n_active):
-        evaluate_contact(ws, ws.actives[a].slot, 3)
+    ws.problem.acceleration_scale = 0.0
+    for a in range(ws.problem.n_active):
+        evaluate_contact(ws, ws.actives[a].contact, 3)
     assemble_delassus(ws)
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         _lay(ws, a)
-    if not ws.acceleration_scale > 0.0:
+    if not ws.problem.acceleration_scale > 0.0:
         # a trial step far too long led to what is no number
         return 0
     return 1 if _oppose_alone(ws) else oppose_slips(ws)
@@ -194,10 +194,10 @@ def _solve(ws: Workspace) -> int:
 def _face(ws: Workspace) -> int:
     """Let slips that are held face against what holds them; return how many had another bound than it seemed."""
     turned = 0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        if ws.contacts[active.slot].mode == SLIDE and active.mode_tried == STICK:
-            turned += turn_facing(ws, active.slot, active.force[1])
+        if ws.contacts[active.contact].mode == SLIDE and active.mode_tried == STICK:
+            turned += turn_facing(ws, active.contact, active.force[1])
     return turned
 
 
@@ -209,12 +209,12 @@ def hold_at_end(ws: Workspace) -> None:
     ``unsettled`` is raised.
     """
     settled = 0
-    for _facing in range(1 + ws.n_active):
+    for _facing in range(1 + ws.problem.n_active):
         if _solve(ws) == 0:
             break
         if _face(ws) == 0:
             settled = 1
             break
     if settled == 0:
-        ws.unsettled = 1
+        ws.problem.is_unsettled = True
     _note(ws)

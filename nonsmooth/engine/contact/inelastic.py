@@ -31,7 +31,7 @@ _STUCK = 0.5
 
 @kernel()
 def _keep_rigid(ws: Workspace) -> None:
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         for r in range(3):
             ws.actives[a].rigid[r] = diagonal_block(ws, a).entries[4 * r]
 
@@ -39,10 +39,10 @@ def _keep_rigid(ws: Workspace) -> None:
 @kernel("void(ws, f8)")
 def _soften(ws: Workspace, part: float) -> None:
     """Let the active contacts give way by a ``part`` of what the bodies do."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active, own = ws.actives[a], diagonal_block(ws, a)
         # the normal impulse of a contact with a law of its own is given
-        rigid = not ws.contacts[active.slot].is_compliant
+        rigid = not ws.contacts[active.contact].is_compliant
         along = part * max(active.rigid[1], active.rigid[2])
         own.nn = active.rigid[0] * (1.0 + part if rigid else 1.0)
         own.t11, own.t22 = active.rigid[1] + along, active.rigid[2] + along
@@ -52,7 +52,7 @@ def _soften(ws: Workspace, part: float) -> None:
 def _fastest(ws: Workspace) -> float:
     """Return what rate the impulses would bring about at their own contacts at most."""
     fastest = 0.0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         along = max(active.rigid[1], active.rigid[2]) * length(active.friction)
         fastest = max(fastest, active.rigid[0] * active.normal_force, along)
@@ -61,8 +61,8 @@ def _fastest(ws: Workspace) -> float:
 
 @kernel()
 def _keep(ws: Workspace) -> None:
-    for i in range(3 * ws.n_active):
-        ws.active_forces_first[i] = ws.active_forces[i]
+    for i in range(3 * ws.problem.n_active):
+        ws.problem.forces_at_start[i] = ws.problem.forces[i]
 
 
 @kernel("b1(ws, i8)")
@@ -71,15 +71,15 @@ def _step_or_stay(ws: Workspace, steps: int) -> bool:
     _keep(ws)
     if step_by_newton(ws, steps):
         return True
-    for i in range(3 * ws.n_active):
-        ws.active_forces[i] = ws.active_forces_first[i]
+    for i in range(3 * ws.problem.n_active):
+        ws.problem.forces[i] = ws.problem.forces_at_start[i]
     return False
 
 
 @kernel("b1(ws, f8)")
 def _next_to_rigid(ws: Workspace, part: float) -> bool:
     """Return 1 if contacts that give way by a ``part`` make no rates wrong by more than counts."""
-    return part * _fastest(ws) <= _TRUE * ws.velocity_tolerance
+    return part * _fastest(ws) <= _TRUE * ws.tolerance.velocity
 
 
 @kernel("i8(ws)")
@@ -89,7 +89,7 @@ def _go_on(ws: Workspace) -> int:
     if fastest == 0.0:
         return 0
     # half of what may be, as the impulses to be found may be larger than those at hand
-    part = min(1.0, 0.5 * _TRUE * ws.velocity_tolerance / fastest)
+    part = min(1.0, 0.5 * _TRUE * ws.tolerance.velocity / fastest)
     _soften(ws, part)
     settled = _step_or_stay(ws, STEPS)
     _soften(ws, 0.0)
@@ -121,12 +121,14 @@ def inelastic_impulses(ws: Workspace, moment: float) -> int:
     The search starts from the impulses at hand.  The rates are those at hand and what the ``free_accelerations`` make
     of them in a ``moment`` [s]; those rates take the place of the accelerations.  Return 1 if the impulses settle.
     """
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        contact = ws.contacts[active.slot]
+        contact = ws.contacts[active.contact]
         write_friction(ws, a)
-        active.mu_static = active.mu = active.mu if active.at_rest == 0 else active.mu_static
-        active.at_rest = active.normal_held = active.tangent_held = 1
+        active.static_coefficient = active.friction_coefficient = (
+            active.friction_coefficient if not active.is_at_rest else active.static_coefficient
+        )
+        active.is_at_rest = active.is_normal_force_unknown = active.sticks = True
         for r in range(3):
             given = r == 0 and contact.is_compliant
             active.free[r] = moment * active.free[r] + (0.0 if given else contact.rate[r])
@@ -136,8 +138,8 @@ def inelastic_impulses(ws: Workspace, moment: float) -> int:
         sweep(ws, SWEEPS)
         if step_by_newton(ws, STEPS):
             return 1
-        for i in range(3 * ws.n_active):
-            ws.active_forces[i] = 0.0
+        for i in range(3 * ws.problem.n_active):
+            ws.problem.forces[i] = 0.0
         found = _follow(ws)
     if found == 1:
         # where they are unique those of contacts that do not give way are next to them

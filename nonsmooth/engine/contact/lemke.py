@@ -42,25 +42,25 @@ def _corner(ws: Workspace, a: int, j: int, r: int) -> float:
 @kernel("f8(ws, i8, i8)")
 def _push(ws: Workspace, line: int, column: int) -> float:
     """Return what the unknown of a column does to row ``line`` of G f, G standing in full in ``matrix``."""
-    a, j = ws.lemke_contact[column], ws.lemke_corner[column]
-    active, g = ws.actives[a], at(ws.floats, ws.offsets.matrix + line * 3 * ws.n_active + 3 * a)
+    a, j = ws.problem.lemke_contact[column], ws.problem.lemke_corner[column]
+    active, g = ws.actives[a], at(ws.floats, ws.problem.matrix.start + line * 3 * ws.problem.n_active + 3 * a)
     if j >= 0:
         return g[1] * _corner(ws, a, j, 1) + g[2] * _corner(ws, a, j, 2)
     if j == -2:
         return 0.0
-    if active.at_rest == 1:
+    if active.is_at_rest:
         return g[0]
-    return float(g[0] - active.mu * (active.direction[0] * g[1] + active.direction[1] * g[2]))
+    return float(g[0] - active.friction_coefficient * (active.direction[0] * g[1] + active.direction[1] * g[2]))
 
 
 @kernel("i8(ws)")
 def _list_unknowns(ws: Workspace) -> int:
     """List contact and corner of every unknown: -1 is a normal force, -2 a slip acceleration; return their number."""
     n = 0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        for j in range(-2 if active.at_rest == 1 else -1, CORNERS if active.at_rest == 1 else 0):
-            ws.lemke_contact[n], ws.lemke_corner[n] = a, j
+        for j in range(-2 if active.is_at_rest else -1, CORNERS if active.is_at_rest else 0):
+            ws.problem.lemke_contact[n], ws.problem.lemke_corner[n] = a, j
             n += 1
     return n
 
@@ -68,22 +68,22 @@ def _list_unknowns(ws: Workspace) -> int:
 @kernel("i8(ws, i8, i8)")
 def _row(ws: Workspace, n: int, i: int) -> int:
     """Return where row ``i`` of the tableau begins: factors of ``n`` unknowns, of the covering variable, constant."""
-    return int(ws.offsets.tableau + i * (n + 2))
+    return int(ws.problem.tableau.start + i * (n + 2))
 
 
 @kernel("void(ws, i8, f8, f8)")
 def _lay(ws: Workspace, n: int, g: float, size: float) -> None:
     """Write the tableau: complementary quantities by unknowns, covering column, constant; ``g``, ``size``: scales."""
     for i in range(n):
-        a, corner = ws.lemke_contact[i], ws.lemke_corner[i]
+        a, corner = ws.problem.lemke_contact[i], ws.problem.lemke_corner[i]
         active = ws.actives[a]
         row = _row(ws, n, i)
         # a cover that differs from row to row keeps pivots from being equal
         ws.floats[row + n] = 1.0 + 0.3 * ((0.6180339887498949 * (i + 1)) % 1.0)
         ws.floats[row + n + 1] = 0.0
-        ws.lemke_row[i], ws.lemke_column[i] = i, n + i
+        ws.problem.lemke_row[i], ws.problem.lemke_column[i] = i, n + i
         for j in range(n):
-            other, its = ws.lemke_contact[j], ws.lemke_corner[j]
+            other, its = ws.problem.lemke_contact[j], ws.problem.lemke_corner[j]
             entry = 0.0
             if corner == -1:
                 entry = _push(ws, 3 * a, j) / g
@@ -91,7 +91,7 @@ def _lay(ws: Workspace, n: int, g: float, size: float) -> None:
                 if other == a and its >= 0:
                     entry = -1.0
                 elif other == a and its == -1:
-                    entry = active.mu
+                    entry = active.friction_coefficient
             else:
                 for r in range(1, 3):
                     entry += _corner(ws, a, corner, r) * _push(ws, 3 * a + r, j) / g
@@ -103,7 +103,7 @@ def _lay(ws: Workspace, n: int, g: float, size: float) -> None:
         elif corner >= 0:
             for r in range(1, 3):
                 ws.floats[row + n + 1] += _corner(ws, a, corner, r) * active.free[r] / size
-    ws.lemke_column[n] = 2 * n
+    ws.problem.lemke_column[n] = 2 * n
 
 
 @kernel("void(ws, i8, i8, i8)")
@@ -123,7 +123,7 @@ def _pivot(ws: Workspace, n: int, r: int, s: int) -> None:
             for j in range(n + 2):
                 ws.floats[other + j] += t * ws.floats[row + j]
             ws.floats[other + s] = t / pivot
-    ws.lemke_row[r], ws.lemke_column[s] = ws.lemke_column[s], ws.lemke_row[r]
+    ws.problem.lemke_row[r], ws.problem.lemke_column[s] = ws.problem.lemke_column[s], ws.problem.lemke_row[r]
 
 
 @kernel("i8(ws, i8)")
@@ -154,7 +154,7 @@ def _leaving(ws: Workspace, n: int, s: int) -> int:
         row = _row(ws, n, i)
         entry = ws.floats[row + s]
         if entry < -_ZERO and max(0.0, ws.floats[row + n + 1]) / -entry <= best + _ZERO:
-            if ws.lemke_row[i] == 2 * n:
+            if ws.problem.lemke_row[i] == 2 * n:
                 return i
             if -entry > pivot:
                 pivot, chosen = -entry, i
@@ -164,15 +164,15 @@ def _leaving(ws: Workspace, n: int, s: int) -> int:
 @entry_point("b1(ws, i8)")
 def search_by_pivots(ws: Workspace, stage: int) -> bool:
     """Write ``active_forces`` of the faceted problem; return 1 if there are none, its path ending in a ray."""
-    m = ws.n_active
-    if m > ws.n_pivoted:
+    m = ws.problem.n_active
+    if m > ws.model.n_pivoted:
         return True
     write_dense(ws)
     g = size = 0.0
     for i in range(3 * m):
-        g = max(g, ws.matrix[i * 3 * m + i])
-        size = max(size, abs(ws.free_accelerations[i]))
-        ws.active_forces[i] = 0.0
+        g = max(g, ws.problem.matrix[i * 3 * m + i])
+        size = max(size, abs(ws.problem.free_accelerations[i]))
+        ws.problem.forces[i] = 0.0
     if size == 0.0:
         return False
     n = _list_unknowns(ws)
@@ -181,24 +181,24 @@ def search_by_pivots(ws: Workspace, stage: int) -> bool:
     for _pivots in range(50 * n):
         if row < 0 or interrupted(ws, m) == 1:
             break
-        left = ws.lemke_row[row]
+        left = ws.problem.lemke_row[row]
         _pivot(ws, n, row, column)
         if left == 2 * n:
             break
         # what enters next is the partner of what has left
         partner = left - n if left >= n else left + n
         for j in range(n + 1):
-            if ws.lemke_column[j] == partner:
+            if ws.problem.lemke_column[j] == partner:
                 column = j
         row = _leaving(ws, n, column)
         if row < 0:
             return True
     for i in range(n):
-        unknown = ws.lemke_row[i] - n
+        unknown = ws.problem.lemke_row[i] - n
         if unknown < 0 or unknown >= n:
             continue
         value = ws.floats[_row(ws, n, i) + n + 1] * size / g
-        a, j = ws.lemke_contact[unknown], ws.lemke_corner[unknown]
+        a, j = ws.problem.lemke_contact[unknown], ws.problem.lemke_corner[unknown]
         active = ws.actives[a]
         if j == -1:
             active.normal_force = value
@@ -206,6 +206,6 @@ def search_by_pivots(ws: Workspace, stage: int) -> bool:
             for r in range(1, 3):
                 active.force[r] += value * _corner(ws, a, j, r)
     for a in range(m):
-        if ws.actives[a].at_rest == 0:
+        if not ws.actives[a].is_at_rest:
             friction_of_slip(ws, a)
     return False

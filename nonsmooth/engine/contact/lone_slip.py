@@ -24,17 +24,17 @@ def lone_slip(ws: Workspace, group: int) -> int:
 
     The other body is a free one in space, of six velocities and no joint.
     """
-    first = ws.group_start[group]
-    c = ws.grouped[first]
+    first = ws.island.group_start[group]
+    c = ws.island.grouped[first]
     contact = ws.contacts[c]
-    if ws.group_start[group + 1] - first != 1 or contact.mode != SLIDE or ws.ahead > 0.0:
+    if ws.island.group_start[group + 1] - first != 1 or contact.mode != SLIDE or ws.problem.stage_time > 0.0:
         return -1
     special = contact.is_compliant or contact.is_averaged or contact.is_anisotropic
     nu_a, nu_b = contact.n_u_a, contact.n_u_b
     if special or nu_a + nu_b != 6 or min(nu_a, nu_b) != 0:
         return -1
     one, two = ws.articulations[contact.articulation_a], ws.articulations[contact.articulation_b]
-    return int(c if one.nu + two.nu == 6 and one.rows + two.rows == 0 else -1)
+    return int(c if one.n_u + two.n_u == 6 and one.n_rows + two.n_rows == 0 else -1)
 
 
 @kernel("v3(F, i8, v3, v3)")
@@ -73,7 +73,7 @@ def hold_lone_slip(ws: Workspace, c: int) -> bool:
     evaluate_rates(ws, c)
     evaluate_bias(ws, c, 1)
     n, t1, t2, slip = contact.axis_n, contact.axis_1, contact.axis_2, contact.slip
-    d1, d2 = slip_direction(ws, c, slip, ws.velocity_tolerance)
+    d1, d2 = slip_direction(ws, c, slip, ws.tolerance.velocity)
     mu = slip_coefficient(ws, c, length(slip))
     m1, m2 = mu * d1, mu * d2
     push = (
@@ -85,7 +85,7 @@ def hold_lone_slip(ws: Workspace, c: int) -> bool:
     sign = 1.0 if second else -1.0
     frame = contact.frame_b if second else contact.frame_a
     moving = ws.articulations[contact.articulation_b if second else contact.articulation_a]
-    inverse, du, u = moving.inverse, ws.offsets.du + moving.u, ws.free_velocities + moving.u
+    inverse, du, u = moving.inverse, ws.island.du.start + moving.u, ws.island.velocities + moving.u
     arm = minus(contact.point_b if second else contact.point_a, frame_at(ws.floats, frame).origin)
     held, pushed = cross(arm, n), cross(arm, push)
     held_1, held_2 = side_entries(ws.floats, frame, 0, n, held), side_entries(ws.floats, frame, 3, n, held)
@@ -102,13 +102,13 @@ def hold_lone_slip(ws: Workspace, c: int) -> bool:
         return False
     # on which more force gives more approach
     if own < 0.0:
-        ws.singular = c
+        ws.island.singular_contact = c
     free = sign * (dot(held_1, _three(ws.floats, du)) + dot(held_2, _three(ws.floats, du + 3)))
     on_coordinates = sign * (dot(pushed_1, _three(ws.floats, u)) + dot(pushed_2, _three(ws.floats, u + 3)))
     force = (-contact.bias[0] - free) / own
     _add(ws.floats, du, sign * force, response_1)
     _add(ws.floats, du + 3, sign * force, response_2)
-    contact.dissipated_by_spin, contact.redundant, contact.holds = 0.0, 0, 0
+    contact.dissipated_by_spin, contact.has_redundant_force, contact.is_held_by_friction = 0.0, False, False
     contact.force[0], contact.force[1], contact.force[2] = force, -m1 * force, -m2 * force
-    ws.driven_power += force * (on_coordinates - contact.rate[0] + m1 * slip[0] + m2 * slip[1])
+    ws.step.driven_power += force * (on_coordinates - contact.rate[0] + m1 * slip[0] + m2 * slip[1])
     return True

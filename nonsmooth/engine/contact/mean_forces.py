@@ -26,8 +26,8 @@ _LONGEST = 50.0
 @kernel("b1(ws)")
 def is_averaged(ws: Workspace) -> bool:
     """Return 1 if the forces of the active contacts are averaged."""
-    for a in range(ws.n_active):
-        if ws.contacts[ws.actives[a].slot].is_averaged:
+    for a in range(ws.problem.n_active):
+        if ws.contacts[ws.actives[a].contact].is_averaged:
             return True
     return False
 
@@ -39,8 +39,8 @@ def averaging_time(ws: Workspace) -> float:
     It is 0 where one has none, or all give way.
     """
     time = 1e300
-    for a in range(ws.n_active):
-        contact = ws.contacts[ws.actives[a].slot]
+    for a in range(ws.problem.n_active):
+        contact = ws.contacts[ws.actives[a].contact]
         if not contact.is_compliant:
             time = min(time, contact.contact_time)
     return time if time < 1e300 else 0.0
@@ -49,12 +49,12 @@ def averaging_time(ws: Workspace) -> float:
 @kernel("b1(ws)")
 def is_settled(ws: Workspace) -> bool:
     """Return 1 if no active contact slips so slowly that its friction would stop it within a contact time."""
-    for a in range(ws.n_active):
-        contact = ws.contacts[ws.actives[a].slot]
+    for a in range(ws.problem.n_active):
+        contact = ws.contacts[ws.actives[a].contact]
         speed = length(contact.slip)
         friction = length((contact.force[1], contact.force[2]))
         slow = speed <= contact.contact_time * contact.slip_per_force * friction
-        if slow and speed > ws.velocity_tolerance and contact.force[0] > 0.0:
+        if slow and speed > ws.tolerance.velocity and contact.force[0] > 0.0:
             return False
     return True
 
@@ -69,8 +69,8 @@ def averaging_span(ws: Workspace, follows: int) -> float:
     if follows == 0:
         return float(least)
     span = _LONGEST * least
-    for a in range(ws.n_active):
-        contact = ws.contacts[ws.actives[a].slot]
+    for a in range(ws.problem.n_active):
+        contact = ws.contacts[ws.actives[a].contact]
         if contact.is_averaged:
             span = min(span, contact.mean_span if contact.mean_span > 0.0 else least)
     return float(span)
@@ -82,11 +82,11 @@ def measure_spans(ws: Workspace) -> None:
 
     One that was shorter than a contact time for the way of gaps may be twice as long.
     """
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         if contact.is_averaged:
-            left = max(abs(contact.rate[0]), 0.25 * ws.velocity_tolerance)
-            accurate = contact.mean_span * math.sqrt(ws.velocity_tolerance / left)
+            left = max(abs(contact.rate[0]), 0.25 * ws.tolerance.velocity)
+            accurate = contact.mean_span * math.sqrt(ws.tolerance.velocity / left)
             contact.mean_span = max(accurate, min(2.0 * contact.mean_span, contact.contact_time))
 
 
@@ -97,24 +97,24 @@ def _keep_span(ws: Workspace, span: float) -> None:
     A contact time is not halved: what happens within it is not told apart.
     """
     kept = span
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        if ws.contacts[active.slot].mode_after_averaging != active.mode_tried:
+        if ws.contacts[active.contact].mode_after_averaging != active.mode_tried:
             kept = max(0.5 * span, min(span, averaging_time(ws)))
-    for a in range(ws.n_active):
-        ws.contacts[ws.actives[a].slot].mean_span = kept
+    for a in range(ws.problem.n_active):
+        ws.contacts[ws.actives[a].contact].mean_span = kept
 
 
 @kernel("i8(ws, f8)")
 def _solve(ws: Workspace, time: float) -> int:
     """Write the impulses of the active contacts in a ``time`` to ``active_forces``; return 1 if they are found."""
     assemble_delassus(ws)
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        contact = ws.contacts[active.slot]
+        contact = ws.contacts[active.contact]
         contact.slip_per_force = slope_of_slip(ws, a)
         for r in range(3):
-            active.free[r] = contact.bias[r] + row(ws, active.slot, r, ws.offsets.du)
+            active.free[r] = contact.bias[r] + row(ws, active.contact, r, ws.island.du.start)
             active.force[r] = time * contact.mean_force[r] if contact.is_averaged else 0.0
         # what is left of a gap may close
         active.free[0] += max(0.0, contact.gap) / (time * time)
@@ -138,8 +138,8 @@ def find_mean_impulses(ws: Workspace, time: float) -> float:
 def gap_after(ws: Workspace, a: int, time: float) -> float:
     """Return the gap of an active contact after its impulses in a ``time``, as if no row of a Jacobian changed [m]."""
     active = ws.actives[a]
-    contact = ws.contacts[active.slot]
-    rate = add_product(ws, active.free[0], a, 0, ws.offsets.active_forces)
+    contact = ws.contacts[active.contact]
+    rate = add_product(ws, active.free[0], a, 0, ws.problem.forces.start)
     # of these rates those that close the gap are part
     closing = max(0.0, contact.gap)
     return float(contact.gap - 0.5 * closing + 0.5 * time * (contact.rate[0] + rate))
@@ -151,21 +151,21 @@ def take_mean_forces(ws: Workspace, time: float) -> None:
 
     The ``active_forces`` become mean forces, too.
     """
-    ws.mean_until = min(ws.mean_until, ws.t + time)
-    ws.strayed = 0.0
-    for a in range(ws.n_active):
+    ws.island.averaged_until = min(ws.island.averaged_until, ws.island.time + time)
+    ws.island.strayed = 0.0
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        v1 = add_product(ws, active.free[1], a, 1, ws.offsets.active_forces)
-        v2 = add_product(ws, active.free[2], a, 2, ws.offsets.active_forces)
+        v1 = add_product(ws, active.free[1], a, 1, ws.problem.forces.start)
+        v2 = add_product(ws, active.free[2], a, 2, ws.problem.forces.start)
         speed = length((v1, v2))
         active.mode_tried = OPEN
         if active.normal_force > 0.0:
-            active.mode_tried = SLIDE if speed > ws.velocity_tolerance else STICK
+            active.mode_tried = SLIDE if speed > ws.tolerance.velocity else STICK
         active.direction = v1 / speed if speed > 0.0 else 1.0, v2 / speed if speed > 0.0 else 0.0
     _keep_span(ws, time)
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        contact = ws.contacts[active.slot]
+        contact = ws.contacts[active.contact]
         # a gap that opens comes to rest there
         way = time * max(0.0, contact.rate[0])
         contact.mean_gap_change = way + (contact.mean_gap_change if contact.is_averaged else 0.0)

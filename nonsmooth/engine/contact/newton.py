@@ -49,17 +49,17 @@ def _aim(ws: Workspace, a: int) -> tuple[float, float]:
 def write_natural_map(ws: Workspace) -> float:
     """Write the natural map to ``right``; return its square."""
     square = 0.0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        right = at(ws.floats, ws.offsets.right + 3 * a)
+        right = at(ws.floats, ws.problem.right.start + 3 * a)
         for r in range(3):
-            active.acceleration[r] = add_product(ws, active.free[r], a, r, ws.offsets.active_forces)
+            active.acceleration[r] = add_product(ws, active.free[r], a, r, ws.problem.forces.start)
         y = active.normal_force - active.normal_acceleration / diagonal_block(ws, a).nn
         right[0] = active.normal_force - max(0.0, y)
-        radius = active.mu * max(0.0, y)
+        radius = active.friction_coefficient * max(0.0, y)
         t1, t2 = active.friction
-        if active.at_rest == 0:
-            pull = active.mu * active.normal_force
+        if not active.is_at_rest:
+            pull = active.friction_coefficient * active.normal_force
             right[1], right[2] = t1 + pull * active.direction[0], t2 + pull * active.direction[1]
         else:
             y1, y2 = _aim(ws, a)
@@ -75,10 +75,12 @@ def write_natural_map(ws: Workspace) -> float:
 def _add_row(ws: Workspace, a: int, r: int, slope: float) -> None:
     """Add a row of G, that is of contact ``a``, over a slope to the same row of ``matrix``."""
     active = ws.actives[a]
-    line = band_row(ws.offsets.matrix, 3 * a + r, 3 * ws.n_active, ws.half_band)
+    line = band_row(ws.problem.matrix.start, 3 * a + r, 3 * ws.problem.n_active, ws.problem.half_band)
     for block in range(active.first_block, active.end_block):
         for s in range(3):
-            ws.floats[line + 3 * ws.block_column[block] + s] += ws.delassus[DELASSUS * block + 3 * r + s] / slope
+            ws.floats[line + 3 * ws.island.block_column[block] + s] += (
+                ws.island.delassus[DELASSUS * block + 3 * r + s] / slope
+            )
 
 
 @kernel("void(ws, i8, f8, f8, f8)")
@@ -86,19 +88,19 @@ def _add_cut(ws: Workspace, a: int, cut: float, c1: float, c2: float) -> None:
     """Add the derivative of the friction that is cut to the disc, along (c1, c2), to its two rows of ``matrix``."""
     active = ws.actives[a]
     own, slope = diagonal_block(ws, a).nn, slope_of_slip(ws, a)
-    n = 3 * ws.n_active
+    n = 3 * ws.problem.n_active
     first, second = (
-        band_row(ws.offsets.matrix, 3 * a + 1, n, ws.half_band),
-        band_row(ws.offsets.matrix, 3 * a + 2, n, ws.half_band),
+        band_row(ws.problem.matrix.start, 3 * a + 1, n, ws.problem.half_band),
+        band_row(ws.problem.matrix.start, 3 * a + 2, n, ws.problem.half_band),
     )
     for block in range(active.first_block, active.end_block):
         for s in range(3):
-            g, j = at(ws.floats, ws.offsets.delassus + DELASSUS * block + s), 3 * ws.block_column[block] + s
+            g, j = at(ws.floats, ws.island.delassus.start + DELASSUS * block + s), 3 * ws.island.block_column[block] + s
             z1, z2 = -g[3] / slope, -g[6] / slope
             z1 += 1.0 if j == 3 * a + 1 else 0.0
             z2 += 1.0 if j == 3 * a + 2 else 0.0
             across = c2 * z1 - c1 * z2
-            grown = active.mu * ((1.0 if j == 3 * a else 0.0) - g[0] / own)
+            grown = active.friction_coefficient * ((1.0 if j == 3 * a else 0.0) - g[0] / own)
             ws.floats[first + j] -= cut * c2 * across + c1 * grown
             ws.floats[second + j] += cut * c1 * across - c2 * grown
 
@@ -106,35 +108,35 @@ def _add_cut(ws: Workspace, a: int, cut: float, c1: float, c2: float) -> None:
 @kernel("b1(ws)")
 def _write_jacobian(ws: Workspace) -> bool:
     """Write the derivative of the natural map at the forces at hand to ``matrix``; return 0 if it is too wide."""
-    n = 3 * ws.n_active
-    for a in range(ws.n_active + 1):
+    n = 3 * ws.problem.n_active
+    for a in range(ws.problem.n_active + 1):
         ws.actives[a].first_unknown = 3 * a
-    if not open_band(ws, n, ws.offsets.matrix):
+    if not open_band(ws, n, ws.problem.matrix.start):
         return False
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         line = 3 * a
         own = diagonal_block(ws, a).nn
         y = active.normal_force - active.normal_acceleration / own
-        row = band_row(ws.offsets.matrix, line, n, ws.half_band)
+        row = band_row(ws.problem.matrix.start, line, n, ws.problem.half_band)
         if y > 0.0:
             _add_row(ws, a, 0, own)
             ws.floats[row + line] += _FLOOR
         else:
             ws.floats[row + line] = 1.0
         for r in range(1, 3):
-            row = band_row(ws.offsets.matrix, line + r, n, ws.half_band)
+            row = band_row(ws.problem.matrix.start, line + r, n, ws.problem.half_band)
             ws.floats[row + line + r] = 1.0
-            if active.at_rest == 0:
-                ws.floats[row + line] = active.mu * active.direction[r - 1]
-        if active.at_rest == 0:
+            if not active.is_at_rest:
+                ws.floats[row + line] = active.friction_coefficient * active.direction[r - 1]
+        if not active.is_at_rest:
             continue
         slope = slope_of_slip(ws, a)
         y1, y2 = _aim(ws, a)
-        size, radius = length((y1, y2)), active.mu * max(0.0, y)
+        size, radius = length((y1, y2)), active.friction_coefficient * max(0.0, y)
         if size <= radius:
             for r in range(1, 3):
-                row = band_row(ws.offsets.matrix, line + r, n, ws.half_band)
+                row = band_row(ws.problem.matrix.start, line + r, n, ws.problem.half_band)
                 ws.floats[row + line + r] = 0.0
                 _add_row(ws, a, r, slope)
                 ws.floats[row + line + r] += _FLOOR
@@ -156,29 +158,29 @@ def search_by_newton(ws: Workspace, stage: int) -> bool:
 @kernel("b1(ws, i8)")
 def step_by_newton(ws: Workspace, steps: int) -> bool:
     """Improve the forces by so many Newton steps at most; return 1 if settled."""
-    width = 3 * ws.n_active
+    width = 3 * ws.problem.n_active
     square = write_natural_map(ws)
     mean, weight = square, 1.0
     for _step in range(steps):
-        if interrupted(ws, ws.n_active * ws.half_band) == 1:
+        if interrupted(ws, ws.problem.n_active * ws.problem.half_band) == 1:
             return False
         size = 0.0
         for i in range(width):
-            size += ws.active_forces[i] * ws.active_forces[i]
+            size += ws.problem.forces[i] * ws.problem.forces[i]
         if square <= _SETTLED * _SETTLED * size:
             return True
         if not _write_jacobian(ws):
             return False
         for i in range(width):
-            ws.x[i] = -ws.right[i]
-        if not eliminate(ws.floats, ws.offsets.matrix, width, ws.half_band, ws.offsets.x, SINGULAR):
+            ws.problem.x[i] = -ws.problem.right[i]
+        if not eliminate(ws.floats, ws.problem.matrix.start, width, ws.problem.half_band, ws.problem.x.start, SINGULAR):
             return False
         for i in range(width):
-            ws.active_forces_kept[i] = ws.active_forces[i]
+            ws.problem.forces_kept[i] = ws.problem.forces[i]
         share, better = 1.0, 0
         for _halving in range(_HALVINGS):
             for i in range(width):
-                ws.active_forces[i] = ws.active_forces_kept[i] + share * ws.x[i]
+                ws.problem.forces[i] = ws.problem.forces_kept[i] + share * ws.problem.x[i]
             new = write_natural_map(ws)
             if new < (1.0 - 1e-4 * share) * mean:
                 square, better = new, 1
@@ -186,7 +188,7 @@ def step_by_newton(ws: Workspace, steps: int) -> bool:
             share *= 0.5
         if better == 0:
             for i in range(width):
-                ws.active_forces[i] = ws.active_forces_kept[i]
+                ws.problem.forces[i] = ws.problem.forces_kept[i]
             return False
         mean = (_MEMORY * weight * mean + square) / (_MEMORY * weight + 1.0)
         weight = _MEMORY * weight + 1.0

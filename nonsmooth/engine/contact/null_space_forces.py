@@ -37,13 +37,13 @@ def _least_distance(ws: Workspace, n: int) -> float:
     for i in range(n):
         unknown = ws.unknowns[i]
         active = ws.actives[unknown.contact]
-        if unknown.direction == 1 and active.normal_held == 0 and active.redundant == 1:
-            least = min(least, active.mu_static * active.normal_force - length(active.friction))
-        if unknown.direction != 0 or active.redundant == 0:
+        if unknown.direction == 1 and not active.is_normal_force_unknown and active.has_redundant_force:
+            least = min(least, active.static_coefficient * active.normal_force - length(active.friction))
+        if unknown.direction != 0 or not active.has_redundant_force:
             continue
         distance = active.normal_force
-        if active.tangent_held == 1:
-            distance = min(distance, active.mu_static * distance - length(active.friction))
+        if active.sticks:
+            distance = min(distance, active.static_coefficient * distance - length(active.friction))
         least = min(least, distance)
     return least
 
@@ -53,15 +53,15 @@ def _keep_null_space_force(ws: Workspace, n: int) -> None:
     """Keep by how much the ``active_forces`` differ from ``x``, those of least norm."""
     for i in range(n):
         unknown = ws.unknowns[i]
-        contact = ws.contacts[ws.actives[unknown.contact].slot]
-        contact.null_space_force[unknown.direction] = force_of(ws, i) - ws.active_forces_first[i]
+        contact = ws.contacts[ws.actives[unknown.contact].contact]
+        contact.null_space_force[unknown.direction] = force_of(ws, i) - ws.problem.forces_at_start[i]
 
 
 @kernel("b1(ws, f8, i8)")
 def _choose(ws: Workspace, largest: float, rung: int) -> bool:
     """Choose forces off every bound by so many quarterings of the largest, from those of least norm; 1 if there are."""
-    for i in range(ws.n_unknown):
-        set_force(ws, i, ws.active_forces_first[i])
+    for i in range(ws.problem.n_unknown):
+        set_force(ws, i, ws.problem.forces_at_start[i])
     return distribute(ws, 0.25**rung * largest, _ARRIVED * largest)
 
 
@@ -86,55 +86,55 @@ def _choose_farthest(ws: Workspace, largest: float) -> int:
 @entry_point("i8(ws)")
 def choose_null_space_force(ws: Workspace) -> int:
     """Choose the null-space force, ``x`` being the forces of least norm; return 1 if it keeps off every bound."""
-    n = ws.n_unknown
+    n = ws.problem.n_unknown
     largest = 0.0
-    for a in range(ws.n_active):
-        contact = ws.contacts[ws.actives[a].slot]
+    for a in range(ws.problem.n_active):
+        contact = ws.contacts[ws.actives[a].contact]
         contact.slack = 0.0
         for r in range(3):
             contact.null_space_force[r] = 0.0
     for i in range(n):
-        ws.active_forces_first[i] = ws.x[i]
-        set_force(ws, i, ws.x[i])
-        largest = max(largest, abs(ws.x[i]))
+        ws.problem.forces_at_start[i] = ws.problem.x[i]
+        set_force(ws, i, ws.problem.x[i])
+        largest = max(largest, abs(ws.problem.x[i]))
     if _least_distance(ws, n) >= _AMPLE * largest:
         return 1
     found = _choose_farthest(ws, largest)
     if found == 0:
         for i in range(n):
-            set_force(ws, i, ws.active_forces_first[i])
+            set_force(ws, i, ws.problem.forces_at_start[i])
         distribute(ws, 0.0, _ARRIVED * largest)
-        for a in range(ws.n_active):
-            ws.contacts[ws.actives[a].slot].slack = _SLACK * largest
+        for a in range(ws.problem.n_active):
+            ws.contacts[ws.actives[a].contact].slack = _SLACK * largest
     _keep_null_space_force(ws, n)
     for i in range(n):
-        ws.x[i] = ws.active_forces_first[i]
+        ws.problem.x[i] = ws.problem.forces_at_start[i]
     return found
 
 
 @kernel()
 def add_null_space_force(ws: Workspace) -> None:
     """Add what of the null-space force lies in the present null space to the unknowns ``x``."""
-    n = ws.n_unknown
+    n = ws.problem.n_unknown
     for i in range(n):
         unknown = ws.unknowns[i]
-        contact = ws.contacts[ws.actives[unknown.contact].slot]
-        ws.sigma[i] = contact.null_space_force[unknown.direction]
-    if ws.null_banded == 1:
-        project_on_null(ws, n, ws.offsets.sigma)
+        contact = ws.contacts[ws.actives[unknown.contact].contact]
+        ws.problem.sigma[i] = contact.null_space_force[unknown.direction]
+    if ws.problem.is_null_space_banded:
+        project_on_null(ws, n, ws.problem.sigma.start)
         for i in range(n):
-            ws.x[i] += ws.sigma[i]
+            ws.problem.x[i] += ws.problem.sigma[i]
         return
     for i in range(n):
         for j in range(n):
-            ws.x[i] += ws.null[i * n + j] * ws.sigma[j]
+            ws.problem.x[i] += ws.problem.null[i * n + j] * ws.problem.sigma[j]
 
 
 @kernel()
 def shift_forces(ws: Workspace) -> None:
     """Add what of the null-space force lies in the present null space to the ``active_forces``, those of least norm."""
-    for i in range(ws.n_unknown):
-        ws.x[i] = force_of(ws, i)
+    for i in range(ws.problem.n_unknown):
+        ws.problem.x[i] = force_of(ws, i)
     add_null_space_force(ws)
-    for i in range(ws.n_unknown):
-        set_force(ws, i, ws.x[i])
+    for i in range(ws.problem.n_unknown):
+        set_force(ws, i, ws.problem.x[i])

@@ -33,7 +33,7 @@ _NEAR = 1e-8
 
 @kernel("f8(ws, i8, i8)")
 def _acceleration(ws: Workspace, a: int, r: int) -> float:
-    return add_product(ws, ws.actives[a].free[r], a, r, ws.offsets.active_forces)
+    return add_product(ws, ws.actives[a].free[r], a, r, ws.problem.forces.start)
 
 
 @kernel("f8(ws, i8, i8)")
@@ -41,8 +41,8 @@ def _across(ws: Workspace, a: int, i: int) -> float:
     """Write what row ``i`` of contact ``a``, that of its turn, lacks; return how wrong it is, relative."""
     d1, d2 = ws.actives[a].direction
     a1, a2 = _acceleration(ws, a, 1), _acceleration(ws, a, 2)
-    ws.right[i] = -(a1 * d2 - a2 * d1)
-    return float(abs(ws.right[i]) / max(ws.acceleration_scale, abs(a1), abs(a2)))
+    ws.problem.right[i] = -(a1 * d2 - a2 * d1)
+    return float(abs(ws.problem.right[i]) / max(ws.problem.acceleration_scale, abs(a1), abs(a2)))
 
 
 @kernel("f8(ws, i8)")
@@ -54,8 +54,8 @@ def _worst_across(ws: Workspace, n: int) -> float:
     worst = 0.0
     for i in range(n):
         unknown = ws.unknowns[i]
-        ws.right[i] = 0.0
-        if unknown.turn == 1:
+        ws.problem.right[i] = 0.0
+        if unknown.is_turn:
             worst = max(worst, _across(ws, unknown.contact, i))
     return worst
 
@@ -64,23 +64,23 @@ def _worst_across(ws: Workspace, n: int) -> float:
 def _write_row(ws: Workspace, a: int, i: int, n: int) -> None:
     """Write row ``i`` of Newton's system, one of contact ``a``: of an acceleration, or of that across a slip."""
     active, unknown = ws.actives[a], ws.unknowns[i]
-    line, turn, r = band_row(ws.offsets.reduced, i, n, ws.half_band), unknown.turn, unknown.direction
+    line, turn, r = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band), unknown.is_turn, unknown.direction
     d1, d2 = active.direction
     for block in range(active.first_block, active.end_block):
-        other = ws.actives[ws.block_column[block]]
+        other = ws.actives[ws.island.block_column[block]]
         out, end = line + other.first_unknown, line + other.end_unknown
         if out == end:
             continue
-        g = at(ws.floats, ws.offsets.delassus + DELASSUS * block)
+        g = at(ws.floats, ws.island.delassus.start + DELASSUS * block)
         if turn == 1:
             g0, g1, g2 = d2 * g[3] - d1 * g[6], d2 * g[4] - d1 * g[7], d2 * g[5] - d1 * g[8]
         else:
             g0, g1, g2 = g[3 * r], g[3 * r + 1], g[3 * r + 2]
         e1, e2 = other.direction
-        if other.normal_held == 1:
-            ws.floats[out] = g0 if other.tangent_held == 1 else g0 - other.mu * (e1 * g1 + e2 * g2)
+        if other.is_normal_force_unknown:
+            ws.floats[out] = g0 if other.sticks else g0 - other.friction_coefficient * (e1 * g1 + e2 * g2)
             out += 1
-        if other.tangent_held == 1:
+        if other.sticks:
             ws.floats[out], ws.floats[out + 1] = g1, g2
             out += 2
         if out < end:
@@ -96,16 +96,16 @@ def _add_turn(ws: Workspace, a: int, i: int, n: int) -> None:
     Of next to no force it is so much that the row is weighed less, or all others would count as zero beside it.
     """
     active, own = ws.actives[a], diagonal_block(ws, a)
-    force, (d1, d2) = active.mu * active.normal_force, active.direction
+    force, (d1, d2) = active.friction_coefficient * active.normal_force, active.direction
     if not abs(force) > 0.0:
         return
-    line = band_row(ws.offsets.reduced, i, n, ws.half_band)
+    line = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band)
     turned = (_acceleration(ws, a, 1) * d1 + _acceleration(ws, a, 2) * d2) / force
     ws.floats[line + i] += turned
     mobility = max(own.nn, own.t11, own.t22)
     weight = mobility / (mobility + abs(turned))
-    ws.right[i] *= weight
-    for j in range(max(0, i - ws.half_band), min(n, i + ws.half_band + 1)):
+    ws.problem.right[i] *= weight
+    for j in range(max(0, i - ws.problem.half_band), min(n, i + ws.problem.half_band + 1)):
         ws.floats[line + j] *= weight
 
 
@@ -113,24 +113,24 @@ def _add_turn(ws: Workspace, a: int, i: int, n: int) -> None:
 def _list_unknowns(ws: Workspace) -> int:
     """List the forces that are held and the turns of the contacts that start to slide; return how many there are."""
     n = 0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         active.first_unknown = n
         for r in range(3):
-            if (active.normal_held if r == 0 else active.tangent_held) == 1:
+            if (active.is_normal_force_unknown if r == 0 else active.sticks) == 1:
                 list_unknown(ws, n, a, r, 0)
                 n += 1
         if _starts(ws, a):
             list_unknown(ws, n, a, 0, 1)
             n += 1
-    ws.first_unknown[ws.n_active] = n
+    ws.problem.first_unknown[ws.problem.n_active] = n
     return n
 
 
 @kernel("b1(ws, i8)")
 def _starts(ws: Workspace, a: int) -> bool:
     active = ws.actives[a]
-    return active.at_rest == 1 and active.mode_tried == SLIDE
+    return active.is_at_rest and active.mode_tried == SLIDE
 
 
 @kernel("void(ws, i8)")
@@ -139,9 +139,9 @@ def _turn(ws: Workspace, i: int) -> None:
     a = ws.unknowns[i].contact
     active = ws.actives[a]
     d1, d2 = active.direction
-    force = active.mu * active.normal_force
+    force = active.friction_coefficient * active.normal_force
     if abs(force) > 0.0:
-        angle = max(-_TURN, min(_TURN, ws.x[i] / force))
+        angle = max(-_TURN, min(_TURN, ws.problem.x[i] / force))
         active.direction = (
             d1 * math.cos(angle) - d2 * math.sin(angle),
             d2 * math.cos(angle) + d1 * math.sin(angle),
@@ -158,13 +158,22 @@ def _solve(ws: Workspace, n: int) -> None:
     """Solve Newton's system; where it is singular, for least norm, or a little off where its band is narrow."""
     if eliminate_reduced(ws, n, SINGULAR):
         return
-    if band_width(n, ws.half_band) < n:
+    if band_width(n, ws.problem.half_band) < n:
         for i in range(n):
-            ws.x[i] = ws.right[i]
+            ws.problem.x[i] = ws.problem.right[i]
         solve_shifted(ws, n)
         return
-    transpose(ws.floats, ws.offsets.reduced, n, ws.offsets.matrix)
-    minimum_norm(ws.floats, ws.offsets.matrix, n, ws.offsets.right, ws.offsets.x, ws.offsets.basis, ws.offsets.sigma, n)
+    transpose(ws.floats, ws.problem.reduced.start, n, ws.problem.matrix.start)
+    minimum_norm(
+        ws.floats,
+        ws.problem.matrix.start,
+        n,
+        ws.problem.right.start,
+        ws.problem.x.start,
+        ws.problem.basis.start,
+        ws.problem.sigma.start,
+        n,
+    )
 
 
 @entry_point("i8(ws)")
@@ -176,7 +185,7 @@ def polish(ws: Workspace) -> int:
     bounds.
     """
     turns = 0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         turns += _starts(ws, a)
     if turns == 0:
         return 2
@@ -188,14 +197,14 @@ def polish(ws: Workspace) -> int:
         if worst <= EXACT or (worst <= _NEAR and worst >= best):
             return 1
         best = min(best, worst)
-        if not open_band(ws, n, ws.offsets.reduced):
+        if not open_band(ws, n, ws.problem.reduced.start):
             return 0
-        for a in range(ws.n_active):
+        for a in range(ws.problem.n_active):
             active = ws.actives[a]
             for i in range(active.first_unknown, active.end_unknown):
                 _write_row(ws, a, i, n)
         _solve(ws, n)
         for i in range(n):
-            if ws.unknowns[i].turn == 1:
+            if ws.unknowns[i].is_turn:
                 _turn(ws, i)
     return 0

@@ -60,7 +60,7 @@ def slip_direction(ws: Workspace, c: int, slip: Pair, still: float) -> Pair:
     v1, v2 = slip
     speed = length(slip)
     if speed > still:
-        inverse = (1.0 if ws.turning == 1 or v1 * d1 + v2 * d2 >= 0.0 else -1.0) / speed
+        inverse = (1.0 if ws.problem.is_turning or v1 * d1 + v2 * d2 >= 0.0 else -1.0) / speed
         d1, d2 = inverse * v1, inverse * v2
     return d1, d2
 
@@ -69,44 +69,44 @@ def slip_direction(ws: Workspace, c: int, slip: Pair, still: float) -> Pair:
 def follow_slip(ws: Workspace, a: int, slip: Pair, still: float) -> None:
     """Write the direction of a slip (:func:`slip_direction`) and its coefficient of the active contact ``a``."""
     active = ws.actives[a]
-    active.direction = slip_direction(ws, active.slot, slip, still)
-    active.mu = slip_coefficient(ws, active.slot, length(slip))
+    active.direction = slip_direction(ws, active.contact, slip, still)
+    active.friction_coefficient = slip_coefficient(ws, active.contact, length(slip))
 
 
 @kernel("void(ws, i8)")
 def accelerate_freely(ws: Workspace, number: int) -> None:
     """Write M^-1 h of one body to ``du``."""
     body = ws.bodies[number]
-    n_u = body.nu
-    force = body.tail + body.nq
-    if body.flies == 0:
-        multiply(ws.floats, force + n_u, n_u, force, ws.offsets.du + body.u)
+    n_u = body.n_u
+    force = body.tail + body.n_q
+    if not body.is_ballistic:
+        multiply(ws.floats, force + n_u, n_u, force, ws.island.du.start + body.u)
         return
-    if body.accelerated != body.version:
-        multiply(ws.floats, force + n_u, n_u, force, ws.offsets.du_free + body.u)
-        body.accelerated = body.version
+    if body.accelerated_version != body.version:
+        multiply(ws.floats, force + n_u, n_u, force, ws.island.du_free.start + body.u)
+        body.accelerated_version = body.version
     for i in range(body.u, body.u + n_u):
-        ws.du[i] = ws.du_free[i]
+        ws.island.du[i] = ws.island.du_free[i]
 
 
 @kernel("void(ws, i8)")
 def free_acceleration(ws: Workspace, every: int) -> None:
     """Write M^-1 h to ``du``, and what the joints leave of it, of every body (1), or of those that are integrated."""
-    for i in range(ws.n_bodies if every == 1 else ws.n_integrated):
-        accelerate_freely(ws, i if every == 1 else ws.integrated[i])
-    if ws.n_joints > 0:
-        for number in range(ws.n_articulations):
-            if ws.articulations[number].rows > 0:
+    for i in range(ws.model.n_bodies if every == 1 else ws.island.n_integrated):
+        accelerate_freely(ws, i if every == 1 else ws.island.integrated[i])
+    if ws.model.n_joints > 0:
+        for number in range(ws.model.n_articulations):
+            if ws.articulations[number].n_rows > 0:
                 constrain(ws, number)
 
 
 @kernel()
 def accelerate_touching(ws: Workspace) -> None:
     """Write the same of the bodies of contacts that touch, which is all that an instant asks for."""
-    if ws.n_joints > 0:
+    if ws.model.n_joints > 0:
         free_acceleration(ws, 1)
         return
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         if contact.is_touching:
             accelerate_freely(ws, contact.body_a)
@@ -117,35 +117,35 @@ def accelerate_touching(ws: Workspace) -> None:
 def write_friction(ws: Workspace, a: int) -> None:
     """Write coefficients, slip direction and whether it is at rest of active contact ``a``."""
     active = ws.actives[a]
-    c = active.slot
+    c = active.contact
     contact = ws.contacts[c]
     v1, v2 = contact.slip
     speed = length(contact.slip)
-    active.given = 0
-    active.mu_static = friction_coefficient(ws, c, 0.0)
-    if speed > ws.velocity_tolerance:
-        active.at_rest = 0
+    active.has_given_force = False
+    active.static_coefficient = friction_coefficient(ws, c, 0.0)
+    if speed > ws.tolerance.velocity:
+        active.is_at_rest = False
         active.direction = v1 / speed, v2 / speed
-        active.mu = slip_coefficient(ws, c, speed)
+        active.friction_coefficient = slip_coefficient(ws, c, speed)
     else:
-        active.at_rest = 1
+        active.is_at_rest = True
         active.direction = contact.direction
-        active.mu = slip_coefficient(ws, c, 0.0)
+        active.friction_coefficient = slip_coefficient(ws, c, 0.0)
 
 
 @entry_point()
 def set_up(ws: Workspace) -> None:
     """Write G and b of Eq. (18) and the friction data of the active contacts, kinematics and M^-1 h being known."""
     assemble_delassus(ws)
-    ws.acceleration_scale = 0.0
-    for a in range(ws.n_active):
+    ws.problem.acceleration_scale = 0.0
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        c = active.slot
+        c = active.contact
         contact = ws.contacts[c]
         for r in range(3):
-            bias, free = contact.bias[r], row(ws, c, r, ws.offsets.du)
+            bias, free = contact.bias[r], row(ws, c, r, ws.island.du.start)
             active.free[r] = bias + free
-            ws.acceleration_scale = max(ws.acceleration_scale, abs(bias), abs(free))
+            ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, abs(bias), abs(free))
         write_friction(ws, a)
     decouple_normals(ws)
 
@@ -157,24 +157,24 @@ def solve_contact(ws: Workspace) -> bool:
     The kinematics of the active contacts must be evaluated and :func:`set_up` called.  A past mode of -1 is none.  On
     return ``mode_tried``, ``active_forces`` and ``active_directions`` describe the solution.
     """
-    ws.effort = 0.0
+    ws.problem.effort = 0.0
     past = 1
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        if active.at_rest == 0 and active.mode_tried == STICK:
+        if not active.is_at_rest and active.mode_tried == STICK:
             active.mode_tried = SLIDE
         active.mode_past = active.mode_tried
         if active.mode_tried < 0:
             past = 0
     if past == 1 and verify(ws, 0):
         return True
-    if ws.solver != AUTO:
-        return find_modes(ws, ws.solver)
+    if ws.options.solver != AUTO:
+        return find_modes(ws, ws.options.solver)
     if find_modes(ws, NEWTON) or find_modes(ws, GAUSS_SEIDEL):
         return True
-    if ws.n_active <= MOST_PIVOTED and find_modes(ws, LEMKE):
+    if ws.problem.n_active <= MOST_PIVOTED and find_modes(ws, LEMKE):
         return True
-    if ws.n_active <= ENUMERATED_AT_LAST:
+    if ws.problem.n_active <= ENUMERATED_AT_LAST:
         return find_modes(ws, ENUMERATION)
     return False
 
@@ -182,7 +182,7 @@ def solve_contact(ws: Workspace) -> bool:
 @entry_point("b1(ws)")
 def solve_from_rates(ws: Workspace) -> bool:
     """Solve on G and b as given, the friction following from the slip velocities in ``rate``; return 1 if solved."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         write_friction(ws, a)
     return solve_contact(ws)
 
@@ -190,8 +190,8 @@ def solve_from_rates(ws: Workspace) -> bool:
 @kernel()
 def accelerate(ws: Workspace) -> None:
     """Add the accelerations that the contact forces give to ``du``; it holds those of given normal forces."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        if ws.contacts[active.slot].is_compliant:
+        if ws.contacts[active.contact].is_compliant:
             active.normal_force = 0.0
-    add_response(ws, ws.offsets.active_forces, ws.offsets.du)
+    add_response(ws, ws.problem.forces.start, ws.island.du.start)

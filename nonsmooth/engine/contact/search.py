@@ -39,48 +39,48 @@ def _improve(ws: Workspace, solver: int, stage: int) -> int:
 @kernel()
 def _write_cones(ws: Workspace) -> None:
     """Give every contact at rest one cone: the static one, or the kinetic one where it may not stick."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        active.mu_kept, active.static_kept = active.mu, active.mu_static
-        if active.at_rest == 1:
-            if active.freed == 1:
-                active.mu_static = active.mu
+        active.coefficient_kept, active.static_kept = active.friction_coefficient, active.static_coefficient
+        if active.is_at_rest:
+            if active.was_freed:
+                active.static_coefficient = active.friction_coefficient
             else:
-                active.mu = active.mu_static
+                active.friction_coefficient = active.static_coefficient
 
 
 @kernel()
 def _restore_cones(ws: Workspace) -> None:
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        active.mu, active.mu_static = active.mu_kept, active.static_kept
+        active.friction_coefficient, active.static_coefficient = active.coefficient_kept, active.static_kept
 
 
 @kernel("b1(ws)")
 def _guess_by_motion(ws: Workspace) -> bool:
     """Try the modes that the accelerations tell, but for those of the past; return 1 if they differ."""
     differ = 0
-    small = EQUAL * ws.small_acceleration
-    for a in range(ws.n_active):
+    small = EQUAL * ws.problem.small_acceleration
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         if active.mode_tried == active.mode_past or active.normal_acceleration > small:
             continue
         mode = SLIDE
         a1, a2 = active.slip_acceleration
         slip = length(active.slip_acceleration)
-        if active.at_rest == 1 and slip <= small:
+        if active.is_at_rest and slip <= small:
             mode = STICK
         if mode != active.mode_tried:
             differ = 1
             active.mode_tried = mode
-            if active.at_rest == 1 and mode == SLIDE:
+            if active.is_at_rest and mode == SLIDE:
                 active.direction = a1 / slip, a2 / slip
     return differ != 0
 
 
 @kernel()
 def _keep_found(ws: Workspace) -> None:
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         active.mode_found = active.mode_tried
         active.direction_found = active.direction
@@ -88,7 +88,7 @@ def _keep_found(ws: Workspace) -> None:
 
 @kernel()
 def _take_found(ws: Workspace) -> None:
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         active.mode_tried = active.mode_found
         active.direction = active.direction_found
@@ -97,15 +97,15 @@ def _take_found(ws: Workspace) -> None:
 @kernel("i8(ws)")
 def _open_pulling(ws: Workspace) -> int:
     """Open the closed contacts that pull most; return how many."""
-    worst = -ws.small_force
-    for a in range(ws.n_active):
+    worst = -ws.problem.small_force
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         if active.mode_tried != OPEN:
             worst = min(worst, active.normal_force)
     opened = 0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        pulls = active.normal_force <= (1.0 - _SAME) * worst and active.normal_force < -ws.small_force
+        pulls = active.normal_force <= (1.0 - _SAME) * worst and active.normal_force < -ws.problem.small_force
         if active.mode_tried != OPEN and pulls:
             active.mode_tried = OPEN
             opened += 1
@@ -115,20 +115,20 @@ def _open_pulling(ws: Workspace) -> int:
 @kernel("b1(ws)")
 def _accept(ws: Workspace) -> bool:
     """Verify the modes under trial; where the forces of least norm pull, open who pulls; return 1 if all is well."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         active.mode_closed = active.mode_tried
         active.direction_closed = active.direction
     if verify(ws, 0):
         return True
-    if ws.deficient == 0:
+    if not ws.problem.is_deficient:
         return False
-    while ws.effort < _MOST_EFFORT and _open_pulling(ws) > 0:
+    while ws.problem.effort < _MOST_EFFORT and _open_pulling(ws) > 0:
         polish(ws)
         if verify(ws, 0):
             return True
     # without the share of those opened the others may not hold: forces that press, though not of least norm
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         active.mode_tried = active.mode_closed
         active.direction = active.direction_closed
@@ -138,13 +138,13 @@ def _accept(ws: Workspace) -> bool:
 @kernel("b1(ws)")
 def _rubs(ws: Workspace) -> bool:
     """Return 1 if all that slides has the friction of slip."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        pull = active.mu * active.normal_force
+        pull = active.friction_coefficient * active.normal_force
         if active.mode_tried != SLIDE:
             continue
         (t1, t2), (d1, d2) = active.friction, active.direction
-        if not (abs(t1 + pull * d1) <= ws.small_force and abs(t2 + pull * d2) <= ws.small_force):
+        if not (abs(t1 + pull * d1) <= ws.problem.small_force and abs(t2 + pull * d2) <= ws.problem.small_force):
             return False
     return True
 
@@ -152,9 +152,9 @@ def _rubs(ws: Workspace) -> bool:
 @kernel("b1(ws)")
 def _hasty(ws: Workspace) -> bool:
     """Return 1 if a contact seems to slide that, once the forces have settled, its static bound may still hold."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        held = active.at_rest == 1 and active.freed == 0 and active.mu_static != active.mu
+        held = active.is_at_rest and not active.was_freed and active.static_coefficient != active.friction_coefficient
         if held and active.mode_tried == SLIDE:
             return True
     return False
@@ -164,8 +164,8 @@ def _hasty(ws: Workspace) -> bool:
 def _take_raw(ws: Workspace) -> None:
     """Go back to the forces of the solver, its modes and directions."""
     _take_found(ws)
-    for i in range(3 * ws.n_active):
-        ws.active_forces[i] = ws.active_forces_first[i]
+    for i in range(3 * ws.problem.n_active):
+        ws.problem.forces[i] = ws.problem.forces_at_start[i]
 
 
 @kernel("b1(ws)")
@@ -190,10 +190,10 @@ def _accept_raw(ws: Workspace) -> bool:
     Where sliding contacts share their load at will, the motion hangs on the share, and least norm need not be lawful.
     """
     _take_raw(ws)
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        active.redundant = 0
-    ws.deficient = 0
+        active.has_redundant_force = False
+    ws.problem.is_deficient = False
     return judge(ws, 0) and _rubs(ws)
 
 
@@ -205,17 +205,17 @@ def _search_round(ws: Workspace, solver: int) -> bool:
         stages = gauss_seidel.STAGES
     elif solver == LEMKE:
         stages = lemke.STAGES
-    for i in range(3 * ws.n_active):
-        ws.active_forces_first[i] = 0.0
+    for i in range(3 * ws.problem.n_active):
+        ws.problem.forces_at_start[i] = 0.0
     for stage in range(stages):
-        if ws.effort >= _MOST_EFFORT or interrupted(ws, ws.n_active) == 1:
+        if ws.problem.effort >= _MOST_EFFORT or interrupted(ws, ws.problem.n_active) == 1:
             return False
-        for i in range(3 * ws.n_active):
-            ws.active_forces[i] = ws.active_forces_first[i]
+        for i in range(3 * ws.problem.n_active):
+            ws.problem.forces[i] = ws.problem.forces_at_start[i]
         _write_cones(ws)
         settled = _improve(ws, solver, stage)
-        for i in range(3 * ws.n_active):
-            ws.active_forces_first[i] = ws.active_forces[i]
+        for i in range(3 * ws.problem.n_active):
+            ws.problem.forces_at_start[i] = ws.problem.forces[i]
         identify(ws)
         _restore_cones(ws)
         if settled == 0 and stage < stages - 1 and _hasty(ws):
@@ -226,7 +226,7 @@ def _search_round(ws: Workspace, solver: int) -> bool:
         polish(ws)
         if _accept(ws):
             return True
-        if ws.deficient == 1 and _accept_raw(ws):
+        if ws.problem.is_deficient and _accept_raw(ws):
             return True
         _take_found(ws)
         if settled == 1:
@@ -238,11 +238,11 @@ def _search_round(ws: Workspace, solver: int) -> bool:
 def _free_sliding(ws: Workspace) -> int:
     """Keep the contacts at rest that were found to slide from sticking; return how many that are new."""
     new = 0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        if active.at_rest == 1 and active.mode_found == SLIDE and active.freed == 0:
-            active.freed = 1
-            if active.mu_static != active.mu:
+        if active.is_at_rest and active.mode_found == SLIDE and not active.was_freed:
+            active.was_freed = True
+            if active.static_coefficient != active.friction_coefficient:
                 new += 1
     return new
 
@@ -250,7 +250,7 @@ def _free_sliding(ws: Workspace) -> int:
 @kernel("b1(ws, i8)")
 def _search_from(ws: Workspace, solver: int) -> bool:
     """Search, and again while contacts are found to slide that the higher static bound might still hold."""
-    for _round in range(1 + ws.n_active):
+    for _round in range(1 + ws.problem.n_active):
         if _search_round(ws, solver):
             return True
         if _free_sliding(ws) == 0:
@@ -261,8 +261,8 @@ def _search_from(ws: Workspace, solver: int) -> bool:
 @kernel()
 def _keep_answer(ws: Workspace) -> None:
     _keep_found(ws)
-    for i in range(3 * ws.n_active):
-        ws.active_forces_first[i] = ws.active_forces[i]
+    for i in range(3 * ws.problem.n_active):
+        ws.problem.forces_at_start[i] = ws.problem.forces[i]
 
 
 @kernel()
@@ -288,9 +288,11 @@ def _prefer_stick(ws: Workspace) -> None:
     """Between the two bounds a contact at rest may stick and may slide: what is at rest stays so if all can."""
     _keep_answer(ws)
     changed = 0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        undecided = active.at_rest == 1 and active.mode_past != SLIDE and active.mu_static != active.mu
+        undecided = (
+            active.is_at_rest and active.mode_past != SLIDE and active.static_coefficient != active.friction_coefficient
+        )
         if undecided and active.mode_tried == SLIDE:
             active.mode_tried = STICK
             changed = 1
@@ -308,21 +310,21 @@ def find_modes(ws: Workspace, solver: int) -> bool:
     if solver == ENUMERATION:
         found = 1 if enumerate_modes(ws, 0) > 0 else 0
     else:
-        for a in range(ws.n_active):
+        for a in range(ws.problem.n_active):
             active = ws.actives[a]
-            active.freed = 0
+            active.was_freed = False
         # where a contact has just broken away it must not stick again at the higher static bound
         broken = 0
-        for a in range(ws.n_active):
+        for a in range(ws.problem.n_active):
             active = ws.actives[a]
-            if active.at_rest == 1 and active.mode_past == SLIDE:
-                active.freed = 1
+            if active.is_at_rest and active.mode_past == SLIDE:
+                active.was_freed = True
                 broken += 1
         if broken > 0:
             found = _search_from(ws, solver)
-            for a in range(ws.n_active):
+            for a in range(ws.problem.n_active):
                 active = ws.actives[a]
-                active.freed = 0
+                active.was_freed = False
         if found == 0:
             found = _search_from(ws, solver)
     if found == 1:

@@ -24,43 +24,43 @@ many times what counts as zero."""
 @kernel()
 def hold_tried(ws: Workspace) -> None:
     """Translate the modes under trial into what is held, and find the forces that hold it."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         mode = active.mode_tried
-        active.normal_held = 0 if mode == OPEN or active.given == 1 else 1
+        active.is_normal_force_unknown = not (mode == OPEN or active.has_given_force)
         # nothing holds what has no friction: it is at rest by chance
-        active.tangent_held = 1 if mode == STICK and active.mu_static > 0.0 else 0
+        active.sticks = mode == STICK and active.static_coefficient > 0.0
         if mode == OPEN:
             active.normal_force = 0.0
     resolve(ws)
-    ws.evaluations += 1
-    ws.effort += float(ws.n_unknown) ** 3
+    ws.totals.n_evaluations += 1
+    ws.problem.effort += float(ws.problem.n_unknown) ** 3
 
 
 @kernel()
 def set_scales(ws: Workspace) -> None:
     """Write the accelerations and what counts as zero among them and among the forces."""
     # the accelerations that may cancel one another in b set the scale, not b itself
-    scale = ws.acceleration_scale
+    scale = ws.problem.acceleration_scale
     force_scale = 0.0
-    for i in range(3 * ws.n_active):
-        force_scale = max(force_scale, abs(ws.active_forces[i]))
-    for a in range(ws.n_active):
+    for i in range(3 * ws.problem.n_active):
+        force_scale = max(force_scale, abs(ws.problem.forces[i]))
+    for a in range(ws.problem.n_active):
         own = diagonal_block(ws, a).nn
         if own > 0.0:
             force_scale = max(force_scale, scale / own)
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         for r in range(3):
             total = active.free[r]
             for block in range(active.first_block, active.end_block):
-                force = ws.actives[ws.block_column[block]].force
+                force = ws.actives[ws.island.block_column[block]].force
                 for s in range(3):
-                    part = ws.delassus[DELASSUS * block + 3 * r + s] * force[s]
+                    part = ws.island.delassus[DELASSUS * block + 3 * r + s] * force[s]
                     total += part
                     scale = max(scale, abs(part))
             active.acceleration[r] = total
-    ws.small_acceleration, ws.small_force = NO_FORCE * scale, NO_FORCE * force_scale
+    ws.problem.small_acceleration, ws.problem.small_force = NO_FORCE * scale, NO_FORCE * force_scale
 
 
 @kernel("f8(ws, i8)")
@@ -71,8 +71,8 @@ def small_force(ws: Workspace, a: int) -> float:
     for r in range(3):
         size = max(size, abs(active.force[r]))
     if own > 0.0:
-        size = max(size, ws.acceleration_scale / own)
-    return float(NO_FORCE * size + _SOLVED * ws.small_force)
+        size = max(size, ws.problem.acceleration_scale / own)
+    return float(NO_FORCE * size + _SOLVED * ws.problem.small_force)
 
 
 @entry_point("b1(ws, i8)")
@@ -91,10 +91,10 @@ def verify(ws: Workspace, lenient: int) -> bool:
 def _compare(ws: Workspace, lenient: int) -> int:
     """Return 1 if the forces fulfil the laws, 2 if others that are as good may, 0 if not."""
     set_scales(ws)
-    small = ws.small_acceleration
-    held = small if ws.deficient == 0 else EQUAL * small
+    small = ws.problem.small_acceleration
+    held = small if not ws.problem.is_deficient else EQUAL * small
     result = 1
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         mode, faint = active.mode_tried, small_force(ws, a)
         normal = active.normal_acceleration
@@ -105,21 +105,21 @@ def _compare(ws: Workspace, lenient: int) -> int:
         if not abs(normal) <= held:
             return 0
         # sliding on which more force gives more approach is balanced on an edge, and falls off either side
-        if mode == SLIDE and active.at_rest == 0 and reduced_coefficient(ws, a) <= 0.0:
+        if mode == SLIDE and not active.is_at_rest and reduced_coefficient(ws, a) <= 0.0:
             return 0
         if not active.normal_force >= -faint:
-            if lenient == 0 or ws.deficient == 0:
+            if lenient == 0 or not ws.problem.is_deficient:
                 return 0
             result = 2
         a1, a2 = active.slip_acceleration
         if mode == STICK:
             if not abs(a1) + abs(a2) <= held:
                 return 0
-            if not length(active.friction) <= active.mu_static * active.normal_force + faint:
-                if active.redundant == 0:
+            if not length(active.friction) <= active.static_coefficient * active.normal_force + faint:
+                if not active.has_redundant_force:
                     return 0
                 result = 2
-        elif active.at_rest == 1:
+        elif active.is_at_rest:
             forward = a1 * active.direction[0] + a2 * active.direction[1]
             across = a1 * active.direction[1] - a2 * active.direction[0]
             if not (forward >= -small and abs(across) <= small):
@@ -131,9 +131,9 @@ def _compare(ws: Workspace, lenient: int) -> int:
 def judge(ws: Workspace, lenient: int) -> bool:
     """Return 1 if the ``active_forces`` fulfil the laws in the modes under trial, distributed where not unique."""
     result = _compare(ws, lenient)
-    if result == 2 and distribute(ws, 0.0, _ARRIVED * ws.small_force):
+    if result == 2 and distribute(ws, 0.0, _ARRIVED * ws.problem.small_force):
         # the share of sliding contacts may have moved with their normal forces: all is looked at again
-        for a in range(ws.n_active):
+        for a in range(ws.problem.n_active):
             if ws.actives[a].mode_tried == SLIDE:
                 friction_of_slip(ws, a)
         result = _compare(ws, lenient)
@@ -143,23 +143,23 @@ def judge(ws: Workspace, lenient: int) -> bool:
 @kernel()
 def identify(ws: Workspace) -> None:
     """Guess modes and directions from the ``active_forces``, by the side of the natural map on which they stand."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         push = 0.0
         for r in range(3):
-            total = add_product(ws, active.free[r], a, r, ws.offsets.active_forces)
+            total = add_product(ws, active.free[r], a, r, ws.problem.forces.start)
             if r == 0:
                 push = active.normal_force * diagonal_block(ws, a).nn - total
             active.acceleration[r] = total
         active.mode_tried = SLIDE
-        if active.at_rest == 1:
+        if active.is_at_rest:
             g = slope_of_slip(ws, a)
             y1 = g * active.friction[0] - active.slip_acceleration[0]
             y2 = g * active.friction[1] - active.slip_acceleration[1]
             norm = length((y1, y2))
             if norm > 0.0:
                 active.direction = -y1 / norm, -y2 / norm
-            if active.freed == 0 and norm <= g * active.mu * active.normal_force:
+            if not active.was_freed and norm <= g * active.friction_coefficient * active.normal_force:
                 active.mode_tried = STICK
         if push <= 0.0:
             active.mode_tried = OPEN

@@ -9,7 +9,7 @@ from nonsmooth.engine.native.kernel import Workspace, kernel
 def list_unknown(ws: Workspace, i: int, a: int, r: int, turn: int) -> None:
     """Let unknown ``i`` be the force of the active contact ``a`` along direction ``r``, or its turn (1)."""
     unknown = ws.unknowns[i]
-    unknown.contact, unknown.direction, unknown.turn = a, r, turn
+    unknown.contact, unknown.direction, unknown.is_turn = a, r, turn
 
 
 @kernel("f8(ws, i8)")

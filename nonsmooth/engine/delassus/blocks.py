@@ -16,22 +16,22 @@ from nonsmooth.engine.native.kernel import (
 @kernel()
 def _hang(ws: Workspace) -> None:
     """Hang the active contacts on their movable articulations: first entries of all contacts, then second ones."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         active.block_mark = -1
-        active.block_count = 0
-        contact = ws.contacts[active.slot]
-        ws.articulations[contact.articulation_a].link_head = -1
-        ws.articulations[contact.articulation_b].link_head = -1
-    for a in range(ws.n_active):
+        active.n_blocks = 0
+        contact = ws.contacts[active.contact]
+        ws.articulations[contact.articulation_a].first_linked = -1
+        ws.articulations[contact.articulation_b].first_linked = -1
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        contact = ws.contacts[active.slot]
+        contact = ws.contacts[active.contact]
         for side in range(2):
             articulation = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b]
-            if articulation.nu > 0:
-                entry = side * ws.n_active + a
-                ws.link_next[entry] = articulation.link_head
-                articulation.link_head = entry
+            if articulation.n_u > 0:
+                entry = side * ws.problem.n_active + a
+                ws.problem.link_next[entry] = articulation.first_linked
+                articulation.first_linked = entry
 
 
 @kernel("void(ws, i8, i8, i8)")
@@ -39,31 +39,31 @@ def _note(ws: Workspace, row: int, column: int, fill: int) -> None:
     """Count a block of a row or, with ``fill``, write it."""
     active = ws.actives[row]
     if fill == 1:
-        block = active.first_block + active.block_count
-        ws.block_column[block] = column
+        block = active.first_block + active.n_blocks
+        ws.island.block_column[block] = column
         if row == column:
             active.diagonal_block = block
-    active.block_count += 1
+    active.n_blocks += 1
 
 
 @kernel("void(ws, i8)")
 def _visit(ws: Workspace, fill: int) -> None:
     """Note every pair of active contacts that share a movable articulation, once for each of the two."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        contact = ws.contacts[active.slot]
-        mark = fill * ws.n_active + a
+        contact = ws.contacts[active.contact]
+        mark = fill * ws.problem.n_active + a
         active.block_mark = mark
         _note(ws, a, a, fill)
         for side in range(2):
-            entry = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b].link_head
-            while entry >= 0 and ws.crowded == 0:
-                other = entry if entry < ws.n_active else entry - ws.n_active
+            entry = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b].first_linked
+            while entry >= 0 and not ws.run.has_too_many_blocks:
+                other = entry if entry < ws.problem.n_active else entry - ws.problem.n_active
                 neighbour = ws.actives[other]
                 if neighbour.block_mark != mark:
                     neighbour.block_mark = mark
                     _note(ws, other, a, fill)
-                entry = ws.link_next[entry]
+                entry = ws.problem.link_next[entry]
 
 
 @kernel()
@@ -72,7 +72,7 @@ def _link_alone(ws: Workspace) -> None:
     active = ws.actives[0]
     active.diagonal_block = active.first_block
     active.end_block = active.first_block + 1
-    ws.block_column[active.first_block] = 0
+    ws.island.block_column[active.first_block] = 0
 
 
 @kernel()
@@ -81,24 +81,24 @@ def link_active(ws: Workspace) -> None:
 
     Without room for it ``crowded`` is set, and the run must stop.
     """
-    start = ws.offsets.block_start + ws.first_grouped
-    if ws.first_grouped == 0:
+    start = ws.island.block_start.start + ws.problem.first_grouped
+    if ws.problem.first_grouped == 0:
         ws.integers[start] = 0
-    most = min(ws.n_slots * ws.n_slots, MOST_BLOCKS)
-    if ws.n_active == 1:
+    most = min(ws.model.n_slots * ws.model.n_slots, MOST_BLOCKS)
+    if ws.problem.n_active == 1:
         _link_alone(ws)
         if ws.integers[start + 1] > most:
-            ws.crowded = 1
+            ws.run.has_too_many_blocks = True
         return
     _hang(ws)
     _visit(ws, 0)
     total = ws.integers[start]
-    for a in range(ws.n_active):
-        total += ws.actives[a].block_count
+    for a in range(ws.problem.n_active):
+        total += ws.actives[a].n_blocks
     if total > most:
-        ws.crowded = 1
-    for a in range(ws.n_active):
+        ws.run.has_too_many_blocks = True
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        active.end_block = active.first_block + (active.block_count if ws.crowded == 0 else 1)
-        active.block_count = 0
+        active.end_block = active.first_block + (active.n_blocks if not ws.run.has_too_many_blocks else 1)
+        active.n_blocks = 0
     _visit(ws, 1)

@@ -20,27 +20,27 @@ def _degree(ws: Workspace, a: int) -> int:
 @kernel("void(ws, i8)")
 def _search(ws: Workspace, start: int) -> None:
     """Write the active contacts to ``order`` as met from ``start`` on, breadth first."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         ws.actives[a].rank = -1
-    ws.order[0] = start
+    ws.problem.order[0] = start
     ws.actives[start].rank = 0
     end = 1
-    for i in range(ws.n_active):
+    for i in range(ws.problem.n_active):
         if i >= end:
             return
-        active = ws.actives[ws.order[i]]
+        active = ws.actives[ws.problem.order[i]]
         begin = end
         for block in range(active.first_block, active.end_block):
-            other = ws.block_column[block]
+            other = ws.island.block_column[block]
             neighbour = ws.actives[other]
             if neighbour.rank >= 0:
                 continue
             neighbour.rank = i
             place = end
-            while place > begin and _degree(ws, ws.order[place - 1]) > _degree(ws, other):
-                ws.order[place] = ws.order[place - 1]
+            while place > begin and _degree(ws, ws.problem.order[place - 1]) > _degree(ws, other):
+                ws.problem.order[place] = ws.problem.order[place - 1]
                 place -= 1
-            ws.order[place] = other
+            ws.problem.order[place] = other
             end += 1
 
 
@@ -48,10 +48,10 @@ def _search(ws: Workspace, start: int) -> None:
 def _reach(ws: Workspace) -> int:
     """Return how far apart, by their ``rank``, contacts stand that act on one another."""
     reach = 0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         for block in range(active.first_block, active.end_block):
-            reach = max(reach, active.rank - ws.actives[ws.block_column[block]].rank)
+            reach = max(reach, active.rank - ws.actives[ws.island.block_column[block]].rank)
     return reach
 
 
@@ -61,10 +61,10 @@ def order_active(ws: Workspace) -> None:
 
     It stays in the order of its contacts where no other is better, and where the band would fill the matrix.
     """
-    m = ws.n_active
+    m = ws.problem.n_active
     link_active(ws)
-    start = ws.offsets.block_start + ws.first_grouped
-    if ws.crowded == 1 or ws.integers[start + m] - ws.integers[start] == m * m:
+    start = ws.island.block_start.start + ws.problem.first_grouped
+    if ws.run.has_too_many_blocks or ws.integers[start + m] - ws.integers[start] == m * m:
         return
     first = 0
     for a in range(m):
@@ -73,15 +73,15 @@ def order_active(ws: Workspace) -> None:
             first = a
     listed = _reach(ws)
     _search(ws, first)
-    _search(ws, ws.order[m - 1])
+    _search(ws, ws.problem.order[m - 1])
     for i in range(m):
-        ws.actives[ws.order[i]].rank = m - 1 - i
+        ws.actives[ws.problem.order[i]].rank = m - 1 - i
     reach = _reach(ws)
     # three unknowns for each contact, and room for exchanges of rows: see the band of forces
     if reach >= listed or 9 * reach + 7 >= 3 * m:
         return
     for i in range(m):
-        ws.grouped[ws.first_grouped + m - 1 - i] = ws.active[ws.order[i]]
+        ws.island.grouped[ws.problem.first_grouped + m - 1 - i] = ws.problem.active[ws.problem.order[i]]
     for a in range(m):
-        ws.actives[a].slot = ws.grouped[ws.first_grouped + a]
+        ws.actives[a].contact = ws.island.grouped[ws.problem.first_grouped + a]
     link_active(ws)

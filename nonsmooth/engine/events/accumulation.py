@@ -17,7 +17,7 @@ from nonsmooth.engine.events.record import CLOSING_LOSS, DRIVEN_WORK, record_eve
 from nonsmooth.engine.events.twins import closed_twin, take_over
 from nonsmooth.engine.flow.projection import project_rates
 from nonsmooth.engine.flow.self_check import EXPLAINED, NOUGHT
-from nonsmooth.engine.memory.modes import CLOSING, FEATURE_CHANGE, OPEN, SLIDE, STICK, Truncation
+from nonsmooth.engine.memory.modes import CLOSING, FEATURE_CHANGE, NO_RELEASE, OPEN, SLIDE, STICK, Truncation
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
 _RESTS = 1.0 - 1e-6
@@ -31,14 +31,14 @@ def provisional_mode(ws: Workspace, c: int) -> None:
     rigid = not contact.is_compliant
     if has_own_step(ws, c) == 1:
         return
-    if not contact.is_touching or contact.was_released or (rigid and contact.rate[0] > ws.velocity_tolerance):
+    if not contact.is_touching or contact.release != NO_RELEASE or (rigid and contact.rate[0] > ws.tolerance.velocity):
         contact.mode = OPEN
         return
     if contact.mode == OPEN:
         begin_contact(ws, c)
     speed = slip_speed(ws, c)
-    contact.mode = SLIDE if speed > ws.velocity_tolerance else STICK
-    if speed > ws.velocity_tolerance:
+    contact.mode = SLIDE if speed > ws.tolerance.velocity else STICK
+    if speed > ws.tolerance.velocity:
         contact.direction = contact.slip[0] / speed, contact.slip[1] / speed
 
 
@@ -50,11 +50,11 @@ def _is_short(ws: Workspace, c: int, time: float) -> bool:
     """
     contact = ws.contacts[c]
     rate = contact.rate[0]
-    approach = -(contact.bias[0] + row(ws, c, 0, ws.offsets.du))
-    if rate <= ws.velocity_tolerance or approach <= 0.0:
+    approach = -(contact.bias[0] + row(ws, c, 0, ws.island.du.start))
+    if rate <= ws.tolerance.velocity or approach <= 0.0:
         return False
     # the touch-down is due after 2 rate / approach
-    ws.h_first = min(ws.h_first, 3.0 * rate / approach)
+    ws.island.first_step = min(ws.island.first_step, 3.0 * rate / approach)
     # (a gap that is left closes first)
     short = (rate - approach * time) * time <= -max(0.0, contact.gap)
     return short and closed_twin(ws, c) < 0
@@ -67,22 +67,22 @@ def close_contacts(ws: Workspace) -> int:
     One of a contact by itself is left out.  Where several touch, the forces of their island are averaged, so that all
     land together.  The modes must be those agreed on for this instant.
     """
-    ws.h_first = 1e300
+    ws.island.first_step = 1e300
     group_touching(ws)
     closing = 0
-    for group in range(ws.n_groups):
+    for group in range(ws.island.n_groups):
         activate_group(ws, group)
         time, fastest = averaging_time(ws), 1e300
-        if ws.n_active > 1:
+        if ws.problem.n_active > 1:
             # what is averaged comes to rest within that time, on its way up, which is none that can be told
             time *= _RESTS
-            fastest = EXPLAINED * ws.gap_tolerance / max(time, ws.time_tolerance)
+            fastest = EXPLAINED * ws.tolerance.gap / max(time, ws.tolerance.time)
         which = -1
-        for a in range(ws.n_active):
-            c = ws.actives[a].slot
+        for a in range(ws.problem.n_active):
+            c = ws.actives[a].contact
             if ws.contacts[c].rate[0] <= fastest and _is_short(ws, c, time):
                 which = c
-        if which >= 0 and ws.n_active == 1:
+        if which >= 0 and ws.problem.n_active == 1:
             _close(ws, which)
             closing += 1
         elif which >= 0:
@@ -95,8 +95,8 @@ def _close(ws: Workspace, c: int) -> None:
     """Leave out the last bounce of contact ``c``, the only active one, and record that."""
     remember(ws)
     contact = ws.contacts[c]
-    contact.mode = SLIDE if slip_speed(ws, c) > ws.velocity_tolerance else STICK
-    before = ws.driven_work
+    contact.mode = SLIDE if slip_speed(ws, c) > ws.tolerance.velocity else STICK
+    before = ws.totals.driven_work
     _book(ws, project_rates(ws, 1), before)
     record_event(ws, CLOSING, c, 0)
 
@@ -104,29 +104,29 @@ def _close(ws: Workspace, c: int) -> None:
 @kernel("void(ws, f8, f8)")
 def _book(ws: Workspace, loss: float, work_before: float) -> None:
     """Book what a closing takes."""
-    ws.event_head[CLOSING_LOSS] += loss
-    ws.event_head[DRIVEN_WORK] += ws.driven_work - work_before
-    ws.closing_loss += loss
+    ws.event.head[CLOSING_LOSS] += loss
+    ws.event.head[DRIVEN_WORK] += ws.totals.driven_work - work_before
+    ws.totals.closing_loss += loss
 
 
 @kernel()
 def _stop_active(ws: Workspace) -> None:
     """Give the active contacts the impulses of an inelastic impact, of which none pulls, and book what they take."""
     assemble_delassus(ws)
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         for r in range(3):
             active.free[r] = active.force[r] = 0.0
     inelastic_impulses(ws, 0.0)
-    add_response(ws, ws.offsets.active_forces, ws.offsets.y + ws.n_q)
-    loss, before = 0.0, ws.driven_work
-    for a in range(ws.n_active):
+    add_response(ws, ws.problem.forces.start, ws.island.y.start + ws.model.n_q)
+    loss, before = 0.0, ws.totals.driven_work
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        contact = ws.contacts[active.slot]
+        contact = ws.contacts[active.contact]
         for r in range(3):
             impulse, rate = active.force[r], contact.rate[r]
-            loss -= 0.5 * impulse * add_product(ws, 2.0 * rate, a, r, ws.offsets.active_forces)
-            ws.driven_work -= impulse * contact.prescribed_rate[r]
+            loss -= 0.5 * impulse * add_product(ws, 2.0 * rate, a, r, ws.problem.forces.start)
+            ws.totals.driven_work -= impulse * contact.prescribed_rate[r]
             contact.event_impulse[r] = impulse
     _book(ws, loss, before)
 
@@ -134,9 +134,9 @@ def _stop_active(ws: Workspace) -> None:
 @kernel("i8(ws)")
 def _fastest_of_active(ws: Workspace) -> int:
     """Return the active contact that approaches most, or -1 where none does."""
-    which, worst = -1, -ws.velocity_tolerance
-    for a in range(ws.n_active):
-        c = ws.actives[a].slot
+    which, worst = -1, -ws.tolerance.velocity
+    for a in range(ws.problem.n_active):
+        c = ws.actives[a].contact
         rate = ws.contacts[c].rate[0]
         if rate < worst:
             which, worst = c, rate
@@ -151,11 +151,11 @@ def slow_speed(ws: Workspace) -> float:
     contact time: Eq. (33), of an island in place of a contact.
     """
     time, approach = 1e300, 0.0
-    for a in range(ws.n_active):
-        c = ws.actives[a].slot
+    for a in range(ws.problem.n_active):
+        c = ws.actives[a].contact
         contact = ws.contacts[c]
         time = min(time, contact.contact_time)
-        approach = max(approach, -(contact.bias[0] + row(ws, c, 0, ws.offsets.du)))
+        approach = max(approach, -(contact.bias[0] + row(ws, c, 0, ws.island.du.start)))
     return float(approach * time)
 
 
@@ -169,7 +169,7 @@ def stop_slow(ws: Workspace) -> int:
     push_compliant(ws)
     group_touching(ws)
     stopped, which = 0, -1
-    for group in range(ws.n_groups):
+    for group in range(ws.island.n_groups):
         activate_group(ws, group)
         fastest = _fastest_of_active(ws)
         if fastest < 0:
@@ -182,7 +182,7 @@ def stop_slow(ws: Workspace) -> int:
         _stop_active(ws)
     if stopped > 0:
         touch(ws)
-        for c in range(ws.n_contacts):
+        for c in range(ws.island.n_contacts):
             provisional_mode(ws, c)
         _rest_closed(ws)
         record_event(ws, CLOSING, which, 0)
@@ -199,7 +199,7 @@ def average_slow(ws: Workspace) -> bool:
     push_compliant(ws)
     group_touching(ws)
     others = 0
-    for group in range(ws.n_groups):
+    for group in range(ws.island.n_groups):
         activate_group(ws, group)
         fastest = _fastest_of_active(ws)
         if fastest < 0:
@@ -214,11 +214,11 @@ def average_slow(ws: Workspace) -> bool:
 def _rest_closed(ws: Workspace) -> None:
     """Take the approach that impulses leave where contacts had to give way a little for any to be found."""
     group_closed(ws)
-    for group in range(ws.n_groups):
+    for group in range(ws.island.n_groups):
         activate_group(ws, group)
         fastest = _fastest_of_active(ws)
         if fastest >= 0 and -ws.contacts[fastest].rate[0] <= slow_speed(ws):
-            before = ws.driven_work
+            before = ws.totals.driven_work
             _book(ws, project_rates(ws, 1), before)
 
 
@@ -230,54 +230,54 @@ def stop_creeping(ws: Workspace) -> float:
     no friction.
     """
     creeping = 0
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         rests = contact.is_touching and not contact.is_compliant and contact.mode == OPEN
-        if rests and contact.rate[0] < -NOUGHT * ws.velocity_tolerance:
+        if rests and contact.rate[0] < -NOUGHT * ws.tolerance.velocity:
             creeping += 1
     if creeping == 0:
         return 0.0
     loss = 0.0
     touch(ws)
     group_touching(ws)
-    for group in range(ws.n_groups):
+    for group in range(ws.island.n_groups):
         activate_group(ws, group)
         assemble_delassus(ws)
-        for a in range(ws.n_active):
+        for a in range(ws.problem.n_active):
             active = ws.actives[a]
-            contact = ws.contacts[active.slot]
-            active.at_rest, active.normal_held = 0, 1
-            active.mu = active.normal_force = 0.0
+            contact = ws.contacts[active.contact]
+            active.is_at_rest, active.is_normal_force_unknown = False, True
+            active.friction_coefficient = active.normal_force = 0.0
             for r in range(3):
                 active.free[r] = contact.rate[r]
         gauss_seidel(ws, SWEEPS)
-        add_response(ws, ws.offsets.active_forces, ws.offsets.y + ws.n_q)
-        for a in range(ws.n_active):
+        add_response(ws, ws.problem.forces.start, ws.island.y.start + ws.model.n_q)
+        for a in range(ws.problem.n_active):
             active = ws.actives[a]
-            contact = ws.contacts[active.slot]
-            loss -= 0.5 * active.normal_force * add_product(ws, 2.0 * contact.rate[0], a, 0, ws.offsets.active_forces)
-            ws.driven_work -= active.normal_force * contact.prescribed_rate[0]
+            contact = ws.contacts[active.contact]
+            loss -= 0.5 * active.normal_force * add_product(ws, 2.0 * contact.rate[0], a, 0, ws.problem.forces.start)
+            ws.totals.driven_work -= active.normal_force * contact.prescribed_rate[0]
     return loss
 
 
 @kernel("b1(ws)")
 def hand_over(ws: Workspace) -> bool:
     """Let contacts that approach take the place of closed ones where they are; return 1, or 0 where others collide."""
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         rigid = not contact.is_compliant
-        approaches = rigid and contact.is_touching and contact.rate[0] < -ws.velocity_tolerance
+        approaches = rigid and contact.is_touching and contact.rate[0] < -ws.tolerance.velocity
         contact.takes_over = approaches
         if approaches and closed_twin(ws, c) < 0:
             return False
     remember(ws)
     which = -1
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         if ws.contacts[c].takes_over and take_over(ws, c):
             # unless another one that approaches more has taken its twin's place
             which = c
     group_touching(ws)
-    for group in range(ws.n_groups):
+    for group in range(ws.island.n_groups):
         activate_group(ws, group)
         if _fastest_of_active(ws) >= 0:
             _stop_active(ws)

@@ -30,11 +30,11 @@ def average_active(ws: Workspace) -> bool:
     last, or not for as long as they had not been asked for, they are asked for again after twice that.
     """
     time = averaging_time(ws)
-    if ws.n_active == 1 or time == 0.0 or is_averaged(ws):
+    if ws.problem.n_active == 1 or time == 0.0 or is_averaged(ws):
         return False
-    for a in range(ws.n_active):
-        contact = ws.contacts[ws.actives[a].slot]
-        again = ws.t - contact.mean_forces_asked <= max(time, contact.mean_forces_wait)
+    for a in range(ws.problem.n_active):
+        contact = ws.contacts[ws.actives[a].contact]
+        again = ws.island.time - contact.mean_forces_asked <= max(time, contact.mean_forces_wait)
         contact.mean_forces_wait = max(time, 2.0 * contact.mean_forces_wait) if again else 0.0
         contact.mode_after_averaging = SLIDE
         contact.mean_span = 0.0
@@ -61,13 +61,13 @@ def keeps_averaging(ws: Workspace, ends: int) -> bool:
     if ends == 0:
         return True
     # a contact by itself has forces of its own
-    if ws.n_active == 1:
+    if ws.problem.n_active == 1:
         return False
     if not is_settled(ws):
         return True
-    for a in range(ws.n_active):
-        contact = ws.contacts[ws.actives[a].slot]
-        if ws.t < contact.mean_forces_asked + contact.mean_forces_wait:
+    for a in range(ws.problem.n_active):
+        contact = ws.contacts[ws.actives[a].contact]
+        if ws.island.time < contact.mean_forces_asked + contact.mean_forces_wait:
             return True
     return False
 
@@ -80,21 +80,21 @@ def end_averaging(ws: Workspace) -> None:
     """
     touch(ws)
     book_mean_forces(ws)
-    ws.closing_loss += project_closed(ws, 1, 1)
-    ws.mean_until = math.inf
+    ws.totals.closing_loss += project_closed(ws, 1, 1)
+    ws.island.averaged_until = math.inf
 
 
 @kernel("void(ws, i8)")
 def average(ws: Workspace, follows: int) -> None:
     """Agree on the modes of the active contacts, whose forces are averaged: slips are those at hand."""
     find_mean_forces(ws, follows)
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        contact = ws.contacts[active.slot]
+        contact = ws.contacts[active.contact]
         speed = length(contact.slip)
         contact.mode_agreed = active.mode_tried
         contact.direction_agreed = active.direction
-        if speed > ws.velocity_tolerance and active.mode_tried != OPEN:
+        if speed > ws.tolerance.velocity and active.mode_tried != OPEN:
             contact.mode_agreed = SLIDE
             contact.direction_agreed = contact.slip[0] / speed, contact.slip[1] / speed
 
@@ -106,24 +106,26 @@ def holds_time_up(ws: Workspace) -> int:
     Evaluations of forces fill a store that empties with time.
     """
     time = 1e300
-    for i in range(ws.n_grouped):
-        time = min(time, ws.contacts[ws.grouped[i]].contact_time)
+    for i in range(ws.island.n_grouped):
+        time = min(time, ws.contacts[ws.island.grouped[i]].contact_time)
     if time == 0.0:
         return -1
-    ws.crowd = max(0.0, ws.crowd - (ws.t - ws.crowd_t) / time) + float(ws.evaluations - ws.evaluated)
-    ws.crowd_t, ws.evaluated = ws.t, ws.evaluations
-    if ws.crowd <= _BURST:
+    ws.island.burst = max(0.0, ws.island.burst - (ws.island.time - ws.island.burst_time) / time) + float(
+        ws.totals.n_evaluations - ws.island.burst_evaluations
+    )
+    ws.island.burst_time, ws.island.burst_evaluations = ws.island.time, ws.totals.n_evaluations
+    if ws.island.burst <= _BURST:
         return -1
     which, fastest = -1, 1.0
     busiest, events = -1, 1
-    for i in range(ws.n_grouped):
-        c = ws.grouped[i]
+    for i in range(ws.island.n_grouped):
+        c = ws.island.grouped[i]
         contact = ws.contacts[c]
         speed, friction = length(contact.slip_at_end), length((contact.force[1], contact.force[2]))
-        turns = contact.contact_time * contact.slip_per_force * friction / max(speed, ws.velocity_tolerance)
+        turns = contact.contact_time * contact.slip_per_force * friction / max(speed, ws.tolerance.velocity)
         if contact.mode == SLIDE and not contact.is_averaged and turns > fastest:
             which, fastest = c, turns
-        recent = ws.t - contact.burst_start <= contact.contact_time
+        recent = ws.island.time - contact.burst_start <= contact.contact_time
         if not contact.is_averaged and recent and contact.burst_events > events:
             busiest, events = c, contact.burst_events
     return which if which >= 0 else busiest

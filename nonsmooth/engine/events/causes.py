@@ -33,7 +33,7 @@ def cause_of(ws: Workspace, guard: int) -> int:
         return SLIP_TO_STICK
     # the static bound vanishes with the normal force
     force = ws.guards[normal_guard(c)]
-    return LIFT_OFF if force.value <= 1e-9 * force.first else STICK_TO_SLIP
+    return LIFT_OFF if force.value <= 1e-9 * force.initial else STICK_TO_SLIP
 
 
 @kernel("i8(ws, i8)")
@@ -41,7 +41,7 @@ def cause_at_start(ws: Workspace, which: int) -> int:
     """Return the cause of the event that is due of contact ``which`` before any step."""
     if ws.contacts[which].mode == OPEN:
         return _closing(ws, which)
-    if ws.guards[first_end_guard(ws) + which].end < 0.0:
+    if ws.guards[first_end_guard(ws) + which].at_end < 0.0:
         return FEATURE_END
-    pulls = ws.guards[normal_guard(which)].end < 0.0
+    pulls = ws.guards[normal_guard(which)].at_end < 0.0
     return LIFT_OFF if pulls else STICK_TO_SLIP

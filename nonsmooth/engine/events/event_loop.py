@@ -66,6 +66,7 @@ from nonsmooth.engine.memory.modes import (
     IMPACT,
     JAM,
     NO_CONTACT_SOLUTION,
+    NO_RELEASE,
     NO_SLOT,
     NOT_FINITE,
     OPEN,
@@ -99,35 +100,35 @@ def _commit(ws: Workspace, h: float) -> int:
 @kernel("i8(ws, f8)")
 def _take_over(ws: Workspace, h: float) -> int:
     """Take over the step of ``h``: state, time, constraints; return how many courses end."""
-    for i in range(ws.n_y):
-        ws.y[i] = ws.y_new[i]
-    ws.t += h
+    for i in range(ws.model.n_y):
+        ws.island.y[i] = ws.step.y_new[i]
+    ws.island.time += h
     normalise_quaternions(ws)
-    if ws.n_joints > 0:
+    if ws.model.n_joints > 0:
         project_joints(ws)
     ended = end_courses(ws)
     if ended > 0:
         group_closed(ws)
     if drifted(ws):
-        ws.closing_loss += project_closed(ws, 0, 0)
+        ws.totals.closing_loss += project_closed(ws, 0, 0)
     return ended
 
 
 @kernel("i8(ws, i8)")
 def _up_to_end(ws: Workspace, status: int) -> int:
     """Let a step that failed be tried once more, up to the end of the run: what lies behind need not have a value."""
-    if ws.h_valid <= ws.t_end - ws.t:
+    if ws.island.resumed_step <= ws.request.t_end - ws.island.time:
         return status
-    ws.h_valid, ws.fresh = ws.t_end - ws.t, 0
+    ws.island.resumed_step, ws.island.follows_a_step = ws.request.t_end - ws.island.time, False
     return RUNNING
 
 
 @kernel("i8(ws)")
 def _arrived(ws: Workspace) -> int:
     """Look at the state at the end time; return the status."""
-    ws.t = ws.t_end
+    ws.island.time = ws.request.t_end
     check_end(ws)
-    return DONE if ws.failed == RUNNING else int(ws.failed)
+    return DONE if ws.run.failure == RUNNING else int(ws.run.failure)
 
 
 @kernel("i8(ws)")
@@ -137,9 +138,9 @@ def _end_within(ws: Workspace) -> int:
     The step was taken, and its event looked for, as if the run went on: where it ends then changes nothing of what
     it does before.
     """
-    h = ws.t_end - ws.t
+    h = ws.request.t_end - ws.island.time
     record_samples(ws, h)
-    ws.h = h
+    ws.step.h = h
     if not try_step(ws, h) < 1e300:
         return NOT_FINITE
     _take_over(ws, h)
@@ -149,7 +150,7 @@ def _end_within(ws: Workspace) -> int:
 @kernel("i8(ws, i8, i8)")
 def _carry_out(ws: Workspace, cause: int, which: int) -> int:
     """Carry out an event of contact ``which``: update modes and velocities at its instant; return the status."""
-    ws.fresh = 0
+    ws.island.follows_a_step = False
     if stalls(ws, which):
         if not average_island_of(ws, which):
             return STALLED
@@ -160,37 +161,37 @@ def _carry_out(ws: Workspace, cause: int, which: int) -> int:
 @kernel("i8(ws)")
 def _step(ws: Workspace) -> int:
     """Advance by one step or to the next event, whichever is earlier; return the status."""
-    if ws.mean_until - ws.t <= ws.time_tolerance:
-        ws.fresh = 0
+    if ws.island.averaged_until - ws.island.time <= ws.tolerance.time:
+        ws.island.follows_a_step = False
         return update_at_event(ws, AVERAGING, -1)
     _evaluate_start(ws)
     check_gaps(ws)
-    if ws.failed != RUNNING:
-        return int(ws.failed)
-    if ws.mean_until < math.inf and ws.strayed > 1.0:
+    if ws.run.failure != RUNNING:
+        return int(ws.run.failure)
+    if ws.island.averaged_until < math.inf and ws.island.strayed > 1.0:
         end_averaging(ws)
-        ws.fresh = 0
-        return update_at_event(ws, AVERAGING, ws.stray)
+        ws.island.follows_a_step = False
+        return update_at_event(ws, AVERAGING, ws.island.stray_contact)
     keep_start(ws)
     which = _due_at_start(ws)
     if which >= 0:
         return _carry_out(ws, cause_at_start(ws, which), which)
-    ws.h_listed = longest_step(ws) if ws.n_units > 0 else 1e300
-    if ws.h_listed == 0.0:
+    ws.step.listed_step = longest_step(ws) if ws.model.n_spheres > 0 else 1e300
+    if ws.step.listed_step == 0.0:
         return int(list_contacts(ws))
     orient_slips(ws, 1)
     arm_guards(ws)
-    which = holds_time_up(ws) if ws.n_grouped > 0 else -1
+    which = holds_time_up(ws) if ws.island.n_grouped > 0 else -1
     if which >= 0 and average_island_of(ws, which):
-        ws.fresh = 0
+        ws.island.follows_a_step = False
         return update_at_event(ws, AVERAGING, which)
     status = accepted_step(ws)
     if status != RUNNING:
         return _without_step(ws, status)
-    ws.steps += 1
-    high = first_crossing(ws, ws.h)
+    ws.totals.n_steps += 1
+    high = first_crossing(ws, ws.step.h)
     for i in range(first_own_guard(ws), first_end_guard(ws)):
-        if not abs(ws.guards[i].end) < 1e300:
+        if not abs(ws.guards[i].at_end) < 1e300:
             return _up_to_end(ws, NOT_FINITE)
     if high > 0.0:
         return _step_to_event(ws, high)
@@ -200,22 +201,22 @@ def _step(ws: Workspace) -> int:
 @kernel()
 def _evaluate_start(ws: Workspace) -> None:
     """Write slope and guards where the step begins; behind a step without an event they are at hand."""
-    ws.follows = ws.fresh
-    ws.replaced = 0
-    if ws.fresh == 1:
-        ws.power_first = ws.power_end
+    ws.step.uses_last_slope = ws.island.follows_a_step
+    ws.step.has_replaced_slope = False
+    if ws.island.follows_a_step:
+        ws.step.power_at_start = ws.island.power_at_end
         watch_features(ws)
-        for i in range(ws.n_y):
-            ws.slopes[i] = ws.slopes[LAST_STAGE * ws.n_y + i]
+        for i in range(ws.model.n_y):
+            ws.island.slopes[i] = ws.island.slopes[LAST_STAGE * ws.model.n_y + i]
         return
-    set_off(ws, ws.h_closed, ws.h_valid)
+    set_off(ws, ws.island.closed_step, ws.island.resumed_step)
     group_closed(ws)
     choose_integrated(ws)
-    slope(ws, ws.t, ws.offsets.y, ws.offsets.slopes, 1, 1)
+    slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, 1, 1)
     take_off(ws)
     close_account(ws)
     watch_features(ws)
-    write_guards(ws, ws.t, ws.offsets.y, forces_are_known=True)
+    write_guards(ws, ws.island.time, ws.island.y.start, forces_are_known=True)
     keep_end(ws)
     bound_speeds(ws)
 
@@ -223,21 +224,21 @@ def _evaluate_start(ws: Workspace) -> None:
 @kernel("i8(ws)")
 def _due_at_start(ws: Workspace) -> int:
     """Return a contact of which an event is due before any step, or -1."""
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         # a gap that closes exactly where the last step ended is an event of that step
-        gap = ws.guards[normal_guard(c)].end
-        arrived = gap <= ws.gap_tolerance and contact.gap_rate_at_end < -ws.velocity_tolerance
+        gap = ws.guards[normal_guard(c)].at_end
+        arrived = gap <= ws.tolerance.gap and contact.gap_rate_at_end < -ws.tolerance.velocity
         if contact.mode == OPEN and arrived:
             return c
         # what put the contacts on their constraints may have put one past its end
-        if contact.mode != OPEN and ws.guards[first_end_guard(ws) + c].end < 0.0:
+        if contact.mode != OPEN and ws.guards[first_end_guard(ws) + c].at_end < 0.0:
             return c
         if has_own_step(ws, c) == 1:
             continue
         # and may have turned a slip so that its force is another one
         unique = contact.mode != OPEN and not contact.is_compliant and not contact.has_redundant_force
-        if ws.fresh == 0 and unique and is_violated(ws, c):
+        if not ws.island.follows_a_step and unique and is_violated(ws, c):
             return c
     return -1
 
@@ -245,14 +246,14 @@ def _due_at_start(ws: Workspace) -> int:
 @kernel("i8(ws, i8)")
 def _without_step(ws: Workspace, status: int) -> int:
     """Say what follows where no step was accepted, for the reason ``status``; return the status."""
-    ws.limit = NO_STEP
-    if status == STEP_TOO_SMALL and leap(ws, ws.time_tolerance):
+    ws.step.limit = NO_STEP
+    if status == STEP_TOO_SMALL and leap(ws, ws.tolerance.time):
         return _after_leap(ws)
     if status == STEP_TOO_SMALL:
         which = end_features(ws)
         if which >= 0:
             changed = has_other_features(ws, ws.contacts[which])
-            _take_over(ws, ws.h)
+            _take_over(ws, ws.step.h)
             return _pass_on(ws, which, changed)
         which = hardest_pressed(ws, 1)
         if which >= 0:
@@ -261,7 +262,7 @@ def _without_step(ws: Workspace, status: int) -> int:
                 return int(outcome)
         which = hardest_pressed(ws, 0)
         if which >= 0 and average_island_of(ws, which):
-            ws.fresh = 0
+            ws.island.follows_a_step = False
             return update_at_event(ws, AVERAGING, which)
     return _up_to_end(ws, status)
 
@@ -269,14 +270,14 @@ def _without_step(ws: Workspace, status: int) -> int:
 @kernel("i8(ws)")
 def _after_leap(ws: Workspace) -> int:
     """Take over the instant in which contact points ran along bodies, and what it let go; return the status."""
-    ws.h, ws.fresh = ws.time_tolerance, 0
-    _take_over(ws, ws.h)
+    ws.step.h, ws.island.follows_a_step = ws.tolerance.time, False
+    _take_over(ws, ws.step.h)
     cause, which = 0, -1
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
-        if contact.mode != OPEN and contact.was_released and which < 0:
-            cause, which = contact.released, c
-        contact.released = 0
+        if contact.mode != OPEN and contact.release != NO_RELEASE and which < 0:
+            cause, which = contact.release, c
+        contact.release = NO_RELEASE
     if which >= 0:
         return _carry_out(ws, cause, which)
     measure_noise(ws)
@@ -286,22 +287,27 @@ def _after_leap(ws: Workspace) -> int:
 @kernel("i8(ws)")
 def _whole_step(ws: Workspace) -> int:
     """Take over a step without an event, unless a slip has come to rest in it; return the status."""
-    if ws.h > ws.t_end - ws.t:
-        ws.limit = BY_END
+    if ws.step.h > ws.request.t_end - ws.island.time:
+        ws.step.limit = BY_END
         return _end_within(ws)
     which = passed_flat(ws)
-    if which >= 0 and ws.h > ws.time_tolerance:
+    if which >= 0 and ws.step.h > ws.tolerance.time:
         return _in_part(ws)
-    ended = _commit(ws, ws.h)
-    if ws.blended == 1:
-        ws.chosen_t = ws.t
+    ended = _commit(ws, ws.step.h)
+    if ws.step.is_blended:
+        ws.island.last_choice = ws.island.time
     if which >= 0:
         return _carry_out(ws, IMPACT, which)
     which = stopping(ws)
     if which >= 0:
         return _carry_out(ws, SLIP_TO_STICK, which)
-    ws.fresh = 1 if ended == 0 else 0
-    if ws.limit == BY_EVENT and ws.fresh == 1 and ws.failed == RUNNING and ws.t_end - ws.t > ws.time_tolerance:
+    ws.island.follows_a_step = ended == 0
+    if (
+        ws.step.limit == BY_EVENT
+        and ws.island.follows_a_step
+        and ws.run.failure == RUNNING
+        and ws.request.t_end - ws.island.time > ws.tolerance.time
+    ):
         # it was made to end where a gap is about to close
         which = _due_at_start(ws)
         if which >= 0:
@@ -312,31 +318,31 @@ def _whole_step(ws: Workspace) -> int:
 @kernel("i8(ws, f8)")
 def _step_to_event(ws: Workspace, high: float) -> int:
     """Locate the first event before the fraction ``high`` of the step and carry it out; return the status."""
-    ws.fresh, ws.limit = 0, BY_EVENT
+    ws.island.follows_a_step, ws.step.limit = False, BY_EVENT
     if choices_bend(ws, high):
         return _in_part(ws)
-    h = locate(ws, ws.h, high)
+    h = locate(ws, ws.step.h, high)
     if h < 0.0:
         return _in_part(ws)
-    if h > ws.t_end - ws.t:
-        ws.limit = BY_END
+    if h > ws.request.t_end - ws.island.time:
+        ws.step.limit = BY_END
         return _end_within(ws)
-    return _event(ws, h, ws.trigger)
+    return _event(ws, h, ws.step.guard)
 
 
 @kernel("i8(ws)")
 def _in_part(ws: Workspace) -> int:
     """Ask for a quarter of the step, which leads past what it should end at; return the status."""
-    ws.fresh, ws.limit = 0, BY_CROWD
+    ws.island.follows_a_step, ws.step.limit = False, BY_CROWD
     # crowded guards, an error that grows, or a flat place
-    if ws.h < NOUGHT * ws.time_tolerance:
+    if ws.step.h < NOUGHT * ws.tolerance.time:
         return _without_step(ws, STEP_TOO_SMALL)
-    if ws.n_integrated == 0 and ws.course_end < math.inf:
-        ws.course_end = ws.t + 0.25 * ws.h
+    if ws.island.n_integrated == 0 and ws.island.own_steps_end < math.inf:
+        ws.island.own_steps_end = ws.island.time + 0.25 * ws.step.h
     elif is_held(ws):
-        ws.h_closed = 0.25 * ws.h
+        ws.island.closed_step = 0.25 * ws.step.h
     else:
-        ws.h_free = 0.25 * ws.h
+        ws.island.free_step = 0.25 * ws.step.h
     return RUNNING
 
 
@@ -364,7 +370,7 @@ def _event(ws: Workspace, h: float, guard: int) -> int:
 def _pass_on(ws: Workspace, which: int, changed: int) -> int:
     """Carry out that the features of contact ``which`` have ended, or changed (1); return the status."""
     if changed == 1:
-        ws.feature_t = ws.t
+        ws.island.last_feature_change = ws.island.time
     return _carry_out(ws, FEATURE_CHANGE if changed == 1 else FEATURE_END, which)
 
 
@@ -374,16 +380,16 @@ def _own_event(ws: Workspace, number: int) -> int:
     remember(ws)
     record_event(ws, GUARD, number, 0)
     guard = ws.own_guards[number]
-    guard.spent = 1
-    return STOPPED if guard.ends == 1 else RUNNING
+    guard.has_just_fired = True
+    return STOPPED if guard.ends_the_run else RUNNING
 
 
 @kernel("void(ws, i8)")
 def _break_direction(ws: Workspace, which: int) -> None:
     """Let a contact that breaks away slip against the friction that held it, that of least norm if it is not unique."""
     contact = ws.contacts[which]
-    t1 = contact.force[1] - contact.null_space_force[1] * contact.redundant
-    t2 = contact.force[2] - contact.null_space_force[2] * contact.redundant
+    t1 = contact.force[1] - contact.null_space_force[1] * contact.has_redundant_force
+    t2 = contact.force[2] - contact.null_space_force[2] * contact.has_redundant_force
     norm, speed = length((t1, t2)), length(contact.slip)
     if norm > 0.0:
         turn_facing(ws, which, t1)
@@ -399,42 +405,45 @@ def advance(ws: Workspace, most_steps: int, wary: int) -> int:
 
     A wary run (1) pauses before a step that may lead past the end time.
     """
-    if ws.started == 0:
-        ws.started = 1
-        ws.time_tolerance = max(ws.time_resolution, _SPACINGS * abs(ws.t))
-        evaluate_bodies(ws, ws.t, ws.offsets.y)
+    if not ws.run.has_started:
+        ws.run.has_started = True
+        ws.tolerance.time = max(ws.tolerance.resolution, _SPACINGS * abs(ws.island.time))
+        evaluate_bodies(ws, ws.island.time, ws.island.y.start)
         status = update_at_event(ws, START, -1)
-        if ws.crowded == 1:
+        if ws.run.has_too_many_blocks:
             return NO_SLOT
         if status != RUNNING:
             return status
-    if ws.resumed == 1:
+    if ws.request.is_resumed:
         # what follows from modes and is long is not kept in a state
-        ws.resumed = 0
+        ws.request.is_resumed = False
         group_closed(ws)
         choose_integrated(ws)
-    if ws.end_of_valid != ws.t_end:
+    if ws.island.resumed_end != ws.request.t_end:
         # what had no value behind another end time may have one now
-        ws.end_of_valid, ws.h_valid = ws.t_end, 1e300
+        ws.island.resumed_end, ws.island.resumed_step = ws.request.t_end, 1e300
     for _index in range(most_steps):
         # late in a run doubles are farther apart than the tolerance
-        ws.time_tolerance = max(ws.time_resolution, _SPACINGS * abs(ws.t))
-        if wary == 1 and longest_wanted(ws) > ws.t_end - ws.t:
+        ws.tolerance.time = max(ws.tolerance.resolution, _SPACINGS * abs(ws.island.time))
+        if wary == 1 and longest_wanted(ws) > ws.request.t_end - ws.island.time:
             return PAUSED
-        if ws.t_end - ws.t <= ws.time_tolerance:
+        if ws.request.t_end - ws.island.time <= ws.tolerance.time:
             return _arrived(ws)
-        row = EVENT_HEAD + ws.n_u + ws.n_y + BOOKED + LISTED * ws.n_contacts
-        floats_left, integers_left = ws.event_floats - ws.floats_used, ws.event_integers - ws.integers_used
-        if floats_left < MOST_EVENTS * row or integers_left < MOST_EVENTS * (CODE_HEAD + 2 * ws.n_contacts):
+        row = EVENT_HEAD + ws.model.n_u + ws.model.n_y + BOOKED + LISTED * ws.island.n_contacts
+        floats_left, integers_left = (
+            ws.model.event_floats - ws.output.floats_used,
+            ws.model.event_integers - ws.output.integers_used,
+        )
+        if floats_left < MOST_EVENTS * row or integers_left < MOST_EVENTS * (CODE_HEAD + 2 * ws.island.n_contacts):
             return PAUSED
-        if 2 * ws.n_samples > ws.sample_capacity:
+        if 2 * ws.output.n_samples > ws.model.sample_capacity:
             return PAUSED
-        ws.limit = NO_STEP
+        ws.step.limit = NO_STEP
         status = _step(ws)
-        ws.limits[ws.limit] += 1
+        ws.totals.n_steps_limited[ws.step.limit] += 1
         if status == RUNNING:
-            status = int(ws.failed)
-        if ws.crowded == 1:
+            status = int(ws.run.failure)
+        if ws.run.has_too_many_blocks:
             status = NO_SLOT
         if status != RUNNING:
             return status

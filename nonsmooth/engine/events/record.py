@@ -48,9 +48,9 @@ def impact_code(ws: Workspace, c: int) -> int:
     if not contact.is_touching:
         return 0
     bits = 1
-    if contact.rate[0] < -ws.velocity_tolerance:
+    if contact.rate[0] < -ws.tolerance.velocity:
         bits += 2
-    if length(contact.slip) > ws.velocity_tolerance:
+    if length(contact.slip) > ws.tolerance.velocity:
         bits += 4
     return bits
 
@@ -58,27 +58,27 @@ def impact_code(ws: Workspace, c: int) -> int:
 @entry_point()
 def remember(ws: Workspace) -> None:
     """Keep modes and velocities as they are before an event, and clear its account."""
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         contact.code_before = code(ws, c)
         contact.code_during = contact.code_before
-        contact.averaged_before = contact.mode_after_averaging
+        contact.was_averaged = contact.mode_after_averaging
         for r in range(3):
             contact.event_impulse[r] = 0.0
-    for i in range(ws.n_u):
-        ws.u_before[i] = ws.y[ws.n_q + i]
+    for i in range(ws.model.n_u):
+        ws.event.u_before[i] = ws.island.y[ws.model.n_q + i]
     for i in range(1, EVENT_HEAD):
-        ws.event_head[i] = 0.0
+        ws.event.head[i] = 0.0
 
 
 @kernel("i8(ws, i8)")
 def _list_event(ws: Workspace, which: int) -> int:
     """List the contacts that an event is about: all that are or were closed, and the one that caused it."""
     n = 0
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         if c == which or contact.code_before + contact.code_during + code(ws, c) > 0:
-            ws.listed[n] = c
+            ws.event.listed[n] = c
             n += 1
     return n
 
@@ -86,8 +86,8 @@ def _list_event(ws: Workspace, which: int) -> int:
 @kernel("void(ws, i8)")
 def _write_booked(ws: Workspace, out: int) -> None:
     """Write the energies booked so far that are not integrated with the state."""
-    ws.floats[out], ws.floats[out + 1] = ws.driven_work, ws.restitution_loss
-    ws.floats[out + 2], ws.floats[out + 3] = ws.friction_loss, ws.closing_loss
+    ws.floats[out], ws.floats[out + 1] = ws.totals.driven_work, ws.totals.restitution_loss
+    ws.floats[out + 2], ws.floats[out + 3] = ws.totals.friction_loss, ws.totals.closing_loss
 
 
 @kernel("void(ws, i8, i8)")
@@ -107,77 +107,77 @@ def _list_contact(ws: Workspace, c: int, out: int) -> None:
 @entry_point("void(ws, i8, i8, i8)")
 def record_event(ws: Workspace, cause: int, which: int, phases: int) -> None:
     """Append an event with what was remembered before it and the modes after it."""
-    ws.recorded += 1
+    ws.event.n_recorded += 1
     n = _list_event(ws, -1 if cause == GUARD else which)
-    width = EVENT_HEAD + ws.n_u + ws.n_y + BOOKED + LISTED * n
-    ws.last_floats, ws.last_integers = ws.floats_used, ws.integers_used
-    row = ws.offsets.events + ws.floats_used
-    ws.event_head[TIME] = ws.t
+    width = EVENT_HEAD + ws.model.n_u + ws.model.n_y + BOOKED + LISTED * n
+    ws.output.last_floats, ws.output.last_integers = ws.output.floats_used, ws.output.integers_used
+    row = ws.output.event_numbers.start + ws.output.floats_used
+    ws.event.head[TIME] = ws.island.time
     for i in range(EVENT_HEAD):
-        ws.floats[row + i] = ws.event_head[i]
+        ws.floats[row + i] = ws.event.head[i]
     row += EVENT_HEAD
-    for i in range(ws.n_q):
-        ws.floats[row + i] = ws.y[i]
-    row += ws.n_q
-    for i in range(ws.n_u):
-        ws.floats[row + i] = ws.u_before[i]
-        ws.floats[row + ws.n_u + i] = ws.y[ws.n_q + i]
-    row += 2 * ws.n_u
-    for i in range(ws.n_q + ws.n_u, ws.n_y):
-        ws.floats[row] = ws.y[i]
+    for i in range(ws.model.n_q):
+        ws.floats[row + i] = ws.island.y[i]
+    row += ws.model.n_q
+    for i in range(ws.model.n_u):
+        ws.floats[row + i] = ws.event.u_before[i]
+        ws.floats[row + ws.model.n_u + i] = ws.island.y[ws.model.n_q + i]
+    row += 2 * ws.model.n_u
+    for i in range(ws.model.n_q + ws.model.n_u, ws.model.n_y):
+        ws.floats[row] = ws.island.y[i]
         row += 1
     _write_booked(ws, row)
     row += BOOKED
-    codes = ws.offsets.event_codes + ws.integers_used
+    codes = ws.output.event_codes.start + ws.output.integers_used
     ws.integers[codes + CAUSE], ws.integers[codes + CONTACT], ws.integers[codes + PHASES] = cause, which, phases
     if which >= 0 and cause != GUARD:
         ws.integers[codes + CONTACT] = ws.contacts[which].declared
     ws.integers[codes + TRUNCATED] = 1 if ws.event.truncation != Truncation.NONE and phases > 0 else 0
     ws.integers[codes + N_LISTED] = n
     for i in range(n):
-        c = ws.listed[i]
+        c = ws.event.listed[i]
         contact = ws.contacts[c]
         _list_contact(ws, c, row + LISTED * i)
         ws.integers[codes + CODE_HEAD + 2 * i] = contact.declared
         before, during, after = contact.code_before << BEFORE, contact.code_during << DURING, code(ws, c) << AFTER
         ws.integers[codes + CODE_HEAD + 2 * i + 1] = before | during | after
-    ws.last_contact = which
-    if ws.told > 0:
+    ws.output.last_contact = which
+    if ws.request.n_known_events > 0:
         # a run that is continued repeats what led to its state, and has told of it
-        ws.told -= 1
+        ws.request.n_known_events -= 1
         return
-    ws.floats_used += width
-    ws.integers_used += CODE_HEAD + 2 * n
-    ws.n_events += 1
+    ws.output.floats_used += width
+    ws.output.integers_used += CODE_HEAD + 2 * n
+    ws.output.n_events += 1
 
 
 @kernel()
 def amend_last(ws: Workspace) -> None:
     """Write the last event anew, with the modes that the instant ended in and its final velocities."""
-    if ws.n_events == 0 or ws.floats_used == ws.last_floats:
+    if ws.output.n_events == 0 or ws.output.floats_used == ws.output.last_floats:
         return
-    ws.floats_used, ws.integers_used = ws.last_floats, ws.last_integers
-    ws.n_events -= 1
-    ws.recorded -= 1
-    codes = ws.offsets.event_codes + ws.last_integers
-    record_event(ws, ws.integers[codes + CAUSE], ws.last_contact, ws.integers[codes + PHASES])
+    ws.output.floats_used, ws.output.integers_used = ws.output.last_floats, ws.output.last_integers
+    ws.output.n_events -= 1
+    ws.event.n_recorded -= 1
+    codes = ws.output.event_codes.start + ws.output.last_integers
+    record_event(ws, ws.integers[codes + CAUSE], ws.output.last_contact, ws.integers[codes + PHASES])
 
 
 @entry_point("i8(ws)")
 def begin_sample(ws: Workspace) -> int:
     """Append a sample of the time ``next_sample``, and set the next; return where in ``w`` its state is to be put."""
-    row = ws.offsets.samples + ws.n_samples * (1 + ws.n_y + BOOKED)
-    ws.floats[row] = ws.next_sample
-    _write_booked(ws, row + 1 + ws.n_y)
-    ws.n_samples += 1
-    ws.sample_index += 1
-    ws.next_sample = ws.sample_start + ws.sample_index * ws.sample_interval
+    row = ws.output.samples.start + ws.output.n_samples * (1 + ws.model.n_y + BOOKED)
+    ws.floats[row] = ws.output.next_sample
+    _write_booked(ws, row + 1 + ws.model.n_y)
+    ws.output.n_samples += 1
+    ws.output.sample_index += 1
+    ws.output.next_sample = ws.request.sample_start + ws.output.sample_index * ws.request.sample_interval
     return int(row + 1)
 
 
 @kernel("void(ws, f8)")
 def record_samples(ws: Workspace, h: float) -> None:
     """Append the samples that fall into the part ``h`` of the step from ``t`` whose slopes are at hand."""
-    while ws.next_sample <= ws.t + h and ws.n_samples < ws.sample_capacity:
-        theta = (ws.next_sample - ws.t) / ws.h
-        state_within(ws, ws.h, min(1.0, max(0.0, theta)), begin_sample(ws))
+    while ws.output.next_sample <= ws.island.time + h and ws.output.n_samples < ws.model.sample_capacity:
+        theta = (ws.output.next_sample - ws.island.time) / ws.step.h
+        state_within(ws, ws.step.h, min(1.0, max(0.0, theta)), begin_sample(ws))

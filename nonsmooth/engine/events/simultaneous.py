@@ -12,7 +12,7 @@ from nonsmooth.engine.native.kernel import Workspace, kernel
 def _touches_already(ws: Workspace, c: int) -> bool:
     """Return 1 if a contact of the same two frames as contact ``c`` touches: their features follow one another."""
     contact = ws.contacts[c]
-    for other in range(ws.n_contacts):
+    for other in range(ws.island.n_contacts):
         another = ws.contacts[other]
         if another.is_touching and another.frame_a == contact.frame_a and another.frame_b == contact.frame_b:
             return True
@@ -27,10 +27,10 @@ def join_near(ws: Workspace, speed: float) -> int:
     bodies that touch so end; return how many: where some do, what touches is to be found anew.
     """
     ended = 0
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         apart = not contact.is_touching and not contact.is_compliant and contact.past_feature <= 0.0
-        near = min(contact.contact_time * speed, EXPLAINED * ws.gap_tolerance)
+        near = min(contact.contact_time * speed, EXPLAINED * ws.tolerance.gap)
         if apart and contact.gap <= near and has_own_step(ws, c) == 0 and not _touches_already(ws, c):
             contact.is_touching = True
             evaluate_jacobian(ws, c)

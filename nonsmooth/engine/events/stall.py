@@ -17,7 +17,7 @@ def stalls(ws: Workspace, c: int) -> bool:
     Counted are those of each contact for itself, so that what happens elsewhere tells nothing of it.
     """
     contact = ws.contacts[c]
-    if abs(ws.t - contact.burst_start) > max(ws.time_tolerance, _TIME * contact.contact_time):
-        contact.burst_start, contact.burst_events = ws.t, 0
+    if abs(ws.island.time - contact.burst_start) > max(ws.tolerance.time, _TIME * contact.contact_time):
+        contact.burst_start, contact.burst_events = ws.island.time, 0
     contact.burst_events += 1
     return contact.burst_events > _EVENTS

@@ -51,16 +51,16 @@ def _first_of_compliant(ws: Workspace, c: int) -> float:
     Were it over before the second stage of the step, none would meet a force, and the bodies would pass each other.
     """
     contact = ws.contacts[c]
-    if not contact.is_compliant or ws.guards[normal_guard(c)].end > NEAR * ws.gap_tolerance:
+    if not contact.is_compliant or ws.guards[normal_guard(c)].at_end > NEAR * ws.tolerance.gap:
         return 1e300
-    speed = math.sqrt(dot(contact.rate_end, contact.rate_end))
-    return float(_FIRST_WAY * contact.size / max(speed, ws.velocity_tolerance))
+    speed = math.sqrt(dot(contact.velocity_at_end, contact.velocity_at_end))
+    return float(_FIRST_WAY * contact.size / max(speed, ws.tolerance.velocity))
 
 
 @kernel("b1(ws)")
 def is_held(ws: Workspace) -> bool:
     """Return 1 if some contact is closed."""
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         if ws.contacts[c].mode != OPEN:
             return True
     return False
@@ -70,132 +70,147 @@ def is_held(ws: Workspace) -> bool:
 def longest_wanted(ws: Workspace) -> float:
     """Return what the next step is no longer than, whatever sets off on a course before it."""
     if not is_held(ws):
-        return float(min(ws.h_free, ws.h_max))
+        return float(min(ws.island.free_step, ws.tolerance.largest_step))
     return float(
-        min(ws.h_max, max(ws.h_closed, ws.h_course, ws.course_end - ws.t if ws.course_end < math.inf else 0.0))
+        min(
+            ws.tolerance.largest_step,
+            max(
+                ws.island.closed_step,
+                ws.island.own_step,
+                ws.island.own_steps_end - ws.island.time if ws.island.own_steps_end < math.inf else 0.0,
+            ),
+        )
     )
 
 
 @kernel("f8(ws)")
 def _wanted(ws: Workspace) -> float:
     """Return how long the step is if nothing cuts it short; if nothing is integrated, up to the end of the courses."""
-    if ws.n_integrated == 0 and ws.course_end < math.inf:
-        return float(min(ws.course_end - ws.t, ws.h_max))
-    return float(min(ws.h_closed if is_held(ws) else ws.h_free, ws.h_max))
+    if ws.island.n_integrated == 0 and ws.island.own_steps_end < math.inf:
+        return float(min(ws.island.own_steps_end - ws.island.time, ws.tolerance.largest_step))
+    return float(min(ws.island.closed_step if is_held(ws) else ws.island.free_step, ws.tolerance.largest_step))
 
 
 @kernel("f8(ws, f8)")
 def _first_attempt(ws: Workspace, wanted: float) -> float:
     """Return the step that is tried first, ``wanted`` if nothing cuts it short."""
-    ws.h_turn = _TURN / ws.fastest_turn if ws.fastest_turn > 0.0 else 1e300
-    h = min(wanted, ws.h_listed, ws.sample_span, ws.h_valid, ws.h_turn, ws.mean_until - ws.t, ws.course_end - ws.t)
-    ws.h_closing = ws.h_arrival = 1e300
-    soonest = foresee(ws, h) if ws.fresh == 0 or ws.n_flying > 0 else 1e300
-    if ws.fresh == 0:
-        for c in range(ws.n_contacts):
+    ws.step.turning_step = _TURN / ws.island.fastest_turn if ws.island.fastest_turn > 0.0 else 1e300
+    h = min(
+        wanted,
+        ws.step.listed_step,
+        ws.request.sample_span,
+        ws.island.resumed_step,
+        ws.step.turning_step,
+        ws.island.averaged_until - ws.island.time,
+        ws.island.own_steps_end - ws.island.time,
+    )
+    ws.step.closing_step = ws.step.arrival_step = 1e300
+    soonest = foresee(ws, h) if not ws.island.follows_a_step or ws.island.n_ballistic > 0 else 1e300
+    if not ws.island.follows_a_step:
+        for c in range(ws.island.n_contacts):
             contact = ws.contacts[c]
             if contact.mode != OPEN:
-                ws.h_first = min(ws.h_first, _first_of_compliant(ws, c))
-        h = min(h, ws.h_first)
+                ws.island.first_step = min(ws.island.first_step, _first_of_compliant(ws, c))
+        h = min(h, ws.island.first_step)
         # a first step to where a gap is expected to close is short, and tells when it does
-        ws.h_closing = max(_SHORTEST * h, ABOUT * soonest)
-        keep_falls(ws, min(h, ws.h_closing))
-    if ws.n_flying > 0 and soonest < h:
-        ws.h_arrival = first_of_flying(ws, soonest)
-    if ws.h_arrival < h:
-        return float(ws.h_arrival)
+        ws.step.closing_step = max(_SHORTEST * h, ABOUT * soonest)
+        keep_falls(ws, min(h, ws.step.closing_step))
+    if ws.island.n_ballistic > 0 and soonest < h:
+        ws.step.arrival_step = first_of_flying(ws, soonest)
+    if ws.step.arrival_step < h:
+        return float(ws.step.arrival_step)
     # a step that much shorter has an error that is negligible
-    return float(ws.h_closing if ws.h_closing < NEGLIGIBLE ** (1.0 / ORDER) * h else h)
+    return float(ws.step.closing_step if ws.step.closing_step < NEGLIGIBLE ** (1.0 / ORDER) * h else h)
 
 
 @kernel("i8(ws, f8, f8)")
 def _limit(ws: Workspace, wanted: float, h: float) -> int:
     """Return what limits the step of ``h`` that is tried first, where ``wanted`` is how long it may be."""
-    if h == wanted or h == ws.course_end - ws.t:
-        return BY_LARGEST if h == ws.h_max else BY_ERROR
-    if h == ws.h_listed:
+    if h == wanted or h == ws.island.own_steps_end - ws.island.time:
+        return BY_LARGEST if h == ws.tolerance.largest_step else BY_ERROR
+    if h == ws.step.listed_step:
         return BY_LIST
-    if h == ws.mean_until - ws.t:
+    if h == ws.island.averaged_until - ws.island.time:
         return BY_AVERAGING
-    if h == ws.sample_span:
+    if h == ws.request.sample_span:
         return BY_SAMPLES
-    if h == ws.h_turn:
+    if h == ws.step.turning_step:
         return BY_TURN
-    if h == ws.h_arrival:
+    if h == ws.step.arrival_step:
         return BY_EVENT
-    if h == ws.h_closing:
+    if h == ws.step.closing_step:
         return BY_CLOSING
-    return BY_END if h == ws.h_valid else BY_FIRST
+    return BY_END if h == ws.island.resumed_step else BY_FIRST
 
 
 @kernel("b1(ws, f8)")
 def _overran(ws: Workspace, h: float) -> bool:
     """Return 1 if the step of ``h`` leads farther than the list of contacts holds."""
-    if ws.n_units == 0:
+    if ws.model.n_spheres == 0:
         return False
-    evaluate_driven_bodies(ws, ws.t + h, ws.offsets.y_new)
+    evaluate_driven_bodies(ws, ws.island.time + h, ws.step.y_new.start)
     return overran_list(ws, h)
 
 
 @kernel("void(ws, f8, f8, f8)")
 def _remember_step(ws: Workspace, h: float, error: float, wanted: float) -> None:
     """Keep the accepted step of ``h`` and how long the next one may be."""
-    ws.h, ws.step_error = h, error
+    ws.step.h, ws.step.error = h, error
     # the touch-down that was due is behind it, or is an event of it
-    ws.h_first = 1e300
+    ws.island.first_step = 1e300
     # what cut a step short says nothing of the next one
     following = h * step_factor(error)
     if h < wanted:
         following = max(following, wanted)
     if not is_held(ws):
-        ws.h_free = following
-    elif ws.n_integrated > 0:
-        ws.h_closed = following
+        ws.island.free_step = following
+    elif ws.island.n_integrated > 0:
+        ws.island.closed_step = following
 
 
 @kernel("i8(ws)")
 def accepted_step(ws: Workspace) -> int:
     """Find a step that meets the tolerance, in ``h``; return the status."""
     wanted = _wanted(ws)
-    ws.relaxation = relaxation(ws)
+    ws.step.relaxation = relaxation(ws)
     h = _first_attempt(ws, wanted)
-    ws.limit = _limit(ws, wanted, h)
+    ws.step.limit = _limit(ws, wanted, h)
     explained = 0.0
     while True:
-        if ws.stopped == 1:
+        if ws.request.is_interrupted:
             return NOT_FINITE
-        ws.halting = -1
+        ws.step.halting_contact = -1
         error = try_length(ws, h)
-        share = share_before_stop(ws, h) if error <= 1.0 and ws.stage_time > 0.0 else 1.0
-        if error <= 1.0 and ws.singular >= 0:
+        share = share_before_stop(ws, h) if error <= 1.0 and ws.island.stage_time > 0.0 else 1.0
+        if error <= 1.0 and ws.island.singular_contact >= 0:
             # beyond the Painleve singularity a sliding contact is balanced on an edge: not a step further
             h *= 0.5
             wanted = 0.0
-            ws.limit = BY_SINGULARITY
-        elif error <= 1.0 and ws.mean_until < math.inf and astray(ws) > _ASTRAY:
+            ws.step.limit = BY_SINGULARITY
+        elif error <= 1.0 and ws.island.averaged_until < math.inf and astray(ws) > _ASTRAY:
             h *= 0.5
-            ws.limit = BY_AVERAGING
+            ws.step.limit = BY_AVERAGING
         elif error <= 1.0 and _overran(ws, h):
             h *= 0.5
-            ws.limit = BY_LIST
+            ws.step.limit = BY_LIST
         elif share < 1.0:
             h *= share
             wanted = 0.0
-            ws.limit = BY_STOP
+            ws.step.limit = BY_STOP
         elif error <= 1.0:
             _remember_step(ws, h, error, wanted)
             return RUNNING
         else:
-            ws.rejected += 1
-            ws.limit = BY_ERROR
+            ws.totals.n_rejected += 1
+            ws.step.limit = BY_ERROR
             wanted = 0.0
-            if not error < 1e300 and 0.1 * h < ws.time_tolerance:
+            if not error < 1e300 and 0.1 * h < ws.tolerance.time:
                 return NOT_FINITE
             factor = step_factor(error) if error < 1e300 else 0.1
-            if ws.stage_time > 0.0 and error > explained > 0.0:
+            if ws.island.stage_time > 0.0 and error > explained > 0.0:
                 # a slip that settles within the step leaves an error of low order
                 factor = max(SHRINK, SAFETY / error)
             explained = factor * factor * error
             h *= factor
-        if not h >= ws.time_tolerance:
+        if not h >= ws.tolerance.time:
             return STEP_TOO_SMALL

@@ -26,18 +26,18 @@ def _share(ws: Workspace, c: int, h: float) -> float:
     contact = ws.contacts[c]
     first = length(contact.slip_at_end)
     v1, v2 = contact.slip_at_end
-    du = ws.offsets.slopes + ws.n_q
+    du = ws.island.slopes.start + ws.model.n_q
     a1, a2 = row(ws, c, 1, du) + contact.bias[1], row(ws, c, 2, du) + contact.bias[2]
     slowing = -h * (v1 * a1 + v2 * a2) / first
-    part, least = _BLIND, 2.0 * ws.time_tolerance
+    part, least = _BLIND, 2.0 * ws.tolerance.time
     if slowing > 0.0:
         part = first / slowing
-        if _BEYOND * part * h * ws.relaxation <= STIFF:
+        if _BEYOND * part * h * ws.step.relaxation <= STIFF:
             part *= _BEYOND
-        elif first > ws.velocity_tolerance:
+        elif first > ws.tolerance.velocity:
             part *= _ALMOST
         elif abs(part - 1.0) * h <= _SHARES[0] * h + least:
-            ws.halting = c
+            ws.step.halting_contact = c
             return 1.0
     return float(max(_SHARES[0], least / h, min(_SHARES[1], part)))
 
@@ -48,8 +48,8 @@ def share_before_stop(ws: Workspace, h: float) -> float:
 
     When the slip stopped within the step is not told.  What stops where it ends is ``halting``.
     """
-    share, none = 1.0, NOUGHT * ws.velocity_tolerance
-    for c in range(ws.n_contacts):
+    share, none = 1.0, NOUGHT * ws.tolerance.velocity
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         rubs = contact.mode == SLIDE and not contact.has_traction_law and not contact.is_averaged
         if rubs and length(contact.slip) <= none and length(contact.slip_at_end) > none:
@@ -64,12 +64,12 @@ def stopping(ws: Workspace) -> int:
     Where none can be made, one that has come next to rest and slows down: its direction is stiff, and what is left of
     it below the tolerance.
     """
-    if ws.relaxation > 0.0:
-        return int(ws.halting)
-    for c in range(ws.n_contacts):
+    if ws.step.relaxation > 0.0:
+        return int(ws.step.halting_contact)
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         if contact.mode == SLIDE and not contact.has_traction_law and not contact.is_averaged:
             speed = length(contact.slip_at_end)
-            if speed <= ws.velocity_tolerance and speed < ws.guards[friction_guard(ws, c)].first:
+            if speed <= ws.tolerance.velocity and speed < ws.guards[friction_guard(ws, c)].initial:
                 return c
     return -1

@@ -32,9 +32,9 @@ def _is_twin(ws: Workspace, c: int, other: int) -> bool:
 @kernel("i8(ws, i8)")
 def closed_twin(ws: Workspace, c: int) -> int:
     """Return a closed contact at the place of ``c`` that does not approach, or -1."""
-    for other in range(ws.n_contacts):
+    for other in range(ws.island.n_contacts):
         contact = ws.contacts[other]
-        closed = contact.mode != OPEN and contact.rate[0] >= -ws.velocity_tolerance
+        closed = contact.mode != OPEN and contact.rate[0] >= -ws.tolerance.velocity
         if closed and _is_twin(ws, c, other):
             return other
     return -1
@@ -47,7 +47,7 @@ def has_replaced(ws: Workspace, c: int) -> int:
     That one may stand on: where margins overlap, both do for a moment.
     """
     stood = stands = 0
-    for other in range(ws.n_contacts):
+    for other in range(ws.island.n_contacts):
         contact = ws.contacts[other]
         if other == c or _is_twin(ws, c, other):
             stands = 1 if contact.mode != OPEN else stands

@@ -21,30 +21,30 @@ from nonsmooth.engine.native.kernel import Workspace, kernel
 def reach_end(ws: Workspace) -> None:
     """Take the modes that averaged forces were to end in, where they end, the rates there being at hand."""
     measure_spans(ws)
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         if contact.is_averaged and contact.mode != OPEN:
             contact.mode = contact.mode_after_averaging
-    ws.closing_loss += project_closed(ws, 1, 1)
-    for c in range(ws.n_contacts):
+    ws.totals.closing_loss += project_closed(ws, 1, 1)
+    for c in range(ws.island.n_contacts):
         ws.contacts[c].mean_gap_change = 0.0
 
 
 @kernel("void(ws, i8)")
 def renew_mean_forces(ws: Workspace, follows: int) -> None:
     """Find the mean forces of the closed contacts that are averaged, from now on; after the end of the last (1)."""
-    ws.mean_until = math.inf
+    ws.island.averaged_until = math.inf
     group_closed(ws)
-    evaluate_bodies(ws, ws.t, ws.offsets.y)
-    refresh_states(ws, ws.offsets.y)
-    for i in range(ws.n_grouped):
-        c = ws.grouped[i]
+    evaluate_bodies(ws, ws.island.time, ws.island.y.start)
+    refresh_states(ws, ws.island.y.start)
+    for i in range(ws.island.n_grouped):
+        c = ws.island.grouped[i]
         evaluate_contact(ws, c, 3)
         ws.contacts[c].is_touching = True
     book_mean_forces(ws)
     free_acceleration(ws, 1)
     push_compliant(ws)
-    for group in range(ws.n_groups):
+    for group in range(ws.island.n_groups):
         activate_group(ws, group)
         if is_averaged(ws):
             find_mean_forces(ws, follows)

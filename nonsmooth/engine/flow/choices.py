@@ -22,19 +22,19 @@ def choose_anew(ws: Workspace) -> int:
 
     A second time within the time tolerance there is no choice: then all forces vanish.
     """
-    if ws.t - ws.chosen_t <= ws.time_tolerance:
+    if ws.island.time - ws.island.last_choice <= ws.tolerance.time:
         return 0
-    ws.chosen_t = ws.t
+    ws.island.last_choice = ws.island.time
     group_closed(ws)
-    return int(right_hand_side(ws, ws.t, ws.offsets.y, 1, 1))
+    return int(right_hand_side(ws, ws.island.time, ws.island.y.start, 1, 1))
 
 
 @kernel("void(ws, f8)")
 def blend_choices(ws: Workspace, theta: float) -> None:
     """Take the forces between those chosen at the start and the end of the step at the fraction ``theta`` of it."""
-    if ws.blended == 0:
+    if not ws.step.is_blended:
         return
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         for r in range(3):
             first, end = contact.choice_at_start[r], contact.choice_at_end[r]
@@ -47,9 +47,9 @@ def _choose_at(ws: Workspace, elapsed: float, y: int) -> bool:
 
     Where there are none, what lets forces hold that were chosen would let their end be late.
     """
-    if right_hand_side(ws, ws.t + elapsed, y, 1, 0) == 1:
+    if right_hand_side(ws, ws.island.time + elapsed, y, 1, 0) == 1:
         return True
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         ws.contacts[c].slack = 0.0
     return False
 
@@ -69,21 +69,21 @@ def choose_at_end(ws: Workspace, h: float) -> None:
 
     The guards must be written there, and are for the choice.
     """
-    ws.blended = 0
-    if ws.chosen_t != ws.t or ws.stage_time > 0.0 or not _passes_bound(ws):
+    ws.step.is_blended = False
+    if ws.island.last_choice != ws.island.time or ws.island.stage_time > 0.0 or not _passes_bound(ws):
         return
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         for r in range(3):
             contact.choice_at_start[r] = contact.null_space_force[r]
-    ws.blended = 1
-    if not _choose_at(ws, h, ws.offsets.y_new):
-        right_hand_side(ws, ws.t + h, ws.offsets.y_new, 0, 0)
-    for c in range(ws.n_contacts):
+    ws.step.is_blended = True
+    if not _choose_at(ws, h, ws.step.y_new.start):
+        right_hand_side(ws, ws.island.time + h, ws.step.y_new.start, 0, 0)
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         for r in range(3):
             contact.choice_at_end[r] = contact.null_space_force[r]
-    write_guards(ws, ws.t + h, ws.offsets.y_new, forces_are_known=True)
+    write_guards(ws, ws.island.time + h, ws.step.y_new.start, forces_are_known=True)
 
 
 @kernel("b1(ws, f8)")
@@ -93,10 +93,10 @@ def choices_bend(ws: Workspace, high: float) -> bool:
     Where they have no room but that of one value the motion bends it, the less the shorter the step is; within the time
     tolerance that is an event.
     """
-    if ws.blended == 0 or high == 1.0 or ws.h <= ws.time_tolerance:
+    if not ws.step.is_blended or high == 1.0 or ws.step.h <= ws.tolerance.time:
         return False
     fired = first_fired(ws, True, NO_GUARD)
     if not 0 <= fired < first_own_guard(ws) or is_of_redundant_force(ws, fired) == 0:
         return False
-    state_within(ws, ws.h, high, ws.offsets.y_stage)
-    return _choose_at(ws, high * ws.h, ws.offsets.y_stage)
+    state_within(ws, ws.step.h, high, ws.step.y_stage.start)
+    return _choose_at(ws, high * ws.step.h, ws.step.y_stage.start)

@@ -77,8 +77,8 @@ def bound_speeds(ws: Workspace) -> None:
     """
     last_a = last_b = -1
     speed, spin, whole, own = 0.0, (0.0, 0.0, 0.0), 0.0, 0.0
-    ws.fastest_turn = 0.0
-    for c in range(ws.n_contacts):
+    ws.island.fastest_turn = 0.0
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         if contact.mode != OPEN:
             continue
@@ -92,16 +92,16 @@ def bound_speeds(ws: Workspace) -> None:
             whole, own = math.sqrt(dot(spin, spin)), math.sqrt(dot(seen_from, seen_from))
             last_a, last_b = a, b
         contact.speed_at_end = speed
-        flies = ws.bodies[contact.body_a].flies + ws.bodies[contact.body_b].flies > 0
+        flies = ws.bodies[contact.body_a].is_ballistic + ws.bodies[contact.body_b].is_ballistic > 0
         if flies and larger > 0.0:
-            ws.fastest_turn = max(ws.fastest_turn, own)
+            ws.island.fastest_turn = max(ws.island.fastest_turn, own)
         if lever > 0.0:
             turning = whole
             if dot(contact.spin_axis, contact.spin_axis) > 0.0:
                 across = _across(spin, _axis(ws, c))
                 turning = math.sqrt(dot(across, across))
             if flies:
-                ws.fastest_turn = max(ws.fastest_turn, turning)
+                ws.island.fastest_turn = max(ws.island.fastest_turn, turning)
             contact.speed_at_end = speed + turning * lever
             contact.offset_at_end = arm_of(ws, c)
 
@@ -183,7 +183,7 @@ def _expected_closing(ws: Workspace, c: int, du: int) -> float:
     gap, rate = contact.gap_at_end, contact.gap_rate_at_end
     one, other = _acceleration(ws, c, 0, 0, du), _acceleration(ws, c, 1, 0, du)
     square = rate * rate - 2.0 * dot(contact.normal, minus(other, one)) * gap
-    if gap <= ws.gap_tolerance or square < 0.0 or math.sqrt(square) <= rate:
+    if gap <= ws.tolerance.gap or square < 0.0 or math.sqrt(square) <= rate:
         return 1e300
     return float(2.0 * gap / (math.sqrt(square) - rate))
 
@@ -193,7 +193,7 @@ def _will_be_doubtful(ws: Workspace, c: int, h: float) -> bool:
     """Return 1 if the gap of ``c`` may close within the time ``h`` as far as the speeds at its start tell."""
     contact = ws.contacts[c]
     faces = contact.mode == OPEN and contact.past_feature_at_start <= 0.0
-    return faces and ws.guards[normal_guard(c)].end <= 2.0 * h * contact.speed_at_start
+    return faces and ws.guards[normal_guard(c)].at_end <= 2.0 * h * contact.speed_at_start
 
 
 @kernel("f8(ws, f8)")
@@ -203,11 +203,11 @@ def foresee(ws: Workspace, h: float) -> float:
     When each of them is stays with it.
     """
     soonest = 1e300
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         contact.closing_time = 1e300
         if _will_be_doubtful(ws, c, min(h, soonest)):
-            contact.closing_time = _expected_closing(ws, c, ws.offsets.slopes + ws.n_q)
+            contact.closing_time = _expected_closing(ws, c, ws.island.slopes.start + ws.model.n_q)
             soonest = min(soonest, contact.closing_time)
     return soonest
 
@@ -216,7 +216,7 @@ def foresee(ws: Workspace, h: float) -> float:
 def _flies(ws: Workspace, number: int) -> bool:
     """Return 1 if it is known without a step where a body will be."""
     body = ws.bodies[number]
-    return body.nu == 0 or body.flies == 1
+    return body.n_u == 0 or body.is_ballistic
 
 
 @kernel("f8(ws, i8)")
@@ -230,20 +230,20 @@ def _closing_of_flying(ws: Workspace, c: int) -> float:
     for _iteration in range(_CLOSINGS):
         for side in range(2):
             number = contact.body_a if side == 0 else contact.body_b
-            if ws.bodies[number].nu == 0:
-                evaluate_driven_bodies(ws, ws.t + elapsed, ws.offsets.y)
+            if ws.bodies[number].n_u == 0:
+                evaluate_driven_bodies(ws, ws.island.time + elapsed, ws.island.y.start)
             else:
-                fly(ws, elapsed, number, ws.offsets.y_stage)
-                evaluate_body(ws, ws.t + elapsed, ws.offsets.y_stage, number)
+                fly(ws, elapsed, number, ws.step.y_stage.start)
+                evaluate_body(ws, ws.island.time + elapsed, ws.step.y_stage.start, number)
         evaluate_geometry(ws, c)
         evaluate_rates(ws, c)
         rate = contact.rate[0]
         # a step that ends at the closing leaves so little of the gap
-        aim = NOUGHT * min(ws.gap_tolerance, ws.time_tolerance * abs(rate))
+        aim = NOUGHT * min(ws.tolerance.gap, ws.tolerance.time * abs(rate))
         left = contact.gap - aim
         if abs(left) <= 0.5 * aim:
             return float(elapsed)
-        if not rate < -ws.velocity_tolerance or contact.past_feature > 0.0 or not elapsed > left / rate:
+        if not rate < -ws.tolerance.velocity or contact.past_feature > 0.0 or not elapsed > left / rate:
             return 1e300
         elapsed -= left / rate
     return 1e300
@@ -256,7 +256,7 @@ def first_of_flying(ws: Workspace, soonest: float) -> float:
     The bodies do not stand at the start any more.
     """
     first = 1e300
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         fly_both = _flies(ws, contact.body_a) and _flies(ws, contact.body_b)
         if contact.closing_time <= min(ABOUT * soonest, first) and fly_both:
@@ -270,9 +270,9 @@ def keep_falls(ws: Workspace, h: float) -> None:
 
     The bodies stand there; later they would have to be put there.
     """
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         if _will_be_doubtful(ws, c, h):
-            ws.contacts[c].acceleration_bound_at_start = fall_of(ws, c, ws.offsets.slopes + ws.n_q)
+            ws.contacts[c].acceleration_bound_at_start = fall_of(ws, c, ws.island.slopes.start + ws.model.n_q)
 
 
 @kernel("b1(f8, f8, f8, f8, f8)")
@@ -293,20 +293,22 @@ def find_doubtful(ws: Workspace, h: float) -> None:
     Those whose features do not face each other at an end of the step are a list of their own.  How fast the rates of
     the others can fall there is kept, for this step and the next one.
     """
-    ws.n_doubtful = ws.n_astray = 0
-    for c in range(ws.n_contacts):
+    ws.step.n_may_close = ws.step.n_not_facing = 0
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         contact.acceleration_bound_at_end = NO_BOUND
         if contact.mode != OPEN:
             continue
-        start = 0.0 if ws.guards[normal_guard(c)].deflated == 1 else ws.guards[normal_guard(c)].first
+        start = 0.0 if ws.guards[normal_guard(c)].is_deflated else ws.guards[normal_guard(c)].initial
         way = h * (contact.speed_at_start + contact.speed_at_end)
         if too_far(start, contact.past_feature_at_start, contact.gap_at_end, contact.past_feature_at_end, way):
             continue
         if contact.past_feature_at_start > 0.0 or contact.past_feature_at_end > 0.0:
-            ws.astray[ws.n_astray] = c
-            ws.n_astray += 1
+            ws.step.not_facing[ws.step.n_not_facing] = c
+            ws.step.n_not_facing += 1
             continue
-        contact.acceleration_bound_at_end = fall_of(ws, c, ws.offsets.slopes + LAST_STAGE * ws.n_y + ws.n_q)
-        ws.doubtful[ws.n_doubtful] = c
-        ws.n_doubtful += 1
+        contact.acceleration_bound_at_end = fall_of(
+            ws, c, ws.island.slopes.start + LAST_STAGE * ws.model.n_y + ws.model.n_q
+        )
+        ws.step.may_close[ws.step.n_may_close] = c
+        ws.step.n_may_close += 1

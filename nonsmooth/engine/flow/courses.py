@@ -41,7 +41,7 @@ def _rests(ws: Workspace, number: int, frame: int) -> int:
     """Return 1 if a body has no coordinates, and a frame of it no velocity."""
     one = frame_at(ws.floats, frame)
     moves = dot(one.velocity, one.velocity) + dot(one.spin, one.spin)
-    return 1 if ws.bodies[number].nu == 0 and moves == 0.0 else 0
+    return 1 if ws.bodies[number].n_u == 0 and moves == 0.0 else 0
 
 
 @kernel("i8(ws, i8)")
@@ -60,40 +60,40 @@ def _rider(ws: Workspace, c: int) -> int:
         if _rests(ws, contact.body_b, contact.frame_b) == 0:
             return -1
     body = ws.bodies[number]
-    alone = body.closed == 1 and body.course == 0
+    alone = body.n_closed == 1 and not body.has_own_step
     # a spin along axes in space has an interpolant of its own
-    return int(number) if alone and 0 < body.nu < ws.n_u and body.spin < 0 else -1
+    return int(number) if alone and 0 < body.n_u < ws.model.n_u and body.spin < 0 else -1
 
 
 @kernel("i8(ws)")
 def _find_riders(ws: Workspace) -> int:
     """Group the contacts of the bodies that may set off, and let these alone be integrated; return how many."""
-    for number in range(ws.n_bodies):
-        ws.bodies[number].closed = 0
-    for c in range(ws.n_contacts):
+    for number in range(ws.model.n_bodies):
+        ws.bodies[number].n_closed = 0
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         if contact.mode != OPEN:
-            ws.bodies[contact.body_a].closed += 1
-            ws.bodies[contact.body_b].closed += 1
-    ws.n_integrated = ws.n_spans = 0
-    for c in range(ws.n_contacts):
+            ws.bodies[contact.body_a].n_closed += 1
+            ws.bodies[contact.body_b].n_closed += 1
+    ws.island.n_integrated = ws.island.n_spans = 0
+    for c in range(ws.island.n_contacts):
         number = _rider(ws, c)
         ws.contacts[c].is_in_problem = False
         if number >= 0:
             ws.contacts[c].is_in_problem = True
             integrate(ws, number)
-    if ws.n_integrated > 0:
+    if ws.island.n_integrated > 0:
         integrate_velocities(ws)
         group_members(ws)
-    return int(ws.n_integrated)
+    return int(ws.island.n_integrated)
 
 
 @kernel("void(ws, i8, f8, i8)")
 def _widen(ws: Workspace, i: int, value: float, anew: int) -> None:
     """Let the range of guard ``i`` reach to a value."""
     guard = ws.guards[i]
-    guard.start = value if anew == 1 else min(guard.start, value)
-    guard.end = value if anew == 1 else max(guard.end, value)
+    guard.base = value if anew == 1 else min(guard.base, value)
+    guard.at_end = value if anew == 1 else max(guard.at_end, value)
 
 
 @kernel("void(ws, i8)")
@@ -102,40 +102,40 @@ def _look_at_forces(ws: Workspace, anew: int) -> None:
 
     Its guard stays armed if at all looks it has the same features, sticks by friction, and what bears it rests.
     """
-    for i in range(ws.n_grouped):
-        c = ws.grouped[i]
+    for i in range(ws.island.n_grouped):
+        c = ws.island.grouped[i]
         contact = ws.contacts[c]
         _widen(ws, normal_guard(c), hold_guard(ws, c), anew)
         _widen(ws, friction_guard(ws, c), contact.static_margin, anew)
         normal = ws.guards[normal_guard(c)]
         if anew == 1:
-            contact.feature, normal.armed = int(contact.feature_now), 1
+            contact.feature, normal.is_armed = int(contact.feature_now), True
         is_same = contact.past_feature <= 0.0 and int(contact.feature_now) == contact.feature
         bears = _rests(ws, contact.body_a, contact.frame_a) + _rests(ws, contact.body_b, contact.frame_b)
         if not is_same or bears == 0 or not contact.is_held_by_friction:
-            normal.armed = 0
+            normal.is_armed = False
 
 
 @kernel("b1(ws, i8)")
 def _stays_far(ws: Workspace, i: int) -> bool:
     """Return 1 if a guard keeps so much of its greatest that it comes near no bound."""
     guard = ws.guards[i]
-    return guard.start > 0.0 and guard.start >= _KEPT * guard.end
+    return guard.base > 0.0 and guard.base >= _KEPT * guard.at_end
 
 
 @kernel("f8(ws, f8, f8)")
 def _step_alone(ws: Workspace, usual: float, longest: float) -> float:
     """Take a step of the bodies that may set off; return its length, or 0 where none was found."""
-    wanted = min(ws.h_course if ws.h_course > 0.0 else usual, ws.h_max)
-    h = min(wanted, longest, ws.course_end - ws.t)
+    wanted = min(ws.island.own_step if ws.island.own_step > 0.0 else usual, ws.tolerance.largest_step)
+    h = min(wanted, longest, ws.island.own_steps_end - ws.island.time)
     for _attempt in range(_ATTEMPTS):
         error = explicit_step(ws, h)
         factor = step_factor(error) if error < 1e300 else SHRINK
         if error <= 1.0:
-            ws.h_course = max(wanted, h * factor) if h < wanted else h * factor
+            ws.island.own_step = max(wanted, h * factor) if h < wanted else h * factor
             return float(h)
         h *= factor
-        ws.h_course = wanted = h
+        ws.island.own_step = wanted = h
     return 0.0
 
 
@@ -143,13 +143,13 @@ def _step_alone(ws: Workspace, usual: float, longest: float) -> float:
 def _begin(ws: Workspace, number: int, h: float) -> None:
     """Let a body be on the course that its step of ``h`` has found."""
     body = ws.bodies[number]
-    body.course, body.course_t, body.course_h = 1, ws.t, h
+    body.has_own_step, body.own_step_time, body.own_step = True, ws.island.time, h
     for part in range(2):
-        first, n = (body.q, body.nq) if part == 0 else (ws.n_q + body.u, body.nu)
+        first, n = (body.q, body.n_q) if part == 0 else (ws.model.n_q + body.u, body.n_u)
         for i in range(first, first + n):
-            ws.course_start[i] = ws.y[i]
+            ws.island.own_start[i] = ws.island.y[i]
             for stage in range(N_STAGES):
-                ws.course_slopes[stage * ws.n_y + i] = ws.slopes[stage * ws.n_y + i]
+                ws.island.own_slopes[stage * ws.model.n_y + i] = ws.island.slopes[stage * ws.model.n_y + i]
 
 
 @kernel("void(ws, f8, f8)")
@@ -158,30 +158,30 @@ def set_off(ws: Workspace, usual: float, longest: float) -> None:
 
     No course is longer than ``longest``; the first one that is tried is as long as is ``usual``.
     """
-    if ws.n_loads + ws.n_joints + ws.n_states > 0 or _find_riders(ws) == 0:
+    if ws.model.n_loads + ws.model.n_joints + ws.model.n_states > 0 or _find_riders(ws) == 0:
         return
-    stage_time = ws.stage_time
-    for i in range(ws.n_grouped):
-        ws.contacts[ws.grouped[i]].least_force = 1e300
-    slope(ws, ws.t, ws.offsets.y, ws.offsets.slopes, 0, 0)
+    stage_time = ws.island.stage_time
+    for i in range(ws.island.n_grouped):
+        ws.contacts[ws.island.grouped[i]].least_force = 1e300
+    slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, 0, 0)
     _look_at_forces(ws, 1)
     h = _step_alone(ws, usual, longest)
-    ws.stage_time = stage_time
+    ws.island.stage_time = stage_time
     if h == 0.0:
         return
     _look_at_forces(ws, 0)
-    dense_state(ws, ws.offsets.y, ws.offsets.slopes, ws.n_y, h, 0.5, ws.offsets.y_stage)
-    right_hand_side(ws, ws.t + 0.5 * h, ws.offsets.y_stage, 0, 0)
+    dense_state(ws, ws.island.y.start, ws.island.slopes.start, ws.model.n_y, h, 0.5, ws.step.y_stage.start)
+    right_hand_side(ws, ws.island.time + 0.5 * h, ws.step.y_stage.start, 0, 0)
     _look_at_forces(ws, 0)
-    for i in range(ws.n_grouped):
-        c = ws.grouped[i]
+    for i in range(ws.island.n_grouped):
+        c = ws.island.grouped[i]
         contact = ws.contacts[c]
         _widen(ws, normal_guard(c), contact.least_force, 0)
         far = _stays_far(ws, normal_guard(c)) + _stays_far(ws, friction_guard(ws, c))
-        if ws.guards[normal_guard(c)].armed == 1 and far == 2:
-            number = contact.body_b if ws.bodies[contact.body_b].nu > 0 else contact.body_a
+        if ws.guards[normal_guard(c)].is_armed and far == 2:
+            number = contact.body_b if ws.bodies[contact.body_b].n_u > 0 else contact.body_a
             _begin(ws, number, h)
-            ws.course_end = min(ws.course_end, ws.t + h)
+            ws.island.own_steps_end = min(ws.island.own_steps_end, ws.island.time + h)
 
 
 @kernel("b1(ws, i8)")
@@ -190,18 +190,18 @@ def _is_off(ws: Workspace, c: int) -> bool:
     contact = ws.contacts[c]
     if contact.mode == OPEN or contact.is_averaged:
         return False
-    rate, gap = abs(contact.rate_end[0]), abs(contact.gap_at_end)
+    rate, gap = abs(contact.velocity_at_end[0]), abs(contact.gap_at_end)
     if contact.is_compliant:
         rate = gap = 0.0
     if contact.mode == STICK:
         rate += abs(contact.slip_at_end[0]) + abs(contact.slip_at_end[1])
-    return rate > _DRIFT * ws.velocity_tolerance or gap > _DRIFT * ws.gap_tolerance
+    return rate > _DRIFT * ws.tolerance.velocity or gap > _DRIFT * ws.tolerance.gap
 
 
 @kernel("b1(ws)")
 def drifted(ws: Workspace) -> bool:
     """Return 1 if some closed contact has left its constraints by more than a part of the tolerances."""
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         if _is_off(ws, c):
             return True
     return False
@@ -210,10 +210,10 @@ def drifted(ws: Workspace) -> bool:
 @kernel("i8(ws)")
 def end_courses(ws: Workspace) -> int:
     """End all courses at their common end, and before it those that have drifted; return how many."""
-    ended, over = 0, ws.course_end - ws.t <= ws.time_tolerance
+    ended, over = 0, ws.island.own_steps_end - ws.island.time <= ws.tolerance.time
     if over:
-        ws.course_end = math.inf
-    for c in range(ws.n_contacts):
+        ws.island.own_steps_end = math.inf
+    for c in range(ws.island.n_contacts):
         if has_own_step(ws, c) == 1 and (over or _is_off(ws, c)):
             ended += end_courses_of(ws, c)
     return ended

@@ -39,18 +39,18 @@ _MOST_LOOKS = 10_000
 def _put(ws: Workspace, h: float, theta: float, c: int) -> None:
     """Put the two bodies of a contact where they are at a fraction of the step, and evaluate its geometry."""
     contact = ws.contacts[c]
-    ws.looked = 1
+    ws.step.is_evaluated = True
     for side in range(2):
         number = contact.body_a if side == 0 else contact.body_b
         body = ws.bodies[number]
-        if body.nu == 0:
-            evaluate_driven_bodies(ws, ws.t + theta * h, ws.offsets.y)
+        if body.n_u == 0:
+            evaluate_driven_bodies(ws, ws.island.time + theta * h, ws.island.y.start)
             continue
-        state = ws.offsets.y if theta == 0.0 else ws.offsets.y_new
+        state = ws.island.y.start if theta == 0.0 else ws.step.y_new.start
         if 0.0 < theta < 1.0:
-            state = ws.offsets.y_stage
+            state = ws.step.y_stage.start
             body_within(ws, h, theta, number, state)
-        evaluate_body(ws, ws.t + theta * h, state, number)
+        evaluate_body(ws, ws.island.time + theta * h, state, number)
     evaluate_geometry(ws, c)
 
 
@@ -60,7 +60,7 @@ def _largest_fall(ws: Workspace, h: float, c: int) -> float:
     contact = ws.contacts[c]
     if contact.acceleration_bound_at_start[0] < 0.0:
         _put(ws, h, 0.0, c)
-        contact.acceleration_bound_at_start = fall_of(ws, c, ws.offsets.slopes + ws.n_q)
+        contact.acceleration_bound_at_start = fall_of(ws, c, ws.island.slopes.start + ws.model.n_q)
     (first, grows_first, _), (last, grows_last, _) = (
         contact.acceleration_bound_at_start,
         contact.acceleration_bound_at_end,
@@ -73,7 +73,7 @@ def _largest_fall(ws: Workspace, h: float, c: int) -> float:
 def _above_start(ws: Workspace, c: int, gap: float) -> float:
     """Return the gap, less what it started from if that was zero."""
     guard = ws.guards[normal_guard(c)]
-    return float(gap - guard.start) if guard.deflated == 1 else gap
+    return float(gap - guard.base) if guard.is_deflated else gap
 
 
 @kernel("void(ws, i8, f8)")
@@ -104,10 +104,10 @@ def look_at_slip(ws: Workspace, h: float, theta: float, c: int) -> None:
 @kernel("void(ws, f8, f8, i8, i8)")
 def _keep(ws: Workspace, h: float, theta: float, c: int, n: int) -> None:
     """Keep end ``n`` of the parts of the step, at whose fraction ``theta`` the gap of ``c`` has been evaluated."""
-    contact, guard, end = ws.contacts[c], ws.guards[normal_guard(c)], part_end(ws.floats, ws.offsets.part_ends, n)
+    contact, guard, end = ws.contacts[c], ws.guards[normal_guard(c)], part_end(ws.floats, ws.step.part_ends.start, n)
     _write_gap_guard(ws, c, theta * h)
     if guard.value > 0.0:
-        guard.armed = 1
+        guard.is_armed = True
     end.theta, end.gap, end.rate = theta, _above_start(ws, c, contact.gap), contact.gap_rate
     end.past, end.arm = contact.past_feature, arm_of(ws, c)
 
@@ -158,8 +158,8 @@ def _first_dip(ws: Workspace, h: float, c: int, high: float, stands: int) -> flo
     """
     contact = ws.contacts[c]
     left, right, n, looks = (
-        part_end(ws.floats, ws.offsets.part_ends, 0),
-        part_end(ws.floats, ws.offsets.part_ends, 1),
+        part_end(ws.floats, ws.step.part_ends.start, 0),
+        part_end(ws.floats, ws.step.part_ends.start, 1),
         1,
         0,
     )
@@ -180,29 +180,29 @@ def _first_dip(ws: Workspace, h: float, c: int, high: float, stands: int) -> flo
     lever = min(contact.support_radius_a, contact.support_radius_b)
     turning = contact.turning_bound_at_start + contact.turning_bound_at_end if lever > 0.0 else 0.0
     while n > 0:
-        right = part_end(ws.floats, ws.offsets.part_ends, n)
+        right = part_end(ws.floats, ws.step.part_ends.start, n)
         span = right.theta - left.theta
         if (
-            not stays_open(ws.floats, ws.offsets.part_ends, n, h, speed, fall, turning, lever, ws.gap_tolerance)
+            not stays_open(ws.floats, ws.step.part_ends.start, n, h, speed, fall, turning, lever, ws.tolerance.gap)
             and n < PARTS
         ):
             gaps, rates = max(abs(left.gap), abs(right.gap)), max(abs(left.rate), abs(right.rate))
-            rests = gaps <= NEAR * ws.gap_tolerance and rates <= NEAR * ws.velocity_tolerance
+            rests = gaps <= NEAR * ws.tolerance.gap and rates <= NEAR * ws.tolerance.velocity
             # closed from the start and moving with what holds the bodies: judged as has_fired judges it
-            closed = ws.guards[normal_guard(c)].deflated == 1
-            rests = rests or (closed and rates <= NOUGHT * ws.velocity_tolerance)
+            closed = ws.guards[normal_guard(c)].is_deflated
+            rests = rests or (closed and rates <= NOUGHT * ws.tolerance.velocity)
             astray = left.past > 0.0 or right.past > 0.0
             enough = span <= _COARSE and (rests or (astray and span * h * speed <= WAY * contact.size))
-            if span * h > ws.time_tolerance and not enough:
+            if span * h > ws.tolerance.time and not enough:
                 n += 1
-                ws.gap_looks += 1
+                ws.totals.n_gap_evaluations += 1
                 looks += 1
                 if looks > _MOST_LOOKS:
-                    blame(ws, GAP_UNDECIDED, c, left.gap, ws.gap_tolerance)
+                    blame(ws, GAP_UNDECIDED, c, left.gap, ws.tolerance.gap)
                     return 0.0
                 _look(ws, h, left.theta + 0.5 * span, c, n)
                 if has_fired(ws, normal_guard(c)) == 1:
-                    return float(part_end(ws.floats, ws.offsets.part_ends, n).theta)
+                    return float(part_end(ws.floats, ws.step.part_ends.start, n).theta)
                 continue
         left.theta, left.gap, left.rate, left.past, left.arm = right.theta, right.gap, right.rate, right.past, right.arm
         n -= 1
@@ -218,14 +218,14 @@ def first_closing(ws: Workspace, h: float, high: float, asked: int) -> float:
     not asked for at an event.
     """
     found = 0.0
-    stands = 1 if ws.n_astray == 0 else 0
-    for i in range(ws.n_doubtful):
-        c = ws.doubtful[i]
-        ws.looked = 0
+    stands = 1 if ws.step.n_not_facing == 0 else 0
+    for i in range(ws.step.n_may_close):
+        c = ws.step.may_close[i]
+        ws.step.is_evaluated = False
         theta = _first_dip(ws, h, c, high, stands)
         if theta > 0.0:
             found = high = theta
             stands = 0
-        elif ws.looked == 1 and (high == 1.0 or c == asked):
+        elif ws.step.is_evaluated and (high == 1.0 or c == asked):
             _look(ws, h, high, c, 0)
     return found

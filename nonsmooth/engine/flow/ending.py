@@ -24,15 +24,15 @@ def end_features(ws: Workspace) -> int:
     So short a way, the time ``h``, is straight.  ``slopes`` must hold the slope at ``y``, and the closed contacts be
     grouped.
     """
-    ws.h = ws.time_tolerance
+    ws.step.h = ws.tolerance.time
     for _doubling in range(_DOUBLINGS + 1):
-        for i in range(ws.n_y):
-            ws.y_new[i] = ws.y[i] + ws.h * ws.slopes[i]
-        evaluate_bodies(ws, ws.t + ws.h, ws.offsets.y_new)
-        for i in range(ws.n_grouped):
-            c = ws.grouped[i]
+        for i in range(ws.model.n_y):
+            ws.step.y_new[i] = ws.island.y[i] + ws.step.h * ws.island.slopes[i]
+        evaluate_bodies(ws, ws.island.time + ws.step.h, ws.step.y_new.start)
+        for i in range(ws.island.n_grouped):
+            c = ws.island.grouped[i]
             evaluate_geometry(ws, c)
             if feature_guard(ws, ws.contacts[c]) < 0.0:
                 return c
-        ws.h *= 2.0
+        ws.step.h *= 2.0
     return -1

@@ -26,12 +26,12 @@ from nonsmooth.engine.numerics.runge_kutta import dense_part, dense_weights
 @kernel("void(ws, i8, i8)")
 def _add_span(ws: Workspace, first: int, length: int) -> None:
     """Add a part of the state to what is integrated, joined to the one before if it stands next to that."""
-    last = ws.n_spans - 1
-    if last >= 0 and ws.span_first[last] + ws.span_length[last] == first:
-        ws.span_length[last] += length
+    last = ws.island.n_spans - 1
+    if last >= 0 and ws.island.span_first[last] + ws.island.span_length[last] == first:
+        ws.island.span_length[last] += length
         return
-    ws.span_first[ws.n_spans], ws.span_length[ws.n_spans] = first, length
-    ws.n_spans += 1
+    ws.island.span_first[ws.island.n_spans], ws.island.span_length[ws.island.n_spans] = first, length
+    ws.island.n_spans += 1
 
 
 @kernel()
@@ -40,22 +40,22 @@ def choose_integrated(ws: Workspace) -> None:
 
     The closed contacts must be grouped.
     """
-    for number in range(ws.n_bodies):
+    for number in range(ws.model.n_bodies):
         body = ws.bodies[number]
-        body.flies = 1 if body.flight_function != 0 or body.course == 1 else 0
-    for i in range(ws.n_grouped):
-        contact = ws.contacts[ws.grouped[i]]
+        body.is_ballistic = body.ballistic_function != 0 or body.has_own_step
+    for i in range(ws.island.n_grouped):
+        contact = ws.contacts[ws.island.grouped[i]]
         one, two = ws.bodies[contact.body_a], ws.bodies[contact.body_b]
-        one.flies = two.flies = 0
-    ws.n_flying = ws.n_integrated = ws.n_spans = 0
-    for number in range(ws.n_bodies):
+        one.is_ballistic = two.is_ballistic = False
+    ws.island.n_ballistic = ws.island.n_integrated = ws.island.n_spans = 0
+    for number in range(ws.model.n_bodies):
         body = ws.bodies[number]
-        if body.flies == 1:
-            ws.flying[ws.n_flying] = number
-            ws.n_flying += 1
-        elif body.nu > 0:
+        if body.is_ballistic:
+            ws.island.ballistic[ws.island.n_ballistic] = number
+            ws.island.n_ballistic += 1
+        elif body.n_u > 0:
             integrate(ws, number)
-    if ws.n_integrated > 0:
+    if ws.island.n_integrated > 0:
         integrate_velocities(ws)
 
 
@@ -63,28 +63,28 @@ def choose_integrated(ws: Workspace) -> None:
 def integrate(ws: Workspace, number: int) -> None:
     """Add a body to those that are integrated, and its coordinates to the parts of the state."""
     body = ws.bodies[number]
-    ws.integrated[ws.n_integrated] = number
-    ws.n_integrated += 1
-    _add_span(ws, body.q, body.nq)
+    ws.island.integrated[ws.island.n_integrated] = number
+    ws.island.n_integrated += 1
+    _add_span(ws, body.q, body.n_q)
 
 
 @kernel()
 def integrate_velocities(ws: Workspace) -> None:
     """Add the velocities of all bodies that are integrated to these parts, and what else is."""
-    for i in range(ws.n_integrated):
-        body = ws.bodies[ws.integrated[i]]
-        _add_span(ws, ws.n_q + body.u, body.nu)
-    _add_span(ws, ws.n_q + ws.n_u, ws.n_y - ws.n_q - ws.n_u)
+    for i in range(ws.island.n_integrated):
+        body = ws.bodies[ws.island.integrated[i]]
+        _add_span(ws, ws.model.n_q + body.u, body.n_u)
+    _add_span(ws, ws.model.n_q + ws.model.n_u, ws.model.n_y - ws.model.n_q - ws.model.n_u)
 
 
 @kernel("f8(ws, i8)")
 def _power(ws: Workspace, velocities: int) -> float:
     """Return the power of the own forces of all that flies, the bodies being evaluated with these velocities [W]."""
     total = 0.0
-    for i in range(ws.n_flying):
-        body = ws.bodies[ws.flying[i]]
-        force = body.tail + body.nq
-        for j in range(body.nu):
+    for i in range(ws.island.n_ballistic):
+        body = ws.bodies[ws.island.ballistic[i]]
+        force = body.tail + body.n_q
+        for j in range(body.n_u):
             total += ws.floats[force + j] * ws.floats[velocities + body.u + j]
     return abs(total)
 
@@ -92,21 +92,35 @@ def _power(ws: Workspace, velocities: int) -> float:
 @kernel()
 def take_off(ws: Workspace) -> None:
     """Keep the power of the own forces of all that flies where a step begins, the bodies being evaluated there."""
-    ws.power_first = _power(ws, ws.offsets.y + ws.n_q)
+    ws.step.power_at_start = _power(ws, ws.island.y.start + ws.model.n_q)
 
 
 @kernel("void(ws, f8, i8, i8)")
 def _go_on(ws: Workspace, t: float, number: int, out: int) -> None:
     """Write the state of a body on its course to the state at ``out``, its quaternion of unit length, as rates ask."""
     body = ws.bodies[number]
-    theta = (t - body.course_t) / body.course_h
-    early, late = dense_weights(ws, body.course_h, theta, 0), dense_weights(ws, body.course_h, theta, 1)
-    i, j, turn = body.q, ws.n_q + body.u, out + body.q + body.quaternion
+    theta = (t - body.own_step_time) / body.own_step
+    early, late = dense_weights(ws, body.own_step, theta, 0), dense_weights(ws, body.own_step, theta, 1)
+    i, j, turn = body.q, ws.model.n_q + body.u, out + body.q + body.quaternion
     dense_part(
-        ws.floats, ws.offsets.course_start + i, ws.offsets.course_slopes + i, body.nq, ws.n_y, early, late, out + i
+        ws.floats,
+        ws.island.own_start.start + i,
+        ws.island.own_slopes.start + i,
+        body.n_q,
+        ws.model.n_y,
+        early,
+        late,
+        out + i,
     )
     dense_part(
-        ws.floats, ws.offsets.course_start + j, ws.offsets.course_slopes + j, body.nu, ws.n_y, early, late, out + j
+        ws.floats,
+        ws.island.own_start.start + j,
+        ws.island.own_slopes.start + j,
+        body.n_u,
+        ws.model.n_y,
+        early,
+        late,
+        out + j,
     )
     if body.quaternion >= 0:
         square = (
@@ -124,30 +138,30 @@ def _go_on(ws: Workspace, t: float, number: int, out: int) -> None:
 def fly(ws: Workspace, elapsed: float, number: int, out: int) -> None:
     """Write the state of one body after a time of its flight from ``y``, or on its course, to the state at ``out``."""
     body = ws.bodies[number]
-    if body.course == 1:
-        _go_on(ws, ws.t + elapsed, number, out)
+    if body.has_own_step:
+        _go_on(ws, ws.island.time + elapsed, number, out)
         return
-    found = body.flight_out
-    q, u = at(ws.floats, ws.offsets.y + body.q), at(ws.floats, ws.offsets.y + ws.n_q + body.u)
-    call_body(body.flight_function, elapsed, q, u, at(ws.floats, body.flight_parameters), at(ws.floats, found))
-    for i in range(body.nq):
+    found = body.ballistic_out
+    q, u = at(ws.floats, ws.island.y.start + body.q), at(ws.floats, ws.island.y.start + ws.model.n_q + body.u)
+    call_body(body.ballistic_function, elapsed, q, u, at(ws.floats, body.ballistic_parameters), at(ws.floats, found))
+    for i in range(body.n_q):
         ws.floats[out + body.q + i] = ws.floats[found + i]
-    for i in range(body.nu):
-        ws.floats[out + ws.n_q + body.u + i] = ws.floats[found + body.nq + i]
+    for i in range(body.n_u):
+        ws.floats[out + ws.model.n_q + body.u + i] = ws.floats[found + body.n_q + i]
 
 
 @kernel("void(ws, f8, i8)")
 def accelerate_in_flight(ws: Workspace, t: float, number: int) -> None:
     """Write the acceleration of a body that flies to ``du``; on its course it is linear in time: only bounds ask."""
     body = ws.bodies[number]
-    if body.course == 0:
+    if not body.has_own_step:
         accelerate_freely(ws, number)
         return
-    part = (t - body.course_t) / body.course_h
-    first = ws.offsets.course_slopes + ws.n_q + body.u
-    last = first + LAST_STAGE * ws.n_y
-    for j in range(body.nu):
-        ws.du[body.u + j] = ws.floats[first + j] + part * (ws.floats[last + j] - ws.floats[first + j])
+    part = (t - body.own_step_time) / body.own_step
+    first = ws.island.own_slopes.start + ws.model.n_q + body.u
+    last = first + LAST_STAGE * ws.model.n_y
+    for j in range(body.n_u):
+        ws.island.du[body.u + j] = ws.floats[first + j] + part * (ws.floats[last + j] - ws.floats[first + j])
 
 
 @kernel("f8(ws, f8)")
@@ -157,23 +171,23 @@ def land(ws: Workspace, h: float) -> float:
     Return 0, or what is not a number if that holds of a velocity.
     """
     error = 0.0
-    end = ws.offsets.slopes + LAST_STAGE * ws.n_y
-    for i in range(ws.n_flying):
-        number = ws.flying[i]
+    end = ws.island.slopes.start + LAST_STAGE * ws.model.n_y
+    for i in range(ws.island.n_ballistic):
+        number = ws.island.ballistic[i]
         body = ws.bodies[number]
-        fly(ws, h, number, ws.offsets.y_new)
-        evaluate_once(ws, ws.t + h, ws.offsets.y_new, number)
-        accelerate_in_flight(ws, ws.t + h, number)
-        for j in range(body.nq):
+        fly(ws, h, number, ws.step.y_new.start)
+        evaluate_once(ws, ws.island.time + h, ws.step.y_new.start, number)
+        accelerate_in_flight(ws, ws.island.time + h, number)
+        for j in range(body.n_q):
             ws.floats[end + body.q + j] = ws.floats[body.tail + j]
-        for j in range(body.nu):
-            ws.floats[end + ws.n_q + body.u + j] = ws.du[body.u + j]
-            error += 0.0 * ws.y_new[ws.n_q + body.u + j]
-    if ws.n_integrated == 0:
-        ws.free_t = ws.t + h
-    ws.power_end = _power(ws, ws.offsets.y_new + ws.n_q)
-    ws.exchanged_in_flight = 0.5 * h * (ws.power_first + ws.power_end)
-    ws.y_new[ws.n_q + ws.n_u + EXCHANGED] += ws.exchanged_in_flight
+        for j in range(body.n_u):
+            ws.floats[end + ws.model.n_q + body.u + j] = ws.island.du[body.u + j]
+            error += 0.0 * ws.step.y_new[ws.model.n_q + body.u + j]
+    if ws.island.n_integrated == 0:
+        ws.island.free_time = ws.island.time + h
+    ws.island.power_at_end = _power(ws, ws.step.y_new.start + ws.model.n_q)
+    ws.step.ballistic_exchange = 0.5 * h * (ws.step.power_at_start + ws.island.power_at_end)
+    ws.step.y_new[ws.model.n_q + ws.model.n_u + EXCHANGED] += ws.step.ballistic_exchange
     return error
 
 
@@ -181,13 +195,17 @@ def land(ws: Workspace, h: float) -> float:
 def body_within(ws: Workspace, h: float, theta: float, number: int, out: int) -> None:
     """Write the state of one body at a fraction of the step to the state at ``out``."""
     body = ws.bodies[number]
-    if body.flies == 1:
+    if body.is_ballistic:
         fly(ws, theta * h, number, out)
         return
-    q, u = body.q, ws.n_q + body.u
+    q, u = body.q, ws.model.n_q + body.u
     early, late = dense_weights(ws, h, theta, 0), dense_weights(ws, h, theta, 1)
-    dense_part(ws.floats, ws.offsets.y + q, ws.offsets.slopes + q, body.nq, ws.n_y, early, late, out + q)
-    dense_part(ws.floats, ws.offsets.y + u, ws.offsets.slopes + u, body.nu, ws.n_y, early, late, out + u)
+    dense_part(
+        ws.floats, ws.island.y.start + q, ws.island.slopes.start + q, body.n_q, ws.model.n_y, early, late, out + q
+    )
+    dense_part(
+        ws.floats, ws.island.y.start + u, ws.island.slopes.start + u, body.n_u, ws.model.n_y, early, late, out + u
+    )
     spin_within(ws, number, early, late, out)
 
 
@@ -195,15 +213,15 @@ def body_within(ws: Workspace, h: float, theta: float, number: int, out: int) ->
 def state_within(ws: Workspace, h: float, theta: float, out: int) -> None:
     """Write the state at a fraction of the step."""
     early, late = dense_weights(ws, h, theta, 0), dense_weights(ws, h, theta, 1)
-    for span in range(ws.n_spans):
-        i, n = ws.span_first[span], ws.span_length[span]
-        dense_part(ws.floats, ws.offsets.y + i, ws.offsets.slopes + i, n, ws.n_y, early, late, out + i)
-    for i in range(ws.n_turning):
-        spin_within(ws, ws.turning_body[i], early, late, out)
-    if ws.n_spans == 0:
-        for i in range(ws.n_q + ws.n_u, ws.n_y):
-            ws.floats[out + i] = ws.y[i]
-    if ws.n_flying > 0:
-        for i in range(ws.n_flying):
-            fly(ws, theta * h, ws.flying[i], out)
-        ws.floats[out + ws.n_q + ws.n_u + EXCHANGED] += theta * ws.exchanged_in_flight
+    for span in range(ws.island.n_spans):
+        i, n = ws.island.span_first[span], ws.island.span_length[span]
+        dense_part(ws.floats, ws.island.y.start + i, ws.island.slopes.start + i, n, ws.model.n_y, early, late, out + i)
+    for i in range(ws.island.n_spinning):
+        spin_within(ws, ws.island.spinning[i], early, late, out)
+    if ws.island.n_spans == 0:
+        for i in range(ws.model.n_q + ws.model.n_u, ws.model.n_y):
+            ws.floats[out + i] = ws.island.y[i]
+    if ws.island.n_ballistic > 0:
+        for i in range(ws.island.n_ballistic):
+            fly(ws, theta * h, ws.island.ballistic[i], out)
+        ws.floats[out + ws.model.n_q + ws.model.n_u + EXCHANGED] += theta * ws.step.ballistic_exchange

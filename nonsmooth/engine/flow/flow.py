@@ -48,26 +48,26 @@ def right_hand_side(ws: Workspace, t: float, y: int, choosing: int, every: int) 
     the stage ends with.
     """
     keeps = 1
-    ws.singular = -1
-    if every == 0 and ws.n_loads + ws.n_joints == 0:
+    ws.island.singular_contact = -1
+    if every == 0 and ws.model.n_loads + ws.model.n_joints == 0:
         # no call: most right-hand sides are of these
         evaluate_integrated_bodies(ws, t, y)
     else:
         evaluate_free_bodies(ws, t, y, every)
     free_acceleration(ws, every)
-    if ws.n_grouped == 0:
+    if ws.island.n_grouped == 0:
         return keeps
     evaluate_driven_bodies(ws, t, y)
     refresh_states(ws, y)
-    for group in range(ws.n_groups):
+    for group in range(ws.island.n_groups):
         c = lone_slip(ws, group)
         if c >= 0 and hold_lone_slip(ws, c):
             continue
         activate_group(ws, group)
-        implicit = ws.ahead > 0.0 and _slides(ws)
-        for a in range(ws.n_active):
+        implicit = ws.problem.stage_time > 0.0 and _slides(ws)
+        for a in range(ws.problem.n_active):
             active = ws.actives[a]
-            c = active.slot
+            c = active.contact
             if implicit:
                 continue
             contact = ws.contacts[c]
@@ -76,18 +76,18 @@ def right_hand_side(ws: Workspace, t: float, y: int, choosing: int, every: int) 
             if contact.is_compliant:
                 evaluate_compliant_force(ws, c)
             _set_friction(ws, a, y)
-            evaluate_bias(ws, c, 1 + 2 * active.tangent_held)
+            evaluate_bias(ws, c, 1 + 2 * active.sticks)
             write_rows(ws, a)
         if implicit:
             hold_at_end(ws)
         else:
             keeps = min(keeps, hold_contacts(ws, choosing))
-        for a in range(ws.n_active):
+        for a in range(ws.problem.n_active):
             active = ws.actives[a]
-            c = active.slot
+            c = active.contact
             contact = ws.contacts[c]
-            contact.redundant = active.redundant
-            contact.holds = active.tangent_held
+            contact.has_redundant_force = active.has_redundant_force
+            contact.is_held_by_friction = active.sticks
             if contact.mode == STICK:
                 contact.static_margin = _static_margin(ws, a)
             for r in range(3):
@@ -99,8 +99,8 @@ def right_hand_side(ws: Workspace, t: float, y: int, choosing: int, every: int) 
 def _slides(ws: Workspace) -> bool:
     """Return 1 if one of the active contacts slides, and their forces are none that are averaged."""
     slides = 0
-    for a in range(ws.n_active):
-        contact = ws.contacts[ws.actives[a].slot]
+    for a in range(ws.problem.n_active):
+        contact = ws.contacts[ws.actives[a].contact]
         if contact.is_averaged:
             return False
         if contact.mode == SLIDE:
@@ -112,47 +112,47 @@ def _slides(ws: Workspace) -> bool:
 def _static_margin(ws: Workspace, a: int) -> float:
     """Return how far the friction of an active contact is from its bound [N]; without any, its slip from one [m/s]."""
     active = ws.actives[a]
-    c = active.slot
+    c = active.contact
     contact = ws.contacts[c]
     if contact.is_averaged:
         return 1.0
-    if active.tangent_held == 0:
-        return float(ws.velocity_tolerance - length(contact.slip))
+    if not active.sticks:
+        return float(ws.tolerance.velocity - length(contact.slip))
     friction = facing_force(ws, c, active.force[1]), active.force[2]
-    slack = contact.slack * active.redundant
-    return float(active.mu_static * active.normal_force - length(friction) + slack)
+    slack = contact.slack * active.has_redundant_force
+    return float(active.static_coefficient * active.normal_force - length(friction) + slack)
 
 
 @kernel("void(ws, i8, i8)")
 def _set_friction(ws: Workspace, a: int, y: int) -> None:
     """Set what the active contact ``a`` holds, and its slip direction and friction where it slides."""
     active = ws.actives[a]
-    c = active.slot
+    c = active.contact
     contact = ws.contacts[c]
-    active.normal_held = 1
-    active.tangent_held = 0
+    active.is_normal_force_unknown = True
+    active.sticks = False
     contact.dissipated_by_spin = 0.0
     if contact.is_compliant:
-        active.normal_held = 0
+        active.is_normal_force_unknown = False
         active.normal_force = contact.compliant_force
         if contact.has_traction_law:
             rub_by_traction(ws, c, active.force, y)
             return
     elif contact.is_averaged:
-        active.normal_held = 0
+        active.is_normal_force_unknown = False
         active.normal_force = contact.mean_force[0]
     if contact.is_averaged:
         active.friction = contact.mean_force[1], contact.mean_force[2]
         return
     if contact.mode == STICK:
-        active.mu_static = friction_coefficient(ws, c, 0.0)
-        if active.mu_static > 0.0:
-            active.tangent_held = 1
+        active.static_coefficient = friction_coefficient(ws, c, 0.0)
+        if active.static_coefficient > 0.0:
+            active.sticks = True
             return
-    follow_slip(ws, a, contact.slip, ws.velocity_tolerance)
-    if active.normal_held == 0:
+    follow_slip(ws, a, contact.slip, ws.tolerance.velocity)
+    if not active.is_normal_force_unknown:
         # what pulls does not rub
-        active.mu *= 1.0 if contact.compliant_force > 0.0 else 0.0
+        active.friction_coefficient *= 1.0 if contact.compliant_force > 0.0 else 0.0
         friction_of_slip(ws, a)
 
 
@@ -193,7 +193,7 @@ def slip_guard(ws: Workspace, c: int) -> float:
     speed = length(contact.slip)
     if contact.is_compliant and slip_coefficient(ws, c, speed) == 0.0:
         return 1.0
-    if ws.stage_time > 0.0:
+    if ws.island.stage_time > 0.0:
         return speed
     return float(contact.slip[0] * contact.direction[0] + contact.slip[1] * contact.direction[1])
 
@@ -205,25 +205,25 @@ def slope(ws: Workspace, t: float, y: int, out: int, choosing: int, every: int) 
     These are of the driven bodies, lost to friction, exchanged in all by what is integrated, and of the loads.  For
     ``choosing`` and ``every`` see :func:`right_hand_side`.
     """
-    ws.evaluations += 1
+    ws.totals.n_evaluations += 1
     right_hand_side(ws, t, y, choosing, every)
     if every == 1:
-        for i in range(ws.n_flying):
-            if ws.bodies[ws.flying[i]].course == 1:
-                accelerate_in_flight(ws, t, ws.flying[i])
+        for i in range(ws.island.n_ballistic):
+            if ws.bodies[ws.island.ballistic[i]].has_own_step:
+                accelerate_in_flight(ws, t, ws.island.ballistic[i])
     lost = own = 0.0
-    for i in range(ws.n_bodies if every == 1 else ws.n_integrated):
-        body = ws.bodies[i if every == 1 else ws.integrated[i]]
-        rates, n_q, n_u = body.tail, body.nq, body.nu
-        accelerations, velocities = ws.offsets.du + body.u, ws.n_q + body.u
+    for i in range(ws.model.n_bodies if every == 1 else ws.island.n_integrated):
+        body = ws.bodies[i if every == 1 else ws.island.integrated[i]]
+        rates, n_q, n_u = body.tail, body.n_q, body.n_u
+        accelerations, velocities = ws.island.du.start + body.u, ws.model.n_q + body.u
         for j in range(n_q):
             ws.floats[out + body.q + j] = ws.floats[rates + j]
         for j in range(n_u):
             ws.floats[out + velocities + j] = ws.floats[accelerations + j]
-        if body.flies == 0:
+        if not body.is_ballistic:
             own = product(ws.floats, own, rates + n_q, y + velocities, n_u)
-    for i in range(ws.n_grouped):
-        c = ws.grouped[i]
+    for i in range(ws.island.n_grouped):
+        c = ws.island.grouped[i]
         contact = ws.contacts[c]
         sticks = contact.mode == STICK and not contact.is_averaged
         if not sticks:
@@ -233,14 +233,14 @@ def slope(ws: Workspace, t: float, y: int, out: int, choosing: int, every: int) 
         hold = hold_guard(ws, c)
         contact.least_force = min(contact.least_force, hold)
         if sticks or hold < 0.0 or slip_guard(ws, c) < 0.0:
-            ws.suspect = 1
-    powers = out + ws.n_q + ws.n_u
+            ws.step.has_doubtful_force = True
+    powers = out + ws.model.n_q + ws.model.n_u
     ws.floats[powers + DRIVEN], ws.floats[powers + FRICTION_LOSS], ws.floats[powers + LOADS] = (
-        ws.driven_power,
+        ws.step.driven_power,
         lost,
-        ws.load_power,
+        ws.step.load_power,
     )
-    ws.floats[powers + EXCHANGED] = abs(own) + abs(ws.driven_power) + abs(lost)
+    ws.floats[powers + EXCHANGED] = abs(own) + abs(ws.step.driven_power) + abs(lost)
     write_state_rates(ws, y, out)
 
 
@@ -248,10 +248,10 @@ def slope(ws: Workspace, t: float, y: int, out: int, choosing: int, every: int) 
 def hardest_pressed(ws: Workspace, sliding: int) -> int:
     """Return the closed contact of the greatest normal force, or -1; of those only that slide (1), or all (0)."""
     group_closed(ws)
-    evaluate_bodies(ws, ws.t, ws.offsets.y)
-    right_hand_side(ws, ws.t, ws.offsets.y, 0, 1)
+    evaluate_bodies(ws, ws.island.time, ws.island.y.start)
+    right_hand_side(ws, ws.island.time, ws.island.y.start, 0, 1)
     hardest, most = -1, 0.0
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         takes_part = contact.mode == SLIDE if sliding == 1 else contact.mode != OPEN
         takes_part = takes_part and has_own_step(ws, c) == 0

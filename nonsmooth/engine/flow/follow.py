@@ -34,12 +34,12 @@ _EXCESS = 1e-8
 @kernel("void(ws, i8)")
 def orient_slips(ws: Workspace, at_end: int) -> None:
     """Take the directions of slips at hand, or of those at the end of the last step (1), for the step that begins."""
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         if contact.mode == SLIDE:
             slip = contact.slip_at_end if at_end == 1 else contact.slip
             speed = length(slip)
-            if speed > ws.velocity_tolerance:
+            if speed > ws.tolerance.velocity:
                 contact.direction = slip[0] / speed, slip[1] / speed
 
 
@@ -50,10 +50,10 @@ def _turned_round(ws: Workspace) -> bool:
     A slip may turn round without an event, as where a belt pulls on.
     """
     against = 0
-    for i in range(ws.n_grouped):
-        c = ws.grouped[i]
+    for i in range(ws.island.n_grouped):
+        c = ws.island.grouped[i]
         contact = ws.contacts[c]
-        if contact.mode == SLIDE and slip_guard(ws, c) < -ws.velocity_tolerance:
+        if contact.mode == SLIDE and slip_guard(ws, c) < -ws.tolerance.velocity:
             against = 1
     orient_slips(ws, 0)
     return against != 0
@@ -66,18 +66,18 @@ def _up_to_turn(ws: Workspace) -> float:
     A slip from rest that has gone the other way has had the wrong direction; it is turned, and 0 returned.
     """
     part = 1.0
-    for i in range(ws.n_grouped):
-        c = ws.grouped[i]
+    for i in range(ws.island.n_grouped):
+        c = ws.island.grouped[i]
         contact = ws.contacts[c]
         last = slip_guard(ws, c)
-        if contact.mode != SLIDE or last >= -ws.velocity_tolerance:
+        if contact.mode != SLIDE or last >= -ws.tolerance.velocity:
             continue
-        first = ws.guards[friction_guard(ws, c)].first
-        if first > ws.velocity_tolerance:
+        first = ws.guards[friction_guard(ws, c)].initial
+        if first > ws.tolerance.velocity:
             part = min(part, max(SHRINK, first / (first - last)))
             continue
         part = 0.0
-        ws.guards[friction_guard(ws, c)].first = -first
+        ws.guards[friction_guard(ws, c)].initial = -first
         contact.direction = -contact.direction[0], -contact.direction[1]
     return part
 
@@ -87,17 +87,17 @@ def _found_step(ws: Workspace, h: float) -> float:
     """Try steps of ``h`` and less until one meets the tolerance and no slip turns within it; return it, or -1."""
     while True:
         error = try_length(ws, h)
-        if ws.stopped == 1:
+        if ws.request.is_interrupted:
             return -1.0
         part = 1.0
         if error <= 1.0:
             part = _up_to_turn(ws)
-            if part == 1.0 or h <= ws.time_tolerance:
+            if part == 1.0 or h <= ws.tolerance.time:
                 return h
-        elif not h > ws.time_tolerance:
+        elif not h > ws.tolerance.time:
             return -1.0
         if part == 0.0:
-            slope(ws, ws.t, ws.offsets.y, ws.offsets.slopes, 0, 1)
+            slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, 0, 1)
             part = 0.5
         elif part == 1.0:
             part = step_factor(error) if error < 1e300 else SHRINK
@@ -107,14 +107,14 @@ def _found_step(ws: Workspace, h: float) -> float:
 @kernel()
 def _measure_mobilities(ws: Workspace) -> None:
     """Write how fast each closed contact slips under a unit of friction, as an event does."""
-    evaluate_bodies(ws, ws.t, ws.offsets.y)
-    for group in range(ws.n_groups):
+    evaluate_bodies(ws, ws.island.time, ws.island.y.start)
+    for group in range(ws.island.n_groups):
         activate_group(ws, group)
-        for a in range(ws.n_active):
-            evaluate_contact(ws, ws.actives[a].slot, 1)
+        for a in range(ws.problem.n_active):
+            evaluate_contact(ws, ws.actives[a].contact, 1)
         assemble_delassus(ws)
-        for a in range(ws.n_active):
-            ws.contacts[ws.actives[a].slot].slip_per_force = slope_of_slip(ws, a)
+        for a in range(ws.problem.n_active):
+            ws.contacts[ws.actives[a].contact].slip_per_force = slope_of_slip(ws, a)
 
 
 @entry_point("i8(ws, f8)")
@@ -123,42 +123,42 @@ def follow(ws: Workspace, t: float) -> int:
     group_closed(ws)
     choose_integrated(ws)
     _measure_mobilities(ws)
-    wanted = ws.h_max
-    if ws.mean_until <= ws.t:
+    wanted = ws.tolerance.largest_step
+    if ws.island.averaged_until <= ws.island.time:
         renew_mean_forces(ws, 0)
-    while ws.t < t:
-        ws.stage_time, ws.follows, ws.replaced = 0.0, 0, 0
-        slope(ws, ws.t, ws.offsets.y, ws.offsets.slopes, 0, 1)
+    while ws.island.time < t:
+        ws.island.stage_time, ws.step.uses_last_slope, ws.step.has_replaced_slope = 0.0, False, False
+        slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, 0, 1)
         if _turned_round(ws):
-            slope(ws, ws.t, ws.offsets.y, ws.offsets.slopes, 0, 1)
+            slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, 0, 1)
         take_off(ws)
-        for i in range(ws.n_grouped):
-            c = ws.grouped[i]
-            ws.guards[friction_guard(ws, c)].first = slip_guard(ws, c)
+        for i in range(ws.island.n_grouped):
+            c = ws.island.grouped[i]
+            ws.guards[friction_guard(ws, c)].initial = slip_guard(ws, c)
             contact = ws.contacts[c]
-            contact.rate_end = contact.velocity
-        ws.relaxation = relaxation(ws)
-        left = t - ws.t
-        h = _found_step(ws, min(wanted, left, ws.mean_until - ws.t))
-        if h < 0.0 and ws.stopped == 0 and leap(ws, ws.time_tolerance):
-            h = ws.time_tolerance
+            contact.velocity_at_end = contact.velocity
+        ws.step.relaxation = relaxation(ws)
+        left = t - ws.island.time
+        h = _found_step(ws, min(wanted, left, ws.island.averaged_until - ws.island.time))
+        if h < 0.0 and not ws.request.is_interrupted and leap(ws, ws.tolerance.time):
+            h = ws.tolerance.time
         if h < 0.0:
-            return NOT_FINITE if ws.stopped == 1 else STEP_TOO_SMALL
-        ws.h = h
-        ws.t = t if h == left else ws.t + h
-        for i in range(ws.n_y):
-            ws.y[i] = ws.y_new[i]
+            return NOT_FINITE if ws.request.is_interrupted else STEP_TOO_SMALL
+        ws.step.h = h
+        ws.island.time = t if h == left else ws.island.time + h
+        for i in range(ws.model.n_y):
+            ws.island.y[i] = ws.step.y_new[i]
         normalise_quaternions(ws)
-        if ws.n_joints > 0:
+        if ws.model.n_joints > 0:
             project_joints(ws)
-        if ws.mean_until - ws.t <= ws.time_tolerance:
+        if ws.island.averaged_until - ws.island.time <= ws.tolerance.time:
             reach_end(ws)
             renew_mean_forces(ws, 1)
         else:
-            ws.closing_loss += project_closed(ws, 0, 0)
-        if ws.failed != RUNNING:
-            return int(ws.failed)
-        wanted = min(ws.h_max, 2.0 * h)
+            ws.totals.closing_loss += project_closed(ws, 0, 0)
+        if ws.run.failure != RUNNING:
+            return int(ws.run.failure)
+        wanted = min(ws.tolerance.largest_step, 2.0 * h)
     return RUNNING
 
 
@@ -166,8 +166,8 @@ def follow(ws: Workspace, t: float) -> int:
 def _past_bounds(ws: Workspace) -> bool:
     """Return 1 if forces that are not unique pull, or pass the bound of their friction."""
     least = largest = 0.0
-    for i in range(ws.n_grouped):
-        c = ws.grouped[i]
+    for i in range(ws.island.n_grouped):
+        c = ws.island.grouped[i]
         contact = ws.contacts[c]
         if contact.has_redundant_force:
             largest = max(largest, abs(contact.force[0]))
@@ -185,14 +185,14 @@ def evaluate_forces(ws: Workspace, choosing: int) -> None:
     with that at hand a bound is passed.
     """
     group_closed(ws)
-    ws.stage_time = 0.0
-    if choosing == 1 or ws.mean_until <= ws.t:
+    ws.island.stage_time = 0.0
+    if choosing == 1 or ws.island.averaged_until <= ws.island.time:
         renew_mean_forces(ws, 0)
-    evaluate_driven_bodies(ws, ws.t, ws.offsets.y)
-    right_hand_side(ws, ws.t, ws.offsets.y, choosing, 1)
+    evaluate_driven_bodies(ws, ws.island.time, ws.island.y.start)
+    right_hand_side(ws, ws.island.time, ws.island.y.start, choosing, 1)
     turned = _turned_round(ws)
     anew = max(choosing, _past_bounds(ws))
     if turned + anew > choosing:
-        right_hand_side(ws, ws.t, ws.offsets.y, anew, 1)
-    if ws.n_joints > 0:
+        right_hand_side(ws, ws.island.time, ws.island.y.start, anew, 1)
+    if ws.model.n_joints > 0:
         evaluate_joint_forces(ws)

@@ -20,7 +20,7 @@ from nonsmooth.engine.delassus.islands import activate_group
 from nonsmooth.engine.flow.flow import right_hand_side
 from nonsmooth.engine.flow.self_check import EXPLAINED
 from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS
-from nonsmooth.engine.memory.modes import LIFT_OFF, STICK, STICK_TO_SLIP
+from nonsmooth.engine.memory.modes import LIFT_OFF, NO_RELEASE, STICK, STICK_TO_SLIP
 from nonsmooth.engine.native.kernel import Workspace, frame_at, kernel
 from nonsmooth.engine.numerics.vectors import dot, length, minus
 
@@ -36,8 +36,8 @@ _FASTER = 3.0
 def _stretches(ws: Workspace) -> int:
     """Keep the ways of the contact points from where they were to where they are; return in how many stretches."""
     longest = 0.0
-    for i in range(ws.n_grouped):
-        contact = ws.contacts[ws.grouped[i]]
+    for i in range(ws.island.n_grouped):
+        contact = ws.contacts[ws.island.grouped[i]]
         way_a = minus(contact.point_a, contact.leap_start_a)
         way_b = minus(contact.point_b, contact.leap_start_b)
         contact.leap_a, contact.leap_b = way_a, way_b
@@ -48,10 +48,10 @@ def _stretches(ws: Workspace) -> int:
 @kernel("void(ws, f8)")
 def _set_up(ws: Workspace, part: float) -> None:
     """Put the active contacts at a ``part`` of their ways, and write what they hold, how they rub, and the rates."""
-    ws.acceleration_scale = 0.0
-    for a in range(ws.n_active):
+    ws.problem.acceleration_scale = 0.0
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        c = active.slot
+        c = active.contact
         contact = ws.contacts[c]
         (ax, ay, az), (bx, by, bz) = contact.leap_a, contact.leap_b
         contact.point_a = (
@@ -68,17 +68,17 @@ def _set_up(ws: Workspace, part: float) -> None:
         evaluate_rates(ws, c)
         evaluate_jacobian(ws, c)
         speed = length(contact.slip)
-        active.mu_static = friction_coefficient(ws, c, 0.0)
-        active.mu = slip_coefficient(ws, c, speed)
-        sticks = contact.mode == STICK and not contact.was_released
-        active.normal_held = 0 if contact.released == LIFT_OFF else 1
-        active.tangent_held = 1 if sticks and active.mu_static > 0.0 else 0
+        active.static_coefficient = friction_coefficient(ws, c, 0.0)
+        active.friction_coefficient = slip_coefficient(ws, c, speed)
+        sticks = contact.mode == STICK and contact.release == NO_RELEASE
+        active.is_normal_force_unknown = contact.release != LIFT_OFF
+        active.sticks = sticks and active.static_coefficient > 0.0
         active.direction = contact.direction
-        if speed > ws.velocity_tolerance:
+        if speed > ws.tolerance.velocity:
             active.direction = contact.slip[0] / speed, contact.slip[1] / speed
         for r in range(3):
             active.free[r] = contact.rate[r]
-            ws.acceleration_scale = max(ws.acceleration_scale, abs(contact.rate[r]))
+            ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, abs(contact.rate[r]))
     assemble_delassus(ws)
 
 
@@ -86,16 +86,16 @@ def _set_up(ws: Workspace, part: float) -> None:
 def _release(ws: Workspace) -> int:
     """Release the contacts that pull from all, and those past their static bound from sticking; return how many."""
     released = 0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        contact = ws.contacts[active.slot]
+        contact = ws.contacts[active.contact]
         faint = small_force(ws, a)
-        if active.normal_held == 1 and active.normal_force < -faint:
-            contact.released, active.normal_held, active.tangent_held = LIFT_OFF, 0, 0
+        if active.is_normal_force_unknown and active.normal_force < -faint:
+            contact.release, active.is_normal_force_unknown, active.sticks = LIFT_OFF, False, False
             released += 1
-        elif active.tangent_held == 1 and length(active.friction) > active.mu_static * active.normal_force + faint:
+        elif active.sticks and length(active.friction) > active.static_coefficient * active.normal_force + faint:
             (t1, t2), norm = active.friction, length(active.friction)
-            contact.released, active.tangent_held = STICK_TO_SLIP, 0
+            contact.release, active.sticks = STICK_TO_SLIP, False
             contact.direction = active.direction = -t1 / norm, -t2 / norm
             released += 1
     return released
@@ -108,25 +108,25 @@ def _reflect(ws: Workspace, part: float) -> None:
     What they hold of the velocities changes its sign in the middle of a stretch, at whose ends nothing is left of it.
     """
     _set_up(ws, part)
-    for _round in range(2 * ws.n_active + 1):
-        for i in range(3 * ws.n_active):
-            ws.active_forces[i] = 0.0
+    for _round in range(2 * ws.problem.n_active + 1):
+        for i in range(3 * ws.problem.n_active):
+            ws.problem.forces[i] = 0.0
         resolve(ws)
         if _release(ws) == 0:
             break
-    for i in range(3 * ws.n_active):
-        ws.active_forces[i] *= 2.0
-    add_response(ws, ws.offsets.active_forces, ws.offsets.y_new + ws.n_q)
-    powers = ws.offsets.y_new + ws.n_q + ws.n_u
-    for a in range(ws.n_active):
+    for i in range(3 * ws.problem.n_active):
+        ws.problem.forces[i] *= 2.0
+    add_response(ws, ws.problem.forces.start, ws.step.y_new.start + ws.model.n_q)
+    powers = ws.step.y_new.start + ws.model.n_q + ws.model.n_u
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        contact = ws.contacts[active.slot]
+        contact = ws.contacts[active.contact]
         for r in range(3):
             impulse = active.force[r]
             ws.floats[powers + DRIVEN] -= impulse * contact.prescribed_rate[r]
             ws.floats[powers + EXCHANGED] += abs(impulse * contact.prescribed_rate[r])
-            if r > 0 and active.tangent_held == 0:
-                lost = -impulse * 0.5 * add_product(ws, 2.0 * contact.rate[r], a, r, ws.offsets.active_forces)
+            if r > 0 and not active.sticks:
+                lost = -impulse * 0.5 * add_product(ws, 2.0 * contact.rate[r], a, r, ws.problem.forces.start)
                 ws.floats[powers + FRICTION_LOSS] += lost
                 ws.floats[powers + EXCHANGED] += abs(lost)
 
@@ -134,9 +134,9 @@ def _reflect(ws: Workspace, part: float) -> None:
 @kernel()
 def _keep_points(ws: Workspace) -> None:
     """Keep where the contact points are at ``y``."""
-    evaluate_bodies(ws, ws.t, ws.offsets.y)
-    for i in range(ws.n_grouped):
-        c = ws.grouped[i]
+    evaluate_bodies(ws, ws.island.time, ws.island.y.start)
+    for i in range(ws.island.n_grouped):
+        c = ws.island.grouped[i]
         contact = ws.contacts[c]
         evaluate_geometry(ws, c)
         contact.leap_start_a, contact.leap_start_b = contact.point_a, contact.point_b
@@ -149,8 +149,8 @@ def _runs(ws: Workspace, h: float, rate: float) -> int:
     That is by more than a gap ``rate``, the bodies being evaluated at its end.
     """
     runs = -1
-    for i in range(ws.n_grouped):
-        c = ws.grouped[i]
+    for i in range(ws.island.n_grouped):
+        c = ws.island.grouped[i]
         evaluate_geometry(ws, c)
         evaluate_rates(ws, c)
         contact = ws.contacts[c]
@@ -165,15 +165,15 @@ def _runs(ws: Workspace, h: float, rate: float) -> int:
 @kernel()
 def measure_noise(ws: Workspace) -> None:
     """Write what counts as no force behind a leap: before it, next to the flat place, forces may have had no bound."""
-    right_hand_side(ws, ws.t, ws.offsets.y, 0, 1)
+    right_hand_side(ws, ws.island.time, ws.island.y.start, 0, 1)
     largest = 0.0
-    for i in range(ws.n_grouped):
-        contact = ws.contacts[ws.grouped[i]]
+    for i in range(ws.island.n_grouped):
+        contact = ws.contacts[ws.island.grouped[i]]
         largest = max(largest, abs(contact.force[0]))
         if contact.slip_per_force > 0.0:
             largest = max(largest, abs(contact.bias[0]) / contact.slip_per_force)
-    for i in range(ws.n_grouped):
-        ws.contacts[ws.grouped[i]].force_round_off = NO_FORCE * largest
+    for i in range(ws.island.n_grouped):
+        ws.contacts[ws.island.grouped[i]].force_round_off = NO_FORCE * largest
 
 
 @kernel("b1(ws, f8)")
@@ -183,23 +183,23 @@ def leap(ws: Workspace, h: float) -> bool:
     ``slopes`` must hold the slope at ``y``, and the closed contacts be grouped.  What the impulses let go is
     ``released``, by the cause that it means.
     """
-    for i in range(ws.n_grouped):
-        contact = ws.contacts[ws.grouped[i]]
+    for i in range(ws.island.n_grouped):
+        contact = ws.contacts[ws.island.grouped[i]]
         if contact.is_compliant:
             return False
-        contact.released = 0
+        contact.release = NO_RELEASE
     _keep_points(ws)
-    for i in range(ws.n_y):
-        ws.y_new[i] = ws.y[i] + (h * ws.slopes[i] if i < ws.n_q else 0.0)
-    evaluate_bodies(ws, ws.t + h, ws.offsets.y_new)
+    for i in range(ws.model.n_y):
+        ws.step.y_new[i] = ws.island.y[i] + (h * ws.island.slopes[i] if i < ws.model.n_q else 0.0)
+    evaluate_bodies(ws, ws.island.time + h, ws.step.y_new.start)
     if _runs(ws, h, 0.0) < 0:
         return False
     n = _stretches(ws)
     for stretch in range(n):
-        for group in range(ws.n_groups):
+        for group in range(ws.island.n_groups):
             activate_group(ws, group)
             _reflect(ws, (stretch + 0.5) / n)
-        evaluate_bodies(ws, ws.t + h, ws.offsets.y_new)
+        evaluate_bodies(ws, ws.island.time + h, ws.step.y_new.start)
     return True
 
 
@@ -210,14 +210,14 @@ def passed_flat(ws: Workspace) -> int:
     Behind it they approach faster than tolerances explain of what is held: a face has fallen flat, and the other side
     of its rim is the lower one.
     """
-    approaches, explained = 0, EXPLAINED * ws.velocity_tolerance
-    for i in range(ws.n_grouped):
-        contact = ws.contacts[ws.grouped[i]]
+    approaches, explained = 0, EXPLAINED * ws.tolerance.velocity
+    for i in range(ws.island.n_grouped):
+        contact = ws.contacts[ws.island.grouped[i]]
         held = not contact.is_compliant and not contact.is_averaged and contact.past_feature_at_end <= 0.0
-        if held and contact.rate_end[0] < -explained:
+        if held and contact.velocity_at_end[0] < -explained:
             approaches = 1
     if approaches == 0:
         return -1
     _keep_points(ws)
-    evaluate_bodies(ws, ws.t + ws.h, ws.offsets.y_new)
-    return _runs(ws, ws.h, -explained)
+    evaluate_bodies(ws, ws.island.time + ws.step.h, ws.step.y_new.start)
+    return _runs(ws, ws.step.h, -explained)

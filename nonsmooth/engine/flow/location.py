@@ -79,15 +79,15 @@ _BEHIND = 1e-3
 @kernel("b1(ws)")
 def _asks_forces(ws: Workspace) -> bool:
     """Return 1 if forces are looked at within a step: an implicit one has forces where its stages end only."""
-    return ws.n_grouped > 0 and ws.stage_time == 0.0
+    return ws.island.n_grouped > 0 and ws.island.stage_time == 0.0
 
 
 @entry_point("void(ws, f8, f8, i8)")
 def guards_within(ws: Workspace, h: float, theta: float, forces: int) -> None:
     """Evaluate the motion and write the guards at the fraction ``theta`` of the step, on the interpolant."""
-    state_within(ws, h, theta, ws.offsets.y_stage)
+    state_within(ws, h, theta, ws.step.y_stage.start)
     blend_choices(ws, theta)
-    evaluate_guards(ws, ws.t + theta * h, ws.offsets.y_stage, theta * h, forces == 1)
+    evaluate_guards(ws, ws.island.time + theta * h, ws.step.y_stage.start, theta * h, forces == 1)
 
 
 @kernel("f8(ws, f8, f8, i8, i8)")
@@ -107,7 +107,7 @@ def _guard_at(ws: Workspace, h: float, theta: float, i: int, forces: int) -> flo
 def _lowest(ws: Workspace, h: float, i: int) -> float:
     """Return a fraction of the step where guard ``i`` dips below zero between its samples, or 0, by parabolas."""
     low, middle, high = 0.0, _MIDDLE, 1.0
-    g_low, g_middle, g_high = ws.guards[i].first, ws.guards[i].middle, ws.guards[i].end
+    g_low, g_middle, g_high = ws.guards[i].initial, ws.guards[i].middle, ws.guards[i].at_end
     for _iteration in range(8):
         left, right = (g_middle - g_low) / (middle - low), (g_high - g_middle) / (high - middle)
         bend = (right - left) / (high - low)
@@ -134,11 +134,11 @@ def _lowest(ws: Workspace, h: float, i: int) -> float:
 @kernel("f8(ws, f8)")
 def _force_dip(ws: Workspace, h: float) -> float:
     """Look for a dip of a normal force or a static margin between the samples."""
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         if contact.mode != OPEN:
             for i in (normal_guard(c), friction_guard(ws, c)):
-                if ws.guards[i].armed == 1 and (i == normal_guard(c) or contact.mode == STICK):
+                if ws.guards[i].is_armed and (i == normal_guard(c) or contact.mode == STICK):
                     theta = _lowest(ws, h, i)
                     if theta > 0.0:
                         return theta
@@ -149,7 +149,7 @@ def _force_dip(ws: Workspace, h: float) -> float:
 def _soonest(ws: Workspace) -> float:
     """Return after what time the first of the open gaps is closed if they go on closing as at present [s]."""
     soonest = 1e300
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         gap, rate = contact.gap, contact.gap_rate
         if contact.mode == OPEN and contact.past_feature <= 0.0 and gap > 0.0 and rate < 0.0:
@@ -165,8 +165,8 @@ def _advance(ws: Workspace, h: float) -> float:
     """
     longest = h / _SAMPLES
     least = longest
-    for i in range(ws.n_astray):
-        c = ws.astray[i]
+    for i in range(ws.step.n_not_facing):
+        c = ws.step.not_facing[i]
         contact = ws.contacts[c]
         speed = contact.speed_at_start + contact.speed_at_end
         way = min(_FARTHEST * contact.size, max(contact.gap, WAY * contact.size))
@@ -183,7 +183,7 @@ def _sampled(ws: Workspace, h: float, high: float) -> float:
     """
     theta, looks = 0.0, 0
     while theta < high:
-        ws.gap_looks += 1
+        ws.totals.n_gap_evaluations += 1
         # right at the start nothing has grown yet
         guards_within(ws, h, max(theta, _FAINT), 0)
         if theta > 0.0:
@@ -203,11 +203,11 @@ def _closed_before(ws: Workspace, h: float, theta: float, asked: int) -> float:
 
     If none has, the contact ``asked`` stands at ``theta``.
     """
-    if ws.n_astray > 0:
+    if ws.step.n_not_facing > 0:
         found = _sampled(ws, h, theta)
         if found > 0.0:
             return found
-    if ws.n_doubtful > 0:
+    if ws.step.n_may_close > 0:
         found = first_closing(ws, h, theta, asked)
         if found > 0.0:
             guards_within(ws, h, found, _asks_forces(ws))
@@ -222,7 +222,7 @@ def first_crossing(ws: Workspace, h: float) -> float:
     Called right after the step, when bodies and forces stand at its end.
     """
     closed = _asks_forces(ws)
-    write_guards(ws, ws.t + h, ws.offsets.y_new, forces_are_known=True)
+    write_guards(ws, ws.island.time + h, ws.step.y_new.start, forces_are_known=True)
     choose_at_end(ws, h)
     keep_end(ws)
     bound_speeds(ws)
@@ -230,14 +230,14 @@ def first_crossing(ws: Workspace, h: float) -> float:
     deflate(ws, h)
     fired = first_fired(ws, True, NO_GUARD)
     # where no stage saw a force or slip that violates its mode or dips, the middle is not looked at
-    suspect = ws.suspect == 1
-    for c in range(ws.n_contacts):
+    suspect = ws.step.has_doubtful_force
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         i = normal_guard(c)
-        if contact.mode != OPEN and contact.least_force < min(ws.guards[i].first, ws.guards[i].end):
+        if contact.mode != OPEN and contact.least_force < min(ws.guards[i].initial, ws.guards[i].at_end):
             suspect = True
     forces = closed if suspect else 0
-    looks = forces + ws.n_own_guards
+    looks = forces + ws.model.n_own_guards
     if looks > 0:
         guards_within(ws, h, _MIDDLE, forces)
         if first_fired(ws, forces == 1, NO_GUARD) >= 0:
@@ -252,22 +252,22 @@ def first_crossing(ws: Workspace, h: float) -> float:
             if theta > 0.0:
                 return theta
     # what has fired at the end is located first, and what closes before it searched then
-    if fired < 0 and ws.n_astray + ws.n_doubtful > 0:
-        looks += ws.n_astray
+    if fired < 0 and ws.step.n_not_facing + ws.step.n_may_close > 0:
+        looks += ws.step.n_not_facing
         theta = _closed_before(ws, h, 1.0, -1)
         if theta > 0.0:
             return theta
     blend_choices(ws, 1.0)
     if looks > 0:
-        evaluate_motion(ws, ws.t + h, ws.offsets.y_new)
+        evaluate_motion(ws, ws.island.time + h, ws.step.y_new.start)
         for i in range(number_of_guards(ws)):
-            ws.guards[i].value = ws.guards[i].end
-        for c in range(ws.n_contacts):
+            ws.guards[i].value = ws.guards[i].at_end
+        for c in range(ws.island.n_contacts):
             contact = ws.contacts[c]
             contact.gap_rate = contact.gap_rate_at_end
             contact.past_feature = contact.past_feature_at_end
         deflate(ws, h)
-    elif fired >= 0 or ws.n_doubtful == 0:
+    elif fired >= 0 or ws.step.n_may_close == 0:
         return 1.0 if fired >= 0 else 0.0
     # guards armed only within the step count as well
     return 1.0 if first_fired(ws, True, NO_GUARD) >= 0 else 0.0
@@ -292,11 +292,11 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, forces: int) -> flo
 
     Anderson-Bjorck, with Newton's step where the guard is a gap, whose rate is known.
     """
-    fine = _FINE * ws.time_tolerance
-    low, g_low = 0.0, ws.guards[i].first
+    fine = _FINE * ws.tolerance.time
+    low, g_low = 0.0, ws.guards[i].initial
     g_high = ws.guards[i].value
-    ws.guard_slope = 0.0
-    rises = ws.guards[i].first <= 0.0 or ws.guards[i].deflated == 1
+    ws.step.guard_slope = 0.0
+    rises = ws.guards[i].initial <= 0.0 or ws.guards[i].is_deflated
     while g_low <= _FAINT * abs(g_high) and (rises or is_gap(ws, i) == 1):
         # it was armed inside the step, or rises from zero with no rate: look for where it is positive
         low = 0.5 * high if low == 0.0 else 0.5 * low
@@ -306,7 +306,7 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, forces: int) -> flo
                 return low
             # it vanishes next to the start, where it was still positive
             high, g_high = low, g_low
-            low, g_low = 0.0, ws.guards[i].first
+            low, g_low = 0.0, ws.guards[i].initial
             break
     left = g_first = abs(g_low)
     theta = high - g_high * (high - low) / (g_high - g_low)
@@ -318,19 +318,19 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, forces: int) -> flo
             theta = 0.5 * (low + high)
         g = _guard_at(ws, h, theta, i, forces)
         if theta != theta_before:
-            ws.guard_slope = (g - g_before) / ((theta - theta_before) * h)
+            ws.step.guard_slope = (g - g_before) / ((theta - theta_before) * h)
         theta_before, g_before = theta, g
         if is_gap(ws, i) == 1:
-            ws.guard_slope = ws.contacts[contact_of(ws, i)].gap_rate
-            if ws.guards[i].deflated == 1:
-                ws.guard_slope = (ws.guard_slope - g) / (theta * h)
+            ws.step.guard_slope = ws.contacts[contact_of(ws, i)].gap_rate
+            if ws.guards[i].is_deflated:
+                ws.step.guard_slope = (ws.step.guard_slope - g) / (theta * h)
         # the slope across a jump says nothing of a value that is as it was at the start
-        near = abs(g) <= -fine * ws.guard_slope and (abs(g) <= _NEARER * g_first or is_gap(ws, i) == 1)
+        near = abs(g) <= -fine * ws.step.guard_slope and (abs(g) <= _NEARER * g_first or is_gap(ws, i) == 1)
         if g == 0.0 or (high - low) * h <= fine or near:
             left, span = (g, high - theta) if g > 0.0 else (left, theta - low)
-            if left <= _JUMP * g_first or span * h > ws.time_tolerance or is_gap(ws, i) == 1:
+            if left <= _JUMP * g_first or span * h > ws.tolerance.time or is_gap(ws, i) == 1:
                 return float(theta)
-            ws.guard_slope = -math.inf
+            ws.step.guard_slope = -math.inf
             if g <= 0.0:
                 return float(theta)
             guards_within(ws, h, high, forces)
@@ -345,8 +345,8 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, forces: int) -> flo
             left = g
         slow = slow + 1 if high - low > 0.5 * way else max(slow - 1, 0)
         following = high - g_high * (high - low) / (g_high - g_low)
-        if is_gap(ws, i) == 1 and ws.guard_slope < 0.0:
-            newton = theta - g / (ws.guard_slope * h)
+        if is_gap(ws, i) == 1 and ws.step.guard_slope < 0.0:
+            newton = theta - g / (ws.step.guard_slope * h)
             if low < newton < high:
                 following = newton
         theta = following
@@ -356,17 +356,17 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, forces: int) -> flo
 @kernel("f8(ws, f8, i8)")
 def _behind_jump(ws: Workspace, step: float, i: int) -> float:
     """Step to right behind the jump of guard ``i`` that the interpolant has at ``step``; return the step."""
-    ws.h = step
+    ws.step.h = step
     if not try_step(ws, step) <= TRUSTED:
         return -1.0
-    way = _FINE * ws.time_tolerance
-    while way <= EXPLAINED * ws.time_tolerance:
-        evaluate_guards(ws, ws.t + step, ws.offsets.y_new, step, True)
+    way = _FINE * ws.tolerance.time
+    while way <= EXPLAINED * ws.tolerance.time:
+        evaluate_guards(ws, ws.island.time + step, ws.step.y_new.start, step, True)
         if ws.guards[i].value < 0.0:
             return step
         # so short a way is straight
-        for j in range(ws.n_y):
-            ws.y_new[j] += way * ws.slopes[LAST_STAGE * ws.n_y + j]
+        for j in range(ws.model.n_y):
+            ws.step.y_new[j] += way * ws.island.slopes[LAST_STAGE * ws.model.n_y + j]
         step += way
         way *= 2.0
     return -1.0
@@ -375,32 +375,32 @@ def _behind_jump(ws: Workspace, step: float, i: int) -> float:
 @kernel("f8(ws, f8, i8)")
 def _corrected(ws: Workspace, root: float, i: int) -> float:
     """Step to where guard ``i`` vanishes, on the interpolant after the time ``root``; return the step."""
-    h, step = ws.h, root
+    h, step = ws.step.h, root
     # the guard is positive before the first and not after the second of these steps
     early, late = 0.0, 1e300
     # two or three do unless the guard is not smooth
     for _halving in range(PARTS):
-        ws.h = step
+        ws.step.h = step
         blend_choices(ws, step / h)
         if not try_step(ws, step) <= TRUSTED:
             return -1.0
-        write_guards(ws, ws.t + step, ws.offsets.y_new, forces_are_known=True)
+        write_guards(ws, ws.island.time + step, ws.step.y_new.start, forces_are_known=True)
         value = ws.guards[i].value
-        slope = ws.guard_slope
-        if ws.guards[i].deflated == 1:
-            value -= ws.guards[i].start
+        slope = ws.step.guard_slope
+        if ws.guards[i].is_deflated:
+            value -= ws.guards[i].base
         if is_gap(ws, i) == 1:
             slope = ws.contacts[contact_of(ws, i)].gap_rate
-        elif ws.guards[i].deflated == 1:
+        elif ws.guards[i].is_deflated:
             value /= step
         # a gap that closes slower than what counts as rest does not tell where
-        if not slope < (-ws.velocity_tolerance if is_gap(ws, i) == 1 else 0.0):
+        if not slope < (-ws.tolerance.velocity if is_gap(ws, i) == 1 else 0.0):
             return step
         correction = min(0.2 * root, max(-0.2 * root, -value / slope))
         if abs(correction) <= SHORT * h:
             # so short a way is straight
-            for j in range(ws.n_y):
-                ws.y_new[j] += correction * ws.slopes[LAST_STAGE * ws.n_y + j]
+            for j in range(ws.model.n_y):
+                ws.step.y_new[j] += correction * ws.island.slopes[LAST_STAGE * ws.model.n_y + j]
             return float(step + correction)
         if value > 0.0:
             early = step
@@ -417,12 +417,12 @@ def _corrected(ws: Workspace, root: float, i: int) -> float:
 @kernel("b1(ws, i8)")
 def _overtaken(ws: Workspace, i: int) -> bool:
     """Return 1 if a correction went past the closing of another contact than that of guard ``i``."""
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         if contact.mode == OPEN and c != contact_of(ws, i) and contact.past_feature <= 0.0:
-            start = min(0.0, ws.guards[normal_guard(c)].start)
+            start = min(0.0, ws.guards[normal_guard(c)].base)
             # what closes at one instant does to round-off
-            if contact.gap < start - NEAR * ws.gap_tolerance and contact.gap_rate < 0.0:
+            if contact.gap < start - NEAR * ws.tolerance.gap and contact.gap_rate < 0.0:
                 return True
     return False
 
@@ -455,7 +455,7 @@ def locate(ws: Workspace, h: float, high: float) -> float:
     closed = _asks_forces(ws)
     first = first_fired(ws, True, NO_GUARD)
     of_contact = 0 <= first < first_own_guard(ws)
-    if ws.stage_time > 0.0 and of_contact and ws.contacts[contact_of(ws, first)].mode != OPEN:
+    if ws.island.stage_time > 0.0 and of_contact and ws.contacts[contact_of(ws, first)].mode != OPEN:
         # explicit steps, which are short enough then, find out when
         return -1.0
     theta = high
@@ -464,29 +464,29 @@ def locate(ws: Workspace, h: float, high: float) -> float:
     while first >= 0 and roots < number_of_guards(ws):
         if closed == 1 and roots == _MOST_ROOTS:
             return -1.0
-        if closed == 1 and roots > _FEW_ROOTS and ws.guards[first].first < 0.0:
+        if closed == 1 and roots > _FEW_ROOTS and ws.guards[first].initial < 0.0:
             return -1.0
         roots += 1
         later = theta
         theta = _event_fraction(ws, h, later, first, closed)
-        if roots > 1 and ws.guard_slope == -math.inf and (later - theta) * h <= ws.time_tolerance:
+        if roots > 1 and ws.step.guard_slope == -math.inf and (later - theta) * h <= ws.tolerance.time:
             # it jumps where the one before does
             first = -1
         else:
             fired = first
             first = first_fired(ws, closed == 1, fired)
-        if first < 0 and ws.n_astray + ws.n_doubtful > 0:
+        if first < 0 and ws.step.n_not_facing + ws.step.n_may_close > 0:
             earlier = _closed_before(ws, h, theta, contact_of(ws, fired))
             if earlier > 0.0:
                 theta, first = earlier, first_fired(ws, closed == 1, NO_GUARD)
-            elif ws.n_astray > 0:
+            elif ws.step.n_not_facing > 0:
                 guards_within(ws, h, theta, closed)
     if first >= 0:
         # guards that go on firing one before the other hide what closed before them
         return -1.0
-    ws.trigger = fired
+    ws.step.guard = fired
     step = theta * h
-    if ws.guard_slope == -math.inf and _hides_another(ws, step, fired):
+    if ws.step.guard_slope == -math.inf and _hides_another(ws, step, fired):
         return -1.0
     # a gap without a rate jumps where features come to face each other: there is nothing to follow on the step
     jumps = (
@@ -494,10 +494,10 @@ def locate(ws: Workspace, h: float, high: float) -> float:
         if fired < first_own_guard(ws) and ws.contacts[contact_of(ws, fired)].mode == OPEN and is_gap(ws, fired) == 0
         else 0
     )
-    if ws.step_error <= NEGLIGIBLE or jumps == 1:
-        state_within(ws, h, theta, ws.offsets.y_new)
+    if ws.step.error <= NEGLIGIBLE or jumps == 1:
+        state_within(ws, h, theta, ws.step.y_new.start)
         return step
-    if ws.guard_slope == -math.inf:
+    if ws.step.guard_slope == -math.inf:
         return _behind_jump(ws, step, fired)
     step = _corrected(ws, step, fired)
     return -1.0 if step > 0.0 and _overtaken(ws, fired) else step

@@ -28,11 +28,11 @@ _SHORTER = 0.1
 @kernel()
 def _normalise(ws: Workspace) -> None:
     """Bring the unit quaternions in ``y_stage`` to unit length."""
-    for number in range(ws.n_bodies):
+    for number in range(ws.model.n_bodies):
         body = ws.bodies[number]
         if body.quaternion < 0:
             continue
-        q, square = ws.offsets.y_stage + body.q + body.quaternion, 0.0
+        q, square = ws.step.y_stage.start + body.q + body.quaternion, 0.0
         for i in range(4):
             square += ws.floats[q + i] * ws.floats[q + i]
         for i in range(4):
@@ -42,29 +42,29 @@ def _normalise(ws: Workspace) -> None:
 @kernel("void(ws, f8)")
 def _go_on(ws: Workspace, time: float) -> None:
     """Evaluate bodies and gaps of the active contacts where their impulses lead in a ``time``, to its second order."""
-    change, velocities = ws.offsets.y_guess + ws.n_q, ws.offsets.y_stage + ws.n_q
-    for i in range(ws.n_u):
-        ws.floats[change + i] = time * ws.du[i]
-    add_response(ws, ws.offsets.active_forces, change)
-    for i in range(ws.n_y):
-        ws.y_stage[i] = ws.y[i]
-    for i in range(ws.n_u):
+    change, velocities = ws.step.y_guess.start + ws.model.n_q, ws.step.y_stage.start + ws.model.n_q
+    for i in range(ws.model.n_u):
+        ws.floats[change + i] = time * ws.island.du[i]
+    add_response(ws, ws.problem.forces.start, change)
+    for i in range(ws.model.n_y):
+        ws.step.y_stage[i] = ws.island.y[i]
+    for i in range(ws.model.n_u):
         ws.floats[velocities + i] += 0.5 * ws.floats[change + i]
-    evaluate_free_bodies(ws, ws.t, ws.offsets.y_stage, 1)
-    for number in range(ws.n_bodies):
+    evaluate_free_bodies(ws, ws.island.time, ws.step.y_stage.start, 1)
+    for number in range(ws.model.n_bodies):
         body = ws.bodies[number]
-        for i in range(body.nq):
-            ws.y_stage[body.q + i] += time * ws.floats[body.tail + i]
+        for i in range(body.n_q):
+            ws.step.y_stage[body.q + i] += time * ws.floats[body.tail + i]
     _normalise(ws)
-    evaluate_bodies(ws, ws.t + time, ws.offsets.y_stage)
-    for a in range(ws.n_active):
-        evaluate_geometry(ws, ws.actives[a].slot)
+    evaluate_bodies(ws, ws.island.time + time, ws.step.y_stage.start)
+    for a in range(ws.problem.n_active):
+        evaluate_geometry(ws, ws.actives[a].contact)
 
 
 @kernel("f8(ws)")
 def _explained_work(ws: Workspace) -> float:
     """Return what a force that leads a gap astray may do unasked: that part of what steps explain of an energy [J]."""
-    return float(_SHARE * EXPLAINED * ws.rtol * (energy_of_bodies(ws, 0) + scale_energy(ws)))
+    return float(_SHARE * EXPLAINED * ws.tolerance.relative * (energy_of_bodies(ws, 0) + scale_energy(ws)))
 
 
 @kernel("f8(ws, i8, f8, f8, f8)")
@@ -76,7 +76,7 @@ def _astray(ws: Workspace, c: int, way: float, force: float, work: float) -> flo
     allowed = _SHARE * tolerated_gap(ws, c)
     if force * allowed > work:
         allowed = work / force
-    return float(abs(way) / max(ws.gap_tolerance, allowed))
+    return float(abs(way) / max(ws.tolerance.gap, allowed))
 
 
 @kernel("f8(ws, f8)")
@@ -86,22 +86,22 @@ def _departure(ws: Workspace, time: float) -> float:
     Only contacts that are pressed count; the others are free to open.
     """
     work = _explained_work(ws)
-    for a in range(ws.n_active):
-        ws.actives[a].gap_meant = gap_after(ws, a, time)
+    for a in range(ws.problem.n_active):
+        ws.actives[a].gap_after = gap_after(ws, a, time)
     _go_on(ws, time)
     worst = 0.0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        contact = ws.contacts[active.slot]
+        contact = ws.contacts[active.contact]
         if not contact.is_compliant and active.normal_force > 0.0 and contact.past_feature <= 0.0:
-            way, force = contact.gap - active.gap_meant, active.normal_force / time
-            part = _astray(ws, active.slot, way, force, work)
+            way, force = contact.gap - active.gap_after, active.normal_force / time
+            part = _astray(ws, active.contact, way, force, work)
             # where a gap has no number the forces do not hold
             worst = max(worst, part) if part == part else math.inf
-    evaluate_bodies(ws, ws.t, ws.offsets.y)
-    refresh_states(ws, ws.offsets.y)
-    for a in range(ws.n_active):
-        evaluate_contact(ws, ws.actives[a].slot, 3)
+    evaluate_bodies(ws, ws.island.time, ws.island.y.start)
+    refresh_states(ws, ws.island.y.start)
+    for a in range(ws.problem.n_active):
+        evaluate_contact(ws, ws.actives[a].contact, 3)
     return worst
 
 
@@ -114,10 +114,10 @@ def find_mean_forces(ws: Workspace, follows: int) -> None:
     """
     time = find_mean_impulses(ws, averaging_span(ws, follows))
     astray = _departure(ws, time)
-    while astray > _AHEAD and time > ws.time_tolerance:
+    while astray > _AHEAD and time > ws.tolerance.time:
         # the way of gaps astray grows with the third power of time where a Jacobian turns, with the second else
         part = max(_SHORTER, 0.8 * math.sqrt(_AHEAD / astray)) if astray < math.inf else _SHORTER
-        time = find_mean_impulses(ws, max(ws.time_tolerance, part * time))
+        time = find_mean_impulses(ws, max(ws.tolerance.time, part * time))
         astray = _departure(ws, time)
     take_mean_forces(ws, time)
 
@@ -126,14 +126,14 @@ def find_mean_forces(ws: Workspace, follows: int) -> None:
 def astray(ws: Workspace) -> float:
     """Return how far averaged forces lead a gap astray at most, as it stands, relative to what they may; keep which."""
     work = _explained_work(ws)
-    ws.strayed = 0.0
-    for c in range(ws.n_contacts):
+    ws.island.strayed = 0.0
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         if not contact.is_averaged or contact.is_compliant or contact.past_feature > 0.0:
             continue
         # what was left of it may close, and one that opens comes to rest
         way = abs(contact.gap - contact.mean_gap) - abs(contact.mean_gap) - contact.mean_gap_change
         part = _astray(ws, c, max(0.0, way), contact.mean_force[0], work)
-        if part > ws.strayed:
-            ws.strayed, ws.stray = part, c
-    return float(ws.strayed)
+        if part > ws.island.strayed:
+            ws.island.strayed, ws.island.stray_contact = part, c
+    return float(ws.island.strayed)

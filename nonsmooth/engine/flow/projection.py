@@ -54,43 +54,43 @@ def project_rates(ws: Workspace, at_event: int) -> float:
     correction is the damped impulse of least kinetic energy, without friction on sliding contacts.
     Returns the kinetic energy it removes [J]; the work of the driven bodies is booked.
     """
-    m = ws.n_active
+    m = ws.problem.n_active
     if m == 0:
         return 0.0
     assemble_delassus(ws)
     for a in range(m):
         active = ws.actives[a]
-        c = active.slot
+        c = active.contact
         contact = ws.contacts[c]
-        active.normal_held = 1 if not contact.is_compliant else 0
+        active.is_normal_force_unknown = not contact.is_compliant
         active.normal_force = 0.0
-        slow = max(abs(contact.rate[1]), abs(contact.rate[2])) <= ws.velocity_tolerance
+        slow = max(abs(contact.rate[1]), abs(contact.rate[2])) <= ws.tolerance.velocity
         rubs = contact.has_traction_law
-        active.tangent_held = 1 if contact.mode == STICK or (at_event == 1 and slow and not rubs) else 0
-        active.mu = 0.0
+        active.sticks = contact.mode == STICK or (at_event == 1 and slow and not rubs)
+        active.friction_coefficient = 0.0
         for r in range(3):
             active.free[r] = contact.rate[r]
     part = _DAMPING if m > 1 else 0.0
     _damp(ws, part)
     resolve(ws)
-    add_response(ws, ws.offsets.active_forces, ws.offsets.y + ws.n_q)
+    add_response(ws, ws.problem.forces.start, ws.island.y.start + ws.model.n_q)
     loss = 0.0
     for a in range(m):
         active = ws.actives[a]
-        c = active.slot
+        c = active.contact
         contact = ws.contacts[c]
         for r in range(3):
             impulse = active.force[r]
             damping = diagonal_block(ws, a).entries[4 * r] * part / (1.0 + part)
             loss -= 0.5 * impulse * (contact.rate[r] - damping * impulse)
-            ws.driven_work -= impulse * contact.prescribed_rate[r]
+            ws.totals.driven_work -= impulse * contact.prescribed_rate[r]
     return loss
 
 
 @kernel("void(ws, f8)")
 def _damp(ws: Workspace, part: float) -> None:
     """Add a part of its diagonal to the Delassus matrix of the active contacts."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         for r in range(3):
             diagonal_block(ws, a).entries[4 * r] *= 1.0 + part
 
@@ -102,30 +102,30 @@ def _add_gaps(ws: Workspace) -> bool:
     They are those of damped least squares, damped the more the nearer the gaps are to what the tolerances explain.
     Return 1, or 0 where no gap is left, or one that nothing explains.
     """
-    m = ws.n_active
+    m = ws.problem.n_active
     worst = share = 0.0
     for a in range(m):
         active = ws.actives[a]
-        c = active.slot
+        c = active.contact
         contact = ws.contacts[c]
         gap = abs(held_gap(ws, c)) if not contact.is_compliant else 0.0
         worst = max(worst, gap)
         share = max(share, gap / explained_gap(ws, c))
-    if worst <= NOUGHT * ws.gap_tolerance or share > 1.0:
+    if worst <= NOUGHT * ws.tolerance.gap or share > 1.0:
         return False
     assemble_delassus(ws)
     for a in range(m):
         active = ws.actives[a]
-        c = active.slot
+        c = active.contact
         contact = ws.contacts[c]
-        active.normal_held = 1 if not contact.is_compliant else 0
-        active.tangent_held = 0
-        active.normal_force = active.mu = 0.0
+        active.is_normal_force_unknown = not contact.is_compliant
+        active.sticks = False
+        active.normal_force = active.friction_coefficient = 0.0
         active.free[0] = held_gap(ws, c)
     if m > 1:
         _damp(ws, max(_DAMPING, (0.5 * share / _FARTHEST) ** 2))
     resolve(ws)
-    add_response(ws, ws.offsets.active_forces, ws.offsets.y_stage + ws.n_q)
+    add_response(ws, ws.problem.forces.start, ws.step.y_stage.start + ws.model.n_q)
     return True
 
 
@@ -135,44 +135,44 @@ def _stop_alone(ws: Workspace) -> float:
 
     The gap's velocity is added to ``y_stage``; return the kinetic energy that the other takes [J].
     """
-    c = ws.actives[0].slot
+    c = ws.actives[0].contact
     contact = ws.contacts[c]
     evaluate_row(ws, c, 0, contact.axis_n)
     evaluate_row_response(ws, c, 0, 0)
     own, gap, rate = coupling(ws, c, 0, c, 0), held_gap(ws, c), contact.rate[0]
     if own <= 0.0:
         return 0.0
-    if NOUGHT * ws.gap_tolerance < abs(gap) <= explained_gap(ws, c):
-        push_response(ws, c, 0, -gap / own, ws.offsets.y_stage + ws.n_q)
-    impulse, prescribed = -rate / own, rate - row(ws, c, 0, ws.free_velocities)
-    push_response(ws, c, 0, impulse, ws.offsets.y + ws.n_q)
-    ws.driven_work -= impulse * prescribed
+    if NOUGHT * ws.tolerance.gap < abs(gap) <= explained_gap(ws, c):
+        push_response(ws, c, 0, -gap / own, ws.step.y_stage.start + ws.model.n_q)
+    impulse, prescribed = -rate / own, rate - row(ws, c, 0, ws.island.velocities)
+    push_response(ws, c, 0, impulse, ws.island.y.start + ws.model.n_q)
+    ws.totals.driven_work -= impulse * prescribed
     return float(-0.5 * impulse * rate)
 
 
 @kernel("b1(ws)")
 def _slides_alone(ws: Workspace) -> bool:
     """Return 1 if the active contact is one, rigid, and slides."""
-    contact = ws.contacts[ws.actives[0].slot]
-    return ws.n_active == 1 and not contact.is_compliant and contact.mode == SLIDE
+    contact = ws.contacts[ws.actives[0].contact]
+    return ws.problem.n_active == 1 and not contact.is_compliant and contact.mode == SLIDE
 
 
 @kernel()
 def normalise_quaternions(ws: Workspace) -> None:
     """Bring every body's unit quaternion back to unit length; one that is farther off than explained fails the run."""
-    for number in range(ws.n_bodies):
+    for number in range(ws.model.n_bodies):
         body = ws.bodies[number]
         offset = body.quaternion
         if offset < 0:
             continue
-        q = ws.offsets.y + body.q + offset
+        q = ws.island.y.start + body.q + offset
         square = 0.0
         for i in range(4):
             square += ws.floats[q + i] * ws.floats[q + i]
         if abs(square - 1.0) <= _ROUND_OFF:
             continue
-        if abs(square - 1.0) > EXPLAINED * 4.0 * ws.rtol:
-            blame(ws, QUATERNION_UNEXPLAINED, number, math.sqrt(square) - 1.0, EXPLAINED * 2.0 * ws.rtol)
+        if abs(square - 1.0) > EXPLAINED * 4.0 * ws.tolerance.relative:
+            blame(ws, QUATERNION_UNEXPLAINED, number, math.sqrt(square) - 1.0, EXPLAINED * 2.0 * ws.tolerance.relative)
         factor = 1.0 / math.sqrt(square)
         for i in range(4):
             ws.floats[q + i] *= factor
@@ -181,8 +181,8 @@ def normalise_quaternions(ws: Workspace) -> None:
 @kernel("f8(ws, i8)")
 def _explained_motion(ws: Workspace, i: int) -> float:
     """Return how far a correction may move coordinate ``i``, by the tolerances of steps, gaps and event times."""
-    step = ws.rtol * (ws.y_scale[i] + abs(ws.y[i]))
-    return float(_FARTHEST * EXPLAINED * (step + ws.gap_tolerance + ws.time_tolerance * abs(ws.slopes[i])))
+    step = ws.tolerance.relative * (ws.step.y_scale[i] + abs(ws.island.y[i]))
+    return float(_FARTHEST * EXPLAINED * (step + ws.tolerance.gap + ws.tolerance.time * abs(ws.island.slopes[i])))
 
 
 @kernel("f8(ws, i8, i8)")
@@ -206,18 +206,18 @@ def _motion_by_gaps(ws: Workspace, number: int, i: int) -> float:
     witness point has moved so far.
     """
     body, total = ws.bodies[number], 0.0
-    for place in range(ws.n_grouped):
-        c = ws.grouped[place]
+    for place in range(ws.island.n_grouped):
+        c = ws.island.grouped[place]
         if ws.contacts[c].is_compliant:
             continue
-        for j in range(ws.n_y):
-            ws.y_guess[j] = ws.y[j] if j < ws.n_q else 0.0
-        push_response(ws, c, 0, 1.0, ws.offsets.y_guess + ws.n_q)
-        evaluate_body(ws, ws.t, ws.offsets.y_guess, number)
+        for j in range(ws.model.n_y):
+            ws.step.y_guess[j] = ws.island.y[j] if j < ws.model.n_q else 0.0
+        push_response(ws, c, 0, 1.0, ws.step.y_guess.start + ws.model.n_q)
+        evaluate_body(ws, ws.island.time, ws.step.y_guess.start, number)
         speed = _speed_at(ws, c, number)
         if speed > 0.0:
             total += abs(ws.floats[body.tail + i]) * explained_gap(ws, c) / speed
-    evaluate_body(ws, ws.t, ws.offsets.y_stage, number)
+    evaluate_body(ws, ws.island.time, ws.step.y_stage.start, number)
     return float(_FARTHEST * total)
 
 
@@ -225,8 +225,8 @@ def _motion_by_gaps(ws: Workspace, number: int, i: int) -> float:
 def _is_displaced(ws: Workspace, number: int) -> bool:
     """Return 1 if the velocities in ``y_stage`` move a body."""
     body = ws.bodies[number]
-    first = ws.offsets.y_stage + ws.n_q + body.u
-    for i in range(first, first + body.nu):
+    first = ws.step.y_stage.start + ws.model.n_q + body.u
+    for i in range(first, first + body.n_u):
         if ws.floats[i] != 0.0:
             return True
     return False
@@ -236,12 +236,12 @@ def _is_displaced(ws: Workspace, number: int) -> bool:
 def _displace(ws: Workspace) -> None:
     """Move the bodies by the velocities in ``y_stage`` for unit time, unless the tolerances do not explain so much."""
     # dq = B du: let the bodies turn the displacement into coordinate rates
-    for number in range(ws.n_bodies):
+    for number in range(ws.model.n_bodies):
         body = ws.bodies[number]
         if not _is_displaced(ws, number):
             continue
-        evaluate_body(ws, ws.t, ws.offsets.y_stage, number)
-        for i in range(body.nq):
+        evaluate_body(ws, ws.island.time, ws.step.y_stage.start, number)
+        for i in range(body.n_q):
             motion, most = ws.floats[body.tail + i], _explained_motion(ws, body.q + i)
             # asked only where it matters
             if abs(motion) > most:
@@ -249,11 +249,11 @@ def _displace(ws: Workspace) -> None:
             if abs(motion) > most:
                 blame(ws, MOTION_UNEXPLAINED, number, motion, most)
                 return
-    for number in range(ws.n_bodies):
+    for number in range(ws.model.n_bodies):
         body = ws.bodies[number]
         if _is_displaced(ws, number):
-            for i in range(body.nq):
-                ws.y[body.q + i] += ws.floats[body.tail + i]
+            for i in range(body.n_q):
+                ws.island.y[body.q + i] += ws.floats[body.tail + i]
     normalise_quaternions(ws)
 
 
@@ -266,39 +266,39 @@ def project_closed(ws: Workspace, at_event: int, averaged: int) -> float:
     """
     if at_event == 1:
         group_closed(ws)
-    if ws.n_grouped == 0:
+    if ws.island.n_grouped == 0:
         return 0.0
-    evaluate_bodies(ws, ws.t, ws.offsets.y)
-    for i in range(ws.n_y):
-        ws.y_stage[i] = ws.y[i] if i < ws.n_q else 0.0
+    evaluate_bodies(ws, ws.island.time, ws.island.y.start)
+    for i in range(ws.model.n_y):
+        ws.step.y_stage[i] = ws.island.y[i] if i < ws.model.n_q else 0.0
     loss = 0.0
     moved = 0
-    for group in range(ws.n_groups):
+    for group in range(ws.island.n_groups):
         activate_group(ws, group)
         if is_averaged(ws) != averaged:
             continue
         past = 0.0
-        for a in range(ws.n_active):
+        for a in range(ws.problem.n_active):
             active = ws.actives[a]
-            c = active.slot
+            c = active.contact
             contact = ws.contacts[c]
             evaluate_kinematics(ws, c)
             past = max(past, contact.past_feature)
-        if past > ws.gap_tolerance:
+        if past > ws.tolerance.gap:
             # behind the end of a feature its rate is that of another one; the event that comes drops the contact
             continue
         if at_event == 0 and _slides_alone(ws):
             loss += _stop_alone(ws)
             moved += 1
             continue
-        for a in range(ws.n_active):
-            evaluate_jacobian(ws, ws.actives[a].slot)
+        for a in range(ws.problem.n_active):
+            evaluate_jacobian(ws, ws.actives[a].contact)
         loss += project_rates(ws, at_event)
         moved += _add_gaps(ws)
     if moved > 0:
         before = energy_of_bodies(ws, 1)
         _displace(ws)
-        evaluate_free_bodies(ws, ws.t, ws.offsets.y, 1)
+        evaluate_free_bodies(ws, ws.island.time, ws.island.y.start, 1)
         if at_event == 1:
             loss += before - energy_of_bodies(ws, 1)
     return loss
@@ -309,43 +309,43 @@ def project_joints(ws: Workspace) -> None:
     """Bring residuals and rates of the joints to zero by the least motion, and evaluate the bodies there."""
     worst, before = 0.0, 1e300
     for iteration in range(_MOST_ITERATIONS):
-        evaluate_bodies(ws, ws.t, ws.offsets.y)
-        for i in range(ws.n_y):
-            ws.y_stage[i] = ws.y[i] if i < ws.n_q else 0.0
+        evaluate_bodies(ws, ws.island.time, ws.island.y.start)
+        for i in range(ws.model.n_y):
+            ws.step.y_stage[i] = ws.island.y[i] if i < ws.model.n_q else 0.0
         worst = 0.0
-        for number in range(ws.n_articulations):
+        for number in range(ws.model.n_articulations):
             residuals = ws.articulations[number].residual
-            worst = max(worst, _add_correction(ws, number, residuals, ws.offsets.y_stage + ws.n_q))
+            worst = max(worst, _add_correction(ws, number, residuals, ws.step.y_stage.start + ws.model.n_q))
         if iteration == 0 and worst > _explained_residual(ws):
             break
         # far from the origin round-off alone is more than the tolerance, and no iteration helps
-        if worst <= NOUGHT * ws.gap_tolerance or worst > 0.5 * before or iteration == _MOST_ITERATIONS - 1:
+        if worst <= NOUGHT * ws.tolerance.gap or worst > 0.5 * before or iteration == _MOST_ITERATIONS - 1:
             break
         before = worst
         _displace(ws)
-    if not worst <= EXPLAINED * ws.gap_tolerance and ws.failed == RUNNING:
-        blame(ws, JOINTS_APART, -1, worst, EXPLAINED * ws.gap_tolerance)
-    for number in range(ws.n_articulations):
-        _add_correction(ws, number, ws.articulations[number].rate, ws.offsets.y + ws.n_q)
+    if not worst <= EXPLAINED * ws.tolerance.gap and ws.run.failure == RUNNING:
+        blame(ws, JOINTS_APART, -1, worst, EXPLAINED * ws.tolerance.gap)
+    for number in range(ws.model.n_articulations):
+        _add_correction(ws, number, ws.articulations[number].rate, ws.island.y.start + ws.model.n_q)
 
 
 @kernel("f8(ws)")
 def _explained_residual(ws: Workspace) -> float:
     """Return the residual of a joint that the tolerances of steps explain [m or 1]."""
     size = 0.0
-    for i in range(ws.n_q):
-        size = max(size, ws.y_scale[i] + abs(ws.y[i]))
-    return float(max(EXPLAINED * ws.gap_tolerance, EXPLAINED * ws.rtol * size))
+    for i in range(ws.model.n_q):
+        size = max(size, ws.step.y_scale[i] + abs(ws.island.y[i]))
+    return float(max(EXPLAINED * ws.tolerance.gap, EXPLAINED * ws.tolerance.relative * size))
 
 
 @kernel("f8(ws, i8, i8, i8)")
 def _add_correction(ws: Workspace, number: int, wrong: int, out: int) -> float:
     """Subtract Y^T times what is ``wrong``, residuals or rates, from the velocities; return the largest of it."""
     articulation, worst = ws.articulations[number], 0.0
-    n, first = articulation.nu, out + articulation.u
-    for line in range(articulation.rows):
+    n, first = articulation.n_u, out + articulation.u
+    for line in range(articulation.n_rows):
         value = ws.floats[wrong + line]
         worst = max(worst, abs(value))
         for i in range(n):
-            ws.floats[first + i] -= ws.floats[articulation.y + line * n + i] * value
+            ws.floats[first + i] -= ws.floats[articulation.solved_response + line * n + i] * value
     return worst

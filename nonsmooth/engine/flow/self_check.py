@@ -32,8 +32,8 @@ _ROUND_OFF = 1e-12
 @kernel("void(ws, i8, i8, f8, f8)")
 def blame(ws: Workspace, status: int, number: int, found: float, allowed: float) -> None:
     """End the run by ``status``, with the number of the body or contact, what was found there and what is explained."""
-    if ws.failed == RUNNING:
-        ws.failed, ws.blamed, ws.found, ws.allowed = status, number, found, allowed
+    if ws.run.failure == RUNNING:
+        ws.run.failure, ws.run.failed_number, ws.run.found, ws.run.allowed = status, number, found, allowed
 
 
 @kernel("f8(ws, i8)")
@@ -58,8 +58,8 @@ def tolerated_gap(ws: Workspace, c: int) -> float:
         for i in range(3):
             far += abs(point[i]) + abs(arm[i])
         farthest = max(farthest, far)
-    late = ws.time_tolerance * abs(contact.gap_rate_at_start)
-    return float(EXPLAINED * (ws.gap_tolerance + ws.rtol * farthest + late))
+    late = ws.tolerance.time * abs(contact.gap_rate_at_start)
+    return float(EXPLAINED * (ws.tolerance.gap + ws.tolerance.relative * farthest + late))
 
 
 @kernel("f8(ws, i8)")
@@ -74,7 +74,7 @@ def explained_gap(ws: Workspace, c: int) -> float:
 def _presses(ws: Workspace, c: int) -> bool:
     """Return 1 if some contact of the same two frames as contact ``c`` is closed."""
     contact = ws.contacts[c]
-    for other in range(ws.n_contacts):
+    for other in range(ws.island.n_contacts):
         another = ws.contacts[other]
         if another.mode != OPEN and another.frame_a == contact.frame_a and another.frame_b == contact.frame_b:
             return True
@@ -89,7 +89,7 @@ def _tolerated_overlap(ws: Workspace, number: int) -> float:
     for side in range(2):
         origin = frame_at(ws.floats, pair.frame_a if side == 0 else pair.frame_b).origin
         farthest = max(farthest, abs(origin[0]) + abs(origin[1]) + abs(origin[2]))
-    return float(EXPLAINED * (ws.gap_tolerance + ws.rtol * (farthest + pair.size)))
+    return float(EXPLAINED * (ws.tolerance.gap + ws.tolerance.relative * (farthest + pair.size)))
 
 
 @kernel()
@@ -98,13 +98,13 @@ def check_gaps(ws: Workspace) -> None:
 
     Bodies that springs let into each other overlap at other features, too, as long as one contact of theirs is closed.
     """
-    if ws.n_pairs > 0:
+    if ws.model.n_pairs > 0:
         look_at_pairs(ws)
-    if ws.passed >= 0:
-        explained = ws.passed_explained + _tolerated_overlap(ws, ws.passed)
-        if ws.passed_depth > explained:
-            blame(ws, PASSED, ws.pairs[ws.passed].contact, ws.passed_depth, explained)
-    for c in range(ws.n_contacts):
+    if ws.run.passed_pair >= 0:
+        explained = ws.run.passed_allowed + _tolerated_overlap(ws, ws.run.passed_pair)
+        if ws.run.passed_depth > explained:
+            blame(ws, PASSED, ws.pairs[ws.run.passed_pair].contact, ws.run.passed_depth, explained)
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         gap = contact.gap_at_end
         if contact.mode == OPEN:
@@ -114,7 +114,7 @@ def check_gaps(ws: Workspace) -> None:
         elif contact.is_compliant or contact.past_feature > 0.0:
             continue
         # looked at closely only where it is not plainly explained
-        if abs(gap) > EXPLAINED * ws.gap_tolerance and abs(gap) > explained_gap(ws, c):
+        if abs(gap) > EXPLAINED * ws.tolerance.gap and abs(gap) > explained_gap(ws, c):
             blame(ws, GAP_UNEXPLAINED, c, gap, explained_gap(ws, c))
 
 
@@ -133,7 +133,7 @@ def _stored(ws: Workspace, c: int, depth: float) -> float:
 def _deepest_other(ws: Workspace, c: int, after: int) -> float:
     """Return the least gap of the other closed contacts of the frames of a contact, before an event or after it."""
     contact, deepest = ws.contacts[c], 0.0
-    for other in range(ws.n_contacts):
+    for other in range(ws.island.n_contacts):
         another = ws.contacts[other]
         mode = another.mode_agreed if after == 1 else another.mode
         same = another.frame_a == contact.frame_a and another.frame_b == contact.frame_b
@@ -149,20 +149,20 @@ def check_begun(ws: Workspace) -> None:
     One contact may take over from another at the depth that this has; what springs gain or lose beside that is energy
     from nowhere.  A spring that begins deeper than all others of its bodies ends the run.
     """
-    for c in range(ws.n_contacts):
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         if not contact.is_compliant or (contact.mode == OPEN) == (contact.mode_agreed == OPEN):
             continue
         if contact.mode != OPEN:
             # past its end only what takes over knows the depth
             if contact.past_feature > 0.0:
-                ws.jumped -= _stored(ws, c, -_deepest_other(ws, c, 1))
+                ws.run.jumped_energy -= _stored(ws, c, -_deepest_other(ws, c, 1))
             continue
         tolerated = explained_gap(ws, c)
         if contact.gap >= -tolerated:
             continue
-        ws.jumped += _stored(ws, c, -contact.gap)
-        ws.jump_t = ws.t
+        ws.run.jumped_energy += _stored(ws, c, -contact.gap)
+        ws.run.jump_time = ws.island.time
         explained = tolerated - _deepest_other(ws, c, 0)
         if contact.gap < -explained:
             blame(ws, GAP_UNEXPLAINED, c, contact.gap, explained)
@@ -171,27 +171,27 @@ def check_begun(ws: Workspace) -> None:
 @kernel("f8(ws)")
 def _booked(ws: Workspace) -> float:
     """Return what the account says of the energy that events gave and took so far [J]."""
-    return float(ws.driven_work - ws.restitution_loss - ws.friction_loss - ws.closing_loss)
+    return float(ws.totals.driven_work - ws.totals.restitution_loss - ws.totals.friction_loss - ws.totals.closing_loss)
 
 
 @kernel("f8(ws, i8)")
 def energy_of_bodies(ws: Workspace, which: int) -> float:
     """Return the kinetic (0) or potential (1) energy of the bodies as evaluated [J]."""
     total = 0.0
-    for number in range(ws.n_bodies):
+    for number in range(ws.model.n_bodies):
         body = ws.bodies[number]
-        n_u = body.nu
+        n_u = body.n_u
         if n_u > 0:
-            total += ws.floats[body.tail + body.nq + n_u + n_u * n_u + which]
+            total += ws.floats[body.tail + body.n_q + n_u + n_u * n_u + which]
     return total
 
 
 @kernel()
 def open_account(ws: Workspace) -> None:
     """Keep the energy and the account as they are before an event, the bodies being evaluated."""
-    ws.account_open = 1
-    ws.kinetic_before, ws.potential_before = energy_of_bodies(ws, 0), energy_of_bodies(ws, 1)
-    ws.booked_before = _booked(ws)
+    ws.island.has_energy_account = True
+    ws.island.kinetic_before, ws.island.potential_before = energy_of_bodies(ws, 0), energy_of_bodies(ws, 1)
+    ws.island.accounted_before = _booked(ws)
 
 
 @kernel()
@@ -201,41 +201,45 @@ def close_account(ws: Workspace) -> None:
     Impacts are integrated within their tolerance of the energies in them; next to none are those below round-off of the
     potential energy, or of what the run exchanged so far.
     """
-    if ws.account_open == 0:
+    if not ws.island.has_energy_account:
         return
-    ws.account_open = 0
+    ws.island.has_energy_account = False
     kinetic, potential = energy_of_bodies(ws, 0), energy_of_bodies(ws, 1)
-    booked = _booked(ws) - ws.booked_before
-    change = kinetic - ws.kinetic_before + (potential - ws.potential_before)
-    exchanged = abs(ws.y[ws.n_q + ws.n_u + EXCHANGED])
-    explained = EXPLAINED * ws.impact_rtol * (ws.kinetic_before + kinetic + abs(booked))
-    explained += _ROUND_OFF * (exchanged + abs(potential) + abs(ws.potential_before))
+    booked = _booked(ws) - ws.island.accounted_before
+    change = kinetic - ws.island.kinetic_before + (potential - ws.island.potential_before)
+    exchanged = abs(ws.island.y[ws.model.n_q + ws.model.n_u + EXCHANGED])
+    explained = EXPLAINED * ws.tolerance.impact * (ws.island.kinetic_before + kinetic + abs(booked))
+    explained += _ROUND_OFF * (exchanged + abs(potential) + abs(ws.island.potential_before))
     share = abs(change - booked) / explained if explained > 0.0 else 0.0
-    if share > ws.open_share:
-        ws.open_share, ws.open_energy, ws.open_t = share, change - booked, ws.t
+    if share > ws.run.worst_energy_ratio:
+        ws.run.worst_energy_ratio, ws.run.worst_energy, ws.run.worst_energy_time = (
+            share,
+            change - booked,
+            ws.island.time,
+        )
 
 
 @kernel("f8(ws)")
 def scale_energy(ws: Workspace) -> float:
     """Return the kinetic energy of velocities as large as their scales, the bodies being evaluated [J]."""
     total = 0.0
-    for number in range(ws.n_bodies):
+    for number in range(ws.model.n_bodies):
         body = ws.bodies[number]
-        masses, scales = body.tail + body.nq + body.nu, ws.offsets.y_scale + ws.n_q + body.u
-        for i in range(body.nu):
-            total += 0.5 * ws.floats[masses + i * (body.nu + 1)] * ws.floats[scales + i] ** 2
+        masses, scales = body.tail + body.n_q + body.n_u, ws.step.y_scale.start + ws.model.n_q + body.u
+        for i in range(body.n_u):
+            total += 0.5 * ws.floats[masses + i * (body.n_u + 1)] * ws.floats[scales + i] ** 2
     return total
 
 
 @kernel()
 def check_end(ws: Workspace) -> None:
     """Look at the state in which the run ends as at one in which a step begins."""
-    evaluate_bodies(ws, ws.t, ws.offsets.y)
-    for c in range(ws.n_contacts):
+    evaluate_bodies(ws, ws.island.time, ws.island.y.start)
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         evaluate_geometry(ws, c)
         contact.gap_at_end, contact.overlap_at_end = contact.gap, contact.overlap
     book_mean_forces(ws)
-    ws.scale_energy = scale_energy(ws)
+    ws.run.energy_scale = scale_energy(ws)
     close_account(ws)
     check_gaps(ws)

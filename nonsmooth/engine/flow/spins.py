@@ -39,7 +39,7 @@ def _turn(w: Floats, q: int, v: int, way: float, out: int) -> None:
 @kernel("i8(ws, i8)")
 def _slopes(ws: Workspace, number: int) -> int:
     """Return where the slopes in space of one body's spin stand, those of one stage behind those of another."""
-    return int(ws.offsets.spin_slopes + 3 * N_STAGES * number)
+    return int(ws.island.spin_slopes.start + 3 * N_STAGES * number)
 
 
 @kernel("b1(F, i8, i8)")
@@ -53,15 +53,15 @@ def _turns(w: Floats, spin: int, rate: int) -> bool:
 @kernel()
 def choose_spins(ws: Workspace) -> None:
     """List the bodies whose spin turns from where the step begins: it is integrated along axes in space."""
-    ws.n_turning = 0
-    for i in range(ws.n_integrated):
-        number = ws.integrated[i]
+    ws.island.n_spinning = 0
+    for i in range(ws.island.n_integrated):
+        number = ws.island.integrated[i]
         body = ws.bodies[number]
-        u = ws.n_q + body.u + body.spin
-        body.turns = _turns(ws.floats, ws.offsets.y + u, ws.offsets.slopes + u) if body.spin >= 0 else 0
-        if body.turns == 1:
-            ws.turning_body[ws.n_turning] = number
-            ws.n_turning += 1
+        u = ws.model.n_q + body.u + body.spin
+        body.spins_apart = _turns(ws.floats, ws.island.y.start + u, ws.island.slopes.start + u) if body.spin >= 0 else 0
+        if body.spins_apart:
+            ws.island.spinning[ws.island.n_spinning] = number
+            ws.island.n_spinning += 1
 
 
 @kernel("void(ws, i8, i8)")
@@ -70,17 +70,17 @@ def keep_spins(ws: Workspace, stage: int, state: int) -> None:
 
     Those of its quaternions become what they are at the length that these had.
     """
-    for i in range(ws.n_turning):
-        number = ws.turning_body[i]
+    for i in range(ws.island.n_spinning):
+        number = ws.island.spinning[i]
         body = ws.bodies[number]
-        q, u = body.q + body.quaternion, ws.n_q + body.u + body.spin
-        slope = ws.offsets.slopes + stage * ws.n_y
+        q, u = body.q + body.quaternion, ws.model.n_q + body.u + body.spin
+        slope = ws.island.slopes.start + stage * ws.model.n_y
         _turn(ws.floats, state + q, slope + u, _TO_SPACE, _slopes(ws, number) + 3 * stage)
         if stage == 0:
-            _turn(ws.floats, state + q, state + u, _TO_SPACE, ws.offsets.spin_start + 3 * number)
+            _turn(ws.floats, state + q, state + u, _TO_SPACE, ws.island.spin_start.start + 3 * number)
         elif stage < LAST_STAGE:
             for j in range(4):
-                ws.floats[slope + q + j] *= ws.quaternion_length[number]
+                ws.floats[slope + q + j] *= ws.island.quaternion_length[number]
 
 
 @kernel("void(ws, i8, f8, i8)")
@@ -90,11 +90,21 @@ def stage_spins(ws: Workspace, stage: int, h: float, out: int) -> None:
     They are brought to unit length where the step does not end: as long as they are the body would spin faster by
     their square.
     """
-    for i in range(ws.n_turning):
-        number = ws.turning_body[i]
+    for i in range(ws.island.n_spinning):
+        number = ws.island.spinning[i]
         body = ws.bodies[number]
-        q, u = out + body.q + body.quaternion, out + ws.n_q + body.u + body.spin
-        stage_part(ws, ws.offsets.stages, ws.offsets.spin_start + 3 * number, _slopes(ws, number), 3, 3, stage, h, u)
+        q, u = out + body.q + body.quaternion, out + ws.model.n_q + body.u + body.spin
+        stage_part(
+            ws,
+            ws.coefficients.stages.start,
+            ws.island.spin_start.start + 3 * number,
+            _slopes(ws, number),
+            3,
+            3,
+            stage,
+            h,
+            u,
+        )
         _turn(ws.floats, q, u, _TO_BODY, u)
         if stage < LAST_STAGE:
             square = (
@@ -104,7 +114,7 @@ def stage_spins(ws: Workspace, stage: int, h: float, out: int) -> None:
                 + ws.floats[q + 3] * ws.floats[q + 3]
             )
             size = math.sqrt(square)
-            ws.quaternion_length[number] = size
+            ws.island.quaternion_length[number] = size
             factor = 1.0 / size
             for j in range(4):
                 ws.floats[q + j] *= factor
@@ -113,12 +123,12 @@ def stage_spins(ws: Workspace, stage: int, h: float, out: int) -> None:
 @kernel("void(ws, f8, i8)")
 def weigh_spins(ws: Workspace, h: float, out: int) -> None:
     """Write the errors of the spins in a step of ``h`` to ``out``, along the bodies where the step ends."""
-    for i in range(ws.n_turning):
-        number = ws.turning_body[i]
+    for i in range(ws.island.n_spinning):
+        number = ws.island.spinning[i]
         body = ws.bodies[number]
-        u = out + ws.n_q + body.u + body.spin
-        weigh_part(ws, ws.offsets.error_weights, _slopes(ws, number), 3, 3, h, u)
-        _turn(ws.floats, ws.offsets.y_new + body.q + body.quaternion, u, _TO_BODY, u)
+        u = out + ws.model.n_q + body.u + body.spin
+        weigh_part(ws, ws.coefficients.error_weights.start, _slopes(ws, number), 3, 3, h, u)
+        _turn(ws.floats, ws.step.y_new.start + body.q + body.quaternion, u, _TO_BODY, u)
 
 
 @kernel("void(ws, i8, v3, v3, i8)")
@@ -128,8 +138,8 @@ def spin_within(ws: Workspace, number: int, early: Vector, late: Vector, out: in
     An implicit step has its interpolant along the bodies.
     """
     body = ws.bodies[number]
-    if body.turns == 0 or ws.stage_time > 0.0:
+    if not body.spins_apart or ws.island.stage_time > 0.0:
         return
-    u = out + ws.n_q + body.u + body.spin
-    dense_part(ws.floats, ws.offsets.spin_start + 3 * number, _slopes(ws, number), 3, 3, early, late, u)
+    u = out + ws.model.n_q + body.u + body.spin
+    dense_part(ws.floats, ws.island.spin_start.start + 3 * number, _slopes(ws, number), 3, 3, early, late, u)
     _turn(ws.floats, out + body.q + body.quaternion, u, _TO_BODY, u)

@@ -42,8 +42,8 @@ _SHARE = tableau.NODES[1] / tableau.NODES[2]
 def _worst_error(ws: Workspace, first: int, end: int, worst: float) -> float:
     """Return the largest error of some components relative to the tolerance, or ``worst`` if that is larger."""
     for i in range(first, end):
-        explained = ws.rtol * (ws.y_scale[i] + max(abs(ws.y[i]), abs(ws.y_new[i])))
-        error = abs(ws.y_stage[i])
+        explained = ws.tolerance.relative * (ws.step.y_scale[i] + max(abs(ws.island.y[i]), abs(ws.step.y_new[i])))
+        error = abs(ws.step.y_stage[i])
         # few of them are divided
         if error > worst * explained or error != error:
             worst = error / explained
@@ -53,12 +53,12 @@ def _worst_error(ws: Workspace, first: int, end: int, worst: float) -> float:
 @kernel("f8(ws)")
 def _relative_error(ws: Workspace) -> float:
     """Return the largest of the errors in ``y_stage`` relative to the tolerance, of what is integrated."""
-    n, worst = ws.n_y, 0.0
-    for span in range(ws.n_spans):
-        first = ws.span_first[span]
-        worst = _worst_error(ws, first, min(first + ws.span_length[span], ws.n_q + ws.n_u), worst)
-    if ws.n_states > 0:
-        worst = _worst_error(ws, ws.n_q + ws.n_u + N_ACCOUNTS, n, worst)
+    n, worst = ws.model.n_y, 0.0
+    for span in range(ws.island.n_spans):
+        first = ws.island.span_first[span]
+        worst = _worst_error(ws, first, min(first + ws.island.span_length[span], ws.model.n_q + ws.model.n_u), worst)
+    if ws.model.n_states > 0:
+        worst = _worst_error(ws, ws.model.n_q + ws.model.n_u + N_ACCOUNTS, n, worst)
     return worst
 
 
@@ -70,13 +70,17 @@ def _unseen(ws: Workspace, h: float) -> float:
     out of a contact, would count for nothing.  Its own error is of the order (L h)^3 where that of the step is of the
     order (L h)^5.
     """
-    first = ws.offsets.slopes + ws.n_q
-    second, third = first + ws.n_y, first + 2 * ws.n_y
-    y_scale, y, y_new = ws.offsets.y_scale + ws.n_q, ws.offsets.y + ws.n_q, ws.offsets.y_new + ws.n_q
-    worst, rtol = 0.0, math.sqrt(ws.rtol)
-    for number in range(ws.n_integrated):
-        body = ws.bodies[ws.integrated[number]]
-        for i in range(body.u, body.u + body.nu):
+    first = ws.island.slopes.start + ws.model.n_q
+    second, third = first + ws.model.n_y, first + 2 * ws.model.n_y
+    y_scale, y, y_new = (
+        ws.step.y_scale.start + ws.model.n_q,
+        ws.island.y.start + ws.model.n_q,
+        ws.step.y_new.start + ws.model.n_q,
+    )
+    worst, rtol = 0.0, math.sqrt(ws.tolerance.relative)
+    for number in range(ws.island.n_integrated):
+        body = ws.bodies[ws.island.integrated[number]]
+        for i in range(body.u, body.u + body.n_u):
             change = h * abs(
                 ws.floats[second + i] - (1.0 - _SHARE) * ws.floats[first + i] - _SHARE * ws.floats[third + i]
             )
@@ -93,22 +97,22 @@ def relaxation(ws: Workspace) -> float:
     For that some closed contact must slide, and all must be rigid.
     """
     fastest = 0.0
-    for i in range(ws.n_grouped):
-        c = ws.grouped[i]
+    for i in range(ws.island.n_grouped):
+        c = ws.island.grouped[i]
         contact = ws.contacts[c]
         if contact.is_compliant:
             return 0.0
         if contact.mode == SLIDE and not contact.is_averaged:
             friction, speed = length((contact.force[1], contact.force[2])), length(contact.slip_at_end)
-            fastest = max(fastest, contact.slip_per_force * friction / max(speed, _SLOWEST * ws.velocity_tolerance))
+            fastest = max(fastest, contact.slip_per_force * friction / max(speed, _SLOWEST * ws.tolerance.velocity))
     return fastest
 
 
 @kernel("b1(ws)")
 def _holds(ws: Workspace) -> bool:
     """Return 1 if no force of a closed contact violates its mode: when it begins to is for explicit steps to find."""
-    for i in range(ws.n_grouped):
-        c = ws.grouped[i]
+    for i in range(ws.island.n_grouped):
+        c = ws.island.grouped[i]
         if is_violated(ws, c):
             return False
     return True
@@ -117,12 +121,23 @@ def _holds(ws: Workspace) -> bool:
 @kernel("void(ws, f8, i8, i8)")
 def _predict_stage(ws: Workspace, h: float, stage: int, out: int) -> None:
     """Write the state at which a stage is looked for first to ``out``, and the slope that leads there to its place."""
-    n = ws.n_y
-    here = ws.offsets.slopes + stage * n
-    stage_state(ws, ws.offsets.implicit_stages, ws.offsets.y, ws.offsets.slopes, n, stage, h, ws.offsets.y_guess)
-    stage_state(ws, ws.offsets.implicit_predictor, ws.offsets.y, ws.offsets.slopes, n, stage, h, out)
+    n = ws.model.n_y
+    here = ws.island.slopes.start + stage * n
+    stage_state(
+        ws,
+        ws.coefficients.implicit_stages.start,
+        ws.island.y.start,
+        ws.island.slopes.start,
+        n,
+        stage,
+        h,
+        ws.step.y_guess.start,
+    )
+    stage_state(
+        ws, ws.coefficients.implicit_predictor.start, ws.island.y.start, ws.island.slopes.start, n, stage, h, out
+    )
     for i in range(n):
-        ws.floats[here + i] = (ws.floats[out + i] - ws.y_guess[i]) / ws.stage_time
+        ws.floats[here + i] = (ws.floats[out + i] - ws.step.y_guess[i]) / ws.island.stage_time
 
 
 @kernel("i8(ws, f8, i8)")
@@ -132,26 +147,26 @@ def _solve_stage(ws: Workspace, h: float, stage: int) -> int:
     Friction of slips, which is stiff, is solved for; all else is iterated, until what would be left if it fell on as
     it fell last is small.
     """
-    n = ws.n_y
-    out = ws.offsets.y_new if stage == LAST_STAGE else ws.offsets.y_stage
-    here = ws.offsets.slopes + stage * n
+    n = ws.model.n_y
+    out = ws.step.y_new.start if stage == LAST_STAGE else ws.step.y_stage.start
+    here = ws.island.slopes.start + stage * n
     _predict_stage(ws, h, stage, out)
-    ws.unsettled = 0
+    ws.problem.is_unsettled = False
     before = 0.0
     for _iteration in range(implicit_tableau.ITERATIONS):
         for i in range(n):
-            ws.y_guess[i] = ws.floats[here + i]
-        ws.ahead, ws.guess = ws.stage_time, ws.offsets.y_guess + ws.n_q
-        slope(ws, ws.t + implicit_tableau.NODES[stage] * h, out, here, 0, 0)
-        ws.ahead = 0.0
-        if ws.unsettled == 1:
+            ws.step.y_guess[i] = ws.floats[here + i]
+        ws.problem.stage_time, ws.problem.guess = ws.island.stage_time, ws.step.y_guess.start + ws.model.n_q
+        slope(ws, ws.island.time + implicit_tableau.NODES[stage] * h, out, here, 0, 0)
+        ws.problem.stage_time = 0.0
+        if ws.problem.is_unsettled:
             return 0
         worst = 0.0
         for i in range(n):
-            change = ws.stage_time * (ws.floats[here + i] - ws.y_guess[i])
+            change = ws.island.stage_time * (ws.floats[here + i] - ws.step.y_guess[i])
             ws.floats[out + i] += change
-            if i < ws.n_q + ws.n_u:
-                worst = max(worst, abs(change) / (ws.rtol * (ws.y_scale[i] + abs(ws.y[i]))))
+            if i < ws.model.n_q + ws.model.n_u:
+                worst = max(worst, abs(change) / (ws.tolerance.relative * (ws.step.y_scale[i] + abs(ws.island.y[i]))))
         # where the step ends what was evaluated is to be that of its end
         left = worst * worst / (before - worst) if before > worst and stage < LAST_STAGE else worst
         if left <= implicit_tableau.SETTLED:
@@ -163,13 +178,13 @@ def _solve_stage(ws: Workspace, h: float, stage: int) -> int:
 @kernel("b1(ws)")
 def _settle(ws: Workspace) -> bool:
     """Write the slope at the start with friction against the slip that a stage makes of it; return 1 if it is found."""
-    for i in range(ws.n_y):
-        ws.y_guess[i] = 0.0
-    ws.unsettled = 0
-    ws.ahead, ws.guess = ws.stage_time, ws.offsets.y_guess + ws.n_q
-    slope(ws, ws.t, ws.offsets.y, ws.offsets.slopes + ws.n_y, 0, 0)
-    ws.ahead = 0.0
-    return False if ws.unsettled == 1 else _holds(ws)
+    for i in range(ws.model.n_y):
+        ws.step.y_guess[i] = 0.0
+    ws.problem.is_unsettled = False
+    ws.problem.stage_time, ws.problem.guess = ws.island.stage_time, ws.step.y_guess.start + ws.model.n_q
+    slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start + ws.model.n_y, 0, 0)
+    ws.problem.stage_time = 0.0
+    return False if ws.problem.is_unsettled else _holds(ws)
 
 
 @kernel("f8(ws, f8)")
@@ -179,59 +194,73 @@ def _try_implicit_step(ws: Workspace, h: float) -> float:
     Leaves slopes from which the dense output of the explicit step makes the interpolant of this one.  Where no implicit
     step went before the slip may not have settled, and the slope on which it will takes the place of that at the start.
     """
-    n = ws.n_y
-    ws.stage_time = implicit_tableau.DIAGONAL * h
+    n = ws.model.n_y
+    ws.island.stage_time = implicit_tableau.DIAGONAL * h
     for i in range(n):
-        ws.slopes[n + i] = ws.slopes[i]
-    if ws.follows == 0 and not _settle(ws):
+        ws.island.slopes[n + i] = ws.island.slopes[i]
+    if not ws.step.uses_last_slope and not _settle(ws):
         return math.inf
     for stage in range(2, N_STAGES):
         if _solve_stage(ws, h, stage) == 0:
             return math.inf
-    weigh_slopes(ws, ws.offsets.implicit_errors, ws.offsets.slopes, n, h, ws.offsets.y_stage)
+    weigh_slopes(ws, ws.coefficients.implicit_errors.start, ws.island.slopes.start, n, h, ws.step.y_stage.start)
     error = _relative_error(ws)
-    ws.replaced = 1
+    ws.step.has_replaced_slope = True
     for i in range(n):
-        ws.slope_kept[i], ws.slopes[i] = ws.slopes[i], ws.slopes[n + i]
-    write_implicit_interpolant(ws, ws.offsets.y, ws.offsets.y_new, ws.offsets.slopes, n, h, ws.offsets.y_stage)
+        ws.step.first_slope[i], ws.island.slopes[i] = ws.island.slopes[i], ws.island.slopes[n + i]
+    write_implicit_interpolant(
+        ws, ws.island.y.start, ws.step.y_new.start, ws.island.slopes.start, n, h, ws.step.y_stage.start
+    )
     return error
 
 
 @kernel("f8(ws, f8)")
 def explicit_step(ws: Workspace, h: float) -> float:
     """Take one explicit step of ``h`` of what is integrated; return its relative error."""
-    n = ws.n_y
-    ws.stage_time = 0.0
+    n = ws.model.n_y
+    ws.island.stage_time = 0.0
     choose_spins(ws)
-    if ws.n_integrated == 0:
-        for i in range(ws.n_q + ws.n_u, n):
-            ws.y_new[i] = ws.y[i]
-            ws.slopes[LAST_STAGE * n + i] = 0.0
+    if ws.island.n_integrated == 0:
+        for i in range(ws.model.n_q + ws.model.n_u, n):
+            ws.step.y_new[i] = ws.island.y[i]
+            ws.island.slopes[LAST_STAGE * n + i] = 0.0
         return 0.0
-    keep_spins(ws, 0, ws.offsets.y)
+    keep_spins(ws, 0, ws.island.y.start)
     for stage in range(1, N_STAGES):
-        out = ws.offsets.y_new if stage == LAST_STAGE else ws.offsets.y_stage
-        for span in range(ws.n_spans):
-            i, length = ws.span_first[span], ws.span_length[span]
-            stage_part(ws, ws.offsets.stages, ws.offsets.y + i, ws.offsets.slopes + i, length, n, stage, h, out + i)
+        out = ws.step.y_new.start if stage == LAST_STAGE else ws.step.y_stage.start
+        for span in range(ws.island.n_spans):
+            i, length = ws.island.span_first[span], ws.island.span_length[span]
+            stage_part(
+                ws,
+                ws.coefficients.stages.start,
+                ws.island.y.start + i,
+                ws.island.slopes.start + i,
+                length,
+                n,
+                stage,
+                h,
+                out + i,
+            )
         stage_spins(ws, stage, h, out)
-        slope(ws, ws.t + tableau.NODES[stage] * h, out, ws.offsets.slopes + stage * n, 0, 0)
+        slope(ws, ws.island.time + tableau.NODES[stage] * h, out, ws.island.slopes.start + stage * n, 0, 0)
         keep_spins(ws, stage, out)
-    for span in range(ws.n_spans):
-        i, length = ws.span_first[span], ws.span_length[span]
-        weigh_part(ws, ws.offsets.error_weights, ws.offsets.slopes + i, length, n, h, ws.offsets.y_stage + i)
-    weigh_spins(ws, h, ws.offsets.y_stage)
+    for span in range(ws.island.n_spans):
+        i, length = ws.island.span_first[span], ws.island.span_length[span]
+        weigh_part(
+            ws, ws.coefficients.error_weights.start, ws.island.slopes.start + i, length, n, h, ws.step.y_stage.start + i
+        )
+    weigh_spins(ws, h, ws.step.y_stage.start)
     return max(_relative_error(ws), _unseen(ws, h))
 
 
 @kernel("f8(ws, f8)")
 def _integrated(ws: Workspace, h: float) -> float:
     """Take one step of ``h`` of what is integrated; return its relative error."""
-    if ws.stage_time > 0.0:
+    if ws.island.stage_time > 0.0:
         error = _try_implicit_step(ws, h)
         return error if error < math.inf else explicit_step(ws, h)
     error = explicit_step(ws, h)
-    if error > 1.0 and h * ws.relaxation > STIFF:
+    if error > 1.0 and h * ws.step.relaxation > STIFF:
         implicit = _try_implicit_step(ws, h)
         return implicit if implicit < math.inf else explicit_step(ws, h)
     return error
@@ -245,21 +274,21 @@ def try_step(ws: Workspace, h: float) -> float:
     slope at ``y`` first; its last entry becomes the slope at ``y_new``.  A force or slip that violates its mode at some
     stage raises ``suspect``.
     """
-    ws.suspect = 0
-    if ws.replaced == 1:
-        ws.replaced = 0
-        for i in range(ws.n_y):
-            ws.slopes[i] = ws.slope_kept[i]
-    for c in range(ws.n_contacts):
+    ws.step.has_doubtful_force = False
+    if ws.step.has_replaced_slope:
+        ws.step.has_replaced_slope = False
+        for i in range(ws.model.n_y):
+            ws.island.slopes[i] = ws.step.first_slope[i]
+    for c in range(ws.island.n_contacts):
         ws.contacts[c].least_force = 1e300
     error = _integrated(ws, h)
     # where nobody trusts the step, it is not asked where the others are
-    return error + land(ws, h) if ws.n_flying > 0 and error <= TRUSTED else error
+    return error + land(ws, h) if ws.island.n_ballistic > 0 and error <= TRUSTED else error
 
 
 @kernel("f8(ws, f8)")
 def try_length(ws: Workspace, h: float) -> float:
     """Take one step of ``h``, implicit where an explicit one does not do; return its relative error."""
-    if h * ws.relaxation <= STIFF:
-        ws.stage_time = 0.0
+    if h * ws.step.relaxation <= STIFF:
+        ws.island.stage_time = 0.0
     return float(try_step(ws, h))

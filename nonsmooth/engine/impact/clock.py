@@ -19,16 +19,16 @@ def change_clock(ws: Workspace) -> bool:
     """
     acting = 0
     last = -1
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         if active.phase != IDLE:
             acting += 1
             last = a
-    n = STRIDE * ws.n_active
-    if ws.lone < 0:
-        if acting != 1 or ws.may_be_lone == 0:
+    n = STRIDE * ws.problem.n_active
+    if ws.impact.lone_contact < 0:
+        if acting != 1 or not ws.impact.may_be_lone:
             return False
-        phase, state = ws.actives[last].phase, impact_state(ws.floats, ws.offsets.impact_y, last)
+        phase, state = ws.actives[last].phase, impact_state(ws.floats, ws.impact.y.start, last)
         if phase == HELD:
             return False
         if phase == EXPANSION and not state.energy > state.lost:
@@ -36,38 +36,46 @@ def change_clock(ws: Workspace) -> bool:
             # force has given all of it back long before the deformation, which ends the phase on the common clock
             return False
         for i in range(n):
-            ws.impact_kept[i] = ws.impact_y[i]
+            ws.impact.y_kept[i] = ws.impact.y[i]
         _keep_phases(ws)
-        ws.lone = last
+        ws.impact.lone_contact = last
         prepare_guards(ws)
         return True
-    if acting == 0 or (acting == 1 and last == ws.lone):
+    if acting == 0 or (acting == 1 and last == ws.impact.lone_contact):
         return False
     for i in range(n):
-        ws.impact_y[i] = ws.impact_kept[i]
-    ws.lone = -1
-    ws.may_be_lone = 0
+        ws.impact.y[i] = ws.impact.y_kept[i]
+    ws.impact.lone_contact = -1
+    ws.impact.may_be_lone = False
     _restore_phases(ws)
     return True
 
 
 @kernel()
 def _keep_phases(ws: Workspace) -> None:
-    ws.phases_kept = ws.phases
-    for a in range(ws.n_active):
+    ws.impact.phases_kept = ws.event.n_phases
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        active.phase_kept, active.held_kept = active.phase, active.tangent_held
-        active.stored_kept, active.returned_kept, active.booked_kept = active.stored, active.returned, active.booked
-        active.direction_kept = ws.contacts[active.slot].direction
+        active.phase_kept, active.sticking_kept = active.phase, active.sticks
+        active.stored_kept, active.returned_kept, active.accounted_kept = (
+            active.energy_stored,
+            active.energy_returned,
+            active.work_accounted,
+        )
+        active.direction_kept = ws.contacts[active.contact].direction
 
 
 @kernel()
 def _restore_phases(ws: Workspace) -> None:
-    ws.phases = ws.phases_kept
-    for a in range(ws.n_active):
+    ws.event.n_phases = ws.impact.phases_kept
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        contact = ws.contacts[active.slot]
-        active.phase, active.tangent_held = active.phase_kept, active.held_kept
-        active.stored, active.returned, active.booked = active.stored_kept, active.returned_kept, active.booked_kept
+        contact = ws.contacts[active.contact]
+        active.phase, active.sticks = active.phase_kept, active.sticking_kept
+        active.energy_stored, active.energy_returned, active.work_accounted = (
+            active.stored_kept,
+            active.returned_kept,
+            active.accounted_kept,
+        )
         contact.direction = active.direction_kept
     prepare_guards(ws)

@@ -24,29 +24,29 @@ _NEGLIGIBLE_APPROACH = 1e-3
 def account(ws: Workspace, a: int) -> None:
     """Book the work of the phase that ends at the active contact ``a``, or of the part of it so far."""
     active = ws.actives[a]
-    state = impact_state(ws.floats, ws.offsets.impact_y, a)
-    done = state.work - active.booked
+    state = impact_state(ws.floats, ws.impact.y.start, a)
+    done = state.work - active.work_accounted
     if active.phase == COMPRESSION:
-        active.stored -= done
+        active.energy_stored -= done
     else:
-        active.returned += done
-    active.booked = state.work
+        active.energy_returned += done
+    active.work_accounted = state.work
 
 
 @kernel("void(ws, i8)")
 def empty(ws: Workspace, a: int) -> None:
     """Take the energy that is left of the active contact ``a``."""
-    state = impact_state(ws.floats, ws.offsets.impact_y, a)
+    state = impact_state(ws.floats, ws.impact.y.start, a)
     state.deformation = state.energy = state.lost = 0.0
 
 
 @kernel("b1(ws)")
 def finished(ws: Workspace) -> bool:
     """Return 1 if no contact is loaded: compressions that have not come to anything, and do not, are none."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        begins = a == ws.lone or impact_state(ws.floats, ws.offsets.impact_y, a).deformation > 0.0
-        comes = begins or active.gap_rate < -NOISE * ws.speed_scale
+        begins = a == ws.impact.lone_contact or impact_state(ws.floats, ws.impact.y.start, a).deformation > 0.0
+        comes = begins or active.gap_rate < -NOISE * ws.impact.speed_scale
         if active.phase == EXPANSION or (active.phase == COMPRESSION and comes):
             return False
     return True
@@ -63,33 +63,33 @@ def _trapped(ws: Workspace) -> bool:
     of the forces gives back, the square of it in parts of what is stored.
     """
     brought = 0.0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         brought = max(brought, ws.actives[a].energy_scale)
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         loaded = active.phase == COMPRESSION or active.phase == EXPANSION
-        still = max(REST * math.sqrt(brought * diagonal_block(ws, a).nn), ws.slow_speed)
+        still = max(REST * math.sqrt(brought * diagonal_block(ws, a).nn), ws.event.slow_speed)
         if loaded and abs(active.gap_rate) > still:
             return False
     size = left = stored = 0.0
     lightest = math.inf
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         if active.phase != IDLE:
-            stored += impact_state(ws.floats, ws.offsets.impact_y, a).energy
+            stored += impact_state(ws.floats, ws.impact.y.start, a).energy
         lightest = min(lightest, 0.5 / diagonal_block(ws, a).nn)
         for r in range(3):
             total = total_size = 0.0
             for block in range(active.first_block, active.end_block):
-                force = ws.actives[ws.block_column[block]].force
+                force = ws.actives[ws.island.block_column[block]].force
                 for s in range(3):
-                    part = ws.delassus[DELASSUS * block + 3 * r + s] * force[s]
+                    part = ws.island.delassus[DELASSUS * block + 3 * r + s] * force[s]
                     total += part
                     total_size += abs(part)
             size, left = max(size, total_size), max(left, abs(total))
-    if left < max(SINGULAR, ws.impact_rtol) * size:
+    if left < max(SINGULAR, ws.tolerance.impact) * size:
         return True
-    little = left * left * stored < size * size * lightest * ws.slow_speed * ws.slow_speed
+    little = left * left * stored < size * size * lightest * ws.event.slow_speed * ws.event.slow_speed
     return little and left < _LOCKED * size
 
 
@@ -98,27 +98,27 @@ def end_trapped(ws: Workspace) -> bool:
     """End the phases of contacts that are trapped, if they are (1); what they have stored is lost to restitution."""
     if not _trapped(ws):
         return False
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         if active.phase == COMPRESSION or active.phase == EXPANSION:
             account(ws, a)
             active.phase = IDLE
-            active.tangent_held = 0
+            active.sticks = False
             empty(ws, a)
-            ws.phases += 1
+            ws.event.n_phases += 1
     return True
 
 
 @kernel("b1(ws)")
 def faded(ws: Workspace) -> bool:
     """Return 1 if what is left of the impact, stored or about to be, is below the tolerance, or too slow to bounce."""
-    small = max(ws.impact_rtol, 1e-11)
+    small = max(ws.tolerance.impact, 1e-11)
     # behind the impact, what is within the tolerance of velocities is no approach
-    slowest = max(ws.slow_speed, ws.velocity_tolerance)
-    slow = max(slowest, small * ws.speed_scale)
-    for a in range(ws.n_active):
+    slowest = max(ws.event.slow_speed, ws.tolerance.velocity)
+    slow = max(slowest, small * ws.impact.speed_scale)
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        state = impact_state(ws.floats, ws.offsets.impact_y, a)
+        state = impact_state(ws.floats, ws.impact.y.start, a)
         stored = state.energy if active.phase != IDLE else 0.0
         least = max(small * small * active.energy_scale, 0.5 * slowest * slowest / diagonal_block(ws, a).nn)
         if active.gap_rate < -slow or stored > least:
@@ -131,11 +131,11 @@ def faded(ws: Workspace) -> bool:
 @kernel()
 def cut_short(ws: Workspace) -> None:
     """End a cascade of ever smaller compressions; what still approaches is for the instant to stop."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         account(ws, a)
         active.phase = IDLE
-        active.tangent_held = 0
+        active.sticks = False
         empty(ws, a)
     ws.event.truncation = Truncation.SLOW
 
@@ -143,14 +143,14 @@ def cut_short(ws: Workspace) -> None:
 @kernel()
 def finish(ws: Workspace) -> None:
     """Hand over the impulses and the energies."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        state = impact_state(ws.floats, ws.offsets.impact_y, a)
+        state = impact_state(ws.floats, ws.impact.y.start, a)
         for r in range(3):
             active.impulse[r] = state.impulse[r]
         account(ws, a)
-        active.rubbed = state.rubbed
-    evaluate_impact_rates(ws, ws.offsets.impact_y)
+        active.energy_dissipated = state.rubbed
+    evaluate_impact_rates(ws, ws.impact.y.start)
 
 
 @kernel("i8(ws)")

@@ -29,35 +29,37 @@ def _stop_slips(ws: Workspace) -> None:
 
     What is left there is round-off, but its direction would stiffen the slip that starts from it.
     """
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        active.normal_held = 0
-        active.tangent_held = active.at_rest
-        active.normal_force = active.mu = 0.0
+        active.is_normal_force_unknown = False
+        active.sticks = active.is_at_rest
+        active.normal_force = active.friction_coefficient = 0.0
         for r in range(3):
             active.free[r] = active.rate[r]
     resolve(ws)
-    for a in range(ws.n_active):
-        active, state = ws.actives[a], impact_state(ws.floats, ws.offsets.impact_y, a)
+    for a in range(ws.problem.n_active):
+        active, state = ws.actives[a], impact_state(ws.floats, ws.impact.y.start, a)
         for r in range(1, 3):
             state.impulse[r] += active.force[r]
-    evaluate_impact_rates(ws, ws.offsets.impact_y)
+    evaluate_impact_rates(ws, ws.impact.y.start)
 
 
 @kernel()
 def _polish(ws: Workspace) -> None:
     """Make the directions of slips that start exact: next to the bound they decide whether and where these go."""
-    ws.acceleration_scale = 0.0
-    for a in range(ws.n_active):
+    ws.problem.acceleration_scale = 0.0
+    for a in range(ws.problem.n_active):
         active, own = ws.actives[a], diagonal_block(ws, a)
-        active.given = 1 if active.phase == COMPRESSION or active.phase == EXPANSION else 0
-        active.mode_tried = STICK if active.tangent_held == 1 else SLIDE
+        active.has_given_force = active.phase == COMPRESSION or active.phase == EXPANSION
+        active.mode_tried = STICK if active.sticks else SLIDE
         if active.normal_force <= 0.0:
             active.mode_tried = OPEN
         active.direction_found = active.direction
-        ws.acceleration_scale = max(ws.acceleration_scale, max(own.nn, own.t11, own.t22) * abs(active.normal_force))
+        ws.problem.acceleration_scale = max(
+            ws.problem.acceleration_scale, max(own.nn, own.t11, own.t22) * abs(active.normal_force)
+        )
     if polish(ws) == 0:
-        for a in range(ws.n_active):
+        for a in range(ws.problem.n_active):
             active = ws.actives[a]
             active.direction = active.direction_found
         hold_tried(ws)
@@ -70,18 +72,18 @@ def _hold_idle(ws: Workspace) -> None:
     Where several contacts share their friction at will, some stand on their bounds by chance.
     """
     largest = 0.0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         largest = max(largest, diagonal_block(ws, a).nn * active.normal_force)
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        if active.at_rest == 1 and active.tangent_held == 0 and active.mu_static > 0.0:
+        if active.is_at_rest and not active.sticks and active.static_coefficient > 0.0:
             growth = (
-                add_product(ws, 0.0, a, 1, ws.offsets.active_forces),
-                add_product(ws, 0.0, a, 2, ws.offsets.active_forces),
+                add_product(ws, 0.0, a, 1, ws.problem.forces.start),
+                add_product(ws, 0.0, a, 2, ws.problem.forces.start),
             )
             if length(growth) <= _IDLE * largest:
-                active.tangent_held = 1
+                active.sticks = True
 
 
 @kernel("b1(ws, i8)")
@@ -91,10 +93,14 @@ def _gets_away(ws: Workspace, a: int) -> bool:
     No force jumps there.  To stop the slip would turn the rates of others by what it has, and it would start again.
     """
     active = ws.actives[a]
-    if ws.trigger < 0 or ws.trigger % GUARDS != RATE_GUARD or length(active.slip) <= NOISE * ws.speed_scale:
+    if (
+        ws.step.guard < 0
+        or ws.step.guard % GUARDS != RATE_GUARD
+        or length(active.slip) <= NOISE * ws.impact.speed_scale
+    ):
         return False
-    growth = active.slip[0] * add_product(ws, 0.0, a, 1, ws.offsets.active_forces)
-    growth += active.slip[1] * add_product(ws, 0.0, a, 2, ws.offsets.active_forces)
+    growth = active.slip[0] * add_product(ws, 0.0, a, 1, ws.problem.forces.start)
+    growth += active.slip[1] * add_product(ws, 0.0, a, 2, ws.problem.forces.start)
     return growth > 0.0
 
 
@@ -104,53 +110,55 @@ def choose_friction(ws: Workspace, probe: float) -> None:
 
     ``probe`` is the pseudo-time after which forces are compared where none has built up yet.
     """
-    evaluate_impact_rates(ws, ws.offsets.impact_y)
+    evaluate_impact_rates(ws, ws.impact.y.start)
     open_question = 0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         speed = length(active.slip)
-        active.mu_static = friction_coefficient(ws, active.slot, 0.0)
-        active.mu = slip_coefficient(ws, active.slot, speed)
-        slow = (speed <= active.rest_slip and not _gets_away(ws, a)) or active.tangent_held == 1
+        active.static_coefficient = friction_coefficient(ws, active.contact, 0.0)
+        active.friction_coefficient = slip_coefficient(ws, active.contact, speed)
+        slow = (speed <= active.rest_slip and not _gets_away(ws, a)) or active.sticks
         # without friction nothing holds a contact, and nothing can stop a slip, however slow
-        active.at_rest = 1 if slow and (active.mu_static > 0.0 or (speed == 0.0 and active.mu > 0.0)) else 0
-        open_question = max(open_question, active.at_rest)
+        active.is_at_rest = slow and (
+            active.static_coefficient > 0.0 or (speed == 0.0 and active.friction_coefficient > 0.0)
+        )
+        open_question = max(open_question, active.is_at_rest)
     if open_question == 1:
         _stop_slips(ws)
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        state = impact_state(ws.floats, ws.offsets.impact_y, a)
-        c = active.slot
+        state = impact_state(ws.floats, ws.impact.y.start, a)
+        c = active.contact
         contact = ws.contacts[c]
         v1, v2 = active.slip
         speed = length(active.slip)
-        active.mu = slip_coefficient(ws, c, speed)
-        if speed == 0.0 and max(active.mu, active.mu_static) > 0.0:
+        active.friction_coefficient = slip_coefficient(ws, c, speed)
+        if speed == 0.0 and max(active.friction_coefficient, active.static_coefficient) > 0.0:
             # stopping the slips of others has stopped this one, too
-            active.at_rest = 1
-        active.normal_held = 1 if active.phase == HELD else 0
-        active.tangent_held = 0
+            active.is_at_rest = True
+        active.is_normal_force_unknown = active.phase == HELD
+        active.sticks = False
         x = state.deformation
         active.normal_force = 0.0
         if active.phase == COMPRESSION or active.phase == EXPANSION:
             x = x if x > 0.0 else -probe * active.gap_rate
             active.normal_force = normal_force(ws, a, x)
         active.direction = contact.direction
-        if active.at_rest == 0 and speed > 0.0:
+        if not active.is_at_rest and speed > 0.0:
             active.direction = v1 / speed, v2 / speed
         friction_of_slip(ws, a)
     if open_question == 1:
-        for i in range(3 * ws.n_active):
-            ws.free_accelerations[i] = 0.0
+        for i in range(3 * ws.problem.n_active):
+            ws.problem.free_accelerations[i] = 0.0
         gauss_seidel(ws, SWEEPS)
         _polish(ws)
         _hold_idle(ws)
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        c = active.slot
+        c = active.contact
         contact = ws.contacts[c]
         if active.normal_force <= 0.0:
-            active.tangent_held = 0
+            active.sticks = False
         contact.direction = active.direction
 
 
@@ -158,9 +166,9 @@ def choose_friction(ws: Workspace, probe: float) -> None:
 def break_away(ws: Workspace, a: int) -> None:
     """Let the active contact ``a`` slip against the friction that held it."""
     active = ws.actives[a]
-    contact = ws.contacts[active.slot]
+    contact = ws.contacts[active.contact]
     t1, t2 = active.friction
     norm = length(active.friction)
-    active.tangent_held = 0
+    active.sticks = False
     if norm > 0.0:
         contact.direction = -t1 / norm, -t2 / norm

@@ -64,41 +64,41 @@ def evaluate_impact_guards(ws: Workspace, y: int) -> None:
 def write_impact_guards(ws: Workspace, y: int) -> None:
     """Write the three guards of every active contact: rate, energy, friction; all of order 1."""
     evaluate_margins(ws)
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         state = impact_state(ws.floats, y, a)
-        contact = ws.contacts[active.slot]
+        contact = ws.contacts[active.contact]
         phase = active.phase
         if phase == IDLE:
             write_rates(ws, a, y)
-        rate = active.gap_rate / ws.speed_scale
-        force_scale = 1.0 if a == ws.lone else active.force_scale
+        rate = active.gap_rate / ws.impact.speed_scale
+        force_scale = 1.0 if a == ws.impact.lone_contact else active.force_scale
         active.energy_guard = 1.0
         if phase == COMPRESSION:
             active.rate_guard = NOISE - rate
-            if a != ws.lone:
+            if a != ws.impact.lone_contact:
                 active.energy_guard = _SLACK + state.deformation / active.deformation_scale
         elif phase == HELD:
             active.rate_guard = NOISE + active.normal_force / force_scale
         else:
-            behind = phase == IDLE and ws.faint > 0.0 and contact.n_waves > 0
-            active.rate_guard = (ws.faint if behind else NOISE) + rate
+            behind = phase == IDLE and ws.impact.faint_rate > 0.0 and contact.n_waves > 0
+            active.rate_guard = (ws.impact.faint_rate if behind else NOISE) + rate
         if phase == EXPANSION:
             lost = state.lost
             active.energy_guard = state.deformation / active.deformation_scale
-            if a == ws.lone or lost > 0.0:
+            if a == ws.impact.lone_contact or lost > 0.0:
                 active.energy_guard = (state.energy - lost) / active.energy_scale
-        if phase == IDLE or (active.tangent_held == 0 and active.mu == 0.0):
+        if phase == IDLE or (not active.sticks and active.friction_coefficient == 0.0):
             active.friction_guard = 1.0
-        elif active.tangent_held == 1:
+        elif active.sticks:
             # one that the step has stopped may have slipped in the part before
-            margin = max(0.0, active.margin) if active.halted == 1 else active.margin
+            margin = max(0.0, active.static_margin) if active.was_halted else active.static_margin
             active.friction_guard = NOISE + margin / force_scale
-        elif ws.turning == 1:
-            active.friction_guard = NOISE + length(active.slip) / ws.speed_scale
+        elif ws.problem.is_turning:
+            active.friction_guard = NOISE + length(active.slip) / ws.impact.speed_scale
         else:
             slip = active.rate[1] * contact.direction[0] + active.rate[2] * contact.direction[1]
-            active.friction_guard = NOISE + slip / ws.speed_scale
+            active.friction_guard = NOISE + slip / ws.impact.speed_scale
 
 
 @kernel("i8(ws, i8)")
@@ -107,9 +107,9 @@ def fired_guard(ws: Workspace, but: int) -> int:
 
     A guard left slightly negative by a switch is not armed until it has been positive.
     """
-    for i in range(GUARDS * ws.n_active):
-        value = ws.impact_guard[i]
-        if i != but and ((value < 0.0 and ws.armed[i] == 1) or value < _WRONG):
+    for i in range(GUARDS * ws.problem.n_active):
+        value = ws.impact.guards[i]
+        if i != but and ((value < 0.0 and ws.impact.armed[i] == 1) or value < _WRONG):
             return i
     return -1
 
@@ -117,29 +117,29 @@ def fired_guard(ws: Workspace, but: int) -> int:
 @kernel()
 def arm_impact_guards(ws: Workspace) -> None:
     """Arm the guards that are positive now, where the next step starts."""
-    for i in range(GUARDS * ws.n_active):
-        ws.impact_guard_first[i] = ws.impact_guard[i]
-        if ws.impact_guard[i] > 0.0:
-            ws.armed[i] = 1
+    for i in range(GUARDS * ws.problem.n_active):
+        ws.impact.guards_at_start[i] = ws.impact.guards[i]
+        if ws.impact.guards[i] > 0.0:
+            ws.impact.armed[i] = 1
 
 
 @kernel()
 def prepare_guards(ws: Workspace) -> None:
     """Evaluate the guards where a phase begins and arm those that are positive."""
-    for i in range(GUARDS * ws.n_active):
-        ws.armed[i] = 0
-    evaluate_impact_guards(ws, ws.offsets.impact_y)
+    for i in range(GUARDS * ws.problem.n_active):
+        ws.impact.armed[i] = 0
+    evaluate_impact_guards(ws, ws.impact.y.start)
     arm_impact_guards(ws)
 
 
 @kernel("f8(ws, f8, f8, i8)")
 def _guard_at(ws: Workspace, h: float, theta: float, i: int) -> float:
-    interrupted(ws, ws.n_active)
+    interrupted(ws, ws.problem.n_active)
     dense_state(
-        ws, ws.offsets.impact_y, ws.offsets.impact_slopes, STRIDE * ws.n_active, h, theta, ws.offsets.impact_stage
+        ws, ws.impact.y.start, ws.impact.slopes.start, STRIDE * ws.problem.n_active, h, theta, ws.impact.y_stage.start
     )
-    evaluate_impact_guards(ws, ws.offsets.impact_stage)
-    return ws.impact_guard[i]
+    evaluate_impact_guards(ws, ws.impact.y_stage.start)
+    return ws.impact.guards[i]
 
 
 @kernel("f8(ws, f8, f8, f8, i8)")
@@ -148,18 +148,18 @@ def _switch_fraction(ws: Workspace, h: float, high: float, g_high: float, i: int
 
     The guards are left evaluated there, the slope of guard ``i`` in ``guard_slope``.
     """
-    low, g_low = 0.0, ws.impact_guard_first[i]
+    low, g_low = 0.0, ws.impact.guards_at_start[i]
     if g_low <= 0.0:
-        ws.guard_slope = 0.0
+        ws.step.guard_slope = 0.0
         return 1e-3 * high
     theta_before, g_before, largest = high, g_high, g_low
-    ws.guard_slope = (g_high - g_low) / ((high - low) * h)
+    ws.step.guard_slope = (g_high - g_low) / ((high - low) * h)
     for _iteration in range(60):
         theta = high - g_high * (high - low) / (g_high - g_low)
         g = _guard_at(ws, h, theta, i)
         # of what is nearer round-off would tell the slope
         if abs(theta - theta_before) > SHORT:
-            ws.guard_slope = (g - g_before) / ((theta - theta_before) * h)
+            ws.step.guard_slope = (g - g_before) / ((theta - theta_before) * h)
         theta_before, g_before = theta, g
         largest = max(largest, g)
         if abs(g) <= min(_ROUGH, _SMALL * largest) or high - low <= 1e-14:
@@ -182,36 +182,36 @@ def locate_switch(ws: Workspace, h: float) -> float:
     """
     theta = 1.0
     first = fired_guard(ws, -1)
-    for _other in range(GUARDS * ws.n_active):
+    for _other in range(GUARDS * ws.problem.n_active):
         if first < 0:
             break
-        ws.trigger = first
-        theta = _switch_fraction(ws, h, theta, ws.impact_guard[first], first)
-        if ws.impact_guard_first[first] <= 0.0:
+        ws.step.guard = first
+        theta = _switch_fraction(ws, h, theta, ws.impact.guards[first], first)
+        if ws.impact.guards_at_start[first] <= 0.0:
             # others that are wrong from the start would cut the step for one another until nothing is left of it
             break
         first = fired_guard(ws, first)
-        if first >= 0 and ws.impact_guard[first] >= -TOGETHER:
+        if first >= 0 and ws.impact.guards[first] >= -TOGETHER:
             break
-    i = ws.trigger
+    i = ws.step.guard
     step = theta * h
-    n = STRIDE * ws.n_active
+    n = STRIDE * ws.problem.n_active
     error = 0.0
     for iteration in range(_CORRECTIONS):
         # the interpolant is of lower order than the step: correct on the step itself
         error = try_impact_step(ws, step)
-        ws.impact_steps += 1
-        write_impact_guards(ws, ws.offsets.impact_new)
-        if not (ws.guard_slope < 0.0 and error <= TRUSTED) or iteration == _CORRECTIONS - 1:
+        ws.totals.n_impact_steps += 1
+        write_impact_guards(ws, ws.impact.y_new.start)
+        if not (ws.step.guard_slope < 0.0 and error <= TRUSTED) or iteration == _CORRECTIONS - 1:
             break
-        correction = min(0.2 * theta * h, max(-0.2 * theta * h, -ws.impact_guard[i] / ws.guard_slope))
+        correction = min(0.2 * theta * h, max(-0.2 * theta * h, -ws.impact.guards[i] / ws.step.guard_slope))
         if abs(correction) <= SHORT * h:
             # so short a way is straight
             for j in range(n):
-                ws.impact_new[j] += correction * ws.impact_slopes[LAST_STAGE * n + j]
+                ws.impact.y_new[j] += correction * ws.impact.slopes[LAST_STAGE * n + j]
             break
         step += correction
-    evaluate_impact_guards(ws, ws.offsets.impact_new)
+    evaluate_impact_guards(ws, ws.impact.y_new.start)
     return error
 
 
@@ -221,11 +221,11 @@ def aim(ws: Workspace, h: float) -> float:
 
     Leaves the guard that it aims at in ``aimed``, -1 for none.
     """
-    ws.aimed = -1
-    a = ws.lone
+    ws.impact.aimed_guard = -1
+    a = ws.impact.lone_contact
     active = ws.actives[a]
     shortest = h
-    contact = ws.contacts[active.slot]
+    contact = ws.contacts[active.contact]
     rate, force, own = active.rate, active.force, diagonal_block(ws, a).entries
     growth = slip = slip_growth = 0.0
     for j in range(3):
@@ -237,17 +237,17 @@ def aim(ws: Workspace, h: float) -> float:
     if active.phase == COMPRESSION and growth > 0.0:
         root = -rate[0] / growth
         if 0.0 < root < shortest:
-            shortest, ws.aimed = root, GUARDS * a + RATE_GUARD
+            shortest, ws.impact.aimed_guard = root, GUARDS * a + RATE_GUARD
     if active.phase == EXPANSION and growth > 0.0:
         # E + E' s + E'' s^2 / 2 = 0, with E' = -rate / efficiency
-        state = impact_state(ws.floats, ws.offsets.impact_y, a)
-        energy, first = state.energy - state.lost, impact_state(ws.floats, ws.offsets.impact_slopes, a).energy
+        state = impact_state(ws.floats, ws.impact.y.start, a)
+        energy, first = state.energy - state.lost, impact_state(ws.floats, ws.impact.slopes.start, a).energy
         square = first * first + 2.0 * growth / efficiency(ws, a, max(rate[0], 1e-300)) * energy
         speed = math.sqrt(max(0.0, square)) - first
         if speed > 0.0 and 0.0 < 2.0 * energy / speed < shortest:
-            shortest, ws.aimed = 2.0 * energy / speed, GUARDS * a + ENERGY_GUARD
-    if active.tangent_held == 0 and active.mu > 0.0 and slip > 0.0 and slip_growth < 0.0:
+            shortest, ws.impact.aimed_guard = 2.0 * energy / speed, GUARDS * a + ENERGY_GUARD
+    if not active.sticks and active.friction_coefficient > 0.0 and slip > 0.0 and slip_growth < 0.0:
         root = -slip / slip_growth
         if root < shortest:
-            shortest, ws.aimed = root, GUARDS * a + FRICTION_GUARD
+            shortest, ws.impact.aimed_guard = root, GUARDS * a + FRICTION_GUARD
     return shortest

@@ -27,23 +27,23 @@ def jam_slips(ws: Workspace) -> bool:
     impulse is the one that brings slip and gap rate to rest together.  The other contacts keep their modes.
     """
     jammed = 0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        contact = ws.contacts[active.slot]
+        contact = ws.contacts[active.contact]
         speed = length(contact.slip)
-        active.mu = 0.0
-        active.normal_held, active.tangent_held = 1, 1 if contact.mode == STICK else 0
+        active.friction_coefficient = 0.0
+        active.is_normal_force_unknown, active.sticks = True, contact.mode == STICK
         if contact.mode == SLIDE and not contact.is_compliant and speed > 0.0:
-            active.mu = slip_coefficient(ws, active.slot, speed)
+            active.friction_coefficient = slip_coefficient(ws, active.contact, speed)
             active.direction = contact.slip[0] / speed, contact.slip[1] / speed
             if reduced_coefficient(ws, a) < _NEXT_TO_ZERO * diagonal_block(ws, a).nn:
-                active.tangent_held = jammed = 1
+                active.sticks = jammed = 1
         for r in range(3):
             active.free[r] = contact.rate[r]
     if jammed == 0:
         return False
     resolve(ws)
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         if not active.force[0] >= 0.0:
             return False
@@ -56,43 +56,43 @@ def jam_slips(ws: Workspace) -> bool:
 @kernel()
 def map_impact(ws: Workspace) -> None:
     """Let a law that maps velocities to impulses treat the colliding set."""
-    m = ws.n_active
+    m = ws.problem.n_active
     for a in range(m):
         active = ws.actives[a]
-        c = active.slot
+        c = active.contact
         contact = ws.contacts[c]
-        ws.map_block[a] = slip_coefficient(ws, c, length(contact.slip))
-        for i in range(1, ws.map_width):
-            ws.map_block[i * m + a] = ws.floats[contact.map_parameters + i - 1]
+        ws.impact.map_block[a] = slip_coefficient(ws, c, length(contact.slip))
+        for i in range(1, ws.model.map_width):
+            ws.impact.map_block[i * m + a] = ws.floats[contact.map_parameters + i - 1]
     write_dense(ws)
-    behind = ws.offsets.impulse + 3 * m
+    behind = ws.impact.impulse.start + 3 * m
     for i in range(GUARD):
         ws.floats[behind + i] = UNTOUCHED
     call_map(
-        ws.impact_map,
+        ws.options.impact_map,
         m,
-        at(ws.floats, ws.offsets.matrix),
-        at(ws.floats, ws.offsets.impact_z0),
-        at(ws.floats, ws.offsets.map_block),
-        at(ws.floats, ws.offsets.impulse),
+        at(ws.floats, ws.problem.matrix.start),
+        at(ws.floats, ws.impact.rates_before.start),
+        at(ws.floats, ws.impact.map_block.start),
+        at(ws.floats, ws.impact.impulse.start),
     )
     for i in range(GUARD):
         if ws.floats[behind + i] != UNTOUCHED:
-            ws.map_past = m
+            ws.run.n_past_map = m
     _split_loss(ws)
 
 
 @kernel()
 def _split_loss(ws: Workspace) -> None:
     """Split the energy that the impulses take, contact by contact, by the mean rates they act on."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         normal = tangential = 0.0
         for r in range(3):
             line = 3 * a + r
-            mean = 0.5 * add_product(ws, 2.0 * ws.impact_z0[line], a, r, ws.offsets.impulse)
+            mean = 0.5 * add_product(ws, 2.0 * ws.impact.rates_before[line], a, r, ws.impact.impulse.start)
             if r == 0:
-                normal -= ws.impulse[line] * mean
+                normal -= ws.impact.impulse[line] * mean
             else:
-                tangential -= ws.impulse[line] * mean
-        active.stored, active.returned, active.rubbed = normal, 0.0, tangential
+                tangential -= ws.impact.impulse[line] * mean
+        active.energy_stored, active.energy_returned, active.energy_dissipated = normal, 0.0, tangential

@@ -86,36 +86,36 @@ _NO_RETURN = 2.0**-52
 def _switch(ws: Workspace, probe: float, trigger: int) -> None:
     """Change the phases whose guards have come to zero, ``trigger`` among them; they are evaluated."""
     friction = 0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        state = impact_state(ws.floats, ws.offsets.impact_y, a)
+        state = impact_state(ws.floats, ws.impact.y.start, a)
         guard = GUARDS * a
         phase = active.phase
         loaded = phase == EXPANSION or phase == COMPRESSION
         if loaded and (trigger == guard + ENERGY_GUARD or active.energy_guard < TOGETHER):
             account(ws, a)
-            ws.contacts[active.slot].n_waves += 1
+            ws.contacts[active.contact].n_waves += 1
             active.phase = IDLE
             # a contact that opens under load leaves the others with forces that they did not have
             friction += 1 if state.lost > 0.0 else 0
             empty(ws, a)
-            active.tangent_held = 0
-            ws.phases += 1
+            active.sticks = False
+            ws.event.n_phases += 1
             continue
         if trigger == guard + RATE_GUARD or active.rate_guard < TOGETHER:
             friction += _turn(ws, a)
-            ws.phases += 1
+            ws.event.n_phases += 1
             # where joints leave a line to move on, slip and approach come to rest together
             friction += _rests(ws, a)
         elif trigger == guard + FRICTION_GUARD or active.friction_guard < TOGETHER:
-            ws.phases += 1
-            if active.tangent_held == 1:
+            ws.event.n_phases += 1
+            if active.sticks:
                 break_away(ws, a)
             else:
                 # a slip that only turned far from its first direction goes on
                 v1, v2 = active.slip
                 speed = length(active.slip)
-                contact = ws.contacts[active.slot]
+                contact = ws.contacts[active.contact]
                 if speed > active.rest_slip:
                     contact.direction = v1 / speed, v2 / speed
                 else:
@@ -129,7 +129,7 @@ def _switch(ws: Workspace, probe: float, trigger: int) -> None:
 def _rests(ws: Workspace, a: int) -> int:
     """Return 1 if the active contact ``a``, which slides, has come to rest."""
     active = ws.actives[a]
-    if active.tangent_held == 1 or active.mu == 0.0:
+    if active.sticks or active.friction_coefficient == 0.0:
         return 0
     return 1 if length(active.slip) <= active.rest_slip else 0
 
@@ -138,7 +138,7 @@ def _rests(ws: Workspace, a: int) -> int:
 def _turn(ws: Workspace, a: int) -> int:
     """Change the normal phase of the active contact ``a``; return 1 if friction must be chosen anew."""
     active = ws.actives[a]
-    state = impact_state(ws.floats, ws.offsets.impact_y, a)
+    state = impact_state(ws.floats, ws.impact.y.start, a)
     phase = active.phase
     if phase == COMPRESSION:
         account(ws, a)
@@ -150,17 +150,17 @@ def _turn(ws: Workspace, a: int) -> int:
         # without restitution the stored energy is lost at once and the contact stays closed
         empty(ws, a)
         active.phase = HELD
-        evaluate_impact_forces(ws, ws.offsets.impact_y)
+        evaluate_impact_forces(ws, ws.impact.y.start)
         if active.normal_force < 0.0:
             active.phase = IDLE
         return 1
     if phase == HELD:
         active.phase = IDLE
-        active.tangent_held = 0
+        active.sticks = False
         return 0
     if phase == EXPANSION:
         account(ws, a)
-        ws.contacts[active.slot].n_waves += 1
+        ws.contacts[active.contact].n_waves += 1
     active.phase = COMPRESSION
     return 1 if phase == IDLE else 0
 
@@ -168,31 +168,31 @@ def _turn(ws: Workspace, a: int) -> int:
 @kernel("void(ws, f8, f8)")
 def start_impact(ws: Workspace, probe: float, seed: float) -> None:
     """Set the phases in which the active contacts start, and their friction."""
-    for i in range(STRIDE * ws.n_active):
-        ws.impact_y[i] = 0.0
-    ws.phases = 0
-    ws.trigger = -1
-    for a in range(ws.n_active):
+    for i in range(STRIDE * ws.problem.n_active):
+        ws.impact.y[i] = 0.0
+    ws.event.n_phases = 0
+    ws.step.guard = -1
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        state = impact_state(ws.floats, ws.offsets.impact_y, a)
-        active.stored = active.returned = active.booked = 0.0
-        active.tangent_held = 0
-        pushed = active.gap_rate_before < -NOISE * ws.speed_scale
-        if seed > 0.0 and ws.contacts[active.slot].has_no_force:
+        state = impact_state(ws.floats, ws.impact.y.start, a)
+        active.energy_stored = active.energy_returned = active.work_accounted = 0.0
+        active.sticks = False
+        pushed = active.gap_rate_before < -NOISE * ws.impact.speed_scale
+        if seed > 0.0 and ws.contacts[active.contact].has_no_force:
             # an impact without collision starts from a seed of deformation instead of a speed
             pushed = True
             state.deformation = 1e-3 * active.deformation_scale
         active.phase = COMPRESSION if pushed else IDLE
-        ws.phases += 1 if pushed else 0
+        ws.event.n_phases += 1 if pushed else 0
     choose_friction(ws, probe)
     # a resting contact that the others press in takes part from the start
     pressed = 0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        growth = add_product(ws, 0.0, a, 0, ws.offsets.active_forces)
-        if active.phase == IDLE and growth < 0.0 and active.gap_rate_before <= ws.rest_speed:
+        growth = add_product(ws, 0.0, a, 0, ws.problem.forces.start)
+        if active.phase == IDLE and growth < 0.0 and active.gap_rate_before <= ws.impact.rest_speed:
             active.phase = COMPRESSION
-            ws.phases += 1
+            ws.event.n_phases += 1
             pressed = 1
     if pressed == 1:
         choose_friction(ws, probe)
@@ -202,23 +202,23 @@ def start_impact(ws: Workspace, probe: float, seed: float) -> None:
 def _stopping(ws: Workspace) -> bool:
     """Return 1 if some slip has come next to rest and is still slowing down, or does not get away from there."""
     slow = 0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        if active.phase == IDLE or active.tangent_held == 1 or active.mu == 0.0:
+        if active.phase == IDLE or active.sticks or active.friction_coefficient == 0.0:
             continue
         v1, v2 = active.slip
         if length(active.slip) > active.rest_slip:
             continue
-        power = v1 * add_product(ws, 0.0, a, 1, ws.offsets.active_forces) + v2 * add_product(
-            ws, 0.0, a, 2, ws.offsets.active_forces
+        power = v1 * add_product(ws, 0.0, a, 1, ws.problem.forces.start) + v2 * add_product(
+            ws, 0.0, a, 2, ws.problem.forces.start
         )
         slow = 1
         if power < 0.0:
-            ws.slow_steps = _PATIENCE
-    ws.slow_steps = ws.slow_steps + 1 if slow == 1 else 0
-    if ws.slow_steps <= _PATIENCE:
+            ws.impact.slow_steps = _PATIENCE
+    ws.impact.slow_steps = ws.impact.slow_steps + 1 if slow == 1 else 0
+    if ws.impact.slow_steps <= _PATIENCE:
         return False
-    ws.slow_steps = 0
+    ws.impact.slow_steps = 0
     return True
 
 
@@ -228,31 +228,31 @@ def _fade(ws: Workspace) -> None:
 
     They start again at twice the rate, so that the two do not chase each other.
     """
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        contact = ws.contacts[active.slot]
+        contact = ws.contacts[active.contact]
         passed = active.phase == EXPANSION or (active.phase == COMPRESSION and contact.n_waves > 0)
         # the energy is known to the tolerance only, the deformation better
         weak = (
-            active.normal_force * impact_state(ws.floats, ws.offsets.impact_y, a).deformation
-            <= ws.faint * ws.faint * active.energy_scale
+            active.normal_force * impact_state(ws.floats, ws.impact.y.start, a).deformation
+            <= ws.impact.faint_rate * ws.impact.faint_rate * active.energy_scale
         )
-        if passed and weak and abs(active.gap_rate) <= 0.5 * ws.faint * ws.speed_scale:
+        if passed and weak and abs(active.gap_rate) <= 0.5 * ws.impact.faint_rate * ws.impact.speed_scale:
             account(ws, a)
             contact.n_waves += 1
             active.phase = IDLE
-            active.tangent_held = 0
+            active.sticks = False
             empty(ws, a)
-            ws.phases += 1
+            ws.event.n_phases += 1
     prepare_guards(ws)
 
 
 @kernel("b1(ws)")
 def _leaves(ws: Workspace) -> bool:
     """Return 1 if a contact at the rim of the window acts, so that its neighbours may be missing."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        if active.phase != IDLE and ws.contacts[active.slot].is_at_rim:
+        if active.phase != IDLE and ws.contacts[active.contact].is_at_rim:
             return True
     return False
 
@@ -265,10 +265,10 @@ def energetic_impact(ws: Workspace, seed: float) -> int:
     ``returned`` in expansion and ``rubbed`` away by friction.  An impact without collision needs a speed for its
     ``seed`` [m/s], others have none.
     """
-    ws.lone = 0 if ws.n_active == 1 else -1
-    ws.may_be_lone = 1
+    ws.impact.lone_contact = 0 if ws.problem.n_active == 1 else -1
+    ws.impact.may_be_lone = True
     ws.event.truncation = Truncation.NONE
-    ws.slow_steps = 0
+    ws.impact.slow_steps = 0
     shortest = scale_impact(ws, seed)
     if not shortest > 0.0:
         return INVALID
@@ -280,7 +280,7 @@ def energetic_impact(ws: Workspace, seed: float) -> int:
 @kernel("f8(ws, f8)")
 def first_step(ws: Workspace, shortest: float) -> float:
     """Return the first step of an impact whose shortest compression takes the time given."""
-    return shortest * (_FAR if ws.n_active == 1 else float(ws.impact_rtol) ** _FIRST)
+    return shortest * (_FAR if ws.problem.n_active == 1 else float(ws.tolerance.impact) ** _FIRST)
 
 
 @entry_point("i8(ws, f8, f8, i8)")
@@ -289,22 +289,22 @@ def run_impact(ws: Workspace, h: float, shortest: float, windowed: int) -> int:
 
     The active contacts are all of the impact, or those of a window of it (1).
     """
-    ws.aimed = -1
+    ws.impact.aimed_guard = -1
     prepare_guards(ws)
-    write_impact_slope(ws, ws.offsets.impact_slopes)
+    write_impact_slope(ws, ws.impact.slopes.start)
     before, error_before = 0.0, 1.0
     for _step in range(MOST_STEPS):
-        if interrupted(ws, 8 * ws.n_active) == 1:
+        if interrupted(ws, 8 * ws.problem.n_active) == 1:
             return ENDLESS
         if finished(ws):
             finish(ws)
             return FINISHED
-        ws.aimed = -1
+        ws.impact.aimed_guard = -1
         let_go(ws)
-        h = aim(ws, h) if ws.lone >= 0 else _graded(ws, h)
-        linear = try_linear_step(ws, h) if ws.aimed >= 0 else 0
+        h = aim(ws, h) if ws.impact.lone_contact >= 0 else _graded(ws, h)
+        linear = try_linear_step(ws, h) if ws.impact.aimed_guard >= 0 else 0
         error = try_impact_step(ws, h) if linear == 0 else 0.0
-        ws.impact_steps += 1
+        ws.totals.n_impact_steps += 1
         if not error <= 1.0:
             if not error < math.inf and h < NOISE * shortest:
                 # a law that still has no finite value has none
@@ -317,13 +317,13 @@ def run_impact(ws: Workspace, h: float, shortest: float, windowed: int) -> int:
                 return INVALID
             h *= 0.25
             continue
-        for i in range(STRIDE * ws.n_active):
-            ws.impact_y[i] = ws.impact_new[i]
+        for i in range(STRIDE * ws.problem.n_active):
+            ws.impact.y[i] = ws.impact.y_new[i]
         grow_scales(ws)
         _stop(ws)
-        if ws.trigger < 0:
+        if ws.step.guard < 0:
             factor, error = step_factor(error), max(_LEAST_ERROR, error)
-            if before > 0.0 and ws.lone < 0:
+            if before > 0.0 and ws.impact.lone_contact < 0:
                 factor = min(factor, trend(error, error_before, h / before))
             before, error_before = h, error
             h *= factor
@@ -331,10 +331,10 @@ def run_impact(ws: Workspace, h: float, shortest: float, windowed: int) -> int:
             continue
         before = 0.0
         h = _pass_switch(ws, h, shortest, windowed)
-        if windowed == 1 and ws.lone < 0 and _leaves(ws):
-            ws.impact_h = h
+        if windowed == 1 and ws.impact.lone_contact < 0 and _leaves(ws):
+            ws.impact.h = h
             return MOVED
-        write_impact_slope(ws, ws.offsets.impact_slopes)
+        write_impact_slope(ws, ws.impact.slopes.start)
     cut_short(ws)
     finish(ws)
     return ENDLESS
@@ -345,19 +345,19 @@ def _shorter(ws: Workspace, error: float) -> float:
     """Return by what part a step of that error is too long, one in which slips settle by the order that it has left."""
     if not error < math.inf:
         return 0.1
-    return max(SHRINK, SAFETY * error**_SETTLING) if ws.turning == 1 else float(step_factor(error))
+    return max(SHRINK, SAFETY * error**_SETTLING) if ws.problem.is_turning else float(step_factor(error))
 
 
 @kernel()
 def _stop(ws: Workspace) -> None:
     """Let stick what the step has stopped; an implicit one leaves slips in any direction."""
-    if ws.turning == 1:
-        ws.turning = 0
+    if ws.problem.is_turning:
+        ws.problem.is_turning = False
         _orient(ws)
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        ws.phases += active.halted
-        active.halted = 0
+        ws.event.n_phases += active.was_halted
+        active.was_halted = False
 
 
 @kernel("f8(ws, f8, i8)")
@@ -367,16 +367,16 @@ def _step_to_switch(ws: Workspace, h: float, linear: int) -> float:
     It is 0 where none fires, and ``trigger`` -1, or where the step was aimed at the guard.
     """
     # the last stage has left the forces at the end of the step
-    write_impact_guards(ws, ws.offsets.impact_new)
-    ws.trigger = fired_guard(ws, -1)
-    met = ws.aimed >= 0 and abs(ws.impact_guard[max(0, ws.aimed)]) <= _at_event(ws)
-    if met and (ws.trigger < 0 or ws.trigger == ws.aimed):
-        ws.trigger = ws.aimed
-    elif ws.trigger >= 0:
+    write_impact_guards(ws, ws.impact.y_new.start)
+    ws.step.guard = fired_guard(ws, -1)
+    met = ws.impact.aimed_guard >= 0 and abs(ws.impact.guards[max(0, ws.impact.aimed_guard)]) <= _at_event(ws)
+    if met and (ws.step.guard < 0 or ws.step.guard == ws.impact.aimed_guard):
+        ws.step.guard = ws.impact.aimed_guard
+    elif ws.step.guard >= 0:
         if linear == 1:
             # locating takes the interpolant of the full step
             try_impact_step(ws, h)
-            write_impact_guards(ws, ws.offsets.impact_new)
+            write_impact_guards(ws, ws.impact.y_new.start)
         return float(locate_switch(ws, h))
     return 0.0
 
@@ -389,30 +389,30 @@ def _go_on(ws: Workspace, shortest: float) -> None:
         choose_friction(ws, first_step(ws, shortest))
         prepare_guards(ws)
         end_trapped(ws)
-        write_impact_slope(ws, ws.offsets.impact_slopes)
-        ws.phases += 1
+        write_impact_slope(ws, ws.impact.slopes.start)
+        ws.event.n_phases += 1
         return
     _orient(ws)
     if end_trapped(ws):
         prepare_guards(ws)
-        write_impact_slope(ws, ws.offsets.impact_slopes)
+        write_impact_slope(ws, ws.impact.slopes.start)
         return
     arm_impact_guards(ws)
-    n = STRIDE * ws.n_active
+    n = STRIDE * ws.problem.n_active
     for i in range(n):
-        ws.impact_slopes[i] = ws.impact_slopes[LAST_STAGE * n + i]
+        ws.impact.slopes[i] = ws.impact.slopes[LAST_STAGE * n + i]
 
 
 @kernel("f8(ws, f8, f8, i8)")
 def _pass_switch(ws: Workspace, h: float, shortest: float, windowed: int) -> float:
     """Change the phases at the guard that fired, and the clock, and end what is over; return the next step."""
-    following = max(h, shortest * ws.impact_rtol**_FIRST)
-    if ws.lone >= 0:
-        following = _FAR * ws.actives[ws.lone].impulse_scale
-    _switch(ws, first_step(ws, shortest), ws.trigger)
-    if ws.n_active > 1 and change_clock(ws):
-        following = shortest if ws.lone < 0 else _FAR * ws.actives[ws.lone].impulse_scale
-    if ws.phases > _LONG * (ws.n_colliding if windowed == 1 else ws.n_active) and faded(ws):
+    following = max(h, shortest * ws.tolerance.impact**_FIRST)
+    if ws.impact.lone_contact >= 0:
+        following = _FAR * ws.actives[ws.impact.lone_contact].impulse_scale
+    _switch(ws, first_step(ws, shortest), ws.step.guard)
+    if ws.problem.n_active > 1 and change_clock(ws):
+        following = shortest if ws.impact.lone_contact < 0 else _FAR * ws.actives[ws.impact.lone_contact].impulse_scale
+    if ws.event.n_phases > _LONG * (ws.impact.n_colliding if windowed == 1 else ws.problem.n_active) and faded(ws):
         cut_short(ws)
     end_trapped(ws)
     if windowed == 1:
@@ -426,11 +426,11 @@ def _at_event(ws: Workspace) -> float:
 
     Of a contact that opens under load the energy guard is what is still to come back, a part of all that may be small.
     """
-    a = ws.lone
+    a = ws.impact.lone_contact
     active = ws.actives[a]
-    state = impact_state(ws.floats, ws.offsets.impact_y, a)
+    state = impact_state(ws.floats, ws.impact.y.start, a)
     lost = state.lost
-    if ws.aimed != GUARDS * a + ENERGY_GUARD or lost == 0.0:
+    if ws.impact.aimed_guard != GUARDS * a + ENERGY_GUARD or lost == 0.0:
         return _AT_EVENT
     share = efficiency(ws, a, 0.0)
     returned = lost * share / ((1.0 - share) * active.energy_scale)
@@ -440,24 +440,24 @@ def _at_event(ws: Workspace) -> float:
 @kernel()
 def _orient(ws: Workspace) -> None:
     """Take the present slip directions as those of the step that begins."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         v1, v2 = active.slip
         speed = length(active.slip)
-        if active.phase != IDLE and active.tangent_held == 0 and speed > active.rest_slip:
-            contact = ws.contacts[active.slot]
+        if active.phase != IDLE and not active.sticks and speed > active.rest_slip:
+            contact = ws.contacts[active.contact]
             contact.direction = v1 / speed, v2 / speed
-            active.friction_guard = NOISE + speed / ws.speed_scale
+            active.friction_guard = NOISE + speed / ws.impact.speed_scale
 
 
 @kernel("f8(ws, f8)")
 def _graded(ws: Workspace, h: float) -> float:
     """Shorten the step towards the end of an expansion, where the force law is not smooth, geometrically."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        state = impact_state(ws.floats, ws.offsets.impact_y, a)
-        x, rate = state.deformation, impact_state(ws.floats, ws.offsets.impact_slopes, a).deformation
+        state = impact_state(ws.floats, ws.impact.y.start, a)
+        x, rate = state.deformation, impact_state(ws.floats, ws.impact.slopes.start, a).deformation
         goes = active.phase == EXPANSION and h * rate < -_SHARE * x
-        if goes and x > _LAST * ws.impact_rtol**0.4 * active.deformation_scale:
+        if goes and x > _LAST * ws.tolerance.impact**0.4 * active.deformation_scale:
             h = -_SHARE * x / rate
     return h

@@ -38,11 +38,11 @@ NOISE = 1e-12
 def normal_force(ws: Workspace, a: int, x: float) -> float:
     """Return the force of the active contact ``a`` at the deformation ``x``, Eq. (20)."""
     active = ws.actives[a]
-    if a == ws.lone:
+    if a == ws.impact.lone_contact:
         return 1.0
     if x <= 0.0:
         return 0.0
-    contact = ws.contacts[active.slot]
+    contact = ws.contacts[active.contact]
     return call_scalar(contact.impact_force_function, x, at(ws.floats, contact.impact_force_parameters))
 
 
@@ -50,9 +50,9 @@ def normal_force(ws: Workspace, a: int, x: float) -> float:
 def efficiency(ws: Workspace, a: int, rate: float) -> float:
     """Return the efficiency of the energy transfer of the active contact ``a``, Eq. (28)."""
     active = ws.actives[a]
-    if active.lossless == 1:
+    if active.is_lossless:
         return 1.0
-    contact = ws.contacts[active.slot]
+    contact = ws.contacts[active.contact]
     return call_scalar(contact.efficiency_function, rate, at(ws.floats, contact.efficiency_parameters))
 
 
@@ -62,9 +62,9 @@ def write_rates(ws: Workspace, a: int, y: int) -> None:
     active = ws.actives[a]
     z0, (z1, z2) = active.gap_rate_before, active.slip_before
     for block in range(active.first_block, active.end_block):
-        p = impact_state(ws.floats, y, ws.block_column[block]).impulse
+        p = impact_state(ws.floats, y, ws.island.block_column[block]).impulse
         p0, p1, p2 = p[0], p[1], p[2]
-        g = at(ws.floats, ws.offsets.delassus + DELASSUS * block)
+        g = at(ws.floats, ws.island.delassus.start + DELASSUS * block)
         z0 += g[0] * p0 + g[1] * p1 + g[2] * p2
         z1 += g[3] * p0 + g[4] * p1 + g[5] * p2
         z2 += g[6] * p0 + g[7] * p1 + g[8] * p2
@@ -74,7 +74,7 @@ def write_rates(ws: Workspace, a: int, y: int) -> None:
 @kernel("void(ws, i8)")
 def evaluate_impact_rates(ws: Workspace, y: int) -> None:
     """Write the rates of all active contacts at the impact state ``y``."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         write_rates(ws, a, y)
 
 
@@ -87,25 +87,25 @@ def _act(ws: Workspace, a: int, y: int) -> int:
     active = ws.actives[a]
     phase, loaded = active.phase, 0.0
     if phase == IDLE:
-        active.normal_held, active.normal_force, active.friction = 0, 0.0, (0.0, 0.0)
+        active.is_normal_force_unknown, active.normal_force, active.friction = False, 0.0, (0.0, 0.0)
         return 0
     write_rates(ws, a, y)
     if phase == COMPRESSION or phase == EXPANSION:
         loaded = normal_force(ws, a, impact_state(ws.floats, y, a).deformation)
     active.normal_force = loaded
-    active.normal_held = 1 if phase == HELD else 0
-    if active.tangent_held == 1:
+    active.is_normal_force_unknown = phase == HELD
+    if active.sticks:
         return 1
     follow_slip(ws, a, active.slip, active.rest_slip)
     friction_of_slip(ws, a)
-    return int(active.normal_held)
+    return int(active.is_normal_force_unknown)
 
 
 @kernel()
 def _hold(ws: Workspace) -> None:
     """Complete the forces of what is held."""
-    for i in range(3 * ws.n_active):
-        ws.free_accelerations[i] = 0.0
+    for i in range(3 * ws.problem.n_active):
+        ws.problem.free_accelerations[i] = 0.0
     resolve(ws)
 
 
@@ -113,7 +113,7 @@ def _hold(ws: Workspace) -> None:
 def evaluate_impact_forces(ws: Workspace, y: int) -> None:
     """Write the ``active_forces`` of the active contacts at the impact state ``y`` in the present phases."""
     held = 0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         held += _act(ws, a, y)
     if held > 0:
         _hold(ws)
@@ -123,7 +123,7 @@ def evaluate_impact_forces(ws: Workspace, y: int) -> None:
 def impact_slope(ws: Workspace, y: int, out: int) -> None:
     """Write d(P, x, W, D, E)/ds of all active contacts at the impact state ``y``."""
     held = 0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         held += _act(ws, a, y)
         _write_slope(ws, a, out)
     if held > 0:
@@ -134,7 +134,7 @@ def impact_slope(ws: Workspace, y: int, out: int) -> None:
 @kernel("void(ws, i8)")
 def write_impact_slope(ws: Workspace, out: int) -> None:
     """Write the slope where rates and forces are evaluated."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         _write_slope(ws, a, out)
 
 
@@ -150,7 +150,7 @@ def _write_slope(ws: Workspace, a: int, out: int) -> None:
     elif phase == EXPANSION:
         deforming = -rate / efficiency(ws, a, max(rate, 1e-300))
     slope.normal_force, slope.friction = force, (t1, t2)
-    slope.deformation = 0.0 if a == ws.lone else deforming
+    slope.deformation = 0.0 if a == ws.impact.lone_contact else deforming
     slope.work = slope.rubbed = 0.0
     if phase != IDLE:
         # the rates of an idle contact may be those of a rejected step, and not finite

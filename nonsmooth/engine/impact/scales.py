@@ -32,40 +32,40 @@ def scale_impact(ws: Workspace, seed: float) -> float:
     all bring: next to one with a small coefficient of its own, others would else count as light.  No speed is slower
     than the ``seed``.
     """
-    m = ws.n_active
-    ws.speed_scale = seed
+    m = ws.problem.n_active
+    ws.impact.speed_scale = seed
     brought = 0.0
     for a in range(m):
         active = ws.actives[a]
         speed = max(seed, -active.gap_rate_before)
-        ws.speed_scale = max(ws.speed_scale, speed)
+        ws.impact.speed_scale = max(ws.impact.speed_scale, speed)
         if speed > 0.0:
             brought = max(brought, speed * speed / diagonal_block(ws, a).nn)
-    ws.rest_speed = max(REST, CIRCLING * ws.impact_rtol) * ws.speed_scale
+    ws.impact.rest_speed = max(REST, CIRCLING * ws.tolerance.impact) * ws.impact.speed_scale
     shortest = math.inf
     for a in range(m):
         active = ws.actives[a]
-        energy = min(brought, ws.speed_scale * ws.speed_scale / diagonal_block(ws, a).nn)
+        energy = min(brought, ws.impact.speed_scale * ws.impact.speed_scale / diagonal_block(ws, a).nn)
         x = 1.0
         active.energy_scale = energy
         # the impulse that takes it up
         active.impulse_scale = math.sqrt(energy / diagonal_block(ws, a).nn)
-        if a != ws.lone:
-            contact = ws.contacts[active.slot]
+        if a != ws.impact.lone_contact:
+            contact = ws.contacts[active.contact]
             for _iteration in range(4):
                 force = call_scalar(contact.impact_force_function, x, at(ws.floats, contact.impact_force_parameters))
                 double = call_scalar(
                     contact.impact_force_function, 2.0 * x, at(ws.floats, contact.impact_force_parameters)
                 )
                 if not (force > 0.0 and double > 0.5001 * force):
-                    ws.culprit = active.slot
+                    ws.run.unscaled_contact = active.contact
                     return -1.0
                 if abs(energy - force * x) <= _MET * energy:
                     break
                 x *= (energy / (force * x)) ** (math.log(2.0) / math.log(2.0 * double / force))
         active.deformation_scale = x
         active.force_scale = energy / x
-        shortest = min(shortest, (energy if a == ws.lone else x) / ws.speed_scale)
+        shortest = min(shortest, (energy if a == ws.impact.lone_contact else x) / ws.impact.speed_scale)
     _set_rest_slips(ws)
     return shortest
 
@@ -77,7 +77,7 @@ def reached_energy(ws: Workspace, a: int) -> float:
     Where friction blocks the way of a light point, or slip presses bodies together, that is far more than its approach
     alone would bring.
     """
-    active, state = ws.actives[a], impact_state(ws.floats, ws.offsets.impact_y, a)
+    active, state = ws.actives[a], impact_state(ws.floats, ws.impact.y.start, a)
     return float(max(active.energy_scale, abs(state.work), state.rubbed, state.energy))
 
 
@@ -85,7 +85,7 @@ def reached_energy(ws: Workspace, a: int) -> float:
 def grow_scales(ws: Workspace) -> None:
     """Let the slips that count as none grow with the energies, as the errors do."""
     grown = 0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         energy, own, scale = reached_energy(ws, a), diagonal_block(ws, a).nn, active.impulse_scale
         if energy > own * (_GROWN * scale) ** 2:
@@ -97,7 +97,7 @@ def grow_scales(ws: Workspace) -> None:
 
 @kernel()
 def _set_rest_slips(ws: Workspace) -> None:
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         ws.actives[a].rest_slip = _slip_at_rest(ws, a)
 
 
@@ -108,11 +108,11 @@ def _slip_at_rest(ws: Workspace, a: int) -> float:
     own = diagonal_block(ws, a)
     moved = 0.0
     for block in range(active.first_block, active.end_block):
-        impulse = ws.actives[ws.block_column[block]].impulse_scale
+        impulse = ws.actives[ws.island.block_column[block]].impulse_scale
         for i in range(3, 9):
-            moved = max(moved, abs(ws.delassus[DELASSUS * block + i]) * impulse)
+            moved = max(moved, abs(ws.island.delassus[DELASSUS * block + i]) * impulse)
     mobility = max(own.t11, own.t22)
-    small = float(ws.rest_speed)
+    small = float(ws.impact.rest_speed)
     if mobility < own.nn:
         small *= math.sqrt(mobility / own.nn)
-    return float(max(small, CIRCLING * ws.impact_rtol * moved))
+    return float(max(small, CIRCLING * ws.tolerance.impact * moved))

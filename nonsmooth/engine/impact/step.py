@@ -53,28 +53,28 @@ def try_impact_step(ws: Workspace, h: float) -> float:
     A slip that an implicit step stops is held from there on, unless it is tried anew.
     """
     let_go(ws)
-    n = STRIDE * ws.n_active
+    n = STRIDE * ws.problem.n_active
     for stage in range(1, N_STAGES):
-        out = ws.offsets.impact_new if stage == LAST_STAGE else ws.offsets.impact_stage
-        stage_state(ws, ws.offsets.stages, ws.offsets.impact_y, ws.offsets.impact_slopes, n, stage, h, out)
-        impact_slope(ws, out, ws.offsets.impact_slopes + stage * n)
-    weigh_slopes(ws, ws.offsets.error_weights, ws.offsets.impact_slopes, n, h, ws.offsets.impact_stage)
-    error = _relative_error(ws, ws.offsets.impact_stage)
+        out = ws.impact.y_new.start if stage == LAST_STAGE else ws.impact.y_stage.start
+        stage_state(ws, ws.coefficients.stages.start, ws.impact.y.start, ws.impact.slopes.start, n, stage, h, out)
+        impact_slope(ws, out, ws.impact.slopes.start + stage * n)
+    weigh_slopes(ws, ws.coefficients.error_weights.start, ws.impact.slopes.start, n, h, ws.impact.y_stage.start)
+    error = _relative_error(ws, ws.impact.y_stage.start)
     if not error <= 1.0:
         if _is_stiff(ws, h):
             return min(_try_implicit_step(ws, h), error)
-        evaluate_impact_rates(ws, ws.offsets.impact_new)
+        evaluate_impact_rates(ws, ws.impact.y_new.start)
     return error
 
 
 @kernel()
 def let_go(ws: Workspace) -> None:
     """Forget the slips that the last try of a step has stopped, and that it was implicit."""
-    ws.turning = 0
-    for a in range(ws.n_active):
+    ws.problem.is_turning = False
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        if active.halted == 1:
-            active.halted = active.tangent_held = 0
+        if active.was_halted:
+            active.was_halted = active.sticks = False
 
 
 @kernel("f8(ws, i8)")
@@ -84,7 +84,7 @@ def _relative_error(ws: Workspace, errors: int) -> float:
     Impulses count by the energy of what they move, energies are known to a part of what they are.
     """
     worst = 0.0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active, own = ws.actives[a], diagonal_block(ws, a).entries
         if active.phase == IDLE:
             continue
@@ -106,7 +106,7 @@ def _relative_error(ws: Workspace, errors: int) -> float:
             worst = deformed / active.deformation_scale
         if booked > worst * energy:
             worst = booked / energy
-    return worst / float(ws.impact_rtol)
+    return worst / float(ws.tolerance.impact)
 
 
 @kernel("b1(ws, f8)")
@@ -115,16 +115,16 @@ def _is_stiff(ws: Workspace, h: float) -> bool:
 
     One that passes close by rest does both at once, and where it goes hangs on every digit: that is for explicit steps.
     """
-    evaluate_impact_rates(ws, ws.offsets.impact_slopes)
-    for a in range(ws.n_active):
+    evaluate_impact_rates(ws, ws.impact.slopes.start)
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         for r in range(2):
             active.acceleration[1 + r] = active.slip[r] - active.rate_before[1 + r]
-    evaluate_impact_rates(ws, ws.offsets.impact_y)
-    for a in range(ws.n_active):
+    evaluate_impact_rates(ws, ws.impact.y.start)
+    for a in range(ws.problem.n_active):
         active, own = ws.actives[a], diagonal_block(ws, a)
-        turning = length(impact_state(ws.floats, ws.offsets.impact_slopes, a).friction) * max(own.t11, own.t22)
-        settled = active.tangent_held == 0 and turning > _SETTLING * length(active.slip_acceleration)
+        turning = length(impact_state(ws.floats, ws.impact.slopes.start, a).friction) * max(own.t11, own.t22)
+        settled = not active.sticks and turning > _SETTLING * length(active.slip_acceleration)
         if settled and h * turning > _STIFF * length(active.slip):
             return True
     return False
@@ -136,25 +136,27 @@ def _lay_stage(ws: Workspace, ahead: float, y: int, n: int, guess: int) -> None:
     for i in range(n):
         ws.floats[y + i] += ahead * ws.floats[guess + i]
     evaluate_impact_rates(ws, y)
-    ws.acceleration_scale = 0.0
-    for a in range(ws.n_active):
+    ws.problem.acceleration_scale = 0.0
+    for a in range(ws.problem.n_active):
         active, state, own = ws.actives[a], impact_state(ws.floats, y, a), diagonal_block(ws, a)
         loaded = active.phase == COMPRESSION or active.phase == EXPANSION
-        active.given, active.mode_tried, active.at_rest = 1 if loaded else 0, active.mode_past, 0
+        active.has_given_force, active.mode_tried, active.is_at_rest = loaded, active.mode_past, False
         if loaded:
             active.normal_force = normal_force(ws, a, state.deformation)
         if active.mode_past == SLIDE:
-            active.mu = slip_coefficient(ws, active.slot, length(active.slip))
-            active.at_rest = 1 if active.mu > 0.0 else 0
+            active.friction_coefficient = slip_coefficient(ws, active.contact, length(active.slip))
+            active.is_at_rest = active.friction_coefficient > 0.0
             t1, t2 = impact_state(ws.floats, guess, a).friction
             friction = length((t1, t2))
             if friction > 0.0:
                 active.direction = -t1 / friction, -t2 / friction
-        ws.acceleration_scale = max(ws.acceleration_scale, max(own.nn, own.t11, own.t22) * abs(active.normal_force))
+        ws.problem.acceleration_scale = max(
+            ws.problem.acceleration_scale, max(own.nn, own.t11, own.t22) * abs(active.normal_force)
+        )
     for i in range(n):
         ws.floats[y + i] -= ahead * ws.floats[guess + i]
     evaluate_impact_rates(ws, y)
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         moves = active.mode_past == SLIDE and length(active.slip) > active.rest_slip
         active.free[0] = 0.0
@@ -168,19 +170,21 @@ def _solve_stage(ws: Workspace, h: float, stage: int) -> int:
 
     Friction of slips, which is stiff, is solved for; deformations are iterated.
     """
-    n = STRIDE * ws.n_active
-    out = ws.offsets.impact_new if stage == LAST_STAGE else ws.offsets.impact_stage
-    here, guess, ahead = ws.offsets.impact_slopes + stage * n, ws.offsets.impact_guess, implicit_tableau.DIAGONAL * h
+    n = STRIDE * ws.problem.n_active
+    out = ws.impact.y_new.start if stage == LAST_STAGE else ws.impact.y_stage.start
+    here, guess, ahead = ws.impact.slopes.start + stage * n, ws.impact.y_guess.start, implicit_tableau.DIAGONAL * h
     for i in range(n):
         ws.floats[here + i] = ws.floats[here - n + i]
     for _iteration in range(implicit_tableau.ITERATIONS):
-        stage_state(ws, ws.offsets.implicit_stages, ws.offsets.impact_y, ws.offsets.impact_slopes, n, stage, h, out)
+        stage_state(
+            ws, ws.coefficients.implicit_stages.start, ws.impact.y.start, ws.impact.slopes.start, n, stage, h, out
+        )
         for i in range(n):
             ws.floats[guess + i] = ws.floats[here + i]
         _lay_stage(ws, ahead, out, n, guess)
         if not oppose_slips(ws):
             return 0
-        for a in range(ws.n_active):
+        for a in range(ws.problem.n_active):
             active, state = ws.actives[a], impact_state(ws.floats, out, a)
             for r in range(3):
                 state.impulse[r] += ahead * active.force[r]
@@ -203,28 +207,28 @@ def _try_implicit_step(ws: Workspace, h: float) -> float:
 
     Leaves slopes from which the dense output of the explicit step makes the interpolant of this one.
     """
-    n = STRIDE * ws.n_active
-    ws.turning = 1
-    for a in range(ws.n_active):
+    n = STRIDE * ws.problem.n_active
+    ws.problem.is_turning = True
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        active.mode_past = OPEN if active.phase == IDLE else STICK if active.tangent_held == 1 else SLIDE
+        active.mode_past = OPEN if active.phase == IDLE else STICK if active.sticks else SLIDE
         for r in range(3):
             # what the motion keeps of forces that are not unique is chosen anew behind the impact
-            ws.contacts[active.slot].null_space_force[r] = 0.0
+            ws.contacts[active.contact].null_space_force[r] = 0.0
     for i in range(n):
-        ws.impact_slopes[n + i] = ws.impact_slopes[i]
+        ws.impact.slopes[n + i] = ws.impact.slopes[i]
     stage = 2
     while stage < N_STAGES and _solve_stage(ws, h, stage) == 1:
         stage += 1
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        active.halted = 1 if active.mode_past == SLIDE and active.tangent_held == 1 else 0
+        active.was_halted = active.mode_past == SLIDE and active.sticks
     if stage < N_STAGES:
         return math.inf
-    weigh_slopes(ws, ws.offsets.implicit_errors, ws.offsets.impact_slopes, n, h, ws.offsets.impact_stage)
-    error = _CAREFUL * _relative_error(ws, ws.offsets.impact_stage)
+    weigh_slopes(ws, ws.coefficients.implicit_errors.start, ws.impact.slopes.start, n, h, ws.impact.y_stage.start)
+    error = _CAREFUL * _relative_error(ws, ws.impact.y_stage.start)
     write_implicit_interpolant(
-        ws, ws.offsets.impact_y, ws.offsets.impact_new, ws.offsets.impact_slopes, n, h, ws.offsets.impact_stage
+        ws, ws.impact.y.start, ws.impact.y_new.start, ws.impact.slopes.start, n, h, ws.impact.y_stage.start
     )
     return error
 
@@ -235,20 +239,20 @@ def try_linear_step(ws: Workspace, h: float) -> bool:
 
     A lone contact whose slip keeps its direction moves like that; the slope at the end tells.
     """
-    n = STRIDE * ws.n_active
-    middle, end = ws.offsets.impact_slopes + n, ws.offsets.impact_slopes + LAST_STAGE * n
+    n = STRIDE * ws.problem.n_active
+    middle, end = ws.impact.slopes.start + n, ws.impact.slopes.start + LAST_STAGE * n
     for i in range(n):
-        ws.impact_stage[i] = ws.impact_y[i] + 0.5 * h * ws.impact_slopes[i]
-    impact_slope(ws, ws.offsets.impact_stage, middle)
+        ws.impact.y_stage[i] = ws.impact.y[i] + 0.5 * h * ws.impact.slopes[i]
+    impact_slope(ws, ws.impact.y_stage.start, middle)
     for i in range(n):
-        ws.impact_new[i] = ws.impact_y[i] + h * ws.floats[middle + i]
-    impact_slope(ws, ws.offsets.impact_new, end)
+        ws.impact.y_new[i] = ws.impact.y[i] + h * ws.floats[middle + i]
+    impact_slope(ws, ws.impact.y_new.start, end)
     # a component that is round-off next to the contact's force is as straight as that force
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
         force = abs(active.force[0]) + abs(active.force[1]) + abs(active.force[2])
         for i in range(STRIDE * a, STRIDE * (a + 1)):
-            first, half, last = ws.impact_slopes[i], ws.floats[middle + i], ws.floats[end + i]
+            first, half, last = ws.impact.slopes[i], ws.floats[middle + i], ws.floats[end + i]
             size = abs(first) + abs(last) + abs(half)
             if i < STRIDE * a + DEFORMATION:
                 size = max(size, force)

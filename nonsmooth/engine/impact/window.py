@@ -43,15 +43,15 @@ def _gather_colliding(ws: Workspace) -> None:
 
     An articulation has a list of entries: first ones of all contacts, and second ones behind those of all slots.
     """
-    ws.n_colliding = ws.n_active
-    for number in range(ws.n_articulations):
-        ws.articulations[number].head = -1
-    for i in range(ws.n_u):
-        ws.u_impact[i] = ws.floats[ws.free_velocities + i]
-    for i in range(ws.n_colliding):
-        c = ws.active[i]
+    ws.impact.n_colliding = ws.problem.n_active
+    for number in range(ws.model.n_articulations):
+        ws.articulations[number].first_colliding = -1
+    for i in range(ws.model.n_u):
+        ws.impact.u[i] = ws.floats[ws.island.velocities + i]
+    for i in range(ws.impact.n_colliding):
+        c = ws.problem.active[i]
         contact = ws.contacts[c]
-        ws.colliding[i] = c
+        ws.impact.colliding[i] = c
         contact.window_phase = IDLE
         contact.window_sticks = False
         contact.n_waves = 0
@@ -59,17 +59,17 @@ def _gather_colliding(ws: Workspace) -> None:
             contact.window_totals[j] = 0.0
         for side in range(2):
             articulation = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b]
-            entry = side * ws.n_slots + c
-            ws.chain[entry] = articulation.head
-            articulation.head = entry
+            entry = side * ws.model.n_slots + c
+            ws.impact.chain[entry] = articulation.first_colliding
+            articulation.first_colliding = entry
 
 
 @kernel("void(ws, f8)")
 def _draw(ws: Workspace, fastest: float) -> None:
     """Make the contacts that act and their neighbours the active ones; at first, given the fastest, who approaches."""
     m = 0
-    for i in range(ws.n_colliding):
-        c = ws.colliding[i]
+    for i in range(ws.impact.n_colliding):
+        c = ws.impact.colliding[i]
         contact = ws.contacts[c]
         acts = contact.window_phase != IDLE
         if fastest > 0.0:
@@ -77,27 +77,27 @@ def _draw(ws: Workspace, fastest: float) -> None:
         contact.layer = 0 if acts else -1
         contact.is_at_rim = False
         if acts:
-            ws.active[m] = c
+            ws.problem.active[m] = c
             m += 1
     begin = 0
     for layer in range(1, _LAYERS + 1):
         end = m
         for i in range(begin, end):
             for side in range(2):
-                contact = ws.contacts[ws.active[i]]
+                contact = ws.contacts[ws.problem.active[i]]
                 articulation = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b]
-                entry = articulation.head if articulation.nu > 0 else -1
+                entry = articulation.first_colliding if articulation.n_u > 0 else -1
                 while entry >= 0:
-                    other = entry if entry < ws.n_slots else entry - ws.n_slots
+                    other = entry if entry < ws.model.n_slots else entry - ws.model.n_slots
                     neighbour = ws.contacts[other]
                     if neighbour.layer < 0:
                         neighbour.layer = layer
                         neighbour.is_at_rim = layer == _LAYERS
-                        ws.active[m] = other
+                        ws.problem.active[m] = other
                         m += 1
-                    entry = ws.chain[entry]
+                    entry = ws.impact.chain[entry]
         begin = end
-    ws.n_active = m
+    ws.problem.n_active = m
 
 
 @kernel()
@@ -105,86 +105,86 @@ def _load(ws: Workspace) -> None:
     """Set matrix, rates and state of the window, whose structure takes the place of the island's."""
     link_active(ws)
     assemble_delassus(ws)
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        state = impact_state(ws.floats, ws.offsets.impact_y, a)
-        c = active.slot
+        state = impact_state(ws.floats, ws.impact.y.start, a)
+        c = active.contact
         contact = ws.contacts[c]
         for r in range(3):
-            active.rate_before[r] = contact.prescribed_rate[r] + row(ws, c, r, ws.offsets.u_impact)
+            active.rate_before[r] = contact.prescribed_rate[r] + row(ws, c, r, ws.impact.u.start)
         for r in range(3):
             state.impulse[r] = 0.0
         state.work = state.rubbed = 0.0
         state.deformation = contact.window_deformation
         state.energy = contact.window_energy
         state.lost = contact.window_lost
-        active.stored = active.returned = active.booked = 0.0
+        active.energy_stored = active.energy_returned = active.work_accounted = 0.0
         active.phase = contact.window_phase
-        active.tangent_held = contact.held_kept
+        active.sticks = contact.window_sticks
 
 
 @kernel()
 def _store(ws: Workspace) -> None:
     """Give the bodies the impulses of the window, and keep what goes on."""
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        state = impact_state(ws.floats, ws.offsets.impact_y, a)
-        c = active.slot
+        state = impact_state(ws.floats, ws.impact.y.start, a)
+        c = active.contact
         contact = ws.contacts[c]
         account(ws, a)
         for r in range(3):
             active.impulse[r] = state.impulse[r]
             contact.window_impulse[r] += active.impulse[r]
-        contact.window_stored += active.stored
-        contact.window_returned += active.returned
+        contact.window_stored += active.energy_stored
+        contact.window_returned += active.energy_returned
         contact.window_dissipated += state.rubbed
         contact.window_deformation, contact.window_energy, contact.window_lost = (
             state.deformation,
             state.energy,
             state.lost,
         )
-        contact.window_phase, contact.held_kept = active.phase, active.tangent_held
-    add_response(ws, ws.offsets.impulse, ws.offsets.u_impact)
+        contact.window_phase, contact.window_sticks = active.phase, active.sticks
+    add_response(ws, ws.impact.impulse.start, ws.impact.u.start)
 
 
 @entry_point("i8(ws)")
 def windowed_impact(ws: Workspace) -> int:
     """Do what ``energetic_impact`` does, for many contacts; the Delassus matrix of all of them is not needed."""
     fastest = 0.0
-    for a in range(ws.n_active):
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        fastest = max(fastest, -ws.contacts[active.slot].rate[0])
-    ws.may_be_lone = 1
+        fastest = max(fastest, -ws.contacts[active.contact].rate[0])
+    ws.impact.may_be_lone = True
     ws.event.truncation = Truncation.NONE
-    ws.slow_steps = 0
+    ws.impact.slow_steps = 0
     _gather_colliding(ws)
     outcome = MOVED
     for window in range(MOST_STEPS):
         _draw(ws, fastest if window == 0 else 0.0)
         # behind the wave what is within the error is not told from rest; where all lie in the window none leaves it
-        ws.faint = CIRCLING * ws.impact_rtol if ws.n_active < ws.n_colliding else 0.0
+        ws.impact.faint_rate = CIRCLING * ws.tolerance.impact if ws.problem.n_active < ws.impact.n_colliding else 0.0
         _load(ws)
-        ws.lone = -1
+        ws.impact.lone_contact = -1
         shortest = scale_impact(ws, fastest)
         if not shortest > 0.0:
             outcome = INVALID
             break
         if window == 0:
-            ws.impact_h = first_step(ws, shortest)
-            start_impact(ws, ws.impact_h, 0.0)
-        outcome = run_impact(ws, ws.impact_h, shortest, 1)
+            ws.impact.h = first_step(ws, shortest)
+            start_impact(ws, ws.impact.h, 0.0)
+        outcome = run_impact(ws, ws.impact.h, shortest, 1)
         _store(ws)
         if outcome != MOVED:
             break
-    ws.faint = 0.0
-    ws.n_active = ws.n_colliding
-    for a in range(ws.n_active):
+    ws.impact.faint_rate = 0.0
+    ws.problem.n_active = ws.impact.n_colliding
+    for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        active.slot = ws.colliding[a]
-        contact = ws.contacts[active.slot]
+        active.contact = ws.impact.colliding[a]
+        contact = ws.contacts[active.contact]
         for r in range(3):
             active.impulse[r] = contact.window_impulse[r]
-        active.stored, active.returned, active.rubbed = (
+        active.energy_stored, active.energy_returned, active.energy_dissipated = (
             contact.window_stored,
             contact.window_returned,
             contact.window_dissipated,

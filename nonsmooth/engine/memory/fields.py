@@ -1,4 +1,4 @@
-"""Fields of records: where in the memory they stand."""
+"""Fields of records: where in the workspace they stand."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TypeAlias, final
 
-from nonsmooth.engine.memory.blocks import GEOMETRY
-from nonsmooth.engine.memory.tables import COUNTS, FLOAT_ARRAYS, INTEGER_ARRAYS
+from nonsmooth.engine.memory.declare import Declaration, Record, declarations
+from nonsmooth.engine.memory.tables import storage_of, stride_of
 
 
 @final
@@ -18,17 +18,19 @@ class Field:
     Attributes
     ----------
     array : str
-        The array; without a name the record stands in the heap of floats, with no other between.
+        The array; without a name the record is a block in the heap of floats.
     stride : int
         Numbers from that of one record to that of the next.
     first, numbers : int
         Which of them the field is.
     is_vector : bool
-        Whether they are a tuple.
+        True if they are a tuple.
     behind : str
-        A scalar that tells how far into the array the first record is.
+        Scalar that says how far into the array the first record is.
     is_boolean : bool
-        Whether the number, 0 or 1, answers a question.
+        True if the number answers a question.
+    is_float : bool
+        True if it stands in the heap of floats.
     """
 
     array: str
@@ -38,58 +40,31 @@ class Field:
     is_vector: bool = False
     behind: str = ""
     is_boolean: bool = False
-
-    @property
-    def is_float(self) -> bool:
-        """Whether it stands in the heap of floats."""
-        return not self.array or self.array in FLOAT_ARRAYS
+    is_float: bool = True
 
 
 Fields: TypeAlias = Mapping[str, Field]
 
 
-def stride_of(array: str) -> int:
-    """Return how many numbers an array has for each record."""
-    size = (FLOAT_ARRAYS | INTEGER_ARRAYS)[array]
-    empty = size(dict.fromkeys(COUNTS, 0))
-    return max(size({**dict.fromkeys(COUNTS, 0), name: 1}) for name in COUNTS) - empty
+def fields_of(owner: type[Record]) -> Fields:
+    """Return the fields of the compiled record of an owner."""
+    return {name: _field(declared) for name, declared in declarations(owner).items()}
 
 
-def row(array: str) -> Field:
-    """Return the field of all numbers that an array has for a record."""
-    return Field(array, stride_of(array), 0, stride_of(array))
-
-
-def rows(*arrays: str) -> Fields:
-    """Return such fields by the names of their arrays."""
-    return {array: row(array) for array in arrays}
-
-
-def vector(array: str, first: int = 0, numbers: int = 2) -> Field:
-    """Return a field that is a tuple."""
-    return Field(array, stride_of(array), first, numbers, is_vector=True)
-
-
-def one(array: str, first: int = 0) -> Field:
-    """Return a field that is one number."""
-    return Field(array, stride_of(array), first)
-
-
-def question(array: str, first: int = 0) -> Field:
-    """Return a field that is true or false."""
-    return Field(array, stride_of(array), first, is_boolean=True)
-
-
-def geometry(first: int, numbers: int = 1, is_tuple: bool = True) -> Field:
-    """Return a field of the geometry block of a contact."""
-    return Field("geometry", GEOMETRY, first, numbers, is_tuple and numbers > 1)
-
-
-def without(prefix: str, *arrays: str) -> Fields:
-    """Return fields named after their arrays, but for a prefix."""
-    return {array.removeprefix(prefix): row(array) for array in arrays}
+def _field(declared: Declaration) -> Field:
+    storage = storage_of(declared)
+    return Field(
+        array=declared.key,
+        stride=stride_of(storage),
+        first=declared.inside[1],
+        numbers=declared.numbers,
+        is_vector=declared.is_vector,
+        behind=declared.behind,
+        is_boolean=declared.kind is bool,
+        is_float=storage.is_float,
+    )
 
 
 def packed(first: int, numbers: int = 1, stride: int = 0) -> Field:
-    """Return a field of a record in the heap of floats; three numbers are a vector."""
+    """Return a field of a block in the heap of floats; three numbers are a vector."""
     return Field("", stride, first, numbers, is_vector=numbers == 3)

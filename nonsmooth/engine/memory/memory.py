@@ -4,21 +4,28 @@ from __future__ import annotations
 
 import functools
 from array import array
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 
 from nonsmooth.engine.memory import implicit_tableau, tableau
-from nonsmooth.engine.memory.arrays.arrays import Arrays
-from nonsmooth.engine.memory.blocks import GEOMETRY, GUARD, PAIR, UNTOUCHED
-from nonsmooth.engine.memory.layout import N_STAGES
-from nonsmooth.engine.memory.tables import ARRAYS_OF, FLOAT_ARRAYS, INTEGER_ARRAYS, floats_of, integers_of, record_with
+from nonsmooth.engine.memory.blocks import GUARD, PAIR, UNTOUCHED
+from nonsmooth.engine.memory.declare import Declaration, Part
+from nonsmooth.engine.memory.owners.contact import Contact, DeclaredContact
+from nonsmooth.engine.memory.owners.model import Coefficients, Model
+from nonsmooth.engine.memory.tables import (
+    COUNTS,
+    OWNERS,
+    arrays_of,
+    length_of,
+    record_with,
+    scalars_of,
+    storage_of,
+    stride_of,
+)
 from nonsmooth.parameters import Table
-
-NOTHING = Arrays()
-"""What an engine has of its own that has nothing."""
 
 
 class Heap:
@@ -65,7 +72,7 @@ class Heap:
             places[key] = end
             end += len(table)
         floats = np.zeros(end + 1)
-        written = int(old.scalars[0]["events"])
+        written = int(old.scalars[0]["output.event_numbers"])
         floats[:written] = old.floats[:written]
         floats[self._first : first] = self._values
         for key, table in tables.items():
@@ -79,6 +86,18 @@ class Heap:
 def output_block(size: int) -> list[float]:
     """Return what stands in a block that a plug-in writes before it does, guards included."""
     return size * [0.0] + GUARD * [UNTOUCHED]
+
+
+def view_of(declared: Declaration, record: np.void, heap: np.ndarray) -> np.ndarray:
+    """Return a view of the numbers of a declaration in a heap; the record of scalars says where they are."""
+    counts = {name: record[f"{Model.key}.{name}"].item() for name in COUNTS}
+    storage, start = storage_of(declared), int(record[declared.key])
+    numbers = heap[start : start + length_of(storage, counts)]
+    if issubclass(declared.owner, Part) or storage.has_end:
+        return numbers
+    stride, first, n = stride_of(storage), declared.inside[1], declared.owner.capacity(counts)
+    columns = numbers[: stride * n].reshape(n, stride)[:, first : first + declared.numbers]
+    return columns[:, 0] if declared.numbers == 1 else columns
 
 
 @dataclass(frozen=True)
@@ -98,8 +117,8 @@ class Memory:
     references : tuple
         (place of a number, the place from which that number counts, place of the table that it leads to), for every
         table that a function reads.
-    own : Arrays
-        What its engine has of its own, besides the layers.
+    own : tuple of type
+        Parts of an engine that is no built-in one.
     owner : Memory or None
         Whose tables it reads, if it has none of its own.
     """
@@ -110,13 +129,45 @@ class Memory:
     blocks: int
     tables: int
     references: tuple[tuple[int, int, int], ...] = ()
-    own: Arrays = NOTHING
+    own: tuple[type[Part], ...] = ()
     owner: Memory | None = None
 
-    def array(self, name: str, size: int) -> np.ndarray:
-        """Return a view of ``size`` entries of the named array."""
-        heap, start = self._places[name]
-        return heap[start : start + size]
+    def __getitem__(self, declared: Any) -> Any:
+        """Return a scalar, or a view of an array: ``memory[Island.time]``, ``memory[Contact.gap]``.
+
+        The first axis of the numbers of a record is the record, the second one, if it has several, the number.
+        """
+        if declared.size is None and issubclass(declared.owner, Part):
+            return self.record[declared.key].item()
+        return self._view(declared)
+
+    def __setitem__(self, declared: Any, value: Any) -> None:
+        """Set a scalar, or all numbers of an array."""
+        if declared.size is None and issubclass(declared.owner, Part):
+            self.record[declared.key] = value
+        else:
+            self._view(declared)[...] = value
+
+    def start(self, declared: Any) -> int:
+        """Return where the array of a declaration begins in its heap."""
+        return int(self.record[declared.key])
+
+    def declared(self, declared: Any) -> np.ndarray:
+        """Return a view of what the declared contacts hold of a number of contacts."""
+        return self._view(getattr(DeclaredContact, declared.name))
+
+    def _view(self, declared: Declaration) -> np.ndarray:
+        if declared not in self._views:
+            self._views[declared] = self._made_view(declared)
+        return self._views[declared]
+
+    def _made_view(self, declared: Declaration) -> np.ndarray:
+        heap, _start = self._places[declared.key]
+        return view_of(declared, self.record, heap)
+
+    @functools.cached_property
+    def _views(self) -> dict[Declaration, np.ndarray]:
+        return {}
 
     @functools.cached_property
     def record(self) -> np.void:
@@ -133,9 +184,10 @@ class Memory:
 
     @functools.cached_property
     def _places(self) -> dict[str, tuple[np.ndarray, int]]:
+        owners = (*OWNERS, *self.own)
         heaps = (
-            (self.floats, FLOAT_ARRAYS | floats_of([self.own])),
-            (self.integers, INTEGER_ARRAYS | integers_of([self.own])),
+            (self.floats, arrays_of(owners, of_floats=True)),
+            (self.integers, arrays_of(owners, of_floats=False)),
         )
         starts = dict(zip(self.scalars.dtype.names or (), self.scalars.item(), strict=True))
         return {name: (heap, starts[name]) for heap, names in heaps for name in names}
@@ -148,7 +200,7 @@ class Memory:
     @functools.cached_property
     def kept(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Views of what a step may find of those before it: neither output nor scratch that it writes itself."""
-        events, codes = (int(self.scalars[name][0]) for name in ("events", "event_codes"))
+        events, codes = (int(self.scalars[name][0]) for name in ("output.event_numbers", "output.event_codes"))
         return self.floats[:events], self.floats[self.blocks : self.tables], self.integers[:codes]
 
     @functools.cached_property
@@ -157,47 +209,40 @@ class Memory:
         return tuple(part.view(np.int64) for part in (self.scalars, *self.kept))
 
 
-ALWAYS = ("bodies", "pairs", "numerics", "events")
-"""Layers whose arrays every engine needs: where things are, coefficients, and what is recorded."""
+def allocate(counts: Mapping[str, int], own: tuple[type[Part], ...] = ()) -> Memory:
+    """Lay out all arrays for the given counts, all of ``COUNTS``.
 
-
-def allocate(counts: Mapping[str, int], layers: Collection[str], own: Arrays = NOTHING) -> Memory:
-    """Lay out the arrays of some layers for the given counts, all of ``COUNTS``; others have no length.
-
-    ``own`` is what an engine brings besides.  Blocks are appended by :class:`Heap`.
+    ``own`` are the parts of an engine that is no built-in one. Blocks are appended by :class:`Heap`.
     """
-    values, totals = _laid(tuple(counts.items()), frozenset(layers), own)
+    values, totals = _laid(tuple(counts.items()), own)
     scalars = np.array([values], record_with(own))
     memory = Memory(scalars, np.zeros(totals[0]), np.zeros(max(totals[1], 1), np.int64), totals[0], totals[0], own=own)
-    n = counts["n_slots"]
-    memory.array("geometry", GEOMETRY * n).reshape(n, GEOMETRY)[:, PAIR:] = UNTOUCHED
-    memory.array("stages", 6 * N_STAGES)[:] = np.ravel(tableau.STAGES)
-    memory.array("error_weights", N_STAGES)[:] = tableau.ERROR
-    memory.array("implicit_stages", 6 * N_STAGES)[:] = np.ravel(implicit_tableau.STAGES)
-    memory.array("implicit_predictor", 6 * N_STAGES)[:] = np.ravel(implicit_tableau.PREDICTOR)
-    memory.array("implicit_errors", N_STAGES)[:] = implicit_tableau.ERROR
-    memory.array("implicit_bend", N_STAGES)[:] = implicit_tableau.BEND
-    memory.array("dense", 4 * N_STAGES)[:] = np.ravel(tableau.DENSE)
+    memory[Contact.geometry][:, PAIR:] = UNTOUCHED
+    memory[Coefficients.stages] = np.ravel(tableau.STAGES)
+    memory[Coefficients.error_weights] = tableau.ERROR
+    memory[Coefficients.implicit_stages] = np.ravel(implicit_tableau.STAGES)
+    memory[Coefficients.implicit_predictor] = np.ravel(implicit_tableau.PREDICTOR)
+    memory[Coefficients.implicit_errors] = implicit_tableau.ERROR
+    memory[Coefficients.implicit_bend] = implicit_tableau.BEND
+    memory[Coefficients.dense] = np.ravel(tableau.DENSE)
     return memory
 
 
 @functools.lru_cache(maxsize=16)
 def _laid(
-    counts: tuple[tuple[str, int], ...], layers: frozenset[str], own: Arrays
+    counts: tuple[tuple[str, int], ...], own: tuple[type[Part], ...]
 ) -> tuple[tuple[float, ...], tuple[int, int]]:
-    """Return the numbers of the record, and the lengths of the heaps of floats and of integers.
+    """Return the numbers of the record of scalars, and the lengths of the heaps of floats and of integers.
 
     Kept, as systems that differ in their numbers only are laid out alike, and often one after another.
     """
-    every = *ARRAYS_OF.values(), own
-    laid = [*(ARRAYS_OF[layer] for layer in {*ALWAYS, *layers}), own]
-    known = dict(counts)
-    values = {name: begin for arrays in every for name, begin in arrays.scalars.items()} | known
+    owners, known = (*OWNERS, *own), dict(counts)
+    values = {**scalars_of(owners), **{f"{Model.key}.{name}": number for name, number in counts}}
     totals: list[int] = []
-    for arrays_of in (floats_of, integers_of):
-        total, with_length = 0, arrays_of(laid)
-        for name in arrays_of(every):
+    for of_floats in (True, False):
+        total = 0
+        for name, size in arrays_of(owners, of_floats).items():
             values[name] = total
-            total += with_length[name](known) if name in with_length else 0
+            total += size(known)
         totals.append(total)
     return tuple(values[name] for name in record_with(own).names or ()), (totals[0], totals[1])

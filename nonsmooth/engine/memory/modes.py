@@ -81,6 +81,9 @@ CAUSES = (
     "step of the engine",
 )
 
+NO_RELEASE = 0
+"""Cause of the release of a contact that no jump of its contact point released."""
+
 
 class Truncation(IntEnum):
     """How an impact ended that was cut short."""

@@ -1,99 +1,96 @@
-"""The tables of the memory: all arrays of all layers in order, the record of scalars, and the counts that size them.
+"""Where the numbers of the field table stand: scalars in one record, arrays one behind another in two heaps.
 
-Everything that the engine knows stands in one record ``S`` of scalars and two heaps.  An entry of ``S`` named after an
-array holds the offset of that array in its heap.  What an engine of one's own brings stands behind all that.
+Every scalar of a :class:`~nonsmooth.engine.memory.declare.Part` is an entry of the record of scalars; so is the offset of
+every array in the heap of floats or in that of integers. The entries are named by owner and field: ``"island.time"``,
+``"contacts.gap"``. All sizes are counts of a system: another number of bodies or contacts is another set of offsets,
+never another compilation. The numbers of an engine that is no built-in one come last.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import functools
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.memory.arrays import bodies, contact, delassus, events, flow, impact, numerics, pairs
-from nonsmooth.engine.memory.arrays.arrays import Arrays, Size
-
-# that of the events comes first: what no step reads of those before begins with its output
-ARRAYS_OF: dict[str, Arrays] = {
-    "events": events.ARRAYS,
-    "bodies": bodies.ARRAYS,
-    "pairs": pairs.ARRAYS,
-    "numerics": numerics.ARRAYS,
-    "delassus": delassus.ARRAYS,
-    "contact": contact.ARRAYS,
-    "impact": impact.ARRAYS,
-    "flow": flow.ARRAYS,
-}
-"""The scalars and arrays by the layer of the engine that owns them: the lowest that uses them."""
+from nonsmooth.engine.memory.declare import Declaration, Part, Record, declarations
+from nonsmooth.engine.memory.owners.model import Model
+from nonsmooth.engine.memory.sizes import Counts, Size
+from nonsmooth.engine.memory.workspace import PARTS, RECORDS
 
 
-def floats_of(layers: Iterable[Arrays]) -> dict[str, Size]:
-    """Return the arrays of floats of some layers in the order in which they stand: those that come later last."""
-    return _in_order((arrays.floats, arrays.later_floats) for arrays in layers)
+def has_array(declared: Declaration) -> bool:
+    """True if a declaration has an array of its own: it is no scalar, and no view of another one."""
+    return not declared.inside[0] and (declared.size is not None or issubclass(declared.owner, Record))
 
 
-def integers_of(layers: Iterable[Arrays]) -> dict[str, Size]:
-    """Return the arrays of integers of some layers likewise."""
-    return _in_order((arrays.integers, arrays.later_integers) for arrays in layers)
+def length_of(declared: Declaration, counts: Counts) -> int:
+    """Length of the array of a declaration."""
+    if declared.size is not None:
+        return declared.size(counts)
+    return int(declared.numbers * declared.owner.capacity(counts) + declared.has_end)
 
 
-def _in_order(tables: Iterable[tuple[dict[str, Size], dict[str, Size]]]) -> dict[str, Size]:
-    early, later = zip(*tables, strict=True)
-    return {name: size for table in (*early, *later) for name, size in table.items()}
+def _all(owners: Iterable[type]) -> list[Declaration]:
+    return [declared for owner in owners for declared in declarations(owner).values()]
 
 
-def _fields(*layers: Arrays) -> list[tuple[str, str]]:
-    scalars = {name: begin for arrays in layers for name, begin in arrays.scalars.items()}
-    numbers = [(name, "f8" if isinstance(begin, float) else "i8") for name, begin in scalars.items()]
-    return numbers + [(name, "i8") for name in (*floats_of(layers), *integers_of(layers))]
+def arrays_of(owners: Iterable[type], of_floats: bool) -> dict[str, Size]:
+    """Return the sizes of all arrays of some owners by name, in the order in which they stand: late ones last."""
+    found = [one for one in _all(owners) if has_array(one) and one.is_float == of_floats]
+    return {one.key: functools.partial(length_of, one) for one in sorted(found, key=lambda one: one.is_late)}
 
 
-FLOAT_ARRAYS = floats_of(ARRAYS_OF.values())
-INTEGER_ARRAYS = integers_of(ARRAYS_OF.values())
-SCALARS = np.dtype(_fields(*ARRAYS_OF.values()), align=True)
-"""The record ``S``."""
+def scalars_of(owners: Iterable[type]) -> dict[str, float]:
+    """Return what each scalar of some owners is before any run."""
+    return {one.key: one.begin for one in _all(owners) if issubclass(one.owner, Part) and one.size is None}
+
+
+def _entries(owners: Iterable[type]) -> list[tuple[str, str]]:
+    owners = list(owners)
+    numbers = [(name, "f8" if isinstance(begin, float) else "i8") for name, begin in scalars_of(owners).items()]
+    offsets = [*arrays_of(owners, of_floats=True), *arrays_of(owners, of_floats=False)]
+    return numbers + [(name, "i8") for name in offsets]
+
+
+OWNERS: tuple[type, ...] = (*PARTS.values(), *RECORDS.values())
+"""All owners."""
+FLOAT_ARRAYS: Mapping[str, Size] = arrays_of(OWNERS, of_floats=True)
+INTEGER_ARRAYS: Mapping[str, Size] = arrays_of(OWNERS, of_floats=False)
+SCALARS = np.dtype(_entries(OWNERS), align=True)
+"""The record of scalars."""
 N_SCALARS = len(SCALARS.names or ())
-"""How many fields it has."""
+"""How many entries it has."""
+COUNTS = tuple(name for name, one in declarations(Model).items() if one.kind is int and one.size is None)
+"""Counts that size the arrays, and the other integers of a model."""
+CONSTANT_SCALARS = frozenset((*(f"{Model.key}.{name}" for name in COUNTS), *FLOAT_ARRAYS, *INTEGER_ARRAYS))
+"""What never changes once the workspace is laid out."""
 
 
-def record_with(own: Arrays) -> np.dtype[np.void]:
-    """Return the record ``S`` of an engine that has scalars and arrays of its own, which stand at its end."""
-    fields = _fields(own)
-    return np.dtype([*SCALARS.descr, *fields], align=True) if fields else SCALARS
+def record_with(own: Iterable[type[Part]]) -> np.dtype[np.void]:
+    """Return the record of scalars of an engine that has numbers of its own, which stand at its end."""
+    entries = _entries(own)
+    return np.dtype([*SCALARS.descr, *entries], align=True) if entries else SCALARS
 
 
 def places(*names: str) -> NDArray[np.int64]:
-    """Return where scalars stand in the record, all of which take as much room."""
+    """Return where scalars stand in the record, all of which are equally long."""
     known = SCALARS.names or ()
     return np.array([known.index(name) for name in names])
 
 
-COUNTS = (
-    "n_bodies",
-    "n_slots",
-    "n_declared",
-    "n_units",
-    "n_partners",
-    "n_paired",
-    "n_walls",
-    "n_pools",
-    "n_pairs",
-    "n_carriers",
-    "n_own_guards",
-    "n_loads",
-    "n_joints",
-    "n_articulations",
-    "n_q",
-    "n_u",
-    "n_y",
-    "n_states",
-    "n_pivoted",
-    "map_width",
-    "event_floats",
-    "event_integers",
-    "sample_capacity",
-)
-"""The run-time sizes that :func:`allocate` takes."""
-CONSTANT_SCALARS = frozenset((*COUNTS, *FLOAT_ARRAYS, *INTEGER_ARRAYS))
-"""What never changes once the memory is laid out."""
+def stride_of(storage: Declaration) -> int:
+    """Number of entries from one record to the next in a storage."""
+    if storage.size is None:
+        return storage.numbers
+    none: Counts = dict.fromkeys(COUNTS, 0)
+    return storage.size({**none, "n_slots": 1}) - storage.size(none)
+
+
+def storage_of(declared: Declaration) -> Declaration:
+    """Return the declaration whose storage a declaration is a view of: itself, if it has one of its own."""
+    return declared if not declared.inside[0] else _STORAGE[declared.key]
+
+
+_STORAGE = {one.key: one for one in _all(OWNERS) if not one.inside[0]}

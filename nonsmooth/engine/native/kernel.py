@@ -1,12 +1,12 @@
 """The one switch between compiled and plain: every engine function comes through here.
 
-Engine functions take the scalars ``S`` (one record of counts, offsets, tolerances), the heap of
-floats ``w`` and the heap of integers ``k`` (see :mod:`nonsmooth.engine.memory.layout`).  Set the environment
-variable ``NONSMOOTH_PLAIN=1`` before the first import to run the same source as ordinary Python,
-without numba: for the debugger, for coverage, and to see that both agree.
+Engine functions take the workspace ``ws``, all numbers of one trajectory by owner
+(:mod:`nonsmooth.engine.memory.workspace`). Set the environment variable ``NONSMOOTH_PLAIN=1`` before the first import to
+run the same source as ordinary Python, without numba: for the debugger, for coverage, and to see that both agree.
 
-Signatures are written with ``S``, ``F`` (floats), ``I`` (integers), ``f8``, ``i8``, ``void``, ``v2`` and
-``v3``, tuples of two and three floats, and ``D``, a block of the Delassus matrix.
+Signatures are written with ``ws``; ``f8``, ``i8``, ``b1`` and ``void``; ``v2`` and ``v3``, tuples of two and three floats;
+the owner of a record, ``Contact``; the name of a result (:data:`result`); and ``F`` and ``I``, the floats and integers of
+the workspace from some place on.
 """
 
 from __future__ import annotations
@@ -16,21 +16,18 @@ import os
 from collections.abc import Callable, Mapping
 from typing import Any, Protocol, TypeAlias, TypeVar
 
-from nonsmooth.engine.memory.arrays.arrays import Arrays
-from nonsmooth.engine.memory.contact_table import Contact
+from nonsmooth.engine.memory.declare import Part
 from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.engine.memory.owners.active_contact import ActiveContact, Unknown
+from nonsmooth.engine.memory.owners.bodies import Articulation, Body, Joint, Load
+from nonsmooth.engine.memory.owners.contact import Contact, DeclaredContact
+from nonsmooth.engine.memory.owners.guards import Guard, OwnGuard
+from nonsmooth.engine.memory.owners.neighbours import Carrier, HalfSpace, Pair, Search, Sphere
+from nonsmooth.engine.memory.workspace import Workspace
 from nonsmooth.engine.native.entries import Fingerprint
 from nonsmooth.types import Floats, Integers
 
 PLAIN = os.environ.get("NONSMOOTH_PLAIN", "0") not in ("", "0")
-
-Workspace: TypeAlias = Any
-"""The numbers of one trajectory, by name."""
-ActiveContact: TypeAlias = Any
-"""One of ``ws.actives``: a contact of the island at hand."""
-Guard: TypeAlias = Any
-"""One of ``ws.guards``."""
-
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 _Class = TypeVar("_Class", bound=type[Any])
@@ -52,11 +49,13 @@ entry_addresses: Callable[[], tuple[int, ...]] = _half.entry_addresses
 """The addresses of all entry points, which belong at the head of ``k``."""
 call_entry: Callable[..., Any] = _half.call_entry
 """``call_entry(name, memory, *numbers)``: call an entry point, or a step of an engine of one's own, from Python."""
-own_kernel: Callable[[Arrays, str], Callable[[_Function], _Function]] = _half.own_kernel
+own_kernel: Callable[[type[Part], str], Callable[[_Function], _Function]] = _half.own_kernel
 """A function of an engine with scalars and arrays of its own, compiled into its callers."""
-add_step: Callable[[Callable[..., Any], Arrays, str, Fingerprint], str] = _half.add_step
+add_step: Callable[[Callable[..., Any], type[Part], str, Fingerprint], str] = _half.add_step
 """``add_step(function, own, signature, fingerprint)``: let :data:`call_entry` find a step by the name returned."""
 
+copy_fields: Callable[[Any, Any], None] = _half.copy_fields
+"""Copy the numbers that two records of different owners have in common."""
 frame_at: Callable[[Floats, int], Any] = _half.records["frame"]
 """``frame_at(w, place)``: a frame that a body writes by name."""
 part_at: Callable[[Floats, int], Any] = _half.records["part"]
@@ -122,11 +121,23 @@ return its address.  Without a key nothing is kept on disk."""
 __all__ = [
     "PLAIN",
     "ActiveContact",
+    "Articulation",
+    "Body",
+    "Carrier",
     "Contact",
+    "DeclaredContact",
     "Floats",
     "Guard",
+    "HalfSpace",
     "Integers",
+    "Joint",
+    "Load",
     "Memory",
+    "OwnGuard",
+    "Pair",
+    "Search",
+    "Sphere",
+    "Unknown",
     "Workspace",
     "add_step",
     "address_of",
@@ -145,6 +156,7 @@ __all__ = [
     "call_traction",
     "call_watch",
     "calls",
+    "copy_fields",
     "delassus_block",
     "entry_addresses",
     "entry_point",

@@ -20,19 +20,20 @@ from numba.core import cgutils
 from numba.core.dispatcher import Dispatcher
 from numba.extending import intrinsic, typeof_impl
 
-from nonsmooth.engine.memory.arrays.arrays import Arrays
+from nonsmooth.engine.memory.declare import Part
 from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from nonsmooth.engine.memory.memory import Memory
-from nonsmooth.engine.memory.tables import floats_of, integers_of, record_with
+from nonsmooth.engine.memory.tables import record_with
 from nonsmooth.engine.native.build import CFunction, EntryPasses, KernelPasses, LawPasses, ShimPasses, uncollected
 from nonsmooth.engine.native.cache import Store, folders
 from nonsmooth.engine.native.entries import Fingerprint, known, own_name
 from nonsmooth.engine.native.forms import C_TYPES, FORMS
+from nonsmooth.engine.native.record_view import copy_fields as copy_fields
 from nonsmooth.engine.native.record_view import records as records
 from nonsmooth.engine.native.record_view import types_of
 from nonsmooth.engine.native.results import type_of_result
 from nonsmooth.engine.native.types import FLOATS, INTEGERS, TABLE, Table, call_at, moved
-from nonsmooth.engine.native.workspace_view import WORKSPACE, workspace_of
+from nonsmooth.engine.native.workspace_view import WORKSPACE, Workspace
 from nonsmooth.notices import say
 
 _OPTIONS: dict[str, Any] = {
@@ -50,7 +51,6 @@ _TYPES = {
     "I": INTEGERS,
     "f8": types.float64,
     "i8": types.int64,
-    "D": types_of["delassus_block"],
     "b1": types.boolean,
     **types_of,
     "v2": types.UniTuple(types.float64, 2),
@@ -69,7 +69,7 @@ _pending: list[tuple[Any, Any]] = []
 _alive: list[Any] = []
 _entries: dict[str, _Entry] = {}
 _callables: dict[str, Callable[..., Any]] = {}
-_STUB = "def stub_{name}({names}): return call(ws.entry_points[{index}], {names})"
+_STUB = "def stub_{name}({names}): return call(ws.model.entry_points[{index}], {names})"
 
 
 class _Entry(NamedTuple):
@@ -117,17 +117,17 @@ def entry_point(signature: str = "void(ws)") -> Callable[[Callable[..., Any]], A
     return decorate
 
 
-def _workspace_with(own: Arrays) -> Any:
+def _workspace_with(own: type[Part]) -> Any:
     """Return the type of the workspace of an engine that has numbers of its own."""
-    return workspace_of(Table(record_with(own)), floats_of([own]), integers_of([own]))
+    return Workspace(Table(record_with([own])), {own.key: own})
 
 
-def own_kernel(own: Arrays, signature: str) -> Callable[[Callable[..., Any]], Any]:
-    """Compile a function of an engine that has scalars and arrays of its own into its callers, as a kernel."""
+def own_kernel(own: type[Part], signature: str) -> Callable[[Callable[..., Any]], Any]:
+    """Compile a function of an engine that has numbers of its own into its callers, as a kernel."""
     return _kernel(_signature(signature, _workspace_with(own)))
 
 
-def add_step(function: Callable[..., Any], own: Arrays, signature: str, fingerprint: Fingerprint) -> str:
+def add_step(function: Callable[..., Any], own: type[Part], signature: str, fingerprint: Fingerprint) -> str:
     """Let :func:`call_entry` find a step of an engine under the name that is returned; it is compiled when called.
 
     It is kept on disk under what ``fingerprint`` says of it.

@@ -12,10 +12,10 @@ def interrupted(ws: Workspace, work: int) -> int:
     When the work that the watch allows is done, the watch is called: it says how much may follow, nothing for a stop.
     Long loops then end as if they had failed, so that nothing unfinished is taken over.
     """
-    ws.work += work
-    if ws.work >= ws.patience and ws.watch != 0:
-        ws.work = 0
-        ws.patience = int(call_watch(ws.watch, ws.t))
-        if ws.patience == 0:
-            ws.stopped = 1
-    return int(ws.stopped)
+    ws.request.n_work += work
+    if ws.request.n_work >= ws.request.work_budget and ws.request.interrupt_check != 0:
+        ws.request.n_work = 0
+        ws.request.work_budget = int(call_watch(ws.request.interrupt_check, ws.island.time))
+        if ws.request.work_budget == 0:
+            ws.request.is_interrupted = True
+    return int(ws.request.is_interrupted)

@@ -16,11 +16,11 @@ from nonsmooth.engine.numerics.linear import band_width
 def _half_band(ws: Workspace) -> int:
     """Return how far apart unknowns stand that act on one another; ``first_unknown`` says whose they are."""
     half = 0
-    unknown = ws.offsets.first_unknown
-    for a in range(ws.n_active):
+    unknown = ws.problem.first_unknown.start
+    for a in range(ws.problem.n_active):
         if ws.integers[unknown + a + 1] > ws.integers[unknown + a]:
-            row = ws.offsets.block_start + ws.first_grouped + a
-            lowest = ws.integers[unknown + ws.block_column[ws.integers[row]]]
+            row = ws.island.block_start.start + ws.problem.first_grouped + a
+            lowest = ws.integers[unknown + ws.island.block_column[ws.integers[row]]]
             half = max(half, ws.integers[unknown + a + 1] - 1 - lowest)
     return half
 
@@ -28,10 +28,10 @@ def _half_band(ws: Workspace) -> int:
 @kernel("b1(ws, i8, i8)")
 def open_band(ws: Workspace, n: int, matrix: int) -> bool:
     """Find the band of ``n`` unknowns and clear it at ``matrix``; return 1, or 0 where there is no room for it."""
-    ws.half_band = _half_band(ws)
-    size = n * band_width(n, ws.half_band)
+    ws.problem.half_band = _half_band(ws)
+    size = n * band_width(n, ws.problem.half_band)
     if size > MOST_ENTRIES:
-        ws.crowded = 1
+        ws.run.has_too_many_blocks = True
         return False
     for i in range(size):
         ws.floats[matrix + i] = 0.0

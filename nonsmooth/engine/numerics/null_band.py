@@ -45,18 +45,18 @@ def copy_shifted(w: Floats, a: int, n: int, half: int, out: int, shift: float) -
 @kernel("b1(ws, i8)")
 def solve_shifted(ws: Workspace, n: int) -> bool:
     """Solve ``reduced . x = x`` in place, a little added to the diagonal; return 0 if singular all the same."""
-    shift = _SHIFT * largest_diagonal(ws.floats, ws.offsets.reduced, n, ws.half_band)
-    copy_shifted(ws.floats, ws.offsets.reduced, n, ws.half_band, ws.offsets.matrix, shift)
-    return eliminate(ws.floats, ws.offsets.matrix, n, ws.half_band, ws.offsets.x, SINGULAR)
+    shift = _SHIFT * largest_diagonal(ws.floats, ws.problem.reduced.start, n, ws.problem.half_band)
+    copy_shifted(ws.floats, ws.problem.reduced.start, n, ws.problem.half_band, ws.problem.matrix.start, shift)
+    return eliminate(ws.floats, ws.problem.matrix.start, n, ws.problem.half_band, ws.problem.x.start, SINGULAR)
 
 
 @kernel("void(ws, i8, i8)")
 def project_on_null(ws: Workspace, n: int, v: int) -> None:
     """Replace the vector at ``v`` by its part in the null space."""
     for _time in range(2):
-        substitute_band(ws.floats, ws.offsets.null, n, ws.null_half, v)
+        substitute_band(ws.floats, ws.problem.null.start, n, ws.problem.null_half_band, v)
         for i in range(n):
-            ws.floats[v + i] *= ws.null_shift
+            ws.floats[v + i] *= ws.problem.null_shift
 
 
 @kernel("void(ws, i8, i8)")
@@ -64,10 +64,10 @@ def _remove_null(ws: Workspace, n: int, v: int) -> None:
     """Take its part in the null space off the vector at ``v``; ``matrix`` is overwritten."""
     for _time in range(_REMOVALS):
         for i in range(n):
-            ws.matrix[i] = ws.floats[v + i]
-        project_on_null(ws, n, ws.offsets.matrix)
+            ws.problem.matrix[i] = ws.floats[v + i]
+        project_on_null(ws, n, ws.problem.matrix.start)
         for i in range(n):
-            ws.floats[v + i] -= ws.matrix[i]
+            ws.floats[v + i] -= ws.problem.matrix[i]
 
 
 @kernel("f8(ws, i8, i8, i8)")
@@ -75,9 +75,9 @@ def _write_residual(ws: Workspace, n: int, x: int, out: int) -> float:
     """Write what ``x`` leaves of ``right`` to ``out``; return the largest of it."""
     worst = 0.0
     for i in range(n):
-        line = band_row(ws.offsets.reduced, i, n, ws.half_band)
-        ws.floats[out + i] = ws.right[i]
-        for j in range(max(0, i - ws.half_band), min(n, i + ws.half_band + 1)):
+        line = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band)
+        ws.floats[out + i] = ws.problem.right[i]
+        for j in range(max(0, i - ws.problem.half_band), min(n, i + ws.problem.half_band + 1)):
             ws.floats[out + i] -= ws.floats[line + j] * ws.floats[x + j]
         worst = max(worst, abs(ws.floats[out + i]))
     return worst
@@ -85,11 +85,14 @@ def _write_residual(ws: Workspace, n: int, x: int, out: int) -> float:
 
 @kernel("b1(ws, i8)")
 def _is_symmetric(ws: Workspace, n: int) -> bool:
-    small = _SYMMETRIC * largest_diagonal(ws.floats, ws.offsets.reduced, n, ws.half_band)
+    small = _SYMMETRIC * largest_diagonal(ws.floats, ws.problem.reduced.start, n, ws.problem.half_band)
     for i in range(n):
-        line = band_row(ws.offsets.reduced, i, n, ws.half_band)
-        for j in range(max(0, i - ws.half_band), i):
-            if abs(ws.floats[line + j] - ws.floats[band_row(ws.offsets.reduced, j, n, ws.half_band) + i]) > small:
+        line = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band)
+        for j in range(max(0, i - ws.problem.half_band), i):
+            if (
+                abs(ws.floats[line + j] - ws.floats[band_row(ws.problem.reduced.start, j, n, ws.problem.half_band) + i])
+                > small
+            ):
                 return False
     return True
 
@@ -97,19 +100,19 @@ def _is_symmetric(ws: Workspace, n: int) -> bool:
 @kernel("void(ws, i8)")
 def _write_square(ws: Workspace, n: int) -> None:
     """Write H, of half band ``null_half``, to ``basis``."""
-    half = ws.half_band
+    half = ws.problem.half_band
     if _is_symmetric(ws, n):
-        ws.null_half = half
-        copy_shifted(ws.floats, ws.offsets.reduced, n, half, ws.offsets.basis, 0.0)
+        ws.problem.null_half_band = half
+        copy_shifted(ws.floats, ws.problem.reduced.start, n, half, ws.problem.basis.start, 0.0)
         return
-    ws.null_half = min(2 * half, n - 1)
-    for i in range(n * band_width(n, ws.null_half)):
-        ws.basis[i] = 0.0
+    ws.problem.null_half_band = min(2 * half, n - 1)
+    for i in range(n * band_width(n, ws.problem.null_half_band)):
+        ws.problem.basis[i] = 0.0
     for line in range(n):
-        row = band_row(ws.offsets.reduced, line, n, half)
+        row = band_row(ws.problem.reduced.start, line, n, half)
         first, end = max(0, line - half), min(n, line + half + 1)
         for i in range(first, end):
-            out = band_row(ws.offsets.basis, i, n, ws.null_half)
+            out = band_row(ws.problem.basis.start, i, n, ws.problem.null_half_band)
             if ws.floats[row + i] != 0.0:
                 for j in range(first, end):
                     ws.floats[out + j] += ws.floats[row + i] * ws.floats[row + j]
@@ -121,36 +124,38 @@ def least_norm_in_band(ws: Workspace, n: int) -> None:
 
     Leaves H in ``basis``, its factor in ``null``, and the band of the projector on the null space in ``reduced``.
     """
-    if n * band_width(n, 2 * ws.half_band) > MOST_ENTRIES:
-        ws.crowded = 1
+    if n * band_width(n, 2 * ws.problem.half_band) > MOST_ENTRIES:
+        ws.run.has_too_many_blocks = True
         return
     _write_square(ws, n)
-    largest = largest_diagonal(ws.floats, ws.offsets.basis, n, ws.null_half)
-    ws.null_shift = _FAINT * (largest if largest > 0.0 else 1.0)
-    copy_shifted(ws.floats, ws.offsets.basis, n, ws.null_half, ws.offsets.null, ws.null_shift)
-    factorise_band(ws.floats, ws.offsets.null, n, ws.null_half, 0.1 * ws.null_shift)
+    largest = largest_diagonal(ws.floats, ws.problem.basis.start, n, ws.problem.null_half_band)
+    ws.problem.null_shift = _FAINT * (largest if largest > 0.0 else 1.0)
+    copy_shifted(
+        ws.floats, ws.problem.basis.start, n, ws.problem.null_half_band, ws.problem.null.start, ws.problem.null_shift
+    )
+    factorise_band(ws.floats, ws.problem.null.start, n, ws.problem.null_half_band, 0.1 * ws.problem.null_shift)
     # the answer so far grows in sigma, the correction in x
-    total, size, before = ws.offsets.sigma, 0.0, 1e300
+    total, size, before = ws.problem.sigma.start, 0.0, 1e300
     for i in range(n):
-        ws.floats[total + i] = ws.x[i] = 0.0
-        size = max(size, abs(ws.right[i]))
+        ws.floats[total + i] = ws.problem.x[i] = 0.0
+        size = max(size, abs(ws.problem.right[i]))
     while True:
-        left = _write_residual(ws, n, total, ws.offsets.sigma + n)
+        left = _write_residual(ws, n, total, ws.problem.sigma.start + n)
         if not left <= before:
             for i in range(n):
-                ws.floats[total + i] -= ws.x[i]
+                ws.floats[total + i] -= ws.problem.x[i]
         if not left > _SETTLED * size or not left < 0.5 * before:
             break
         before = left
         for i in range(n):
-            ws.x[i] = ws.sigma[n + i]
+            ws.problem.x[i] = ws.problem.sigma[n + i]
         if not solve_shifted(ws, n):
             break
-        _remove_null(ws, n, ws.offsets.x)
+        _remove_null(ws, n, ws.problem.x.start)
         for i in range(n):
-            ws.floats[total + i] += ws.x[i]
+            ws.floats[total + i] += ws.problem.x[i]
     for i in range(n):
-        ws.x[i] = ws.floats[total + i]
-    invert_in_band(ws.floats, ws.offsets.null, n, ws.null_half, ws.offsets.reduced)
-    for i in range(n * band_width(n, ws.null_half)):
-        ws.reduced[i] *= ws.null_shift
+        ws.problem.x[i] = ws.floats[total + i]
+    invert_in_band(ws.floats, ws.problem.null.start, n, ws.problem.null_half_band, ws.problem.reduced.start)
+    for i in range(n * band_width(n, ws.problem.null_half_band)):
+        ws.problem.reduced[i] *= ws.problem.null_shift

@@ -73,7 +73,7 @@ def dense_state(ws: Workspace, start: int, slopes: int, n: int, h: float, theta:
 
 @kernel("f8(ws, i8, f8)")
 def _dense_weight(ws: Workspace, stage: int, theta: float) -> float:
-    d = ws.offsets.dense + 4 * stage
+    d = ws.coefficients.dense.start + 4 * stage
     return ws.floats[d] + theta * (ws.floats[d + 1] + theta * (ws.floats[d + 2] + theta * ws.floats[d + 3]))
 
 
@@ -133,7 +133,7 @@ def write_implicit_interpolant(ws: Workspace, start: int, end: int, slopes: int,
 
     The first and the last are those at ``start`` and ``end``, and stay; ``bend`` is overwritten.
     """
-    weigh_slopes(ws, ws.offsets.implicit_bend, slopes, n, 2.0, bend)
+    weigh_slopes(ws, ws.coefficients.implicit_bend.start, slopes, n, 2.0, bend)
     for stage in range(1, LAST_STAGE):
         c = tableau.NODES[stage]
         for i in range(n):

@@ -59,7 +59,7 @@ def crossing_overlap(ws: Workspace, number: int) -> float:
     pair = ws.pairs[number]
     between = minus(_centre(ws.floats, pair.frame_b, pair.part_b), _centre(ws.floats, pair.frame_a, pair.part_a))
     current = _seen_from(ws.floats, pair.frame_a, pair.part_a, between)
-    previous = pair.between if pair.room > 0.0 else current
+    previous = pair.between if pair.margin > 0.0 else current
     pair.between = current
     offset = _offset_in_plane(previous, current, pair.allowed)
     if offset < 0.0:

@@ -33,43 +33,43 @@ _FAR = 1e3
 @kernel()
 def _ask_contacts(ws: Workspace) -> None:
     """Write how deep the closed contacts of a pair let it overlap, with the normal of the deepest."""
-    for number in range(ws.n_pairs):
+    for number in range(ws.model.n_pairs):
         pair = ws.pairs[number]
-        pair.closed, pair.deepest = 0, 0.0
-    for c in range(ws.n_contacts):
+        pair.is_closed, pair.deepest = False, 0.0
+    for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         if contact.mode == OPEN or contact.pair == NO_PAIR:
             continue
         pair = ws.pairs[contact.pair]
-        if pair.closed == 0 or contact.gap_at_end < pair.deepest:
-            pair.closed, pair.deepest, pair.normal = 1, min(0.0, contact.gap_at_end), contact.normal
+        if not pair.is_closed or contact.gap_at_end < pair.deepest:
+            pair.is_closed, pair.deepest, pair.normal = True, min(0.0, contact.gap_at_end), contact.normal
 
 
 @kernel()
 def _move_carriers(ws: Workspace) -> None:
     """Add to the way of each carrier how far any point of its parts can be from where it was at the last look."""
     farthest = 0.0
-    for number in range(ws.n_carriers):
+    for number in range(ws.model.n_carriers):
         carrier = ws.carriers[number]
         frame, square = frame_at(ws.floats, carrier.frame), 0.0
         for i in range(9):
             square += (frame.rotation[i] - carrier.axes[i]) ** 2
             carrier.axes[i] = frame.rotation[i]
-        carrier.way += distance(frame.origin, carrier.place) + carrier.lever * math.sqrt(0.5 * square)
+        carrier.distance += distance(frame.origin, carrier.place) + carrier.radius * math.sqrt(0.5 * square)
         carrier.place = frame.origin
-        farthest = max(farthest, carrier.way)
+        farthest = max(farthest, carrier.distance)
     if farthest > _FAR:
-        for number in range(ws.n_carriers):
-            ws.carriers[number].way = 0.0
-        for number in range(ws.n_pairs):
-            ws.pairs[number].room = 0.0
+        for number in range(ws.model.n_carriers):
+            ws.carriers[number].distance = 0.0
+        for number in range(ws.model.n_pairs):
+            ws.pairs[number].margin = 0.0
 
 
 @kernel("f8(ws, i8)")
 def _way(ws: Workspace, number: int) -> float:
     """Return the way of both carriers of a pair [m]: its separation changes by no more."""
     pair = ws.pairs[number]
-    return float(ws.carriers[pair.carrier_a].way + ws.carriers[pair.carrier_b].way)
+    return float(ws.carriers[pair.carrier_a].distance + ws.carriers[pair.carrier_b].distance)
 
 
 @kernel("f8(ws, i8)")
@@ -93,7 +93,7 @@ def _separation(ws: Workspace, number: int, enough: float) -> float:
     if part_at(ws.floats, pair.part_a).rings < 0.0:
         return height_over(ws, number)
     group = ws.pairs[pair.group]
-    if group.closed == 1:
+    if group.is_closed:
         found = separation_along(ws, number, group.normal)
         if found >= enough:
             pair.direction = group.normal
@@ -108,28 +108,28 @@ def look_at_pairs(ws: Workspace) -> None:
 
     What these say is asked only of a pair that one search does not find apart.
     """
-    ws.passed, asked, most = -1, 0, 0.0
+    ws.run.passed_pair, asked, most = -1, 0, 0.0
     _move_carriers(ws)
-    for number in range(ws.n_pairs):
+    for number in range(ws.model.n_pairs):
         pair, way = ws.pairs[number], _way(ws, number)
-        if way < pair.room:
+        if way < pair.margin:
             continue
         apart = _known_separation(ws, number)
         if apart < -pair.allowed and part_at(ws.floats, pair.part_a).rings >= 0.0:
             pair.direction = parting_direction(ws, number, pair.direction)
             apart = separation_along(ws, number, pair.direction)
         inside = crossing_overlap(ws, number) if pair.flat == 1 else -apart
-        pair.room = way + apart + (0.0 if pair.flat == 1 else pair.allowed)
+        pair.margin = way + apart + (0.0 if pair.flat == 1 else pair.allowed)
         if inside <= pair.allowed:
             continue
         if asked == 0:
             _ask_contacts(ws)
             asked = 1
         group = ws.pairs[pair.group]
-        if pair.flat == 1 and group.closed == 1:
+        if pair.flat == 1 and group.is_closed:
             continue
         explained = group.deepest - pair.allowed
         found = -inside if pair.flat == 1 else _separation(ws, number, explained)
         if explained - found > most:
             most = explained - found
-            ws.passed, ws.passed_depth, ws.passed_explained = number, -found, -explained
+            ws.run.passed_pair, ws.run.passed_depth, ws.run.passed_allowed = number, -found, -explained

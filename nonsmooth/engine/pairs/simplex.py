@@ -20,21 +20,21 @@ _EMPTY = 1e-15
 @kernel("v3(ws, i8)")
 def corner(ws: Workspace, i: int) -> Vector:
     """Return a corner of the simplex."""
-    at = ws.offsets.simplex + 3 * i
+    at = ws.problem.simplex.start + 3 * i
     return ws.floats[at], ws.floats[at + 1], ws.floats[at + 2]
 
 
 @kernel("void(ws, i8, v3)")
 def put_corner(ws: Workspace, i: int, place: Vector) -> None:
     """Write corner ``i`` of the simplex [m]."""
-    at = ws.offsets.simplex + 3 * i
+    at = ws.problem.simplex.start + 3 * i
     ws.floats[at], ws.floats[at + 1], ws.floats[at + 2] = place
 
 
 @kernel()
 def _clear(ws: Workspace) -> None:
     for i in range(CORNERS):
-        ws.simplex[PARTS + i] = 0.0
+        ws.problem.simplex[PARTS + i] = 0.0
 
 
 @kernel("f8(ws, i8, i8, f8)")
@@ -50,7 +50,7 @@ def _try_edge(ws: Workspace, i: int, j: int, best: float) -> float:
     if found >= best:
         return best
     _clear(ws)
-    ws.simplex[PARTS + i], ws.simplex[PARTS + j] = 1.0 - part, part
+    ws.problem.simplex[PARTS + i], ws.problem.simplex[PARTS + j] = 1.0 - part, part
     return float(found)
 
 
@@ -71,7 +71,7 @@ def _try_face(ws: Workspace, i: int, j: int, m: int, best: float) -> float:
                 return best
             _clear(ws)
             whole = of_a + of_b + of_c
-            parts = ws.offsets.simplex + PARTS
+            parts = ws.problem.simplex.start + PARTS
             ws.floats[parts + i], ws.floats[parts + j], ws.floats[parts + m] = of_a / whole, of_b / whole, of_c / whole
             return float(height * height * square)
     best = _try_edge(ws, i, j, best)
@@ -109,7 +109,7 @@ def _try_tetrahedron(ws: Workspace, size: float) -> float:
 def reduce_to_nearest(ws: Workspace, n: int, size: float) -> int:
     """Keep of ``n`` corners those that hold the point nearest to the origin; return how many; 0 if that is inside."""
     _clear(ws)
-    parts = ws.offsets.simplex + PARTS
+    parts = ws.problem.simplex.start + PARTS
     if n == 1:
         ws.floats[parts] = 1.0
     elif n == 2:
@@ -133,6 +133,6 @@ def nearest_point(ws: Workspace, n: int) -> Vector:
     x, y, z = 0.0, 0.0, 0.0
     for i in range(n):
         a = corner(ws, i)
-        part = ws.simplex[PARTS + i]
+        part = ws.problem.simplex[PARTS + i]
         x, y, z = x + part * a[0], y + part * a[1], z + part * a[2]
     return x, y, z

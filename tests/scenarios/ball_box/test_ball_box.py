@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.model import units
 from nonsmooth.model.assembly import assemble
@@ -51,11 +52,11 @@ def _forces(scenario: BallBox, solution: ns.Solution) -> tuple[np.ndarray, np.nd
         i_q, i_u = solution.offsets(other)
         again.set_start(ball, solution.q_end[i_q : i_q + 7], solution.u_end[i_u : i_u + 6])
     model = assemble(again, ns.EventDriven())
-    model.memory.scalars["t_end"] = model.memory.scalars["sample_interval"] = 1e-6
+    model.memory[owners.Request.t_end] = model.memory[owners.Request.sample_interval] = 1e-6
     call_entry("advance", model.memory, 10, 0)
-    n = int(model.memory.scalars["n_contacts"][0])
-    first = [again.contacts[c].first for c in model.memory.array("identity", n)]
-    force = model.memory.array("force", 3 * n).reshape(n, 3)[:, 0]
+    n = int(model.memory[owners.Island.n_contacts])
+    first = [again.contacts[c].first for c in model.memory[owners.Contact.declared][:n]]
+    force = model.memory[owners.Contact.force][:n][:, 0]
     on_floor = np.array([body is again.bodies[0] for body in first])
     on_walls = np.array([any(body is wall for wall in again.bodies[1:5]) for body in first])
     return force[on_floor], force[on_walls]

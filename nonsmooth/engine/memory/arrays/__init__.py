@@ -1,1 +1,0 @@
-"""The arrays of the memory, layer by layer: whose a scratch array is, and how long."""

@@ -1,0 +1,227 @@
+"""The field table: one declaration for every number of the engine.
+
+A declaration says what a number is: its type, unit, life, and one sentence. Its owner is the class that it stands in.
+Everything else follows from it: the compiled records and those of plain mode, allocation, checkpoints, the identity of a
+model, the poison of a debug run, and the page of the internals.
+
+An owner is a :class:`Record`, of which there are many (``ws.contacts[c].gap``), or a :class:`Part`, of which there is one
+(``ws.tolerance.gap``). A class of declarations is also what editors and type checkers see: ``contact.gap`` is a float,
+and "find usages" works.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from enum import Enum
+from typing import Any, ClassVar, Protocol
+
+from nonsmooth.engine.memory.sizes import Size, per
+
+
+class Life(Enum):
+    """When a number loses its meaning."""
+
+    PARAMETER = "parameter"
+    """With the model. It never changes in a run."""
+    REQUEST = "request"
+    """With the call that asks for a run."""
+    STATE = "state"
+    """With the run. A checkpoint is all of it."""
+    REUSED = "reused"
+    """With the next step, which starts from it instead of evaluating it again."""
+    STEP = "step"
+    """With the step that wrote it."""
+    EVENT = "event"
+    """With the event that wrote it."""
+    IMPACT = "impact"
+    """With the impact that wrote it."""
+    SOLUTION = "solution"
+    """With the contact problem that wrote it."""
+    OUTPUT = "output"
+    """When Python has read it."""
+
+
+@dataclass(eq=False)
+class Declaration:
+    """One number, or a few, of an owner.
+
+    Attributes
+    ----------
+    kind : type
+        float, int, bool or an IntEnum.
+    life : Life
+        When it loses its meaning.
+    unit : str
+        Unit in SI; "1" for a pure number, "" if there is none.
+    sentence : str
+        What it is.
+    numbers : int
+        How many there are of each record.
+    is_vector : bool
+        True if the numbers are read and written as a tuple, False if they are read one by one.
+    size : Size or None
+        Length of an array of a part, as a function of the counts of a system.
+    begin : float
+        Value before any run.
+    inside : tuple of str and int
+        Storage that it is a view of, and where in that of each record it begins; without a name it has its own.
+    behind : str
+        Scalar that says how far into the array the first record is.
+    has_end : bool
+        True for starts of ranges: one entry more is the end of the last range.
+    is_late : bool
+        True for room that most runs do not fill. It comes last, and costs no memory before it is written.
+    is_of_slot : bool
+        True for a parameter or a state of the place in a list, not of what is listed there.
+    owner : type
+        Class that it stands in.
+    name : str
+        Its name there.
+    """
+
+    kind: type
+    life: Life
+    unit: str
+    sentence: str
+    numbers: int = 1
+    is_vector: bool = False
+    size: Size | None = None
+    begin: float = 0
+    inside: tuple[str, int] = ("", 0)
+    behind: str = ""
+    has_end: bool = False
+    is_late: bool = False
+    is_of_slot: bool = False
+    owner: Any = None
+    name: str = ""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        """Take the name and the class that the class statement gives."""
+        self.owner, self.name = owner, name
+
+    @property
+    def is_float(self) -> bool:
+        """True if it stands in the floats of the workspace, False if in its integers."""
+        return self.kind is float
+
+    @property
+    def key(self) -> str:
+        """Name of its storage."""
+        storage, _first = self.inside
+        if not storage:
+            return f"{self.owner.key}.{self.name}"
+        return storage if "." in storage else f"{self.owner.key}.{storage}"
+
+
+class FloatRow(Protocol):
+    """An array of floats of the workspace."""
+
+    start: int
+    """Where it begins among all floats."""
+
+    def __getitem__(self, index: int, /) -> float: ...
+
+    def __setitem__(self, index: int, value: float, /) -> None: ...
+
+
+class IntegerRow(Protocol):
+    """An array of integers of the workspace."""
+
+    start: int
+    """Where it begins among all integers."""
+
+    def __getitem__(self, index: int, /) -> int: ...
+
+    def __setitem__(self, index: int, value: int, /) -> None: ...
+
+
+class Owner:
+    """Base of the classes of declarations.
+
+    Attributes
+    ----------
+    key : str
+        Name of the owner in the workspace.
+    """
+
+    key: ClassVar[str]
+
+
+class Record(Owner):
+    """Base of the owners of which there are many.
+
+    Attributes
+    ----------
+    capacity : str or Size
+        How many there is room for: a count of the model.
+    length : str
+        Scalar that says how many there are.
+    index : int
+        Number of the record.
+    """
+
+    capacity: ClassVar[Size]
+    length: ClassVar[str]
+    index: int
+
+    def __init_subclass__(cls, key: str, capacity: str | Size, length: str, copies: type[Record] | None = None) -> None:
+        """Note key, capacity and length, and declare what is known of a record of another owner while it is not listed."""
+        cls.key, cls.length = key, length
+        cls.capacity = staticmethod(per(1, capacity) if isinstance(capacity, str) else capacity)
+        for name, declared in declarations(copies).items() if copies else ():
+            if declared.life in (Life.PARAMETER, Life.STATE) and not declared.is_of_slot:
+                setattr(cls, name, replace(declared, owner=cls))
+
+
+class Part(Owner):
+    """Base of the owners of which there is one."""
+
+    def __init_subclass__(cls, key: str) -> None:
+        """Note the key."""
+        cls.key = key
+
+
+def real(life: Life, unit: str, sentence: str, **options: Any) -> Any:
+    """Declare a float."""
+    return Declaration(float, life, unit, sentence, **{"begin": 0.0, **options})
+
+
+def vector(life: Life, numbers: int, unit: str, sentence: str, **options: Any) -> Any:
+    """Declare a few floats that are read and written as a tuple."""
+    return Declaration(float, life, unit, sentence, numbers, is_vector=True, **options)
+
+
+def row(life: Life, numbers: int, unit: str, sentence: str, **options: Any) -> Any:
+    """Declare a few floats that are read one by one."""
+    return Declaration(float, life, unit, sentence, numbers, **options)
+
+
+def whole(life: Life, sentence: str, **options: Any) -> Any:
+    """Declare an integer: a count, a number of another record, or a place in the workspace."""
+    return Declaration(int, life, "", sentence, **options)
+
+
+def question(life: Life, sentence: str, **options: Any) -> Any:
+    """Declare a boolean."""
+    return Declaration(bool, life, "", sentence, **options)
+
+
+def one_of(kind: type, life: Life, sentence: str, **options: Any) -> Any:
+    """Declare a member of an enumeration."""
+    return Declaration(kind, life, "", sentence, **options)
+
+
+def end_of(start: str, sentence: str, **options: Any) -> Any:
+    """Declare the end of the range that begins at ``start``: the start of the next range."""
+    return Declaration(int, Life.PARAMETER, "", sentence, inside=(start, 1), **options)
+
+
+def array(life: Life, size: Size, kind: type, unit: str, sentence: str, *, is_late: bool = False) -> Any:
+    """Declare an array of a part, of floats or integers."""
+    return Declaration(kind, life, unit, sentence, size=size, is_late=is_late)
+
+
+def declarations(owner: type) -> Mapping[str, Declaration]:
+    """Return the declarations of an owner by name."""
+    return {name: value for name, value in vars(owner).items() if isinstance(value, Declaration)}

@@ -1,0 +1,46 @@
+"""The owners of the numbers of the engine, with a declaration of every number."""
+
+from __future__ import annotations
+
+from nonsmooth.engine.memory.owners.active_contact import ActiveContact, Unknown
+from nonsmooth.engine.memory.owners.bodies import Articulation, Body, Joint, Load
+from nonsmooth.engine.memory.owners.contact import Contact, DeclaredContact
+from nonsmooth.engine.memory.owners.event import Event
+from nonsmooth.engine.memory.owners.guards import Guard, OwnGuard
+from nonsmooth.engine.memory.owners.impact import Impact
+from nonsmooth.engine.memory.owners.island import Island, Step
+from nonsmooth.engine.memory.owners.model import Coefficients, Model, Options, Tolerance
+from nonsmooth.engine.memory.owners.neighbours import Carrier, HalfSpace, Pair, Search, Sphere
+from nonsmooth.engine.memory.owners.problem import Problem
+from nonsmooth.engine.memory.owners.run import Output, Request, Run, Totals
+
+__all__ = [
+    "ActiveContact",
+    "Articulation",
+    "Body",
+    "Carrier",
+    "Coefficients",
+    "Contact",
+    "DeclaredContact",
+    "Event",
+    "Guard",
+    "HalfSpace",
+    "Impact",
+    "Island",
+    "Joint",
+    "Load",
+    "Model",
+    "Options",
+    "Output",
+    "OwnGuard",
+    "Pair",
+    "Problem",
+    "Request",
+    "Run",
+    "Search",
+    "Sphere",
+    "Step",
+    "Tolerance",
+    "Totals",
+    "Unknown",
+]

@@ -1,0 +1,290 @@
+"""Numbers of a contact."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, final
+
+from nonsmooth.engine.memory.blocks import (
+    FEATURE,
+    GAP,
+    GEOMETRY,
+    NORMAL,
+    PAST_END,
+    POINT_A,
+    POINT_B,
+    SIDE_A,
+    SIDE_B,
+    SLIDE_MATRIX,
+    TANGENT,
+    TURN_MATRIX,
+)
+from nonsmooth.engine.memory.declare import Life, Record, one_of, question, real, row, vector, whole
+from nonsmooth.engine.memory.modes import Mode
+from nonsmooth.types import Floats
+
+_PARAMETER, _STATE, _REUSED = Life.PARAMETER, Life.STATE, Life.REUSED
+_STEP, _EVENT, _IMPACT = Life.STEP, Life.EVENT, Life.IMPACT
+
+
+@final
+class Contact(Record, key="contacts", capacity="n_slots", length="island.n_contacts"):
+    """A contact of the active list: one pair of features of two bodies that are near each other.
+
+    Directions are n, the normal from the first body to the second, and the tangents t1 and t2.
+    """
+
+    # --- what was declared --------------------------------------------------------------------------------------------
+    declared: int = whole(_STATE, "Number of the declared contact.", is_of_slot=True)
+    body_a: int = whole(_PARAMETER, "First body.")
+    body_b: int = whole(_PARAMETER, "Second body.")
+    articulation_a: int = whole(_PARAMETER, "Articulation of the first body.")
+    articulation_b: int = whole(_PARAMETER, "Articulation of the second body.")
+    frame_a: int = whole(_PARAMETER, "Place of the frame of the first body.")
+    frame_b: int = whole(_PARAMETER, "Place of the frame of the second body.")
+    n_u_a: int = whole(_PARAMETER, "Number of velocities of the first body.")
+    n_u_b: int = whole(_PARAMETER, "Number of velocities of the second body.")
+    column_a: int = whole(_PARAMETER, "Column of the first body in the Jacobian of its articulation.")
+    column_b: int = whole(_PARAMETER, "Column of the second body in the Jacobian of its articulation.")
+    support_radius_a: float = real(_PARAMETER, "m", "Largest distance of surface a from its origin.")
+    support_radius_b: float = real(_PARAMETER, "m", "Largest distance of surface b from its origin.")
+    spin_axis: tuple[float, float, float] = vector(
+        _PARAMETER, 3, "1", "Body-fixed axis about which the smaller shape may spin unseen, or zero."
+    )
+    size: float = real(_PARAMETER, "m", "Size of the smaller body.")
+    contact_time: float = real(_PARAMETER, "s", "Duration of an impact, below which bounces are not resolved.")
+    reach: float = real(_PARAMETER, "m", "Gap up to which a compliant contact acts.")
+    geometry_function: int = whole(_PARAMETER, "Address of the function that writes the geometry.")
+    geometry_parameters: int = whole(_PARAMETER, "Place of the parameters of the geometry.")
+    is_compliant: bool = question(
+        _PARAMETER, "The normal force is a function of gap and rate.", inside=("normal_function", 0)
+    )
+    normal_function: int = whole(_PARAMETER, "Address of the normal law of a compliant contact, else 0.")
+    geometry: Floats = row(_REUSED, GEOMETRY, "", "Block that the kinematics writes; its parts have names below.")
+    normal_parameters: int = whole(_PARAMETER, "Place of the parameters of the normal law.")
+    friction_function: int = whole(_PARAMETER, "Address of the friction law.")
+    friction_parameters: int = whole(_PARAMETER, "Place of the parameters of the friction law.")
+    is_anisotropic: bool = question(_PARAMETER, "Friction depends on the direction.")
+    anisotropy: int = whole(_PARAMETER, "Place of axis and ratios of anisotropic friction.")
+    has_traction_law: bool = question(
+        _PARAMETER, "A law gives friction force and moment.", inside=("traction_function", 0)
+    )
+    traction_function: int = whole(_PARAMETER, "Address of the traction law, or 0.")
+    traction_parameters: int = whole(_PARAMETER, "Place of the parameters of the traction law.")
+    traction_out: int = whole(_PARAMETER, "Place where the traction law writes.")
+    rates_function: int = whole(_PARAMETER, "Address of the function of the rates of inner states, or 0.")
+    rates_parameters: int = whole(_PARAMETER, "Place of the parameters of the rates.")
+    rates_out: int = whole(_PARAMETER, "Place where the rates of inner states are written.")
+    inner_states: int = whole(_PARAMETER, "Offset of the law's inner states in the state.")
+    n_inner_states: int = whole(_PARAMETER, "Number of inner states of the law.")
+    inner_states_at_start: int = whole(_PARAMETER, "Place of the inner states of a new contact.")
+    inner_states_copy: int = whole(_PARAMETER, "Place of the inner states that the law reads.")
+    impact_force_function: int = whole(_PARAMETER, "Address of force over deformation in an impact.")
+    impact_force_parameters: int = whole(_PARAMETER, "Place of the parameters of force over deformation.")
+    efficiency_function: int = whole(_PARAMETER, "Address of the efficiency over the gap rate, Eq. (28).")
+    efficiency_parameters: int = whole(_PARAMETER, "Place of the parameters of the efficiency.")
+    map_parameters: int = whole(_PARAMETER, "Place of the parameters of an impact law that maps velocities.")
+    features: int = whole(_PARAMETER, "Place of the pair of features out of a pool, or 0.")
+    pair: int = whole(_PARAMETER, "Pair of convex parts that the contact belongs to, or -1.")
+    jacobian_a: int = whole(_PARAMETER, "Place of W^T and N^T of the first body, rows n, t1, t2.", is_of_slot=True)
+    jacobian_b: int = whole(_PARAMETER, "Place of W^T and N^T of the second body.", is_of_slot=True)
+    response_a: int = whole(_PARAMETER, "Place of K W and K N of the first body.", is_of_slot=True)
+    response_b: int = whole(_PARAMETER, "Place of K W and K N of the second body.", is_of_slot=True)
+
+    # --- its history --------------------------------------------------------------------------------------------------
+    mode: Mode = one_of(Mode, _STATE, "Open, stick or slide.")
+    direction: tuple[float, float] = vector(_STATE, 2, "1", "Unit direction of the slip, or of the slip that begins.")
+    facing: int = whole(_STATE, "Side, 1 or -1, from which anisotropic friction is opposed.", is_of_slot=True)
+    closing_rate: float = real(_STATE, "m/s", "Gap rate with which a compliant contact closed.")
+    force_round_off: float = real(_STATE, "N", "Normal force that counts as zero.")
+    slip_per_force: float = real(_STATE, "1/kg", "Slip acceleration per unit of friction.")
+    mode_after_averaging: Mode = one_of(Mode, _STATE, "Mode after averaging, open if not averaged.")
+    is_averaged: bool = question(_STATE, "Forces are averaged over a contact time.", inside=("mode_after_averaging", 0))
+    mean_force: Floats = row(_STATE, 3, "N", "Averaged force, n, t1, t2.")
+    mean_span: float = real(_STATE, "s", "Time over which forces are averaged.")
+    mean_gap: float = real(_STATE, "m", "Gap up to which the work of averaged forces is accounted.")
+    mean_gap_change: float = real(_STATE, "m", "Change of the gap until it comes to rest.")
+    mean_forces_asked: float = real(_STATE, "s", "Time when forces were last tried at an instant.")
+    mean_forces_wait: float = real(_STATE, "s", "Time after which the next attempt is made.")
+    null_space_force: Floats = row(_STATE, 3, "N", "Chosen part of a force that is not unique.", is_of_slot=True)
+    slack: float = real(_STATE, "N", "Excess over the bounds that a choice of forces is allowed.", is_of_slot=True)
+    burst_start: float = real(_STATE, "s", "Start of the present burst of events.", is_of_slot=True)
+    burst_events: int = whole(_STATE, "Number of events in the present burst.", is_of_slot=True)
+
+    # --- what the next step starts from -------------------------------------------------------------------------------
+    gap_at_end: float = real(_REUSED, "m", "Gap at the end of the step.")
+    gap_rate_at_end: float = real(_REUSED, "m/s", "Gap rate at the end of the step.")
+    velocity_at_end: tuple[float, float, float] = vector(_REUSED, 3, "m/s", "Gap rate and slip at the end of the step.")
+    slip_at_end: tuple[float, float] = vector(
+        _REUSED, 2, "m/s", "Slip velocity at the end of the step.", inside=("velocity_at_end", 1)
+    )
+    overlap_at_end: float = real(_REUSED, "m", "Overlap at the end of the step.")
+    past_feature_at_end: float = real(_REUSED, "m", "Distance past the features at the end of the step.")
+    speed_at_end: float = real(_REUSED, "m/s", "Bound of the rate of the gap at the end of the step.")
+    acceleration_bound_at_end: tuple[float, float, float] = vector(
+        _REUSED, 3, "m/s^2, m/s^2, 1/s", "Bounds of gap acceleration and turning at the end of the step."
+    )
+    turning_bound_at_end: float = real(
+        _REUSED, "1/s", "Bound of the relative turning at the end of the step.", inside=("acceleration_bound_at_end", 2)
+    )
+    offset_at_end: tuple[float, float, float] = vector(
+        _REUSED, 3, "m", "Offset of the contact point from the body at the end of the step."
+    )
+    is_held_by_friction: bool = question(_REUSED, "Friction holds the contact.")
+    has_redundant_force: bool = question(_REUSED, "The force is not unique.")
+    static_margin: float = real(_REUSED, "N", "Distance of the friction to its static bound.")
+    normal_force: float = real(_REUSED, "N", "Normal contact force.", inside=("force", 0))
+    force: Floats = row(_REUSED, 3, "N", "Contact force, n, t1, t2.")
+    is_touching: bool = question(_REUSED, "The surfaces touch within the tolerances.")
+    group: int = whole(_REUSED, "Island of the contact.")
+    gap: float = real(
+        _REUSED, "m", "Distance of the surfaces along the normal, negative if they overlap.", inside=("geometry", GAP)
+    )
+    normal: tuple[float, float, float] = vector(
+        _REUSED, 3, "1", "Normal as the kinematics writes it.", inside=("geometry", NORMAL)
+    )
+    tangent: tuple[float, float, float] = vector(
+        _REUSED, 3, "1", "First tangent as the kinematics writes it.", inside=("geometry", TANGENT)
+    )
+    point_a: tuple[float, float, float] = vector(
+        _REUSED, 3, "m", "Witness point on the first body.", inside=("geometry", POINT_A)
+    )
+    point_b: tuple[float, float, float] = vector(
+        _REUSED, 3, "m", "Witness point on the second body.", inside=("geometry", POINT_B)
+    )
+    slide_a: tuple[float, float, float, float] = vector(
+        _REUSED,
+        4,
+        "1",
+        "Matrix that maps sliding of the witness over the first surface.",
+        inside=("geometry", SIDE_A + SLIDE_MATRIX),
+    )
+    turn_a: tuple[float, float, float, float] = vector(
+        _REUSED,
+        4,
+        "m",
+        "Matrix that maps turning of the normal on the first surface.",
+        inside=("geometry", SIDE_A + TURN_MATRIX),
+    )
+    slide_b: tuple[float, float, float, float] = vector(
+        _REUSED,
+        4,
+        "1",
+        "Matrix that maps sliding of the witness over the second surface.",
+        inside=("geometry", SIDE_B + SLIDE_MATRIX),
+    )
+    turn_b: tuple[float, float, float, float] = vector(
+        _REUSED,
+        4,
+        "m",
+        "Matrix that maps turning of the normal on the second surface.",
+        inside=("geometry", SIDE_B + TURN_MATRIX),
+    )
+    axes: Floats = row(_REUSED, 9, "1", "Rows n, t1, t2; of anisotropic friction t1 and t2 are stretched.")
+    axis_n: tuple[float, float, float] = vector(_REUSED, 3, "1", "Row n of the axes.", inside=("axes", 0))
+    axis_1: tuple[float, float, float] = vector(_REUSED, 3, "1", "Row t1 of the axes.", inside=("axes", 3))
+    axis_2: tuple[float, float, float] = vector(_REUSED, 3, "1", "Row t2 of the axes.", inside=("axes", 6))
+    stretch_1: tuple[float, float] = vector(_REUSED, 2, "1", "Row t1 along the unit tangents.")
+    stretch_2: tuple[float, float] = vector(_REUSED, 2, "1", "Row t2 along the unit tangents.")
+    version_a: int = whole(_REUSED, "Evaluation of the first body that the contact was evaluated with.")
+    version_b: int = whole(_REUSED, "Evaluation of the second body that the contact was evaluated with.")
+    feature_now: float = real(_REUSED, "1", "Number of the features in contact.", inside=("geometry", FEATURE))
+    past_feature: float = real(
+        _REUSED, "m", "Distance of the witness points past the end of their features.", inside=("geometry", PAST_END)
+    )
+    overlap: float = real(_REUSED, "m", "Gap where the surfaces overlap, else 0.")
+    rate: Floats = row(_REUSED, 3, "m/s", "Gap rate and slip velocity, one by one.")
+    velocity: tuple[float, float, float] = vector(
+        _REUSED, 3, "m/s", "Gap rate and slip velocity, as a tuple.", inside=("rate", 0)
+    )
+    normal_rate: float = real(_REUSED, "m/s", "Gap rate.", inside=("rate", 0))
+    slip: tuple[float, float] = vector(
+        _REUSED, 2, "m/s", "Slip velocity along the rows of the axes.", inside=("rate", 1)
+    )
+    slip_of_tangents: tuple[float, float] = vector(_REUSED, 2, "m/s", "Slip velocity along the unit tangents.")
+    gap_rate_at_start: float = real(_REUSED, "m/s", "Gap rate at the start of the step.")
+
+    # --- a step -------------------------------------------------------------------------------------------------------
+    bias: Floats = row(_STEP, 3, "m/s^2", "Acceleration while u' = 0, n, t1, t2.")
+    dissipated_by_spin: float = real(_STEP, "W", "Power of the friction moment.")
+    compliant_force: float = real(_STEP, "N", "Normal force of a compliant contact.")
+    gap_rate: float = real(_STEP, "m/s", "Gap rate where the guards were written last.")
+    gap_at_start: float = real(_STEP, "m", "Gap at the start of the step.")
+    past_feature_at_start: float = real(_STEP, "m", "Distance past the features at the start of the step.")
+    speed_at_start: float = real(_STEP, "m/s", "Bound of the rate of the gap at the start of the step.")
+    acceleration_bound_at_start: tuple[float, float, float] = vector(
+        _STEP, 3, "m/s^2, m/s^2, 1/s", "Bounds of gap acceleration and turning at the start of the step."
+    )
+    turning_bound_at_start: float = real(
+        _STEP,
+        "1/s",
+        "Bound of the relative turning at the start of the step.",
+        inside=("acceleration_bound_at_start", 2),
+    )
+    offset_at_start: tuple[float, float, float] = vector(
+        _STEP, 3, "m", "Offset of the contact point from the body at the start of the step."
+    )
+    closing_time: float = real(_STEP, "s", "Expected time until the gap of bodies in flight closes.")
+    least_force: float = real(_STEP, "N", "Smallest normal guard in the stages of the step.")
+    feature: int = whole(_STEP, "Features at the start of the step, -1 if not watched.")
+    choice_at_start: Floats = row(_STEP, 3, "N", "Null-space force chosen at the start of the step.")
+    choice_at_end: Floats = row(_STEP, 3, "N", "Null-space force chosen at the end of the step.")
+    is_in_problem: bool = question(_STEP, "The contact is grouped into an island.")
+
+    # --- an event -----------------------------------------------------------------------------------------------------
+    code_before: int = whole(_EVENT, "Bits of Eq. (29) before the event.")
+    code_during: int = whole(_EVENT, "Bits of Eq. (29) during the impact.")
+    was_averaged: bool = question(_EVENT, "Forces were averaged before the event.")
+    event_impulse: Floats = row(_EVENT, 3, "N s", "Impulse of the event, n, t1, t2.")
+    event_friction: tuple[float, float] = vector(
+        _EVENT, 2, "N s", "Tangential impulse of the event.", inside=("event_impulse", 1)
+    )
+    prescribed_rate: Floats = row(_EVENT, 3, "m/s", "Part of the rates that driven bodies prescribe.")
+    mode_agreed: Mode = one_of(Mode, _EVENT, "Mode that the contact problem found.")
+    direction_agreed: tuple[float, float] = vector(_EVENT, 2, "1", "Slip direction that the contact problem found.")
+    takes_over: bool = question(_EVENT, "The contact takes the place of a closed one.")
+    has_no_force: bool = question(_EVENT, "Sliding has no contact force (Painleve).")
+    release: int = whole(_EVENT, "Cause by which a jump of the contact point released it, or `NO_RELEASE`.")
+    leap_start_a: tuple[float, float, float] = vector(
+        _EVENT, 3, "m", "Witness point on the first body before the jump."
+    )
+    leap_start_b: tuple[float, float, float] = vector(
+        _EVENT, 3, "m", "Witness point on the second body before the jump."
+    )
+    leap_a: tuple[float, float, float] = vector(_EVENT, 3, "m", "Displacement of the first witness point in the jump.")
+    leap_b: tuple[float, float, float] = vector(_EVENT, 3, "m", "Displacement of the second witness point in the jump.")
+
+    # --- an impact ----------------------------------------------------------------------------------------------------
+    window_phase: int = whole(_IMPACT, "Phase at the end of the last window.")
+    window_sticks: bool = question(_IMPACT, "Friction held the contact at the end of the last window.")
+    n_waves: int = whole(_IMPACT, "Number of waves of compression that passed.")
+    layer: int = whole(_IMPACT, "Distance in contacts from those that act, -1 outside the window.")
+    is_at_rim: bool = question(_IMPACT, "The contact stands at the rim of the window.")
+    window_totals: Floats = row(_IMPACT, 9, "", "Totals of the impact, one by one.")
+    window_impulse: Floats = row(
+        _IMPACT, 3, "N s", "Impulse of the windows so far, n, t1, t2.", inside=("window_totals", 0)
+    )
+    window_stored: float = real(_IMPACT, "J", "Energy stored in the windows so far.", inside=("window_totals", 3))
+    window_returned: float = real(_IMPACT, "J", "Energy returned in the windows so far.", inside=("window_totals", 4))
+    window_dissipated: float = real(
+        _IMPACT, "J", "Energy dissipated by friction in the windows so far.", inside=("window_totals", 5)
+    )
+    window_deformation: float = real(
+        _IMPACT, "m", "Deformation at the end of the last window.", inside=("window_totals", 6)
+    )
+    window_energy: float = real(
+        _IMPACT, "J", "Stored energy at the end of the last window.", inside=("window_totals", 7)
+    )
+    window_lost: float = real(
+        _IMPACT, "J", "Stored energy that is lost when the contact opens.", inside=("window_totals", 8)
+    )
+
+
+if TYPE_CHECKING:
+    DeclaredContact = Contact
+else:
+
+    @final
+    class DeclaredContact(
+        Record, key="declared_contacts", capacity="n_declared", length="model.n_declared", copies=Contact
+    ):
+        """What is known of a contact while it is not listed: its parameters and its state."""

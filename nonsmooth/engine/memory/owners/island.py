@@ -1,0 +1,150 @@
+"""Numbers of the motion: state, and what the next step starts from."""
+
+from __future__ import annotations
+
+import math
+from typing import final
+
+from nonsmooth.engine.memory.declare import FloatRow, IntegerRow, Life, Part, array, question, real, whole
+from nonsmooth.engine.memory.layout import N_STAGES
+from nonsmooth.engine.memory.sizes import (
+    coordinates_and_velocities,
+    delassus_blocks,
+    delassus_numbers,
+    ends,
+    per,
+    spans,
+    step_part_numbers,
+)
+
+_STATE, _REUSED = Life.STATE, Life.REUSED
+
+
+@final
+class Island(Part, key="island"):
+    """The motion of what one clock drives: today the whole system."""
+
+    # --- state --------------------------------------------------------------------------------------------------------
+    time: float = real(_STATE, "s", "Time.")
+    y: FloatRow = array(
+        _STATE, per(1, "n_y"), float, "", "Integrated state: q, u, energy accounts, inner states of laws."
+    )
+    n_contacts: int = whole(_STATE, "Number of listed contacts.")
+    list_margin: float = real(_STATE, "m", "Margin of the neighbour list.")
+    sphere_order: IntegerRow = array(
+        _STATE, per(1, "n_spheres"), int, "", "Bounding spheres, sorted along the axis of the sweep."
+    )
+    follows_a_step: bool = question(_STATE, "No event has come since the last step.")
+    free_step: float = real(_STATE, "s", "Next step while no contact is closed.")
+    closed_step: float = real(_STATE, "s", "Next step while a contact is closed.")
+    first_step: float = real(_STATE, "s", "Largest first step after an event.")
+    resumed_step: float = real(_STATE, "s", "Step that was cut off by the end of the last call.")
+    resumed_end: float = real(_STATE, "s", "End time of the last call.")
+    burst: float = real(_STATE, "1", "Evaluations in the present burst of events, decaying with time.")
+    burst_time: float = real(_STATE, "s", "Time at which the burst was evaluated.")
+    burst_evaluations: int = whole(_STATE, "Evaluations of forces up to then.")
+    averaged_until: float = real(_STATE, "s", "End of the averaging of forces, infinite if none are.", begin=math.inf)
+    last_feature_change: float = real(_STATE, "s", "Time of the last change of features.", begin=-math.inf)
+    last_choice: float = real(_STATE, "s", "Time of the last choice of redundant forces.", begin=-math.inf)
+    own_step: float = real(_STATE, "s", "Next step of a body with a step of its own.")
+    own_steps_end: float = real(_STATE, "s", "First end of a step of a body's own.", begin=math.inf)
+    has_energy_account: bool = question(_STATE, "The energy before the motion is known.")
+    kinetic_before: float = real(_STATE, "J", "Kinetic energy when the account was opened.")
+    potential_before: float = real(_STATE, "J", "Potential energy when the account was opened.")
+    accounted_before: float = real(_STATE, "J", "Energy that was accounted for when the account was opened.")
+
+    # --- what the next step starts from -------------------------------------------------------------------------------
+    velocities: int = whole(_REUSED, "Where the velocities of all bodies are, on which kinematics is evaluated.")
+    driven_time: float = real(_REUSED, "s", "Time at which driven bodies were evaluated.", begin=-math.inf)
+    free_time: float = real(_REUSED, "s", "Time at which free bodies were evaluated.", begin=math.nan)
+    du: FloatRow = array(_REUSED, per(1, "n_u"), float, "", "Accelerations of all bodies.")
+    du_free: FloatRow = array(_REUSED, per(1, "n_u"), float, "", "Accelerations without contact forces.")
+    u_free: FloatRow = array(_REUSED, per(1, "n_u"), float, "", "Velocities on which joints prescribe nothing.")
+    y_evaluated: FloatRow = array(
+        _REUSED, coordinates_and_velocities, float, "", "q and u at which the bodies were evaluated."
+    )
+    n_grouped: int = whole(_REUSED, "Number of contacts in groups.")
+    n_groups: int = whole(_REUSED, "Number of groups of contacts that act on one another.")
+    grouped: IntegerRow = array(_REUSED, per(1, "n_slots"), int, "", "Contacts in groups, group after group.")
+    group_start: IntegerRow = array(_REUSED, ends("n_slots"), int, "", "Where each group begins in `grouped`.")
+    group_next: IntegerRow = array(Life.STEP, per(1, "n_slots"), int, "", "Where the next contact of each group goes.")
+    block_start: IntegerRow = array(
+        _REUSED, ends("n_slots"), int, "", "Where the Delassus blocks of each grouped contact begin."
+    )
+    block_column: IntegerRow = array(
+        _REUSED, delassus_blocks, int, "", "Active contact that each Delassus block couples with.", is_late=True
+    )
+    delassus: FloatRow = array(
+        _REUSED, delassus_numbers, float, "1/kg", "Delassus blocks, rows n, t1, t2.", is_late=True
+    )
+    n_integrated: int = whole(_REUSED, "Number of bodies that the integrator steps.")
+    integrated: IntegerRow = array(_REUSED, per(1, "n_bodies"), int, "", "Bodies that the integrator steps.")
+    n_ballistic: int = whole(_REUSED, "Number of bodies in ballistic motion.")
+    ballistic: IntegerRow = array(_REUSED, per(1, "n_bodies"), int, "", "Bodies in ballistic motion.")
+    n_spans: int = whole(_REUSED, "Number of spans of the state that the integrator steps.")
+    span_first: IntegerRow = array(_REUSED, spans, int, "", "First entry of each span.")
+    span_length: IntegerRow = array(_REUSED, spans, int, "", "Length of each span.")
+    n_spinning: int = whole(_REUSED, "Number of bodies whose spin is integrated apart.")
+    spinning: IntegerRow = array(_REUSED, per(1, "n_bodies"), int, "", "Bodies whose spin is integrated apart.")
+    singular_contact: int = whole(_REUSED, "Contact whose slip is near the Painleve singularity, or -1.")
+    stray_contact: int = whole(_REUSED, "Contact whose averaged forces differ most from those of the motion.")
+    strayed: float = real(_REUSED, "1", "That difference, relative to its bound.")
+    stage_time: float = real(_REUSED, "s", "Time of an implicit stage, 0 if there is none.")
+    fastest_turn: float = real(_REUSED, "1/s", "Largest turning rate of a body.")
+    power_at_end: float = real(_REUSED, "W", "Power of gravity on ballistic bodies at the end of the step.")
+    slopes: FloatRow = array(
+        _REUSED, per(N_STAGES, "n_y"), float, "", "Slopes of the stages; the last one is the first of the next step."
+    )
+    spin_slopes: FloatRow = array(
+        _REUSED, per(3 * N_STAGES, "n_bodies"), float, "1/s^2", "Slopes of the spins of the stages."
+    )
+    spin_start: FloatRow = array(_REUSED, per(3, "n_bodies"), float, "1/s", "Spins at the start of the step.")
+    quaternion_length: FloatRow = array(
+        _REUSED, per(1, "n_bodies"), float, "1", "Lengths of the quaternions before they were normalised."
+    )
+    own_start: FloatRow = array(
+        _STATE, per(1, "n_y"), float, "", "State at the start of the steps of bodies with a step of their own."
+    )
+    own_slopes: FloatRow = array(_STATE, per(N_STAGES, "n_y"), float, "", "Slopes of these steps.")
+
+
+@final
+class Step(Part, key="step"):
+    """Numbers of one step."""
+
+    limit: int = whole(Life.STEP, "What limited the step.")
+    h: float = real(Life.STEP, "s", "Length of the step.")
+    listed_step: float = real(Life.STEP, "s", "Longest step for which the neighbour list holds.")
+    closing_step: float = real(Life.STEP, "s", "Longest step by the gaps that close.")
+    turning_step: float = real(Life.STEP, "s", "Longest step by the turning of the bodies.")
+    arrival_step: float = real(Life.STEP, "s", "Longest step by gaps of ballistic bodies that close.")
+    error: float = real(Life.STEP, "1", "Error of the step, relative to its tolerance.")
+    relaxation: float = real(Life.STEP, "s", "Shortest relaxation time of friction laws and implicit slip.")
+    halting_contact: int = whole(Life.STEP, "Contact whose slip ends the step, or -1.")
+    driven_power: float = real(Life.STEP, "W", "Power of driven bodies.")
+    load_power: float = real(Life.STEP, "W", "Power of loads.")
+    guard: int = whole(Life.STEP, "Guard that fired, or -1.")
+    guard_slope: float = real(Life.STEP, "", "Slope of that guard at its root, in the unit of the guard per second.")
+    has_doubtful_force: bool = question(Life.STEP, "A stage had a force of the wrong sign.")
+    uses_last_slope: bool = question(Life.STEP, "The first slope is the last one of the step before.")
+    has_replaced_slope: bool = question(Life.STEP, "An implicit step has replaced the first slope.")
+    is_blended: bool = question(Life.STEP, "Redundant forces are blended over the step.")
+    is_evaluated: bool = question(Life.STEP, "The guards at the end of the step are evaluated.")
+    n_may_close: int = whole(Life.STEP, "Number of gaps that may close in the step.")
+    may_close: IntegerRow = array(Life.STEP, per(1, "n_slots"), int, "", "Contacts whose gap may close in the step.")
+    n_not_facing: int = whole(Life.STEP, "Number of contacts whose features do not face each other.")
+    not_facing: IntegerRow = array(
+        Life.STEP, per(1, "n_slots"), int, "", "Contacts whose features do not face each other."
+    )
+    power_at_start: float = real(Life.STEP, "W", "Power of gravity on ballistic bodies at the start of the step.")
+    ballistic_exchange: float = real(Life.STEP, "J", "Energy that ballistic bodies exchange with gravity in the step.")
+    y_new: FloatRow = array(Life.STEP, per(1, "n_y"), float, "", "State at the end of the step.")
+    y_stage: FloatRow = array(Life.STEP, per(1, "n_y"), float, "", "State of a stage.")
+    y_scale: FloatRow = array(Life.PARAMETER, per(1, "n_y"), float, "", "Scale of each entry of the state.")
+    y_guess: FloatRow = array(Life.STEP, per(1, "n_y"), float, "", "First guess of an implicit stage.")
+    first_slope: FloatRow = array(
+        Life.STEP, per(1, "n_y"), float, "", "First slope, while an implicit step replaces it."
+    )
+    part_ends: FloatRow = array(
+        Life.STEP, step_part_numbers, float, "", "Ends of the parts of a step in search of a root."
+    )

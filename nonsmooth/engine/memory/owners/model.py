@@ -1,0 +1,100 @@
+"""Numbers of the model, which never change once a system is laid out."""
+
+from __future__ import annotations
+
+from typing import final
+
+from nonsmooth.engine.memory.declare import FloatRow, IntegerRow, Life, Part, array, real, whole
+from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
+from nonsmooth.engine.memory.layout import N_STAGES
+from nonsmooth.engine.memory.sizes import ends, fixed, per
+
+_PARAMETER = Life.PARAMETER
+
+
+@final
+class Model(Part, key="model"):
+    """Sizes of a system, and what holds for all of its contacts.
+
+    Counts size the workspace. Another number of bodies or contacts recompiles nothing.
+    """
+
+    n_bodies: int = whole(_PARAMETER, "Number of bodies.")
+    n_slots: int = whole(_PARAMETER, "Largest number of contacts that can be listed at once.")
+    n_declared: int = whole(_PARAMETER, "Number of declared contacts.")
+    n_spheres: int = whole(_PARAMETER, "Number of bounding spheres.")
+    n_partners: int = whole(_PARAMETER, "Number of pairs of bounding spheres between which contacts are declared.")
+    n_paired: int = whole(_PARAMETER, "Number of declared contacts between bounding spheres.")
+    n_half_spaces: int = whole(_PARAMETER, "Number of declared contacts with an unbounded shape.")
+    n_searches: int = whole(_PARAMETER, "Number of searches for candidate features.")
+    n_pairs: int = whole(_PARAMETER, "Number of pairs of convex parts.")
+    n_carriers: int = whole(_PARAMETER, "Number of frames that carry convex parts.")
+    n_own_guards: int = whole(_PARAMETER, "Number of guards that the user declared.")
+    n_loads: int = whole(_PARAMETER, "Number of loads.")
+    n_joints: int = whole(_PARAMETER, "Number of joints.")
+    n_articulations: int = whole(_PARAMETER, "Number of sets of bodies that joints tie together; a single body is one.")
+    n_q: int = whole(_PARAMETER, "Number of coordinates of all bodies.")
+    n_u: int = whole(_PARAMETER, "Number of velocities of all bodies.")
+    n_y: int = whole(_PARAMETER, "Length of the integrated state: q, u, energy accounts, inner states of laws.")
+    n_states: int = whole(_PARAMETER, "Number of inner states of all laws.")
+    n_pivoted: int = whole(_PARAMETER, "Largest number of contacts that Lemke's method solves together.")
+    map_width: int = whole(_PARAMETER, "Numbers that an impact law which maps velocities takes of a contact.")
+    event_floats: int = whole(_PARAMETER, "Length of the buffer of floats of events.")
+    event_integers: int = whole(_PARAMETER, "Length of the buffer of integers of events.")
+    sample_capacity: int = whole(_PARAMETER, "Number of samples that the buffer holds.")
+    entry_points: IntegerRow = array(_PARAMETER, fixed(len(ENTRY_POINTS)), int, "", "Addresses of the entry points.")
+    partner: IntegerRow = array(
+        _PARAMETER, per(1, "n_partners"), int, "", "Second bounding sphere of each pair, ascending for each first one."
+    )
+    partner_contact: IntegerRow = array(
+        _PARAMETER, ends("n_partners"), int, "", "Where the contacts of each pair begin in `paired_contact`."
+    )
+    paired_contact: IntegerRow = array(
+        _PARAMETER, per(1, "n_paired"), int, "", "Declared contacts, pair after pair of bounding spheres."
+    )
+
+
+@final
+class Options(Part, key="options"):
+    """Options of the engine, and what the laws of a system need of it."""
+
+    impact_map: int = whole(_PARAMETER, "Address of the impact law that maps velocities, or 0.")
+    painleve_policy: int = whole(_PARAMETER, "What to do if sliding has no contact force.")
+    solver: int = whole(_PARAMETER, "Solver of the contact problem.")
+    widest_margin: float = real(_PARAMETER, "m", "Largest margin of the neighbour list.")
+
+
+@final
+class Tolerance(Part, key="tolerance"):
+    """Tolerances of time, gaps and velocities, and of the integration."""
+
+    gap: float = real(_PARAMETER, "m", "Gap that counts as zero.")
+    velocity: float = real(_PARAMETER, "m/s", "Velocity that counts as zero.")
+    resolution: float = real(_PARAMETER, "s", "Least time tolerance.")
+    relative: float = real(_PARAMETER, "1", "Relative tolerance of a step.")
+    impact: float = real(_PARAMETER, "1", "Relative tolerance of a step of an impact.")
+    largest_step: float = real(_PARAMETER, "s", "Largest step.")
+    time: float = real(
+        Life.REUSED, "s", "Time that counts as zero: the resolution, or a few spacings of floats at the present time."
+    )
+
+
+@final
+class Coefficients(Part, key="coefficients"):
+    """Coefficients of the Runge-Kutta pairs."""
+
+    stages: FloatRow = array(_PARAMETER, fixed(6 * N_STAGES), float, "1", "Coefficients of the explicit stages.")
+    error_weights: FloatRow = array(_PARAMETER, fixed(N_STAGES), float, "1", "Weights of the explicit error estimate.")
+    dense: FloatRow = array(_PARAMETER, fixed(4 * N_STAGES), float, "1", "Coefficients of the explicit dense output.")
+    implicit_stages: FloatRow = array(
+        _PARAMETER, fixed(6 * N_STAGES), float, "1", "Coefficients of the implicit stages."
+    )
+    implicit_predictor: FloatRow = array(
+        _PARAMETER, fixed(6 * N_STAGES), float, "1", "Coefficients of the first guess of an implicit stage."
+    )
+    implicit_errors: FloatRow = array(
+        _PARAMETER, fixed(N_STAGES), float, "1", "Weights of the implicit error estimate."
+    )
+    implicit_bend: FloatRow = array(
+        _PARAMETER, fixed(N_STAGES), float, "1", "Weights of the curvature of an implicit step."
+    )

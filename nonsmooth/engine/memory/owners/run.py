@@ -1,0 +1,91 @@
+"""Numbers of a run: what was asked for, totals, counters, buffers of the output, and why it ended."""
+
+from __future__ import annotations
+
+import math
+from typing import final
+
+from nonsmooth.engine.memory.declare import FloatRow, IntegerRow, Life, Part, array, question, real, whole
+from nonsmooth.engine.memory.limits import LIMITS
+from nonsmooth.engine.memory.sizes import fixed, per, sample_numbers
+
+_REQUEST, _STATE, _OUTPUT = Life.REQUEST, Life.STATE, Life.OUTPUT
+
+
+@final
+class Request(Part, key="request"):
+    """What a call asks for."""
+
+    t_end: float = real(_REQUEST, "s", "End time.")
+    sample_start: float = real(_REQUEST, "s", "Time of the first sample.")
+    sample_interval: float = real(_REQUEST, "s", "Time between samples.")
+    sample_span: float = real(_REQUEST, "s", "Largest step that the buffer of samples allows.", begin=math.inf)
+    n_known_events: int = whole(_REQUEST, "Number of events of a resumed run that are recorded already.")
+    is_resumed: bool = question(_REQUEST, "The run continues an earlier one.")
+    n_work: int = whole(_REQUEST, "Work since the last interrupt check, in evaluations of a contact.")
+    work_budget: int = whole(_REQUEST, "Work until the next interrupt check, in evaluations of a contact.")
+    interrupt_check: int = whole(_REQUEST, "Address of the interrupt check, or 0.")
+    is_interrupted: bool = question(_REQUEST, "The run is to stop.")
+
+
+@final
+class Totals(Part, key="totals"):
+    """Energies and counts of a run since its start."""
+
+    driven_work: float = real(_STATE, "J", "Work of driven bodies at instants.")
+    restitution_loss: float = real(_STATE, "J", "Energy dissipated by restitution.")
+    friction_loss: float = real(_STATE, "J", "Energy dissipated by friction at instants.")
+    closing_loss: float = real(_STATE, "J", "Energy dissipated by closings and projections.")
+    n_impacts: int = whole(_STATE, "Number of impacts.")
+    n_steps: int = whole(_STATE, "Number of accepted steps.")
+    n_rejected: int = whole(_STATE, "Number of rejected steps.")
+    n_listings: int = whole(_STATE, "Number of times that the neighbour list was made.")
+    n_evaluations: int = whole(_STATE, "Number of evaluations of contact forces.")
+    n_impact_steps: int = whole(_STATE, "Number of steps of impacts.")
+    n_gap_evaluations: int = whole(_STATE, "Number of evaluations of gaps in search of a root.")
+    n_steps_limited: IntegerRow = array(_STATE, fixed(len(LIMITS)), int, "", "Number of steps that each limit ended.")
+
+
+@final
+class Run(Part, key="run"):
+    """How a run is going, and why it ended."""
+
+    has_started: bool = question(_STATE, "The start is recorded.")
+    n_calls: int = whole(_STATE, "Number of calls of the engine.")
+    failure: int = whole(_OUTPUT, "Status of a failed check, else `RUNNING`.")
+    failed_number: int = whole(_OUTPUT, "Contact, joint or body of the failed check.")
+    found: float = real(_OUTPUT, "", "Value that the failed check found, in the unit of the check.")
+    allowed: float = real(_OUTPUT, "", "Value that the failed check allows, in the unit of the check.")
+    passed_pair: int = whole(_OUTPUT, "Pair of convex parts that passed into each other, or -1.", begin=-1)
+    passed_depth: float = real(_OUTPUT, "m", "Depth of that pair.")
+    passed_allowed: float = real(_OUTPUT, "m", "Depth that the tolerances allow.")
+    unscaled_contact: int = whole(_OUTPUT, "Contact whose law gave no scale of an impact.")
+    n_past_map: int = whole(_OUTPUT, "Number of contacts of an impact law that wrote past its block.")
+    has_too_many_blocks: bool = question(_OUTPUT, "More contacts act on one another than there are blocks for.")
+
+    worst_energy: float = real(_OUTPUT, "J", "Largest unexplained change of energy.")
+    worst_energy_ratio: float = real(_OUTPUT, "1", "That change over the energy that the tolerances allow.")
+    worst_energy_time: float = real(_OUTPUT, "s", "Time of that change.")
+    energy_scale: float = real(_OUTPUT, "J", "Energy that the unexplained change is compared with.")
+    jumped_energy: float = real(_OUTPUT, "J", "Energy that springs gained by beginning inside of a body.")
+    jump_time: float = real(_OUTPUT, "s", "Last time of such a gain.")
+
+
+@final
+class Output(Part, key="output"):
+    """Buffers of events and samples, which Python empties between calls."""
+
+    n_events: int = whole(_OUTPUT, "Number of events in the buffers.")
+    floats_used: int = whole(_OUTPUT, "Number of floats in use.")
+    integers_used: int = whole(_OUTPUT, "Number of integers in use.")
+    last_floats: int = whole(_OUTPUT, "Where the floats of the last event begin.")
+    last_integers: int = whole(_OUTPUT, "Where the integers of the last event begin.")
+    last_contact: int = whole(_OUTPUT, "Contact of the last event.")
+    n_samples: int = whole(_OUTPUT, "Number of samples in the buffer.")
+    sample_index: int = whole(_STATE, "Number of the next sample.")
+    next_sample: float = real(_STATE, "s", "Time of the next sample.")
+    event_numbers: FloatRow = array(_OUTPUT, per(1, "event_floats"), float, "", "Floats of the events.", is_late=True)
+    event_codes: IntegerRow = array(_OUTPUT, per(1, "event_integers"), int, "", "Integers of the events.", is_late=True)
+    samples: FloatRow = array(
+        _OUTPUT, sample_numbers, float, "", "Time, state and totals of each sample.", is_late=True
+    )
