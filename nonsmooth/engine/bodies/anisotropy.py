@@ -8,7 +8,7 @@ stay what they are.  The geometry keeps its own tangents, of unit length; ``skew
 
 from __future__ import annotations
 
-from nonsmooth.engine.memory.modes import SLIDE, STICK
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, at, frame_at, kernel
 from nonsmooth.engine.numerics.vectors import Pair, Vector, dot, length
 
@@ -49,7 +49,7 @@ def stretch_tangents(ws: Workspace, c: int, t1: Vector, t2: Vector) -> None:
     v1, v2 = contact.slip_of_tangents
     forward = e1 * v1 + e2 * v2
     # one that sticks faces against what holds it: in the stages of a step its slip is not quite none
-    if contact.mode != STICK and abs(forward) > ws.tolerance.velocity:
+    if contact.mode != Mode.STICK and abs(forward) > ws.tolerance.velocity:
         contact.facing = 1 if forward > 0.0 else -1
     along, across = law[_FORWARD] if contact.facing == 1 else law[_BACKWARD], law[_ACROSS]
     contact.stretch_1, contact.stretch_2 = (along * e1, along * e2), (-across * e2, across * e1)
@@ -84,8 +84,8 @@ def face_slips(ws: Workspace) -> None:
     """Let contacts that stuck before an impact face against the slip that it leaves."""
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
-        if contact.is_anisotropic and contact.mode == STICK:
-            contact.mode = SLIDE
+        if contact.is_anisotropic and contact.mode == Mode.STICK:
+            contact.mode = Mode.SLIDE
 
 
 @kernel("f8(ws, i8, f8)")

@@ -9,7 +9,7 @@ from __future__ import annotations
 from nonsmooth.engine.bodies.kinematics import evaluate_row_response, push_response, wrench_row
 from nonsmooth.engine.memory.blocks import DELASSUS, FORCE_AND_MOMENT, TRACTION, TRACTION_MOMENT
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
-from nonsmooth.engine.memory.modes import OPEN, STICK
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import (
     Floats,
     Workspace,
@@ -106,12 +106,12 @@ def write_state_rates(ws: Workspace, y: int, out: int) -> None:
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         n = contact.n_inner_states
-        if n == 0 or contact.mode == OPEN:
+        if n == 0 or contact.mode == Mode.OPEN:
             continue
         source = contact.traction_out + FORCE_AND_MOMENT
         if contact.inner_states_copy > 0:
             source = contact.rates_out
-            speed = 0.0 if contact.mode == STICK else length(contact.slip)
+            speed = 0.0 if contact.mode == Mode.STICK else length(contact.slip)
             states, parameters = at(ws.floats, state_at(ws, c, y)), at(ws.floats, contact.rates_parameters)
             call_rates(contact.rates_function, speed, states, parameters, at(ws.floats, source))
         for i in range(n):

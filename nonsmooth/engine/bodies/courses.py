@@ -6,7 +6,7 @@ the interpolant of that step says, as long as nothing else touches it.
 
 from __future__ import annotations
 
-from nonsmooth.engine.memory.modes import OPEN
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
 
@@ -14,7 +14,7 @@ from nonsmooth.engine.native.kernel import Workspace, kernel
 def has_own_step(ws: Workspace, c: int) -> bool:
     """True if contact ``c`` is the one closed contact of a body that takes a step of its own (multirate)."""
     contact = ws.contacts[c]
-    if contact.mode == OPEN:
+    if contact.mode == Mode.OPEN:
         return False
     return ws.bodies[contact.body_a].has_own_step or ws.bodies[contact.body_b].has_own_step
 

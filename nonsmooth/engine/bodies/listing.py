@@ -15,7 +15,7 @@ from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.kinematics import UNSEEN
 from nonsmooth.engine.bodies.pools import are_near, fill_pools, is_empty
 from nonsmooth.engine.memory.blocks import PAIR
-from nonsmooth.engine.memory.modes import NO_SLOT, RUNNING
+from nonsmooth.engine.memory.modes import Status
 from nonsmooth.engine.native.kernel import (
     Floats,
     Workspace,
@@ -145,8 +145,8 @@ def _widest_axis(ws: Workspace) -> int:
     return best
 
 
-@entry_point("i8(ws)")
-def list_contacts(ws: Workspace) -> int:
+@entry_point("Status(ws)")
+def list_contacts(ws: Workspace) -> Status:
     """Fill the slots for the present state; return the status."""
     _leave(ws)
     ws.island.follows_a_step = False
@@ -154,7 +154,7 @@ def list_contacts(ws: Workspace) -> int:
     if ws.model.n_spheres == 0:
         for declared in range(ws.model.n_declared):
             _enter(ws, declared)
-        return RUNNING
+        return Status.RUNNING
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     for number in range(ws.model.n_spheres):
         unit = ws.spheres[number]
@@ -164,10 +164,10 @@ def list_contacts(ws: Workspace) -> int:
             unit.axes[i] = frame.rotation[i]
     ws.island.list_margin = min(ws.options.widest_margin, 2.0 * ws.island.list_margin)
     status = fill_pools(ws)
-    while status == NO_SLOT and ws.island.list_margin > _NARROWEST * ws.options.widest_margin:
+    while status == Status.NO_SLOT and ws.island.list_margin > _NARROWEST * ws.options.widest_margin:
         ws.island.list_margin *= 0.5
         status = fill_pools(ws)
-    if status != RUNNING:
+    if status != Status.RUNNING:
         return status
     frame = still = -1
     for i in range(ws.model.n_half_spaces):
@@ -177,7 +177,7 @@ def list_contacts(ws: Workspace) -> int:
             frame, still = wall.frame, _is_still(ws.floats, wall.frame)
         clear = still == 1 and wall.is_steady and _is_clear(ws, i)
         if not clear and not _enter(ws, wall.contact):
-            return NO_SLOT
+            return Status.NO_SLOT
     axis = _widest_axis(ws)
     _sort_units(ws, axis)
     for i in range(ws.model.n_spheres):
@@ -189,8 +189,8 @@ def list_contacts(ws: Workspace) -> int:
             if _begin(ws, two, axis) > end:
                 break
             if are_near(ws, one, two) and not _enter_pair(ws, min(one, two), max(one, two)):
-                return NO_SLOT
-    return RUNNING
+                return Status.NO_SLOT
+    return Status.RUNNING
 
 
 @kernel("f8(ws, i8)")

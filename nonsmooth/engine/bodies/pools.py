@@ -9,7 +9,7 @@ how far they may come from each other while the list stands.
 from __future__ import annotations
 
 from nonsmooth.engine.memory.blocks import CANDIDATE
-from nonsmooth.engine.memory.modes import NO_SLOT, NOT_FINITE, OPEN, RUNNING
+from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.engine.native.kernel import Workspace, at, call_pair, kernel
 from nonsmooth.engine.numerics.vectors import dot, minus
 
@@ -42,14 +42,14 @@ def _keep(ws: Workspace, declared: int, found: int, n: int) -> None:
         if same == 1:
             ws.floats[found + CANDIDATE * i] = 0.0
             return
-    if ws.declared_contacts[declared].mode == OPEN:
+    if ws.declared_contacts[declared].mode == Mode.OPEN:
         ws.floats[candidate] = 0.0
         contact = ws.declared_contacts[declared]
         contact.direction, contact.closing_rate = (1.0, 0.0), 0.0
 
 
-@kernel("i8(ws)")
-def fill_pools(ws: Workspace) -> int:
+@kernel("Status(ws)")
+def fill_pools(ws: Workspace) -> Status:
     """Put the features nearer than the margin into the contacts of their pools; return the status."""
     for number in range(ws.model.n_searches):
         pool = ws.searches[number]
@@ -66,10 +66,10 @@ def fill_pools(ws: Workspace) -> int:
                 at(ws.floats, out),
             )
             if not ws.floats[out] >= 0.0:
-                return NOT_FINITE
+                return Status.NOT_FINITE
             n = int(ws.floats[out])
             if n > contacts:
-                return NO_SLOT
+                return Status.NO_SLOT
         for declared in range(first, first + contacts):
             if not is_empty(ws, declared):
                 _keep(ws, declared, found, n)
@@ -80,10 +80,10 @@ def fill_pools(ws: Workspace) -> int:
             while declared < first + contacts and not is_empty(ws, declared):
                 declared += 1
             if declared == first + contacts:
-                return NO_SLOT
+                return Status.NO_SLOT
             candidate = ws.declared_contacts[declared].features
             for r in range(CANDIDATE):
                 ws.floats[candidate + r] = ws.floats[found + CANDIDATE * i + r]
         for declared in range(first, first + contacts):
             ws.floats[ws.declared_contacts[declared].features + CANDIDATE] = 2.0 * ws.island.list_margin
-    return RUNNING
+    return Status.RUNNING

@@ -10,7 +10,7 @@ from nonsmooth.engine.bodies.kinematics import (
     evaluate_jacobian,
     evaluate_kinematics,
 )
-from nonsmooth.engine.memory.modes import OPEN
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
 
@@ -47,7 +47,7 @@ def _touch(ws: Workspace, c: int) -> bool:
         _touch_compliant(ws, c)
         return False
     near = max(ws.tolerance.gap, ws.tolerance.time * abs(rate))
-    if contact.mode == OPEN and contact.gap > near:
+    if contact.mode == Mode.OPEN and contact.gap > near:
         contact.is_touching = False
         return False
     evaluate_jacobian(ws, c)
@@ -60,7 +60,7 @@ def _touch_compliant(ws: Workspace, c: int) -> None:
     """Find whether the compliant contact ``c`` touches, and evaluate it; it does not collide."""
     contact = ws.contacts[c]
     gap, rate = contact.gap, contact.rate[0]
-    end = 0.0 if contact.mode == OPEN else contact.reach
+    end = 0.0 if contact.mode == Mode.OPEN else contact.reach
     slow = rate <= ws.tolerance.velocity
     if gap > end + ws.tolerance.gap or (gap > end - ws.tolerance.gap and not slow):
         contact.is_touching = False

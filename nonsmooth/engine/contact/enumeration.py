@@ -6,7 +6,7 @@ from nonsmooth.engine.contact.cone import gauss_seidel
 from nonsmooth.engine.contact.polish import polish
 from nonsmooth.engine.contact.trial import hold_tried, verify
 from nonsmooth.engine.delassus.delassus import add_product
-from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.memory.solvers import MOST_ENUMERATED
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
@@ -25,9 +25,9 @@ def _write_modes(ws: Workspace, number: int) -> bool:
         active = ws.actives[a]
         choice = number % 3
         number //= 3
-        mode = STICK if choice == 0 else (SLIDE if choice == 1 else OPEN)
+        mode = Mode.STICK if choice == 0 else (Mode.SLIDE if choice == 1 else Mode.OPEN)
         active.mode_tried = mode
-        if mode == STICK and not active.is_at_rest:
+        if mode == Mode.STICK and not active.is_at_rest:
             return False
     return True
 
@@ -38,7 +38,7 @@ def _start_slips(ws: Workspace) -> int:
     count = 0
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        if active.is_at_rest and active.mode_tried == SLIDE:
+        if active.is_at_rest and active.mode_tried == Mode.SLIDE:
             count += 1
     if count == 0:
         return 0
@@ -53,7 +53,7 @@ def _start_slips(ws: Workspace) -> int:
         active.friction_coefficient = active.coefficient_kept
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        if not active.is_at_rest or active.mode_tried != SLIDE:
+        if not active.is_at_rest or active.mode_tried != Mode.SLIDE:
             continue
         a1 = add_product(ws, active.free[1], a, 1, ws.problem.forces.start)
         a2 = add_product(ws, active.free[2], a, 2, ws.problem.forces.start)
@@ -68,9 +68,9 @@ def _sweep_slips(ws: Workspace) -> None:
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
         mode = active.mode_tried
-        active.is_normal_force_unknown = not (mode == OPEN)
+        active.is_normal_force_unknown = not (mode == Mode.OPEN)
         active.static_kept = active.static_coefficient
-        active.static_coefficient = _ENDLESS if mode == STICK else 0.0
+        active.static_coefficient = _ENDLESS if mode == Mode.STICK else 0.0
         for r in range(3):
             active.force[r] = 0.0
     gauss_seidel(ws, _SWEEPS)

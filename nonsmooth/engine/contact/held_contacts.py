@@ -13,7 +13,7 @@ from nonsmooth.engine.bodies.kinematics import evaluate_row, evaluate_row_respon
 from nonsmooth.engine.contact.forces import DOUBTFUL, friction_of_slip, solve_doubtful, solve_unknowns
 from nonsmooth.engine.contact.null_space_forces import add_null_space_force, choose_null_space_force
 from nonsmooth.engine.contact.unknowns import list_unknown
-from nonsmooth.engine.memory.modes import SLIDE
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import (
     Workspace,
     kernel,
@@ -94,7 +94,7 @@ def _reduce(ws: Workspace, a: int, i: int, n: int) -> None:
         for j in range(pushing.first_unknown, pushing.end_unknown):
             ws.floats[line + j] = coupling(ws, c, r, pushing.contact, ws.unknowns[j].direction)
     # a sliding contact on which more force gives more approach
-    if r == 0 and contact.mode == SLIDE and ws.floats[line + i] <= 0.0:
+    if r == 0 and contact.mode == Mode.SLIDE and ws.floats[line + i] <= 0.0:
         ws.island.singular_contact = c
 
 
@@ -195,7 +195,7 @@ def _hold_alone(ws: Workspace) -> int:
     own = coupling(ws, c, 0, c, 0)
     if own == 0.0:
         return 0
-    if contact.mode == SLIDE and own < 0.0:
+    if contact.mode == Mode.SLIDE and own < 0.0:
         ws.island.singular_contact = c
     ws.problem.n_unknown, ws.problem.is_deficient, ws.problem.is_null_space_banded, active.has_redundant_force = (
         1,

@@ -16,7 +16,7 @@ from nonsmooth.engine.contact.polish import EXACT, polish
 from nonsmooth.engine.contact.problem import friction_coefficient, slip_coefficient
 from nonsmooth.engine.contact.trial import hold_tried
 from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus, diagonal_block
-from nonsmooth.engine.memory.modes import SLIDE, STICK
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.vectors import length
 
@@ -35,7 +35,7 @@ def _lay(ws: Workspace, a: int) -> None:
     c = active.contact
     contact = ws.contacts[c]
     contact.dissipated_by_spin = 0.0
-    if contact.mode == SLIDE:
+    if contact.mode == Mode.SLIDE:
         active.friction_coefficient = slip_coefficient(ws, c, length(contact.slip))
     else:
         active.friction_coefficient = friction_coefficient(ws, c, 0.0)
@@ -47,7 +47,7 @@ def _lay(ws: Workspace, a: int) -> None:
     for r in range(3):
         free = row(ws, c, r, ws.island.du.start)
         active.free[r] = free + contact.bias[r]
-        if r > 0 and contact.mode == SLIDE:
+        if r > 0 and contact.mode == Mode.SLIDE:
             active.free[r] = free + contact.rate[r] / ws.problem.stage_time - row(ws, c, r, ws.problem.guess)
         ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, abs(free), abs(contact.bias[r]))
 
@@ -57,7 +57,7 @@ def _halts(ws: Workspace) -> bool:
     """Return 1 if a slip is held: whether others share its load, forces that are not unique tell."""
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        if active.mode_past == SLIDE and active.mode_tried == STICK:
+        if active.mode_past == Mode.SLIDE and active.mode_tried == Mode.STICK:
             return True
     return False
 
@@ -75,25 +75,25 @@ def _stop_and_go(ws: Workspace) -> int:
         small = 2.0 * _ARRIVED * largest
         distribute(ws, 0.0, _ARRIVED * largest)
         for a in range(ws.problem.n_active):
-            if ws.actives[a].mode_tried == SLIDE:
+            if ws.actives[a].mode_tried == Mode.SLIDE:
                 friction_of_slip(ws, a)
     changed = 0
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        if active.mode_past != SLIDE or not active.is_at_rest:
+        if active.mode_past != Mode.SLIDE or not active.is_at_rest:
             continue
-        if active.mode_tried == STICK:
+        if active.mode_tried == Mode.STICK:
             t1, t2 = active.friction
             norm = length(active.friction)
             if norm > active.friction_coefficient * active.normal_force + small:
-                active.mode_tried = SLIDE
+                active.mode_tried = Mode.SLIDE
                 active.direction = -t1 / norm, -t2 / norm
                 changed += 1
             continue
         a1 = add_product(ws, active.free[1], a, 1, ws.problem.forces.start)
         a2 = add_product(ws, active.free[2], a, 2, ws.problem.forces.start)
         if a1 * active.direction[0] + a2 * active.direction[1] < 0.0:
-            active.mode_tried = STICK
+            active.mode_tried = Mode.STICK
             changed += 1
     return changed
 
@@ -115,7 +115,7 @@ def oppose_slips(ws: Workspace) -> bool:
             held = 1
             for a in range(ws.problem.n_active):
                 active = ws.actives[a]
-                active.mode_tried = STICK if active.is_at_rest else active.mode_past
+                active.mode_tried = Mode.STICK if active.is_at_rest else active.mode_past
         if polished != 1 or ws.problem.is_deficient:
             hold_tried(ws)
         if _stop_and_go(ws) == 0:
@@ -127,7 +127,7 @@ def oppose_slips(ws: Workspace) -> bool:
 def _oppose_alone(ws: Workspace) -> bool:
     """Do the same for one contact that slides on, whose only unknown is a direction; return 1 if it is found."""
     active, g = ws.actives[0], diagonal_block(ws, 0)
-    if ws.problem.n_active > 1 or active.mode_past != SLIDE or not active.is_at_rest or active.has_given_force:
+    if ws.problem.n_active > 1 or active.mode_past != Mode.SLIDE or not active.is_at_rest or active.has_given_force:
         return False
     mu, (d1, d2) = active.friction_coefficient, active.direction
     for _turn in range(_TURNS):
@@ -164,13 +164,13 @@ def _note(ws: Workspace) -> None:
         active = ws.actives[a]
         c = active.contact
         contact = ws.contacts[c]
-        slides = contact.mode == SLIDE
+        slides = contact.mode == Mode.SLIDE
         if slides and reduced_coefficient(ws, a) <= 0.0:
             ws.island.singular_contact = c
         active.sticks = not (slides)
         for r in range(3):
             ws.step.driven_power += active.force[r] * (row(ws, c, r, ws.island.velocities) - contact.rate[r])
-        if slides and active.mode_tried == STICK:
+        if slides and active.mode_tried == Mode.STICK:
             # whatever the state from which it was found has of it
             contact.slip = 0.0, 0.0
 
@@ -196,7 +196,7 @@ def _face(ws: Workspace) -> int:
     turned = 0
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        if ws.contacts[active.contact].mode == SLIDE and active.mode_tried == STICK:
+        if ws.contacts[active.contact].mode == Mode.SLIDE and active.mode_tried == Mode.STICK:
             turned += turn_facing(ws, active.contact, active.force[1])
     return turned
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.kinematics import evaluate_bias, evaluate_geometry, evaluate_rates, side_entries
 from nonsmooth.engine.contact.problem import slip_coefficient, slip_direction
-from nonsmooth.engine.memory.modes import SLIDE
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import (
     Floats,
     Workspace,
@@ -27,7 +27,7 @@ def lone_slip(ws: Workspace, group: int) -> int:
     first = ws.island.group_start[group]
     c = ws.island.grouped[first]
     contact = ws.contacts[c]
-    if ws.island.group_start[group + 1] - first != 1 or contact.mode != SLIDE or ws.problem.stage_time > 0.0:
+    if ws.island.group_start[group + 1] - first != 1 or contact.mode != Mode.SLIDE or ws.problem.stage_time > 0.0:
         return -1
     special = contact.is_compliant or contact.is_averaged or contact.is_anisotropic
     nu_a, nu_b = contact.n_u_a, contact.n_u_b

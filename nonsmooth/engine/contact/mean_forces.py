@@ -15,7 +15,7 @@ from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.contact.inelastic import inelastic_impulses
 from nonsmooth.engine.contact.trial import slope_of_slip
 from nonsmooth.engine.delassus.delassus import add_product, assemble_delassus
-from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.vectors import length
 
@@ -158,9 +158,9 @@ def take_mean_forces(ws: Workspace, time: float) -> None:
         v1 = add_product(ws, active.free[1], a, 1, ws.problem.forces.start)
         v2 = add_product(ws, active.free[2], a, 2, ws.problem.forces.start)
         speed = length((v1, v2))
-        active.mode_tried = OPEN
+        active.mode_tried = Mode.OPEN
         if active.normal_force > 0.0:
-            active.mode_tried = SLIDE if speed > ws.tolerance.velocity else STICK
+            active.mode_tried = Mode.SLIDE if speed > ws.tolerance.velocity else Mode.STICK
         active.direction = v1 / speed if speed > 0.0 else 1.0, v2 / speed if speed > 0.0 else 0.0
     _keep_span(ws, time)
     for a in range(ws.problem.n_active):

@@ -9,7 +9,7 @@ from nonsmooth.engine.contact.trial import hold_tried
 from nonsmooth.engine.contact.unknowns import list_unknown
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
-from nonsmooth.engine.memory.modes import SLIDE
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import (
     Workspace,
     at,
@@ -130,7 +130,7 @@ def _list_unknowns(ws: Workspace) -> int:
 @kernel("b1(ws, i8)")
 def _starts(ws: Workspace, a: int) -> bool:
     active = ws.actives[a]
-    return active.is_at_rest and active.mode_tried == SLIDE
+    return active.is_at_rest and active.mode_tried == Mode.SLIDE
 
 
 @kernel("void(ws, i8)")

@@ -12,7 +12,7 @@ from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.contact.search import find_modes
 from nonsmooth.engine.contact.trial import verify
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
-from nonsmooth.engine.memory.modes import SLIDE, STICK
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.memory.solvers import (
     AUTO,
     ENUMERATED_AT_LAST,
@@ -161,8 +161,8 @@ def solve_contact(ws: Workspace) -> bool:
     past = 1
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        if not active.is_at_rest and active.mode_tried == STICK:
-            active.mode_tried = SLIDE
+        if not active.is_at_rest and active.mode_tried == Mode.STICK:
+            active.mode_tried = Mode.SLIDE
         active.mode_past = active.mode_tried
         if active.mode_tried < 0:
             past = 0

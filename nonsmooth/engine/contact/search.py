@@ -15,7 +15,7 @@ from nonsmooth.engine.contact.lemke import search_by_pivots
 from nonsmooth.engine.contact.newton import search_by_newton
 from nonsmooth.engine.contact.polish import polish
 from nonsmooth.engine.contact.trial import EQUAL, identify, judge, set_scales, verify
-from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.memory.solvers import ENUMERATION, GAUSS_SEIDEL, LEMKE
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
@@ -65,15 +65,15 @@ def _guess_by_motion(ws: Workspace) -> bool:
         active = ws.actives[a]
         if active.mode_tried == active.mode_past or active.normal_acceleration > small:
             continue
-        mode = SLIDE
+        mode = Mode.SLIDE
         a1, a2 = active.slip_acceleration
         slip = length(active.slip_acceleration)
         if active.is_at_rest and slip <= small:
-            mode = STICK
+            mode = Mode.STICK
         if mode != active.mode_tried:
             differ = 1
             active.mode_tried = mode
-            if active.is_at_rest and mode == SLIDE:
+            if active.is_at_rest and mode == Mode.SLIDE:
                 active.direction = a1 / slip, a2 / slip
     return differ != 0
 
@@ -100,14 +100,14 @@ def _open_pulling(ws: Workspace) -> int:
     worst = -ws.problem.small_force
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        if active.mode_tried != OPEN:
+        if active.mode_tried != Mode.OPEN:
             worst = min(worst, active.normal_force)
     opened = 0
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
         pulls = active.normal_force <= (1.0 - _SAME) * worst and active.normal_force < -ws.problem.small_force
-        if active.mode_tried != OPEN and pulls:
-            active.mode_tried = OPEN
+        if active.mode_tried != Mode.OPEN and pulls:
+            active.mode_tried = Mode.OPEN
             opened += 1
     return opened
 
@@ -141,7 +141,7 @@ def _rubs(ws: Workspace) -> bool:
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
         pull = active.friction_coefficient * active.normal_force
-        if active.mode_tried != SLIDE:
+        if active.mode_tried != Mode.SLIDE:
             continue
         (t1, t2), (d1, d2) = active.friction, active.direction
         if not (abs(t1 + pull * d1) <= ws.problem.small_force and abs(t2 + pull * d2) <= ws.problem.small_force):
@@ -155,7 +155,7 @@ def _hasty(ws: Workspace) -> bool:
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
         held = active.is_at_rest and not active.was_freed and active.static_coefficient != active.friction_coefficient
-        if held and active.mode_tried == SLIDE:
+        if held and active.mode_tried == Mode.SLIDE:
             return True
     return False
 
@@ -240,7 +240,7 @@ def _free_sliding(ws: Workspace) -> int:
     new = 0
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        if active.is_at_rest and active.mode_found == SLIDE and not active.was_freed:
+        if active.is_at_rest and active.mode_found == Mode.SLIDE and not active.was_freed:
             active.was_freed = True
             if active.static_coefficient != active.friction_coefficient:
                 new += 1
@@ -291,10 +291,12 @@ def _prefer_stick(ws: Workspace) -> None:
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
         undecided = (
-            active.is_at_rest and active.mode_past != SLIDE and active.static_coefficient != active.friction_coefficient
+            active.is_at_rest
+            and active.mode_past != Mode.SLIDE
+            and active.static_coefficient != active.friction_coefficient
         )
-        if undecided and active.mode_tried == SLIDE:
-            active.mode_tried = STICK
+        if undecided and active.mode_tried == Mode.SLIDE:
+            active.mode_tried = Mode.STICK
             changed = 1
     if changed == 0:
         return
@@ -317,7 +319,7 @@ def find_modes(ws: Workspace, solver: int) -> bool:
         broken = 0
         for a in range(ws.problem.n_active):
             active = ws.actives[a]
-            if active.is_at_rest and active.mode_past == SLIDE:
+            if active.is_at_rest and active.mode_past == Mode.SLIDE:
                 active.was_freed = True
                 broken += 1
         if broken > 0:

@@ -6,7 +6,7 @@ from nonsmooth.engine.contact.distribution import distribute
 from nonsmooth.engine.contact.forces import friction_of_slip, reduced_coefficient, resolve
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
-from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
 
@@ -27,10 +27,10 @@ def hold_tried(ws: Workspace) -> None:
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
         mode = active.mode_tried
-        active.is_normal_force_unknown = not (mode == OPEN or active.has_given_force)
+        active.is_normal_force_unknown = not (mode == Mode.OPEN or active.has_given_force)
         # nothing holds what has no friction: it is at rest by chance
-        active.sticks = mode == STICK and active.static_coefficient > 0.0
-        if mode == OPEN:
+        active.sticks = mode == Mode.STICK and active.static_coefficient > 0.0
+        if mode == Mode.OPEN:
             active.normal_force = 0.0
     resolve(ws)
     ws.totals.n_evaluations += 1
@@ -98,21 +98,21 @@ def _compare(ws: Workspace, lenient: int) -> int:
         active = ws.actives[a]
         mode, faint = active.mode_tried, small_force(ws, a)
         normal = active.normal_acceleration
-        if mode == OPEN:
+        if mode == Mode.OPEN:
             if not normal >= -small:
                 return 0
             continue
         if not abs(normal) <= held:
             return 0
         # sliding on which more force gives more approach is balanced on an edge, and falls off either side
-        if mode == SLIDE and not active.is_at_rest and reduced_coefficient(ws, a) <= 0.0:
+        if mode == Mode.SLIDE and not active.is_at_rest and reduced_coefficient(ws, a) <= 0.0:
             return 0
         if not active.normal_force >= -faint:
             if lenient == 0 or not ws.problem.is_deficient:
                 return 0
             result = 2
         a1, a2 = active.slip_acceleration
-        if mode == STICK:
+        if mode == Mode.STICK:
             if not abs(a1) + abs(a2) <= held:
                 return 0
             if not length(active.friction) <= active.static_coefficient * active.normal_force + faint:
@@ -134,7 +134,7 @@ def judge(ws: Workspace, lenient: int) -> bool:
     if result == 2 and distribute(ws, 0.0, _ARRIVED * ws.problem.small_force):
         # the share of sliding contacts may have moved with their normal forces: all is looked at again
         for a in range(ws.problem.n_active):
-            if ws.actives[a].mode_tried == SLIDE:
+            if ws.actives[a].mode_tried == Mode.SLIDE:
                 friction_of_slip(ws, a)
         result = _compare(ws, lenient)
     return result == 1
@@ -151,7 +151,7 @@ def identify(ws: Workspace) -> None:
             if r == 0:
                 push = active.normal_force * diagonal_block(ws, a).nn - total
             active.acceleration[r] = total
-        active.mode_tried = SLIDE
+        active.mode_tried = Mode.SLIDE
         if active.is_at_rest:
             g = slope_of_slip(ws, a)
             y1 = g * active.friction[0] - active.slip_acceleration[0]
@@ -160,9 +160,9 @@ def identify(ws: Workspace) -> None:
             if norm > 0.0:
                 active.direction = -y1 / norm, -y2 / norm
             if not active.was_freed and norm <= g * active.friction_coefficient * active.normal_force:
-                active.mode_tried = STICK
+                active.mode_tried = Mode.STICK
         if push <= 0.0:
-            active.mode_tried = OPEN
+            active.mode_tried = Mode.OPEN
 
 
 @kernel("f8(ws, i8)")

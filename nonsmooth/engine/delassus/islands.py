@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.delassus.ordering import order_active
-from nonsmooth.engine.memory.modes import OPEN
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import (
     Workspace,
     entry_point,
@@ -99,7 +99,7 @@ def group_closed(ws: Workspace) -> None:
     """Sort the closed contacts into islands, but for those of bodies on their courses."""
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
-        contact.is_in_problem = contact.mode != OPEN and has_own_step(ws, c) == 0
+        contact.is_in_problem = contact.mode != Mode.OPEN and has_own_step(ws, c) == 0
     group_members(ws)
 
 

@@ -17,7 +17,7 @@ from nonsmooth.engine.events.record import CLOSING_LOSS, DRIVEN_WORK, record_eve
 from nonsmooth.engine.events.twins import closed_twin, take_over
 from nonsmooth.engine.flow.projection import project_rates
 from nonsmooth.engine.flow.self_check import EXPLAINED, NOUGHT
-from nonsmooth.engine.memory.modes import CLOSING, FEATURE_CHANGE, NO_RELEASE, OPEN, SLIDE, STICK, Truncation
+from nonsmooth.engine.memory.modes import NO_RELEASE, Cause, Mode, Truncation
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
 _RESTS = 1.0 - 1e-6
@@ -32,12 +32,12 @@ def provisional_mode(ws: Workspace, c: int) -> None:
     if has_own_step(ws, c) == 1:
         return
     if not contact.is_touching or contact.release != NO_RELEASE or (rigid and contact.rate[0] > ws.tolerance.velocity):
-        contact.mode = OPEN
+        contact.mode = Mode.OPEN
         return
-    if contact.mode == OPEN:
+    if contact.mode == Mode.OPEN:
         begin_contact(ws, c)
     speed = slip_speed(ws, c)
-    contact.mode = SLIDE if speed > ws.tolerance.velocity else STICK
+    contact.mode = Mode.SLIDE if speed > ws.tolerance.velocity else Mode.STICK
     if speed > ws.tolerance.velocity:
         contact.direction = contact.slip[0] / speed, contact.slip[1] / speed
 
@@ -95,10 +95,10 @@ def _close(ws: Workspace, c: int) -> None:
     """Leave out the last bounce of contact ``c``, the only active one, and record that."""
     remember(ws)
     contact = ws.contacts[c]
-    contact.mode = SLIDE if slip_speed(ws, c) > ws.tolerance.velocity else STICK
+    contact.mode = Mode.SLIDE if slip_speed(ws, c) > ws.tolerance.velocity else Mode.STICK
     before = ws.totals.driven_work
     _book(ws, project_rates(ws, 1), before)
-    record_event(ws, CLOSING, c, 0)
+    record_event(ws, Cause.CLOSING, c, 0)
 
 
 @kernel("void(ws, f8, f8)")
@@ -185,7 +185,7 @@ def stop_slow(ws: Workspace) -> int:
         for c in range(ws.island.n_contacts):
             provisional_mode(ws, c)
         _rest_closed(ws)
-        record_event(ws, CLOSING, which, 0)
+        record_event(ws, Cause.CLOSING, which, 0)
     return stopped
 
 
@@ -232,7 +232,7 @@ def stop_creeping(ws: Workspace) -> float:
     creeping = 0
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
-        rests = contact.is_touching and not contact.is_compliant and contact.mode == OPEN
+        rests = contact.is_touching and not contact.is_compliant and contact.mode == Mode.OPEN
         if rests and contact.rate[0] < -NOUGHT * ws.tolerance.velocity:
             creeping += 1
     if creeping == 0:
@@ -281,5 +281,5 @@ def hand_over(ws: Workspace) -> bool:
         activate_group(ws, group)
         if _fastest_of_active(ws) >= 0:
             _stop_active(ws)
-    record_event(ws, FEATURE_CHANGE, which, 0)
+    record_event(ws, Cause.FEATURE_CHANGE, which, 0)
     return True

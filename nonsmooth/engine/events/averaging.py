@@ -14,7 +14,7 @@ from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.mean_motion import find_mean_forces
 from nonsmooth.engine.flow.mean_work import book_mean_forces
 from nonsmooth.engine.flow.projection import project_closed
-from nonsmooth.engine.memory.modes import OPEN, SLIDE
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.vectors import length
 
@@ -36,7 +36,7 @@ def average_active(ws: Workspace) -> bool:
         contact = ws.contacts[ws.actives[a].contact]
         again = ws.island.time - contact.mean_forces_asked <= max(time, contact.mean_forces_wait)
         contact.mean_forces_wait = max(time, 2.0 * contact.mean_forces_wait) if again else 0.0
-        contact.mode_after_averaging = SLIDE
+        contact.mode_after_averaging = Mode.SLIDE
         contact.mean_span = 0.0
         for r in range(3):
             contact.mean_force[r] = 0.0
@@ -46,7 +46,7 @@ def average_active(ws: Workspace) -> bool:
 @kernel("b1(ws, i8)")
 def average_island_of(ws: Workspace, c: int) -> bool:
     """Let the forces of the island of closed contact ``c`` be averaged from now on; return 0 where they cannot be."""
-    if ws.contacts[c].mode == OPEN:
+    if ws.contacts[c].mode == Mode.OPEN:
         return False
     group_closed(ws)
     activate_group(ws, ws.contacts[c].group)
@@ -94,8 +94,8 @@ def average(ws: Workspace, follows: int) -> None:
         speed = length(contact.slip)
         contact.mode_agreed = active.mode_tried
         contact.direction_agreed = active.direction
-        if speed > ws.tolerance.velocity and active.mode_tried != OPEN:
-            contact.mode_agreed = SLIDE
+        if speed > ws.tolerance.velocity and active.mode_tried != Mode.OPEN:
+            contact.mode_agreed = Mode.SLIDE
             contact.direction_agreed = contact.slip[0] / speed, contact.slip[1] / speed
 
 
@@ -123,7 +123,7 @@ def holds_time_up(ws: Workspace) -> int:
         contact = ws.contacts[c]
         speed, friction = length(contact.slip_at_end), length((contact.force[1], contact.force[2]))
         turns = contact.contact_time * contact.slip_per_force * friction / max(speed, ws.tolerance.velocity)
-        if contact.mode == SLIDE and not contact.is_averaged and turns > fastest:
+        if contact.mode == Mode.SLIDE and not contact.is_averaged and turns > fastest:
             which, fastest = c, turns
         recent = ws.island.time - contact.burst_start <= contact.contact_time
         if not contact.is_averaged and recent and contact.burst_events > events:

@@ -57,28 +57,7 @@ from nonsmooth.engine.flow.self_check import NOUGHT, check_end, check_gaps, clos
 from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.layout import BOOKED, LAST_STAGE
 from nonsmooth.engine.memory.limits import BY_CROWD, BY_END, BY_EVENT, NO_STEP
-from nonsmooth.engine.memory.modes import (
-    AVERAGING,
-    DONE,
-    FEATURE_CHANGE,
-    FEATURE_END,
-    GUARD,
-    IMPACT,
-    JAM,
-    NO_CONTACT_SOLUTION,
-    NO_RELEASE,
-    NO_SLOT,
-    NOT_FINITE,
-    OPEN,
-    PAUSED,
-    RUNNING,
-    SLIP_TO_STICK,
-    STALLED,
-    START,
-    STEP_TOO_SMALL,
-    STICK_TO_SLIP,
-    STOPPED,
-)
+from nonsmooth.engine.memory.modes import NO_RELEASE, Cause, Mode, Status
 from nonsmooth.engine.native.kernel import (
     Workspace,
     entry_point,
@@ -114,25 +93,25 @@ def _take_over(ws: Workspace, h: float) -> int:
     return ended
 
 
-@kernel("i8(ws, i8)")
-def _up_to_end(ws: Workspace, status: int) -> int:
+@kernel("Status(ws, Status)")
+def _up_to_end(ws: Workspace, status: Status) -> Status:
     """Let a step that failed be tried once more, up to the end of the run: what lies behind need not have a value."""
     if ws.island.resumed_step <= ws.request.t_end - ws.island.time:
         return status
     ws.island.resumed_step, ws.island.follows_a_step = ws.request.t_end - ws.island.time, False
-    return RUNNING
+    return Status.RUNNING
 
 
-@kernel("i8(ws)")
-def _arrived(ws: Workspace) -> int:
+@kernel("Status(ws)")
+def _arrived(ws: Workspace) -> Status:
     """Look at the state at the end time; return the status."""
     ws.island.time = ws.request.t_end
     check_end(ws)
-    return DONE if ws.run.failure == RUNNING else int(ws.run.failure)
+    return Status.DONE if ws.run.failure == Status.RUNNING else ws.run.failure
 
 
-@kernel("i8(ws)")
-def _end_within(ws: Workspace) -> int:
+@kernel("Status(ws)")
+def _end_within(ws: Workspace) -> Status:
     """End the run within the step that leads past its end time, before any event of it; return the status.
 
     The step was taken, and its event looked for, as if the run went on: where it ends then changes nothing of what
@@ -142,57 +121,57 @@ def _end_within(ws: Workspace) -> int:
     record_samples(ws, h)
     ws.step.h = h
     if not try_step(ws, h) < 1e300:
-        return NOT_FINITE
+        return Status.NOT_FINITE
     _take_over(ws, h)
     return _arrived(ws)
 
 
-@kernel("i8(ws, i8, i8)")
-def _carry_out(ws: Workspace, cause: int, which: int) -> int:
+@kernel("Status(ws, Cause, i8)")
+def _carry_out(ws: Workspace, cause: Cause, which: int) -> Status:
     """Carry out an event of contact ``which``: update modes and velocities at its instant; return the status."""
     ws.island.follows_a_step = False
     if stalls(ws, which):
         if not average_island_of(ws, which):
-            return STALLED
+            return Status.STALLED
         ws.contacts[which].burst_events = 0
     return update_at_event(ws, cause, which)
 
 
-@kernel("i8(ws)")
-def _step(ws: Workspace) -> int:
+@kernel("Status(ws)")
+def _step(ws: Workspace) -> Status:
     """Advance by one step or to the next event, whichever is earlier; return the status."""
     if ws.island.averaged_until - ws.island.time <= ws.tolerance.time:
         ws.island.follows_a_step = False
-        return update_at_event(ws, AVERAGING, -1)
+        return update_at_event(ws, Cause.AVERAGING, -1)
     _evaluate_start(ws)
     check_gaps(ws)
-    if ws.run.failure != RUNNING:
-        return int(ws.run.failure)
+    if ws.run.failure != Status.RUNNING:
+        return ws.run.failure
     if ws.island.averaged_until < math.inf and ws.island.strayed > 1.0:
         end_averaging(ws)
         ws.island.follows_a_step = False
-        return update_at_event(ws, AVERAGING, ws.island.stray_contact)
+        return update_at_event(ws, Cause.AVERAGING, ws.island.stray_contact)
     keep_start(ws)
     which = _due_at_start(ws)
     if which >= 0:
         return _carry_out(ws, cause_at_start(ws, which), which)
     ws.step.listed_step = longest_step(ws) if ws.model.n_spheres > 0 else 1e300
     if ws.step.listed_step == 0.0:
-        return int(list_contacts(ws))
+        return list_contacts(ws)
     orient_slips(ws, 1)
     arm_guards(ws)
     which = holds_time_up(ws) if ws.island.n_grouped > 0 else -1
     if which >= 0 and average_island_of(ws, which):
         ws.island.follows_a_step = False
-        return update_at_event(ws, AVERAGING, which)
+        return update_at_event(ws, Cause.AVERAGING, which)
     status = accepted_step(ws)
-    if status != RUNNING:
+    if status != Status.RUNNING:
         return _without_step(ws, status)
     ws.totals.n_steps += 1
     high = first_crossing(ws, ws.step.h)
     for i in range(first_own_guard(ws), first_end_guard(ws)):
         if not abs(ws.guards[i].at_end) < 1e300:
-            return _up_to_end(ws, NOT_FINITE)
+            return _up_to_end(ws, Status.NOT_FINITE)
     if high > 0.0:
         return _step_to_event(ws, high)
     return _whole_step(ws)
@@ -229,27 +208,27 @@ def _due_at_start(ws: Workspace) -> int:
         # a gap that closes exactly where the last step ended is an event of that step
         gap = ws.guards[normal_guard(c)].at_end
         arrived = gap <= ws.tolerance.gap and contact.gap_rate_at_end < -ws.tolerance.velocity
-        if contact.mode == OPEN and arrived:
+        if contact.mode == Mode.OPEN and arrived:
             return c
         # what put the contacts on their constraints may have put one past its end
-        if contact.mode != OPEN and ws.guards[first_end_guard(ws) + c].at_end < 0.0:
+        if contact.mode != Mode.OPEN and ws.guards[first_end_guard(ws) + c].at_end < 0.0:
             return c
         if has_own_step(ws, c) == 1:
             continue
         # and may have turned a slip so that its force is another one
-        unique = contact.mode != OPEN and not contact.is_compliant and not contact.has_redundant_force
+        unique = contact.mode != Mode.OPEN and not contact.is_compliant and not contact.has_redundant_force
         if not ws.island.follows_a_step and unique and is_violated(ws, c):
             return c
     return -1
 
 
-@kernel("i8(ws, i8)")
-def _without_step(ws: Workspace, status: int) -> int:
+@kernel("Status(ws, Status)")
+def _without_step(ws: Workspace, status: Status) -> Status:
     """Say what follows where no step was accepted, for the reason ``status``; return the status."""
     ws.step.limit = NO_STEP
-    if status == STEP_TOO_SMALL and leap(ws, ws.tolerance.time):
+    if status == Status.STEP_TOO_SMALL and leap(ws, ws.tolerance.time):
         return _after_leap(ws)
-    if status == STEP_TOO_SMALL:
+    if status == Status.STEP_TOO_SMALL:
         which = end_features(ws)
         if which >= 0:
             changed = has_other_features(ws, ws.contacts[which])
@@ -257,35 +236,35 @@ def _without_step(ws: Workspace, status: int) -> int:
             return _pass_on(ws, which, changed)
         which = hardest_pressed(ws, 1)
         if which >= 0:
-            outcome = _carry_out(ws, JAM, which)
-            if outcome != NO_CONTACT_SOLUTION:
-                return int(outcome)
+            outcome = _carry_out(ws, Cause.JAM, which)
+            if outcome != Status.NO_CONTACT_SOLUTION:
+                return outcome
         which = hardest_pressed(ws, 0)
         if which >= 0 and average_island_of(ws, which):
             ws.island.follows_a_step = False
-            return update_at_event(ws, AVERAGING, which)
+            return update_at_event(ws, Cause.AVERAGING, which)
     return _up_to_end(ws, status)
 
 
-@kernel("i8(ws)")
-def _after_leap(ws: Workspace) -> int:
+@kernel("Status(ws)")
+def _after_leap(ws: Workspace) -> Status:
     """Take over the instant in which contact points ran along bodies, and what it let go; return the status."""
     ws.step.h, ws.island.follows_a_step = ws.tolerance.time, False
     _take_over(ws, ws.step.h)
-    cause, which = 0, -1
+    cause, which = NO_RELEASE, -1
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
-        if contact.mode != OPEN and contact.release != NO_RELEASE and which < 0:
+        if contact.mode != Mode.OPEN and contact.release != NO_RELEASE and which < 0:
             cause, which = contact.release, c
         contact.release = NO_RELEASE
     if which >= 0:
         return _carry_out(ws, cause, which)
     measure_noise(ws)
-    return RUNNING
+    return Status.RUNNING
 
 
-@kernel("i8(ws)")
-def _whole_step(ws: Workspace) -> int:
+@kernel("Status(ws)")
+def _whole_step(ws: Workspace) -> Status:
     """Take over a step without an event, unless a slip has come to rest in it; return the status."""
     if ws.step.h > ws.request.t_end - ws.island.time:
         ws.step.limit = BY_END
@@ -297,26 +276,26 @@ def _whole_step(ws: Workspace) -> int:
     if ws.step.is_blended:
         ws.island.last_choice = ws.island.time
     if which >= 0:
-        return _carry_out(ws, IMPACT, which)
+        return _carry_out(ws, Cause.IMPACT, which)
     which = stopping(ws)
     if which >= 0:
-        return _carry_out(ws, SLIP_TO_STICK, which)
+        return _carry_out(ws, Cause.SLIP_TO_STICK, which)
     ws.island.follows_a_step = ended == 0
     if (
         ws.step.limit == BY_EVENT
         and ws.island.follows_a_step
-        and ws.run.failure == RUNNING
+        and ws.run.failure == Status.RUNNING
         and ws.request.t_end - ws.island.time > ws.tolerance.time
     ):
         # it was made to end where a gap is about to close
         which = _due_at_start(ws)
         if which >= 0:
             return _carry_out(ws, cause_at_start(ws, which), which)
-    return RUNNING
+    return Status.RUNNING
 
 
-@kernel("i8(ws, f8)")
-def _step_to_event(ws: Workspace, high: float) -> int:
+@kernel("Status(ws, f8)")
+def _step_to_event(ws: Workspace, high: float) -> Status:
     """Locate the first event before the fraction ``high`` of the step and carry it out; return the status."""
     ws.island.follows_a_step, ws.step.limit = False, BY_EVENT
     if choices_bend(ws, high):
@@ -330,24 +309,24 @@ def _step_to_event(ws: Workspace, high: float) -> int:
     return _event(ws, h, ws.step.guard)
 
 
-@kernel("i8(ws)")
-def _in_part(ws: Workspace) -> int:
+@kernel("Status(ws)")
+def _in_part(ws: Workspace) -> Status:
     """Ask for a quarter of the step, which leads past what it should end at; return the status."""
     ws.island.follows_a_step, ws.step.limit = False, BY_CROWD
     # crowded guards, an error that grows, or a flat place
     if ws.step.h < NOUGHT * ws.tolerance.time:
-        return _without_step(ws, STEP_TOO_SMALL)
+        return _without_step(ws, Status.STEP_TOO_SMALL)
     if ws.island.n_integrated == 0 and ws.island.own_steps_end < math.inf:
         ws.island.own_steps_end = ws.island.time + 0.25 * ws.step.h
     elif is_held(ws):
         ws.island.closed_step = 0.25 * ws.step.h
     else:
         ws.island.free_step = 0.25 * ws.step.h
-    return RUNNING
+    return Status.RUNNING
 
 
-@kernel("i8(ws, f8, i8)")
-def _event(ws: Workspace, h: float, guard: int) -> int:
+@kernel("Status(ws, f8, i8)")
+def _event(ws: Workspace, h: float, guard: int) -> Status:
     """Take over the step of ``h`` at whose end a guard fires, and carry out its event; return the status."""
     if guard >= first_end_guard(ws):
         which = guard - first_end_guard(ws)
@@ -358,30 +337,30 @@ def _event(ws: Workspace, h: float, guard: int) -> int:
         _commit(ws, h)
         return _own_event(ws, guard - first_own_guard(ws))
     cause, which = cause_of(ws, guard), contact_of(ws, guard)
-    if cause == STICK_TO_SLIP:
+    if cause == Cause.STICK_TO_SLIP:
         _break_direction(ws, which)
     _commit(ws, h)
     if is_of_redundant_force(ws, guard) == 1 and choose_anew(ws) == 1:
-        return RUNNING
+        return Status.RUNNING
     return _carry_out(ws, cause, which)
 
 
-@kernel("i8(ws, i8, i8)")
-def _pass_on(ws: Workspace, which: int, changed: int) -> int:
-    """Carry out that the features of contact ``which`` have ended, or changed (1); return the status."""
-    if changed == 1:
+@kernel("Status(ws, i8, b1)")
+def _pass_on(ws: Workspace, which: int, has_changed: bool) -> Status:
+    """Carry out that the features of contact ``which`` have ended, or changed; return the status."""
+    if has_changed:
         ws.island.last_feature_change = ws.island.time
-    return _carry_out(ws, FEATURE_CHANGE if changed == 1 else FEATURE_END, which)
+    return _carry_out(ws, Cause.FEATURE_CHANGE if has_changed else Cause.FEATURE_END, which)
 
 
-@kernel("i8(ws, i8)")
-def _own_event(ws: Workspace, number: int) -> int:
+@kernel("Status(ws, i8)")
+def _own_event(ws: Workspace, number: int) -> Status:
     """Record the event of a guard of the scenario's own; return the status."""
     remember(ws)
-    record_event(ws, GUARD, number, 0)
+    record_event(ws, Cause.GUARD, number, 0)
     guard = ws.own_guards[number]
     guard.has_just_fired = True
-    return STOPPED if guard.ends_the_run else RUNNING
+    return Status.STOPPED if guard.ends_the_run else Status.RUNNING
 
 
 @kernel("void(ws, i8)")
@@ -399,20 +378,20 @@ def _break_direction(ws: Workspace, which: int) -> None:
         contact.direction = contact.slip[0] / speed, contact.slip[1] / speed
 
 
-@entry_point("i8(ws, i8, i8)")
-def advance(ws: Workspace, most_steps: int, wary: int) -> int:
+@entry_point("Status(ws, i8, b1)")
+def advance(ws: Workspace, most_steps: int, is_wary: bool) -> Status:
     """Run until the end time, a failure, full buffers or ``most_steps``; return the status.
 
-    A wary run (1) pauses before a step that may lead past the end time.
+    A wary run pauses before a step that may lead past the end time.
     """
     if not ws.run.has_started:
         ws.run.has_started = True
         ws.tolerance.time = max(ws.tolerance.resolution, _SPACINGS * abs(ws.island.time))
         evaluate_bodies(ws, ws.island.time, ws.island.y.start)
-        status = update_at_event(ws, START, -1)
+        status = update_at_event(ws, Cause.START, -1)
         if ws.run.has_too_many_blocks:
-            return NO_SLOT
-        if status != RUNNING:
+            return Status.NO_SLOT
+        if status != Status.RUNNING:
             return status
     if ws.request.is_resumed:
         # what follows from modes and is long is not kept in a state
@@ -425,8 +404,8 @@ def advance(ws: Workspace, most_steps: int, wary: int) -> int:
     for _index in range(most_steps):
         # late in a run doubles are farther apart than the tolerance
         ws.tolerance.time = max(ws.tolerance.resolution, _SPACINGS * abs(ws.island.time))
-        if wary == 1 and longest_wanted(ws) > ws.request.t_end - ws.island.time:
-            return PAUSED
+        if is_wary and longest_wanted(ws) > ws.request.t_end - ws.island.time:
+            return Status.PAUSED
         if ws.request.t_end - ws.island.time <= ws.tolerance.time:
             return _arrived(ws)
         row = EVENT_HEAD + ws.model.n_u + ws.model.n_y + BOOKED + LISTED * ws.island.n_contacts
@@ -435,16 +414,16 @@ def advance(ws: Workspace, most_steps: int, wary: int) -> int:
             ws.model.event_integers - ws.output.integers_used,
         )
         if floats_left < MOST_EVENTS * row or integers_left < MOST_EVENTS * (CODE_HEAD + 2 * ws.island.n_contacts):
-            return PAUSED
+            return Status.PAUSED
         if 2 * ws.output.n_samples > ws.model.sample_capacity:
-            return PAUSED
+            return Status.PAUSED
         ws.step.limit = NO_STEP
         status = _step(ws)
         ws.totals.n_steps_limited[ws.step.limit] += 1
-        if status == RUNNING:
-            status = int(ws.run.failure)
+        if status == Status.RUNNING:
+            status = ws.run.failure
         if ws.run.has_too_many_blocks:
-            status = NO_SLOT
-        if status != RUNNING:
+            status = Status.NO_SLOT
+        if status != Status.RUNNING:
             return status
-    return PAUSED
+    return Status.PAUSED

@@ -5,7 +5,7 @@ from __future__ import annotations
 from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import BOOKED
-from nonsmooth.engine.memory.modes import AFTER, BEFORE, DURING, GUARD, OPEN, SLIDE, Truncation
+from nonsmooth.engine.memory.modes import AFTER, BEFORE, DURING, Cause, Mode, Truncation
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
 
@@ -36,9 +36,9 @@ MOST_EVENTS = 204
 def code(ws: Workspace, c: int) -> int:
     """Return the bits a + 2 b + 4 c of Eq. (29) of contact ``c`` in its present mode."""
     mode = ws.contacts[c].mode
-    if mode == OPEN:
+    if mode == Mode.OPEN:
         return 0
-    return 5 if mode == SLIDE else 1
+    return 5 if mode == Mode.SLIDE else 1
 
 
 @kernel("i8(ws, i8)")
@@ -62,7 +62,7 @@ def remember(ws: Workspace) -> None:
         contact = ws.contacts[c]
         contact.code_before = code(ws, c)
         contact.code_during = contact.code_before
-        contact.was_averaged = contact.mode_after_averaging
+        contact.was_averaged = contact.is_averaged
         for r in range(3):
             contact.event_impulse[r] = 0.0
     for i in range(ws.model.n_u):
@@ -98,17 +98,17 @@ def _list_contact(ws: Workspace, c: int, out: int) -> None:
         ws.floats[out + IMPULSES + r] = contact.event_impulse[r]
     ws.floats[out + SLIP_DIRECTION], ws.floats[out + SLIP_DIRECTION + 1] = contact.direction
     ws.floats[out + CLOSED_WITH], ws.floats[out + FACING] = contact.closing_rate, float(contact.facing)
-    ws.floats[out + AVERAGED] = float(contact.mode_after_averaging)
+    ws.floats[out + AVERAGED] = float(contact.mode_after_averaging.value)
     candidate = contact.features
     for r in range(CANDIDATE):
         ws.floats[out + FEATURES + r] = ws.floats[candidate + r] if candidate > 0 else 0.0
 
 
-@entry_point("void(ws, i8, i8, i8)")
-def record_event(ws: Workspace, cause: int, which: int, phases: int) -> None:
+@entry_point("void(ws, Cause, i8, i8)")
+def record_event(ws: Workspace, cause: Cause, which: int, phases: int) -> None:
     """Append an event with what was remembered before it and the modes after it."""
     ws.event.n_recorded += 1
-    n = _list_event(ws, -1 if cause == GUARD else which)
+    n = _list_event(ws, -1 if cause == Cause.GUARD else which)
     width = EVENT_HEAD + ws.model.n_u + ws.model.n_y + BOOKED + LISTED * n
     ws.output.last_floats, ws.output.last_integers = ws.output.floats_used, ws.output.integers_used
     row = ws.output.event_numbers.start + ws.output.floats_used
@@ -130,7 +130,7 @@ def record_event(ws: Workspace, cause: int, which: int, phases: int) -> None:
     row += BOOKED
     codes = ws.output.event_codes.start + ws.output.integers_used
     ws.integers[codes + CAUSE], ws.integers[codes + CONTACT], ws.integers[codes + PHASES] = cause, which, phases
-    if which >= 0 and cause != GUARD:
+    if which >= 0 and cause != Cause.GUARD:
         ws.integers[codes + CONTACT] = ws.contacts[which].declared
     ws.integers[codes + TRUNCATED] = 1 if ws.event.truncation != Truncation.NONE and phases > 0 else 0
     ws.integers[codes + N_LISTED] = n
@@ -141,7 +141,7 @@ def record_event(ws: Workspace, cause: int, which: int, phases: int) -> None:
         ws.integers[codes + CODE_HEAD + 2 * i] = contact.declared
         before, during, after = contact.code_before << BEFORE, contact.code_during << DURING, code(ws, c) << AFTER
         ws.integers[codes + CODE_HEAD + 2 * i + 1] = before | during | after
-    ws.output.last_contact = which
+    ws.output.last_cause, ws.output.last_contact, ws.output.last_phases = cause, which, phases
     if ws.request.n_known_events > 0:
         # a run that is continued repeats what led to its state, and has told of it
         ws.request.n_known_events -= 1
@@ -159,8 +159,7 @@ def amend_last(ws: Workspace) -> None:
     ws.output.floats_used, ws.output.integers_used = ws.output.last_floats, ws.output.last_integers
     ws.output.n_events -= 1
     ws.event.n_recorded -= 1
-    codes = ws.output.event_codes.start + ws.output.last_integers
-    record_event(ws, ws.integers[codes + CAUSE], ws.output.last_contact, ws.integers[codes + PHASES])
+    record_event(ws, ws.output.last_cause, ws.output.last_contact, ws.output.last_phases)
 
 
 @entry_point("i8(ws)")

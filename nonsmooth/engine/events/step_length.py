@@ -27,7 +27,7 @@ from nonsmooth.engine.memory.limits import (
     BY_STOP,
     BY_TURN,
 )
-from nonsmooth.engine.memory.modes import NOT_FINITE, OPEN, RUNNING, STEP_TOO_SMALL
+from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.engine.memory.tableau import ORDER
 from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.runge_kutta import SAFETY, SHRINK, step_factor
@@ -61,7 +61,7 @@ def _first_of_compliant(ws: Workspace, c: int) -> float:
 def is_held(ws: Workspace) -> bool:
     """Return 1 if some contact is closed."""
     for c in range(ws.island.n_contacts):
-        if ws.contacts[c].mode != OPEN:
+        if ws.contacts[c].mode != Mode.OPEN:
             return True
     return False
 
@@ -109,7 +109,7 @@ def _first_attempt(ws: Workspace, wanted: float) -> float:
     if not ws.island.follows_a_step:
         for c in range(ws.island.n_contacts):
             contact = ws.contacts[c]
-            if contact.mode != OPEN:
+            if contact.mode != Mode.OPEN:
                 ws.island.first_step = min(ws.island.first_step, _first_of_compliant(ws, c))
         h = min(h, ws.island.first_step)
         # a first step to where a gap is expected to close is short, and tells when it does
@@ -168,8 +168,8 @@ def _remember_step(ws: Workspace, h: float, error: float, wanted: float) -> None
         ws.island.closed_step = following
 
 
-@kernel("i8(ws)")
-def accepted_step(ws: Workspace) -> int:
+@kernel("Status(ws)")
+def accepted_step(ws: Workspace) -> Status:
     """Find a step that meets the tolerance, in ``h``; return the status."""
     wanted = _wanted(ws)
     ws.step.relaxation = relaxation(ws)
@@ -178,7 +178,7 @@ def accepted_step(ws: Workspace) -> int:
     explained = 0.0
     while True:
         if ws.request.is_interrupted:
-            return NOT_FINITE
+            return Status.NOT_FINITE
         ws.step.halting_contact = -1
         error = try_length(ws, h)
         share = share_before_stop(ws, h) if error <= 1.0 and ws.island.stage_time > 0.0 else 1.0
@@ -199,13 +199,13 @@ def accepted_step(ws: Workspace) -> int:
             ws.step.limit = BY_STOP
         elif error <= 1.0:
             _remember_step(ws, h, error, wanted)
-            return RUNNING
+            return Status.RUNNING
         else:
             ws.totals.n_rejected += 1
             ws.step.limit = BY_ERROR
             wanted = 0.0
             if not error < 1e300 and 0.1 * h < ws.tolerance.time:
-                return NOT_FINITE
+                return Status.NOT_FINITE
             factor = step_factor(error) if error < 1e300 else 0.1
             if ws.island.stage_time > 0.0 and error > explained > 0.0:
                 # a slip that settles within the step leaves an error of low order
@@ -213,4 +213,4 @@ def accepted_step(ws: Workspace) -> int:
             explained = factor * factor * error
             h *= factor
         if not h >= ws.tolerance.time:
-            return STEP_TOO_SMALL
+            return Status.STEP_TOO_SMALL

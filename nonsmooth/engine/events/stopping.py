@@ -6,7 +6,7 @@ from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.flow.guard_numbers import friction_guard
 from nonsmooth.engine.flow.self_check import NOUGHT
 from nonsmooth.engine.flow.step import STIFF
-from nonsmooth.engine.memory.modes import SLIDE
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.vectors import length
 
@@ -51,7 +51,7 @@ def share_before_stop(ws: Workspace, h: float) -> float:
     share, none = 1.0, NOUGHT * ws.tolerance.velocity
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
-        rubs = contact.mode == SLIDE and not contact.has_traction_law and not contact.is_averaged
+        rubs = contact.mode == Mode.SLIDE and not contact.has_traction_law and not contact.is_averaged
         if rubs and length(contact.slip) <= none and length(contact.slip_at_end) > none:
             share = min(share, _share(ws, c, h))
     return share
@@ -68,7 +68,7 @@ def stopping(ws: Workspace) -> int:
         return int(ws.step.halting_contact)
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
-        if contact.mode == SLIDE and not contact.has_traction_law and not contact.is_averaged:
+        if contact.mode == Mode.SLIDE and not contact.has_traction_law and not contact.is_averaged:
             speed = length(contact.slip_at_end)
             if speed <= ws.tolerance.velocity and speed < ws.guards[friction_guard(ws, c)].initial:
                 return c

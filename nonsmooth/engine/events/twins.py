@@ -8,7 +8,7 @@ are one, and the one that approaches more stands for it.
 from __future__ import annotations
 
 from nonsmooth.engine.bodies.compliance import begin_contact
-from nonsmooth.engine.memory.modes import OPEN
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.vectors import dot, minus
 
@@ -34,7 +34,7 @@ def closed_twin(ws: Workspace, c: int) -> int:
     """Return a closed contact at the place of ``c`` that does not approach, or -1."""
     for other in range(ws.island.n_contacts):
         contact = ws.contacts[other]
-        closed = contact.mode != OPEN and contact.rate[0] >= -ws.tolerance.velocity
+        closed = contact.mode != Mode.OPEN and contact.rate[0] >= -ws.tolerance.velocity
         if closed and _is_twin(ws, c, other):
             return other
     return -1
@@ -50,7 +50,7 @@ def has_replaced(ws: Workspace, c: int) -> int:
     for other in range(ws.island.n_contacts):
         contact = ws.contacts[other]
         if other == c or _is_twin(ws, c, other):
-            stands = 1 if contact.mode != OPEN else stands
+            stands = 1 if contact.mode != Mode.OPEN else stands
             stood = 1 if contact.code_before != 0 else stood
     return stood * stands
 
@@ -62,11 +62,11 @@ def take_over(ws: Workspace, c: int) -> bool:
     twin, taken = closed_twin(ws, c), 0
     while twin >= 0:
         if taken == 0:
-            if contact.mode == OPEN:
+            if contact.mode == Mode.OPEN:
                 begin_contact(ws, c)
             contact.mode = ws.contacts[twin].mode
             taken = 1
-        ws.contacts[twin].mode = OPEN
+        ws.contacts[twin].mode = Mode.OPEN
         ws.contacts[twin].is_in_problem = False
         twin = closed_twin(ws, c)
     return taken != 0

@@ -13,7 +13,7 @@ from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.mean_motion import find_mean_forces
 from nonsmooth.engine.flow.mean_work import book_mean_forces
 from nonsmooth.engine.flow.projection import project_closed
-from nonsmooth.engine.memory.modes import OPEN
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
 
@@ -23,7 +23,7 @@ def reach_end(ws: Workspace) -> None:
     measure_spans(ws)
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
-        if contact.is_averaged and contact.mode != OPEN:
+        if contact.is_averaged and contact.mode != Mode.OPEN:
             contact.mode = contact.mode_after_averaging
     ws.totals.closing_loss += project_closed(ws, 1, 1)
     for c in range(ws.island.n_contacts):

@@ -21,7 +21,7 @@ from nonsmooth.engine.flow.guards import NO_BOUND
 from nonsmooth.engine.flow.self_check import NOUGHT
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.memory.layout import LAST_STAGE
-from nonsmooth.engine.memory.modes import OPEN
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import (
     Floats,
     Workspace,
@@ -80,7 +80,7 @@ def bound_speeds(ws: Workspace) -> None:
     ws.island.fastest_turn = 0.0
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
-        if contact.mode != OPEN:
+        if contact.mode != Mode.OPEN:
             continue
         a, b, lever, larger = contact.frame_a, contact.frame_b, contact.support_radius_b, contact.support_radius_a
         if lever > larger:
@@ -192,7 +192,7 @@ def _expected_closing(ws: Workspace, c: int, du: int) -> float:
 def _will_be_doubtful(ws: Workspace, c: int, h: float) -> bool:
     """Return 1 if the gap of ``c`` may close within the time ``h`` as far as the speeds at its start tell."""
     contact = ws.contacts[c]
-    faces = contact.mode == OPEN and contact.past_feature_at_start <= 0.0
+    faces = contact.mode == Mode.OPEN and contact.past_feature_at_start <= 0.0
     return faces and ws.guards[normal_guard(c)].at_end <= 2.0 * h * contact.speed_at_start
 
 
@@ -297,7 +297,7 @@ def find_doubtful(ws: Workspace, h: float) -> None:
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         contact.acceleration_bound_at_end = NO_BOUND
-        if contact.mode != OPEN:
+        if contact.mode != Mode.OPEN:
             continue
         start = 0.0 if ws.guards[normal_guard(c)].is_deflated else ws.guards[normal_guard(c)].initial
         way = h * (contact.speed_at_start + contact.speed_at_end)

@@ -19,7 +19,7 @@ from nonsmooth.engine.flow.flow import hold_guard, right_hand_side, slope
 from nonsmooth.engine.flow.guard_numbers import friction_guard, normal_guard
 from nonsmooth.engine.flow.step import explicit_step
 from nonsmooth.engine.memory.layout import N_STAGES
-from nonsmooth.engine.memory.modes import OPEN, STICK
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import (
     Workspace,
     frame_at,
@@ -52,7 +52,7 @@ def _rider(ws: Workspace, c: int) -> int:
     """
     contact = ws.contacts[c]
     rigid = not contact.is_compliant and not contact.is_averaged and not contact.is_anisotropic
-    if contact.mode != STICK or not rigid or contact.past_feature > 0.0:
+    if contact.mode != Mode.STICK or not rigid or contact.past_feature > 0.0:
         return -1
     number = contact.body_b
     if _rests(ws, contact.body_a, contact.frame_a) == 0:
@@ -72,7 +72,7 @@ def _find_riders(ws: Workspace) -> int:
         ws.bodies[number].n_closed = 0
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
-        if contact.mode != OPEN:
+        if contact.mode != Mode.OPEN:
             ws.bodies[contact.body_a].n_closed += 1
             ws.bodies[contact.body_b].n_closed += 1
     ws.island.n_integrated = ws.island.n_spans = 0
@@ -188,12 +188,12 @@ def set_off(ws: Workspace, usual: float, longest: float) -> None:
 def _is_off(ws: Workspace, c: int) -> bool:
     """Return 1 if a closed contact has left its constraints by more than a part of the tolerances."""
     contact = ws.contacts[c]
-    if contact.mode == OPEN or contact.is_averaged:
+    if contact.mode == Mode.OPEN or contact.is_averaged:
         return False
     rate, gap = abs(contact.velocity_at_end[0]), abs(contact.gap_at_end)
     if contact.is_compliant:
         rate = gap = 0.0
-    if contact.mode == STICK:
+    if contact.mode == Mode.STICK:
         rate += abs(contact.slip_at_end[0]) + abs(contact.slip_at_end[1])
     return rate > _DRIFT * ws.tolerance.velocity or gap > _DRIFT * ws.tolerance.gap
 

@@ -17,7 +17,7 @@ from nonsmooth.engine.flow.guard_numbers import friction_guard, normal_guard
 from nonsmooth.engine.flow.guards import deflated, has_fired
 from nonsmooth.engine.flow.self_check import NEAR, NOUGHT, blame
 from nonsmooth.engine.memory.layout import PARTS
-from nonsmooth.engine.memory.modes import GAP_UNDECIDED
+from nonsmooth.engine.memory.modes import Status
 from nonsmooth.engine.native.kernel import (
     Floats,
     Workspace,
@@ -198,7 +198,7 @@ def _first_dip(ws: Workspace, h: float, c: int, high: float, stands: int) -> flo
                 ws.totals.n_gap_evaluations += 1
                 looks += 1
                 if looks > _MOST_LOOKS:
-                    blame(ws, GAP_UNDECIDED, c, left.gap, ws.tolerance.gap)
+                    blame(ws, Status.GAP_UNDECIDED, c, left.gap, ws.tolerance.gap)
                     return 0.0
                 _look(ws, h, left.theta + 0.5 * span, c, n)
                 if has_fired(ws, normal_guard(c)) == 1:

@@ -25,7 +25,7 @@ from nonsmooth.engine.contact.problem import follow_slip, free_acceleration, fri
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.flight import accelerate_in_flight
 from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS, LOADS
-from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import (
     Workspace,
     entry_point,
@@ -88,7 +88,7 @@ def right_hand_side(ws: Workspace, t: float, y: int, choosing: int, every: int) 
             contact = ws.contacts[c]
             contact.has_redundant_force = active.has_redundant_force
             contact.is_held_by_friction = active.sticks
-            if contact.mode == STICK:
+            if contact.mode == Mode.STICK:
                 contact.static_margin = _static_margin(ws, a)
             for r in range(3):
                 contact.force[r] = active.force[r]
@@ -103,7 +103,7 @@ def _slides(ws: Workspace) -> bool:
         contact = ws.contacts[ws.actives[a].contact]
         if contact.is_averaged:
             return False
-        if contact.mode == SLIDE:
+        if contact.mode == Mode.SLIDE:
             slides = 1
     return slides != 0
 
@@ -144,7 +144,7 @@ def _set_friction(ws: Workspace, a: int, y: int) -> None:
     if contact.is_averaged:
         active.friction = contact.mean_force[1], contact.mean_force[2]
         return
-    if contact.mode == STICK:
+    if contact.mode == Mode.STICK:
         active.static_coefficient = friction_coefficient(ws, c, 0.0)
         if active.static_coefficient > 0.0:
             active.sticks = True
@@ -225,7 +225,7 @@ def slope(ws: Workspace, t: float, y: int, out: int, choosing: int, every: int) 
     for i in range(ws.island.n_grouped):
         c = ws.island.grouped[i]
         contact = ws.contacts[c]
-        sticks = contact.mode == STICK and not contact.is_averaged
+        sticks = contact.mode == Mode.STICK and not contact.is_averaged
         if not sticks:
             for r in range(1, 3):
                 lost -= contact.force[r] * contact.rate[r]
@@ -253,7 +253,7 @@ def hardest_pressed(ws: Workspace, sliding: int) -> int:
     hardest, most = -1, 0.0
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
-        takes_part = contact.mode == SLIDE if sliding == 1 else contact.mode != OPEN
+        takes_part = contact.mode == Mode.SLIDE if sliding == 1 else contact.mode != Mode.OPEN
         takes_part = takes_part and has_own_step(ws, c) == 0
         force = contact.force[0] if sliding == 1 else abs(contact.force[0])
         if takes_part and not contact.is_compliant and force > most:

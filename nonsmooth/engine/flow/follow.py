@@ -18,7 +18,7 @@ from nonsmooth.engine.flow.guard_numbers import friction_guard
 from nonsmooth.engine.flow.leap import leap
 from nonsmooth.engine.flow.projection import normalise_quaternions, project_closed, project_joints
 from nonsmooth.engine.flow.step import relaxation, try_length
-from nonsmooth.engine.memory.modes import NOT_FINITE, RUNNING, SLIDE, STEP_TOO_SMALL
+from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.engine.native.kernel import (
     Workspace,
     entry_point,
@@ -36,7 +36,7 @@ def orient_slips(ws: Workspace, at_end: int) -> None:
     """Take the directions of slips at hand, or of those at the end of the last step (1), for the step that begins."""
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
-        if contact.mode == SLIDE:
+        if contact.mode == Mode.SLIDE:
             slip = contact.slip_at_end if at_end == 1 else contact.slip
             speed = length(slip)
             if speed > ws.tolerance.velocity:
@@ -53,7 +53,7 @@ def _turned_round(ws: Workspace) -> bool:
     for i in range(ws.island.n_grouped):
         c = ws.island.grouped[i]
         contact = ws.contacts[c]
-        if contact.mode == SLIDE and slip_guard(ws, c) < -ws.tolerance.velocity:
+        if contact.mode == Mode.SLIDE and slip_guard(ws, c) < -ws.tolerance.velocity:
             against = 1
     orient_slips(ws, 0)
     return against != 0
@@ -70,7 +70,7 @@ def _up_to_turn(ws: Workspace) -> float:
         c = ws.island.grouped[i]
         contact = ws.contacts[c]
         last = slip_guard(ws, c)
-        if contact.mode != SLIDE or last >= -ws.tolerance.velocity:
+        if contact.mode != Mode.SLIDE or last >= -ws.tolerance.velocity:
             continue
         first = ws.guards[friction_guard(ws, c)].initial
         if first > ws.tolerance.velocity:
@@ -117,8 +117,8 @@ def _measure_mobilities(ws: Workspace) -> None:
             ws.contacts[ws.actives[a].contact].slip_per_force = slope_of_slip(ws, a)
 
 
-@entry_point("i8(ws, f8)")
-def follow(ws: Workspace, t: float) -> int:
+@entry_point("Status(ws, f8)")
+def follow(ws: Workspace, t: float) -> Status:
     """Go on to time ``t`` in the present modes, by steps of the run's tolerance; return the status."""
     group_closed(ws)
     choose_integrated(ws)
@@ -143,7 +143,7 @@ def follow(ws: Workspace, t: float) -> int:
         if h < 0.0 and not ws.request.is_interrupted and leap(ws, ws.tolerance.time):
             h = ws.tolerance.time
         if h < 0.0:
-            return NOT_FINITE if ws.request.is_interrupted else STEP_TOO_SMALL
+            return Status.NOT_FINITE if ws.request.is_interrupted else Status.STEP_TOO_SMALL
         ws.step.h = h
         ws.island.time = t if h == left else ws.island.time + h
         for i in range(ws.model.n_y):
@@ -156,10 +156,10 @@ def follow(ws: Workspace, t: float) -> int:
             renew_mean_forces(ws, 1)
         else:
             ws.totals.closing_loss += project_closed(ws, 0, 0)
-        if ws.run.failure != RUNNING:
-            return int(ws.run.failure)
+        if ws.run.failure != Status.RUNNING:
+            return ws.run.failure
         wanted = min(ws.tolerance.largest_step, 2.0 * h)
-    return RUNNING
+    return Status.RUNNING
 
 
 @kernel("b1(ws)")

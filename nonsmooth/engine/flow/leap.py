@@ -20,7 +20,7 @@ from nonsmooth.engine.delassus.islands import activate_group
 from nonsmooth.engine.flow.flow import right_hand_side
 from nonsmooth.engine.flow.self_check import EXPLAINED
 from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS
-from nonsmooth.engine.memory.modes import LIFT_OFF, NO_RELEASE, STICK, STICK_TO_SLIP
+from nonsmooth.engine.memory.modes import NO_RELEASE, Cause, Mode
 from nonsmooth.engine.native.kernel import Workspace, frame_at, kernel
 from nonsmooth.engine.numerics.vectors import dot, length, minus
 
@@ -70,8 +70,8 @@ def _set_up(ws: Workspace, part: float) -> None:
         speed = length(contact.slip)
         active.static_coefficient = friction_coefficient(ws, c, 0.0)
         active.friction_coefficient = slip_coefficient(ws, c, speed)
-        sticks = contact.mode == STICK and contact.release == NO_RELEASE
-        active.is_normal_force_unknown = contact.release != LIFT_OFF
+        sticks = contact.mode == Mode.STICK and contact.release == NO_RELEASE
+        active.is_normal_force_unknown = contact.release != Cause.LIFT_OFF
         active.sticks = sticks and active.static_coefficient > 0.0
         active.direction = contact.direction
         if speed > ws.tolerance.velocity:
@@ -91,11 +91,11 @@ def _release(ws: Workspace) -> int:
         contact = ws.contacts[active.contact]
         faint = small_force(ws, a)
         if active.is_normal_force_unknown and active.normal_force < -faint:
-            contact.release, active.is_normal_force_unknown, active.sticks = LIFT_OFF, False, False
+            contact.release, active.is_normal_force_unknown, active.sticks = Cause.LIFT_OFF, False, False
             released += 1
         elif active.sticks and length(active.friction) > active.static_coefficient * active.normal_force + faint:
             (t1, t2), norm = active.friction, length(active.friction)
-            contact.release, active.sticks = STICK_TO_SLIP, False
+            contact.release, active.sticks = Cause.STICK_TO_SLIP, False
             contact.direction = active.direction = -t1 / norm, -t2 / norm
             released += 1
     return released

@@ -36,7 +36,7 @@ from nonsmooth.engine.flow.guards import (
 from nonsmooth.engine.flow.self_check import EXPLAINED, NEAR, explained_gap
 from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.layout import LAST_STAGE, PARTS
-from nonsmooth.engine.memory.modes import OPEN, STICK
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import (
     Workspace,
     entry_point,
@@ -136,9 +136,9 @@ def _force_dip(ws: Workspace, h: float) -> float:
     """Look for a dip of a normal force or a static margin between the samples."""
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
-        if contact.mode != OPEN:
+        if contact.mode != Mode.OPEN:
             for i in (normal_guard(c), friction_guard(ws, c)):
-                if ws.guards[i].is_armed and (i == normal_guard(c) or contact.mode == STICK):
+                if ws.guards[i].is_armed and (i == normal_guard(c) or contact.mode == Mode.STICK):
                     theta = _lowest(ws, h, i)
                     if theta > 0.0:
                         return theta
@@ -152,7 +152,7 @@ def _soonest(ws: Workspace) -> float:
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         gap, rate = contact.gap, contact.gap_rate
-        if contact.mode == OPEN and contact.past_feature <= 0.0 and gap > 0.0 and rate < 0.0:
+        if contact.mode == Mode.OPEN and contact.past_feature <= 0.0 and gap > 0.0 and rate < 0.0:
             soonest = min(soonest, -gap / rate)
     return soonest
 
@@ -234,7 +234,7 @@ def first_crossing(ws: Workspace, h: float) -> float:
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         i = normal_guard(c)
-        if contact.mode != OPEN and contact.least_force < min(ws.guards[i].initial, ws.guards[i].at_end):
+        if contact.mode != Mode.OPEN and contact.least_force < min(ws.guards[i].initial, ws.guards[i].at_end):
             suspect = True
     forces = closed if suspect else 0
     looks = forces + ws.model.n_own_guards
@@ -419,7 +419,7 @@ def _overtaken(ws: Workspace, i: int) -> bool:
     """Return 1 if a correction went past the closing of another contact than that of guard ``i``."""
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
-        if contact.mode == OPEN and c != contact_of(ws, i) and contact.past_feature <= 0.0:
+        if contact.mode == Mode.OPEN and c != contact_of(ws, i) and contact.past_feature <= 0.0:
             start = min(0.0, ws.guards[normal_guard(c)].base)
             # what closes at one instant does to round-off
             if contact.gap < start - NEAR * ws.tolerance.gap and contact.gap_rate < 0.0:
@@ -438,7 +438,7 @@ def _hides_another(ws: Workspace, step: float, i: int) -> bool:
         return False
     c = contact_of(ws, i)
     contact = ws.contacts[c]
-    if contact.mode != OPEN or contact.is_compliant:
+    if contact.mode != Mode.OPEN or contact.is_compliant:
         return False
     reached = step * (contact.speed_at_start + contact.speed_at_end)
     return explained_gap(ws, c) < -contact.gap < reached
@@ -455,7 +455,7 @@ def locate(ws: Workspace, h: float, high: float) -> float:
     closed = _asks_forces(ws)
     first = first_fired(ws, True, NO_GUARD)
     of_contact = 0 <= first < first_own_guard(ws)
-    if ws.island.stage_time > 0.0 and of_contact and ws.contacts[contact_of(ws, first)].mode != OPEN:
+    if ws.island.stage_time > 0.0 and of_contact and ws.contacts[contact_of(ws, first)].mode != Mode.OPEN:
         # explicit steps, which are short enough then, find out when
         return -1.0
     theta = high
@@ -491,7 +491,9 @@ def locate(ws: Workspace, h: float, high: float) -> float:
     # a gap without a rate jumps where features come to face each other: there is nothing to follow on the step
     jumps = (
         1
-        if fired < first_own_guard(ws) and ws.contacts[contact_of(ws, fired)].mode == OPEN and is_gap(ws, fired) == 0
+        if fired < first_own_guard(ws)
+        and ws.contacts[contact_of(ws, fired)].mode == Mode.OPEN
+        and is_gap(ws, fired) == 0
         else 0
     )
     if ws.step.error <= NEGLIGIBLE or jumps == 1:

@@ -19,14 +19,7 @@ from nonsmooth.engine.contact.mean_forces import is_averaged
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus, diagonal_block
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.self_check import EXPLAINED, NOUGHT, blame, energy_of_bodies, explained_gap, held_gap
-from nonsmooth.engine.memory.modes import (
-    JOINTS_APART,
-    MOTION_UNEXPLAINED,
-    QUATERNION_UNEXPLAINED,
-    RUNNING,
-    SLIDE,
-    STICK,
-)
+from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.engine.native.kernel import (
     Workspace,
     entry_point,
@@ -66,7 +59,7 @@ def project_rates(ws: Workspace, at_event: int) -> float:
         active.normal_force = 0.0
         slow = max(abs(contact.rate[1]), abs(contact.rate[2])) <= ws.tolerance.velocity
         rubs = contact.has_traction_law
-        active.sticks = contact.mode == STICK or (at_event == 1 and slow and not rubs)
+        active.sticks = contact.mode == Mode.STICK or (at_event == 1 and slow and not rubs)
         active.friction_coefficient = 0.0
         for r in range(3):
             active.free[r] = contact.rate[r]
@@ -154,7 +147,7 @@ def _stop_alone(ws: Workspace) -> float:
 def _slides_alone(ws: Workspace) -> bool:
     """Return 1 if the active contact is one, rigid, and slides."""
     contact = ws.contacts[ws.actives[0].contact]
-    return ws.problem.n_active == 1 and not contact.is_compliant and contact.mode == SLIDE
+    return ws.problem.n_active == 1 and not contact.is_compliant and contact.mode == Mode.SLIDE
 
 
 @kernel()
@@ -172,7 +165,13 @@ def normalise_quaternions(ws: Workspace) -> None:
         if abs(square - 1.0) <= _ROUND_OFF:
             continue
         if abs(square - 1.0) > EXPLAINED * 4.0 * ws.tolerance.relative:
-            blame(ws, QUATERNION_UNEXPLAINED, number, math.sqrt(square) - 1.0, EXPLAINED * 2.0 * ws.tolerance.relative)
+            blame(
+                ws,
+                Status.QUATERNION_UNEXPLAINED,
+                number,
+                math.sqrt(square) - 1.0,
+                EXPLAINED * 2.0 * ws.tolerance.relative,
+            )
         factor = 1.0 / math.sqrt(square)
         for i in range(4):
             ws.floats[q + i] *= factor
@@ -247,7 +246,7 @@ def _displace(ws: Workspace) -> None:
             if abs(motion) > most:
                 most += _motion_by_gaps(ws, number, i)
             if abs(motion) > most:
-                blame(ws, MOTION_UNEXPLAINED, number, motion, most)
+                blame(ws, Status.MOTION_UNEXPLAINED, number, motion, most)
                 return
     for number in range(ws.model.n_bodies):
         body = ws.bodies[number]
@@ -323,8 +322,8 @@ def project_joints(ws: Workspace) -> None:
             break
         before = worst
         _displace(ws)
-    if not worst <= EXPLAINED * ws.tolerance.gap and ws.run.failure == RUNNING:
-        blame(ws, JOINTS_APART, -1, worst, EXPLAINED * ws.tolerance.gap)
+    if not worst <= EXPLAINED * ws.tolerance.gap and ws.run.failure == Status.RUNNING:
+        blame(ws, Status.JOINTS_APART, -1, worst, EXPLAINED * ws.tolerance.gap)
     for number in range(ws.model.n_articulations):
         _add_correction(ws, number, ws.articulations[number].rate, ws.island.y.start + ws.model.n_q)
 

@@ -8,7 +8,7 @@ from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry
 from nonsmooth.engine.flow.mean_work import book_mean_forces
 from nonsmooth.engine.memory.layout import EXCHANGED
-from nonsmooth.engine.memory.modes import GAP_UNEXPLAINED, OPEN, PASSED, RUNNING
+from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.engine.native.kernel import (
     Workspace,
     at,
@@ -29,10 +29,10 @@ _ROUND_OFF = 1e-12
 """Part of an energy that sums over a run do not tell from none."""
 
 
-@kernel("void(ws, i8, i8, f8, f8)")
-def blame(ws: Workspace, status: int, number: int, found: float, allowed: float) -> None:
+@kernel("void(ws, Status, i8, f8, f8)")
+def blame(ws: Workspace, status: Status, number: int, found: float, allowed: float) -> None:
     """End the run by ``status``, with the number of the body or contact, what was found there and what is explained."""
-    if ws.run.failure == RUNNING:
+    if ws.run.failure == Status.RUNNING:
         ws.run.failure, ws.run.failed_number, ws.run.found, ws.run.allowed = status, number, found, allowed
 
 
@@ -76,7 +76,7 @@ def _presses(ws: Workspace, c: int) -> bool:
     contact = ws.contacts[c]
     for other in range(ws.island.n_contacts):
         another = ws.contacts[other]
-        if another.mode != OPEN and another.frame_a == contact.frame_a and another.frame_b == contact.frame_b:
+        if another.mode != Mode.OPEN and another.frame_a == contact.frame_a and another.frame_b == contact.frame_b:
             return True
     return False
 
@@ -103,11 +103,11 @@ def check_gaps(ws: Workspace) -> None:
     if ws.run.passed_pair >= 0:
         explained = ws.run.passed_allowed + _tolerated_overlap(ws, ws.run.passed_pair)
         if ws.run.passed_depth > explained:
-            blame(ws, PASSED, ws.pairs[ws.run.passed_pair].contact, ws.run.passed_depth, explained)
+            blame(ws, Status.PASSED, ws.pairs[ws.run.passed_pair].contact, ws.run.passed_depth, explained)
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         gap = contact.gap_at_end
-        if contact.mode == OPEN:
+        if contact.mode == Mode.OPEN:
             gap = min(0.0, gap)
             if contact.overlap_at_end < 0.0 and not _presses(ws, c):
                 gap = contact.overlap_at_end
@@ -115,7 +115,7 @@ def check_gaps(ws: Workspace) -> None:
             continue
         # looked at closely only where it is not plainly explained
         if abs(gap) > EXPLAINED * ws.tolerance.gap and abs(gap) > explained_gap(ws, c):
-            blame(ws, GAP_UNEXPLAINED, c, gap, explained_gap(ws, c))
+            blame(ws, Status.GAP_UNEXPLAINED, c, gap, explained_gap(ws, c))
 
 
 @kernel("f8(ws, i8, f8)")
@@ -137,7 +137,7 @@ def _deepest_other(ws: Workspace, c: int, after: int) -> float:
         another = ws.contacts[other]
         mode = another.mode_agreed if after == 1 else another.mode
         same = another.frame_a == contact.frame_a and another.frame_b == contact.frame_b
-        if other != c and same and mode != OPEN:
+        if other != c and same and mode != Mode.OPEN:
             deepest = min(deepest, another.gap)
     return float(deepest)
 
@@ -151,9 +151,9 @@ def check_begun(ws: Workspace) -> None:
     """
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
-        if not contact.is_compliant or (contact.mode == OPEN) == (contact.mode_agreed == OPEN):
+        if not contact.is_compliant or (contact.mode == Mode.OPEN) == (contact.mode_agreed == Mode.OPEN):
             continue
-        if contact.mode != OPEN:
+        if contact.mode != Mode.OPEN:
             # past its end only what takes over knows the depth
             if contact.past_feature > 0.0:
                 ws.run.jumped_energy -= _stored(ws, c, -_deepest_other(ws, c, 1))
@@ -165,7 +165,7 @@ def check_begun(ws: Workspace) -> None:
         ws.run.jump_time = ws.island.time
         explained = tolerated - _deepest_other(ws, c, 0)
         if contact.gap < -explained:
-            blame(ws, GAP_UNEXPLAINED, c, contact.gap, explained)
+            blame(ws, Status.GAP_UNEXPLAINED, c, contact.gap, explained)
 
 
 @kernel("f8(ws)")

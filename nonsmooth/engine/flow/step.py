@@ -14,7 +14,7 @@ from nonsmooth.engine.flow.flow import is_violated, slope
 from nonsmooth.engine.flow.spins import choose_spins, keep_spins, stage_spins, weigh_spins
 from nonsmooth.engine.memory import implicit_tableau, tableau
 from nonsmooth.engine.memory.layout import LAST_STAGE, N_ACCOUNTS, N_STAGES
-from nonsmooth.engine.memory.modes import SLIDE
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import (
     Workspace,
     entry_point,
@@ -102,7 +102,7 @@ def relaxation(ws: Workspace) -> float:
         contact = ws.contacts[c]
         if contact.is_compliant:
             return 0.0
-        if contact.mode == SLIDE and not contact.is_averaged:
+        if contact.mode == Mode.SLIDE and not contact.is_averaged:
             friction, speed = length((contact.force[1], contact.force[2])), length(contact.slip_at_end)
             fastest = max(fastest, contact.slip_per_force * friction / max(speed, _SLOWEST * ws.tolerance.velocity))
     return fastest

@@ -153,8 +153,8 @@ def finish(ws: Workspace) -> None:
     evaluate_impact_rates(ws, ws.impact.y.start)
 
 
-@kernel("i8(ws)")
-def how_over(ws: Workspace) -> int:
+@kernel("Truncation(ws)")
+def how_over(ws: Workspace) -> Truncation:
     """How the impact of the active contacts ended that was cut short: a member of :class:`Truncation`.
 
     If the approach that remains is negligible, the impact is over. Contacts that slip may feed each other's bounces

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from enum import IntEnum
 from typing import TypeAlias, final
 
 from nonsmooth.engine.memory.declare import Declaration, Record, declarations
@@ -29,6 +30,8 @@ class Field:
         Scalar that says how far into the array the first record is.
     is_boolean : bool
         True if the number answers a question.
+    enumeration : type or None
+        IntEnum of which the number is a member.
     is_float : bool
         True if it stands in the heap of floats.
     """
@@ -40,6 +43,7 @@ class Field:
     is_vector: bool = False
     behind: str = ""
     is_boolean: bool = False
+    enumeration: type[IntEnum] | None = None
     is_float: bool = True
 
 
@@ -61,6 +65,7 @@ def _field(declared: Declaration) -> Field:
         is_vector=declared.is_vector,
         behind=declared.behind,
         is_boolean=declared.kind is bool,
+        enumeration=declared.kind if issubclass(declared.kind, IntEnum) else None,
         is_float=storage.is_float,
     )
 

@@ -1,4 +1,4 @@
-"""Modes of a contact, causes of events, reasons to stop: the engine's codes and their words."""
+"""Modes of a contact, causes of events, and the status of the engine: its enumerations and their words."""
 
 from __future__ import annotations
 
@@ -16,11 +16,10 @@ class Mode(IntEnum):
     """The contact is closed and slips, or is about to."""
 
 
-OPEN, STICK, SLIDE = (int(mode) for mode in Mode)
 BEFORE, DURING, AFTER = 0, 3, 6
-"""The bits at which a contact's three codes begin in the integer that is kept of them with an event,"""
+"""First bits of the three codes of a contact, Eq. (29), in the integer that is recorded with an event."""
 CODE = 7
-"""and all bits of one code."""
+"""All bits of one code."""
 
 
 class Cause(IntEnum):
@@ -58,11 +57,6 @@ class Cause(IntEnum):
     """An engine that has no events of its own steps."""
 
 
-START, IMPACT, LIFT_OFF, SLIP_TO_STICK, STICK_TO_SLIP, CLOSING, PAINLEVE, END, JAM, GUARD, TOUCH, FEATURE_END = (
-    int(cause) for cause in list(Cause)[:12]
-)
-FEATURE_CHANGE, AVERAGING, STEP = (int(cause) for cause in list(Cause)[12:])
-
 CAUSES = (
     "start",
     "impact",
@@ -80,8 +74,9 @@ CAUSES = (
     "averaging of forces",
     "step of the engine",
 )
+"""The causes in words, by number."""
 
-NO_RELEASE = 0
+NO_RELEASE = Cause.START
 """Cause of the release of a contact that no jump of its contact point released."""
 
 
@@ -96,39 +91,88 @@ class Truncation(IntEnum):
     """A heavy body approaches, and the compressions of light bodies between it and others stop it gradually."""
 
 
-BY_LAW, COMPLIANT, REFUSE = range(3)
-"""What to do where sliding has no contact force."""
-POLICIES = ("impact", "compliant", "refuse")
-"""Their names."""
+class Painleve(IntEnum):
+    """What happens if sliding has no contact force."""
 
-RUNNING, DONE, PAUSED = 0, 1, 2
-STEP_TOO_SMALL, NOT_FINITE, IMPACT_ENDLESS, NO_CONTACT_SOLUTION, UPDATE_ENDLESS, STALLED = range(3, 9)
-STOPPED, NO_SLOT, PARADOX_REFUSED, JOINTS_APART = range(9, 13)
-GAP_UNEXPLAINED, MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED = range(13, 16)
-CONDITION_MET = 16
-GAP_UNDECIDED, PASSED = 17, 18
-"""Status of the engine."""
+    BY_LAW = 0
+    """An impact without collision, by the impact law of the contact."""
+    COMPLIANT = 1
+    """The same without loss, as a stiff spring does it."""
+    REFUSE = 2
+    """The run ends."""
+
+
+POLICIES = ("impact", "compliant", "refuse")
+"""The same in words, by number."""
+
+
+class Status(IntEnum):
+    """What the engine, a step or an instant returns."""
+
+    RUNNING = 0
+    """The motion continues."""
+    DONE = 1
+    """The end time is reached."""
+    PAUSED = 2
+    """The call ends before the end time: the buffers fill, or the run is interrupted."""
+    STEP_TOO_SMALL = 3
+    """The step is smaller than the time tolerance."""
+    NOT_FINITE = 4
+    """A law or a body gave a number that is not finite."""
+    IMPACT_ENDLESS = 5
+    """An impact did not end within its steps."""
+    NO_CONTACT_SOLUTION = 6
+    """The contact problem has no solution."""
+    UPDATE_ENDLESS = 7
+    """Impacts at one instant did not settle into modes."""
+    STALLED = 8
+    """Events accumulate, and time stops passing."""
+    STOPPED = 9
+    """A guard of the user ends the run."""
+    NO_SLOT = 10
+    """More contacts are near each other than can be listed."""
+    PARADOX_REFUSED = 11
+    """Sliding has no contact force, and the run is to end there."""
+    JOINTS_APART = 12
+    """Joints contradict each other."""
+    GAP_UNEXPLAINED = 13
+    """A gap is larger than the tolerances allow."""
+    MOTION_UNEXPLAINED = 14
+    """A projection moves a body farther than the tolerances allow."""
+    QUATERNION_UNEXPLAINED = 15
+    """The length of a quaternion differs from 1 by more than the tolerances allow."""
+    CONDITION_MET = 16
+    """The condition that ends the run holds."""
+    GAP_UNDECIDED = 17
+    """It cannot be decided whether a gap closes within a step."""
+    PASSED = 18
+    """Bodies passed into each other."""
+
 
 REASONS = {
-    STOPPED: "a guard of the scenario ended the run",
-    DONE: "the end time was reached",
-    CONDITION_MET: "the condition that was given was met",
-    PAUSED: "the run was interrupted",
-    STEP_TOO_SMALL: "the step size fell below the time tolerance",
-    NOT_FINITE: "a law or a body returned a number that is not finite",
-    IMPACT_ENDLESS: "an impact did not end within its steps",
-    NO_CONTACT_SOLUTION: "the contact forces have no solution, and no impulse without collision leads to one",
-    UPDATE_ENDLESS: "impacts at one instant did not settle into a mode",
-    JOINTS_APART: "joints contradict each other: there is no motion that keeps all of them closed",
-    GAP_UNEXPLAINED: "a gap is none that the tolerances explain",
-    GAP_UNDECIDED: "whether a gap closes within a step is not decided after ten thousand looks at it",
-    PASSED: "bodies passed into each other",
-    MOTION_UNEXPLAINED: "closing contacts or joints would move a body farther than the tolerances explain",
-    QUATERNION_UNEXPLAINED: "a quaternion has left unit length by more than the tolerances explain",
-    PARADOX_REFUSED: "sliding has no contact force (Painleve), and the option painleve is 'refuse'",
-    NO_SLOT: "more contacts came near each other than a system of this size has room for",
-    STALLED: "the run stalls: a contact has more than a hundred events within a hundredth of its contact time",
+    Status.STOPPED: "a guard of the scenario ended the run",
+    Status.DONE: "the end time was reached",
+    Status.CONDITION_MET: "the condition that was given was met",
+    Status.PAUSED: "the run was interrupted",
+    Status.STEP_TOO_SMALL: "the step size fell below the time tolerance",
+    Status.NOT_FINITE: "a law or a body returned a number that is not finite",
+    Status.IMPACT_ENDLESS: "an impact did not end within its steps",
+    Status.NO_CONTACT_SOLUTION: "the contact forces have no solution, and no impulse without collision leads to one",
+    Status.UPDATE_ENDLESS: "impacts at one instant did not settle into a mode",
+    Status.JOINTS_APART: "joints contradict each other: there is no motion that keeps all of them closed",
+    Status.GAP_UNEXPLAINED: "a gap is none that the tolerances explain",
+    Status.GAP_UNDECIDED: "whether a gap closes within a step is not decided after ten thousand looks at it",
+    Status.PASSED: "bodies passed into each other",
+    Status.MOTION_UNEXPLAINED: "closing contacts or joints would move a body farther than the tolerances explain",
+    Status.QUATERNION_UNEXPLAINED: "a quaternion has left unit length by more than the tolerances explain",
+    Status.PARADOX_REFUSED: "sliding has no contact force (Painleve), and the option painleve is 'refuse'",
+    Status.NO_SLOT: "more contacts came near each other than a system of this size has room for",
+    Status.STALLED: "the run stalls: a contact has more than a hundred events within a hundredth of its contact time",
 }
+"""Why a run ended, by status."""
+
+ENUMERATIONS = (Mode, Cause, Truncation, Painleve, Status)
+"""All of them; signatures of kernels know them by their names."""
 
 
 def word(a: list[int], b: list[int], c: list[int]) -> str:
@@ -138,3 +182,14 @@ def word(a: list[int], b: list[int], c: list[int]) -> str:
     '{01,00,01}'
     """
     return "{" + ",".join("".join(str(bit) for bit in reversed(bits)) for bits in (a, b, c)) + "}"
+
+
+OPEN, STICK, SLIDE = Mode
+START, IMPACT, LIFT_OFF, SLIP_TO_STICK, STICK_TO_SLIP, CLOSING, PAINLEVE, END, JAM, GUARD, TOUCH, FEATURE_END = [
+    *Cause
+][:12]
+FEATURE_CHANGE, AVERAGING, STEP = [*Cause][12:]
+BY_LAW, COMPLIANT, REFUSE = Painleve
+RUNNING, DONE, PAUSED, STEP_TOO_SMALL, NOT_FINITE, IMPACT_ENDLESS, NO_CONTACT_SOLUTION, UPDATE_ENDLESS = [*Status][:8]
+STALLED, STOPPED, NO_SLOT, PARADOX_REFUSED, JOINTS_APART, GAP_UNEXPLAINED, MOTION_UNEXPLAINED = [*Status][8:15]
+QUATERNION_UNEXPLAINED, CONDITION_MET, GAP_UNDECIDED, PASSED = [*Status][15:]

@@ -23,6 +23,7 @@ from numba.extending import intrinsic, typeof_impl
 from nonsmooth.engine.memory.declare import Part
 from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.engine.memory.modes import ENUMERATIONS
 from nonsmooth.engine.memory.tables import record_with
 from nonsmooth.engine.native.build import CFunction, EntryPasses, KernelPasses, LawPasses, ShimPasses, uncollected
 from nonsmooth.engine.native.cache import Store, folders
@@ -52,6 +53,7 @@ _TYPES = {
     "f8": types.float64,
     "i8": types.int64,
     "b1": types.boolean,
+    **{kind.__name__: type_of_result(kind) for kind in ENUMERATIONS},
     **types_of,
     "v2": types.UniTuple(types.float64, 2),
     "v3": types.UniTuple(types.float64, 3),
@@ -60,7 +62,7 @@ _TYPES = {
 
 
 def result(kind: Any) -> Any:
-    """Let a kernel return a named tuple of numbers; signatures know it by the name of its class."""
+    """Let a kernel return a named tuple of numbers, or an enumeration; signatures know it by the name of its class."""
     _TYPES[kind.__name__] = type_of_result(kind)
     return kind
 
@@ -270,8 +272,9 @@ def _callable(name: str) -> Callable[..., Any]:
         entry_addresses()
         entry = known(_entries, name)
         result, _, names = entry.signature.partition("(")
-        extra = [C_TYPES[n.strip()] for n in names.rstrip(")").split(",")[1:]]
-        prototype = ctypes.CFUNCTYPE(C_TYPES[result], *[ctypes.c_void_p] * 3, *extra)
+        # a member of an enumeration is an integer
+        returned, *extra = [C_TYPES.get(n.strip(), ctypes.c_int64) for n in [result, *names.rstrip(")").split(",")[1:]]]
+        prototype = ctypes.CFUNCTYPE(returned, *[ctypes.c_void_p] * 3, *extra)
         _callables[name] = prototype(entry.address())
     return _callables[name]
 

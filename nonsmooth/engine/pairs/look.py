@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.memory.modes import OPEN
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import (
     Workspace,
     entry_point,
@@ -38,7 +38,7 @@ def _ask_contacts(ws: Workspace) -> None:
         pair.is_closed, pair.deepest = False, 0.0
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
-        if contact.mode == OPEN or contact.pair == NO_PAIR:
+        if contact.mode == Mode.OPEN or contact.pair == NO_PAIR:
             continue
         pair = ws.pairs[contact.pair]
         if not pair.is_closed or contact.gap_at_end < pair.deepest:

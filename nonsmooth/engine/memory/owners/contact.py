@@ -19,7 +19,7 @@ from nonsmooth.engine.memory.blocks import (
     TURN_MATRIX,
 )
 from nonsmooth.engine.memory.declare import Life, Record, one_of, question, real, row, vector, whole
-from nonsmooth.engine.memory.modes import Mode
+from nonsmooth.engine.memory.modes import Cause, Mode
 from nonsmooth.types import Floats
 
 _PARAMETER, _STATE, _REUSED = Life.PARAMETER, Life.STATE, Life.REUSED
@@ -243,7 +243,7 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     direction_agreed: tuple[float, float] = vector(_EVENT, 2, "1", "Slip direction that the contact problem found.")
     takes_over: bool = question(_EVENT, "The contact takes the place of a closed one.")
     has_no_force: bool = question(_EVENT, "Sliding has no contact force (Painleve).")
-    release: int = whole(_EVENT, "Cause by which a jump of the contact point released it, or `NO_RELEASE`.")
+    release: Cause = one_of(Cause, _EVENT, "Cause by which a jump of the contact point released it, or `NO_RELEASE`.")
     leap_start_a: tuple[float, float, float] = vector(
         _EVENT, 3, "m", "Witness point on the first body before the jump."
     )

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from typing import final
 
-from nonsmooth.engine.memory.declare import FloatRow, IntegerRow, Life, Part, array, question, real, whole
+from nonsmooth.engine.memory.declare import FloatRow, IntegerRow, Life, Part, array, one_of, question, real, whole
 from nonsmooth.engine.memory.limits import LIMITS
+from nonsmooth.engine.memory.modes import Cause, Status
 from nonsmooth.engine.memory.sizes import fixed, per, sample_numbers
 
 _REQUEST, _STATE, _OUTPUT = Life.REQUEST, Life.STATE, Life.OUTPUT
@@ -52,7 +53,7 @@ class Run(Part, key="run"):
 
     has_started: bool = question(_STATE, "The start is recorded.")
     n_calls: int = whole(_STATE, "Number of calls of the engine.")
-    failure: int = whole(_OUTPUT, "Status of a failed check, else `RUNNING`.")
+    failure: Status = one_of(Status, _OUTPUT, "Status of a failed check, else running.")
     failed_number: int = whole(_OUTPUT, "Contact, joint or body of the failed check.")
     found: float = real(_OUTPUT, "", "Value that the failed check found, in the unit of the check.")
     allowed: float = real(_OUTPUT, "", "Value that the failed check allows, in the unit of the check.")
@@ -80,7 +81,9 @@ class Output(Part, key="output"):
     integers_used: int = whole(_OUTPUT, "Number of integers in use.")
     last_floats: int = whole(_OUTPUT, "Where the floats of the last event begin.")
     last_integers: int = whole(_OUTPUT, "Where the integers of the last event begin.")
+    last_cause: Cause = one_of(Cause, _OUTPUT, "Cause of the last event.")
     last_contact: int = whole(_OUTPUT, "Contact of the last event.")
+    last_phases: int = whole(_OUTPUT, "Phases of the impact of the last event.")
     n_samples: int = whole(_OUTPUT, "Number of samples in the buffer.")
     sample_index: int = whole(_STATE, "Number of the next sample.")
     next_sample: float = real(_STATE, "s", "Time of the next sample.")
