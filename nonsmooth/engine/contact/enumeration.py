@@ -99,11 +99,11 @@ def enumerate_modes(ws: Workspace, first: int) -> int:
         slips = _start_slips(ws)
         if slips > 0:
             polish(ws)
-        if verify(ws, 0):
+        if verify(ws, is_lenient=False):
             return number + 1
         if slips > 0:
             _sweep_slips(ws)
             polish(ws)
-            if verify(ws, 0):
+            if verify(ws, is_lenient=False):
                 return number + 1
     return 0

@@ -89,7 +89,7 @@ def _take_over(ws: Workspace, h: float) -> int:
     if ended > 0:
         group_closed(ws)
     if drifted(ws):
-        ws.totals.closing_loss += project_closed(ws, 0, 0)
+        ws.totals.closing_loss += project_closed(ws, at_event=False, averaged=False)
     return ended
 
 
@@ -158,7 +158,7 @@ def _step(ws: Workspace) -> Status:
     ws.step.listed_step = longest_step(ws) if ws.model.n_spheres > 0 else 1e300
     if ws.step.listed_step == 0.0:
         return list_contacts(ws)
-    orient_slips(ws, 1)
+    orient_slips(ws, at_end=True)
     arm_guards(ws)
     which = holds_time_up(ws) if ws.island.n_grouped > 0 else -1
     if which >= 0 and average_island_of(ws, which):
@@ -191,7 +191,7 @@ def _evaluate_start(ws: Workspace) -> None:
     set_off(ws, ws.island.closed_step, ws.island.resumed_step)
     group_closed(ws)
     choose_integrated(ws)
-    slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, 1, 1)
+    slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=True, of_all_bodies=True)
     take_off(ws)
     close_account(ws)
     watch_features(ws)
@@ -213,7 +213,7 @@ def _due_at_start(ws: Workspace) -> int:
         # what put the contacts on their constraints may have put one past its end
         if contact.mode != Mode.OPEN and ws.guards[first_end_guard(ws) + c].at_end < 0.0:
             return c
-        if has_own_step(ws, c) == 1:
+        if has_own_step(ws, c):
             continue
         # and may have turned a slip so that its force is another one
         unique = contact.mode != Mode.OPEN and not contact.is_compliant and not contact.has_redundant_force
@@ -234,12 +234,12 @@ def _without_step(ws: Workspace, status: Status) -> Status:
             changed = has_other_features(ws, ws.contacts[which])
             _take_over(ws, ws.step.h)
             return _pass_on(ws, which, changed)
-        which = hardest_pressed(ws, 1)
+        which = hardest_pressed(ws, sliding=True)
         if which >= 0:
             outcome = _carry_out(ws, Cause.JAM, which)
             if outcome != Status.NO_CONTACT_SOLUTION:
                 return outcome
-        which = hardest_pressed(ws, 0)
+        which = hardest_pressed(ws, sliding=False)
         if which >= 0 and average_island_of(ws, which):
             ws.island.follows_a_step = False
             return update_at_event(ws, Cause.AVERAGING, which)
@@ -340,7 +340,7 @@ def _event(ws: Workspace, h: float, guard: int) -> Status:
     if cause == Cause.STICK_TO_SLIP:
         _break_direction(ws, which)
     _commit(ws, h)
-    if is_of_redundant_force(ws, guard) == 1 and choose_anew(ws) == 1:
+    if is_of_redundant_force(ws, guard) and choose_anew(ws):
         return Status.RUNNING
     return _carry_out(ws, cause, which)
 
