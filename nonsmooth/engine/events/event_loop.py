@@ -378,6 +378,14 @@ def _break_direction(ws: Workspace, which: int) -> None:
         contact.direction = contact.slip[0] / speed, contact.slip[1] / speed
 
 
+@kernel()
+def _derive(ws: Workspace) -> None:
+    """Evaluate what follows from the state and is no part of a checkpoint (:attr:`Life.DERIVED`)."""
+    ws.island.velocities = ws.island.y.start + ws.model.n_q
+    group_closed(ws)
+    choose_integrated(ws)
+
+
 @entry_point("Status(ws, i8, b1)")
 def advance(ws: Workspace, most_steps: int, is_wary: bool) -> Status:
     """Run until the end time, a failure, full buffers or ``most_steps``; return the status.
@@ -394,10 +402,8 @@ def advance(ws: Workspace, most_steps: int, is_wary: bool) -> Status:
         if status != Status.RUNNING:
             return status
     if ws.request.is_resumed:
-        # what follows from modes and is long is not kept in a state
         ws.request.is_resumed = False
-        group_closed(ws)
-        choose_integrated(ws)
+        _derive(ws)
     if ws.island.resumed_end != ws.request.t_end:
         # what had no value behind another end time may have one now
         ws.island.resumed_end, ws.island.resumed_step = ws.request.t_end, 1e300
