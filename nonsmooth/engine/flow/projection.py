@@ -60,7 +60,7 @@ def project_rates(ws: Workspace, at_event: bool) -> float:
         slow = max(abs(contact.rate[1]), abs(contact.rate[2])) <= ws.tolerance.velocity
         rubs = contact.has_traction_law
         active.sticks = contact.mode == Mode.STICK or (at_event and slow and not rubs)
-        active.friction_coefficient = 0.0
+        active.friction_coefficient, active.direction = 0.0, contact.direction
         for r in range(3):
             active.free[r] = contact.rate[r]
     part = _DAMPING if m > 1 else 0.0

@@ -47,6 +47,8 @@ entry_point: _Decorator = _half.entry_point
 """An engine function compiled apart, reached by its address, by Python too."""
 entry_addresses: Callable[[], tuple[int, ...]] = _half.entry_addresses
 """The addresses of all entry points, which belong at the head of ``k``."""
+prototype_of: Callable[[str], Any] = _half.prototype_of
+"""Type of the C function of an entry point, for :mod:`ctypes`."""
 call_entry: Callable[..., Any] = _half.call_entry
 """``call_entry(name, memory, *numbers)``: call an entry point, or a step of an engine of one's own, from Python."""
 own_kernel: Callable[[type[Part], str], Callable[[_Function], _Function]] = _half.own_kernel

@@ -270,13 +270,16 @@ def _callable(name: str) -> Callable[..., Any]:
     """Return an entry point, or a step, as a function of the addresses of the three heaps, and of numbers."""
     if name not in _callables:
         entry_addresses()
-        entry = known(_entries, name)
-        result, _, names = entry.signature.partition("(")
-        # a member of an enumeration is an integer
-        returned, *extra = [C_TYPES.get(n.strip(), ctypes.c_int64) for n in [result, *names.rstrip(")").split(",")[1:]]]
-        prototype = ctypes.CFUNCTYPE(returned, *[ctypes.c_void_p] * 3, *extra)
-        _callables[name] = prototype(entry.address())
+        _callables[name] = prototype_of(name)(known(_entries, name).address())
     return _callables[name]
+
+
+def prototype_of(name: str) -> Any:
+    """Type of the C function of an entry point or a step, for :mod:`ctypes`."""
+    result, _, names = known(_entries, name).signature.partition("(")
+    # a member of an enumeration is an integer
+    returned, *extra = [C_TYPES.get(n.strip(), ctypes.c_int64) for n in [result, *names.rstrip(")").split(",")[1:]]]
+    return ctypes.CFUNCTYPE(returned, *[ctypes.c_void_p] * 3, *extra)
 
 
 def call_entry(name: str, memory: Memory, *arguments: float) -> Any:

@@ -244,7 +244,9 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     direction_agreed: tuple[float, float] = vector(_EVENT, 2, "1", "Slip direction that the contact problem found.")
     takes_over: bool = question(_EVENT, "The contact takes the place of a closed one.")
     has_no_force: bool = question(_EVENT, "Sliding has no contact force (Painleve).")
-    release: Cause = one_of(Cause, _EVENT, "Cause by which a jump of the contact point released it, or `NO_RELEASE`.")
+    release: Cause = one_of(
+        Cause, _STATE, "Cause by which a leap of the contact point released it at this instant, else `NO_RELEASE`."
+    )
     leap_start_a: tuple[float, float, float] = vector(
         _EVENT, 3, "m", "Witness point on the first body before the jump."
     )
