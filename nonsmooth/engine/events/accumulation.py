@@ -248,6 +248,7 @@ def stop_creeping(ws: Workspace) -> float:
             contact = ws.contacts[active.contact]
             active.is_at_rest, active.is_normal_force_unknown = False, True
             active.friction_coefficient = active.normal_force = 0.0
+            active.direction = contact.direction
             for r in range(3):
                 active.free[r] = contact.rate[r]
         gauss_seidel(ws, SWEEPS)

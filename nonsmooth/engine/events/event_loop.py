@@ -24,6 +24,7 @@ from nonsmooth.engine.events.record import (
 from nonsmooth.engine.events.stall import stalls
 from nonsmooth.engine.events.step_length import accepted_step, is_held, longest_wanted
 from nonsmooth.engine.events.stopping import stopping
+from nonsmooth.engine.flow.arming import arm_guards, keep_end, keep_start
 from nonsmooth.engine.flow.choices import choices_bend, choose_anew
 from nonsmooth.engine.flow.clearance import bound_speeds
 from nonsmooth.engine.flow.courses import drifted, end_courses, set_off
@@ -37,15 +38,8 @@ from nonsmooth.engine.flow.guard_numbers import (
     first_own_guard,
     normal_guard,
 )
-from nonsmooth.engine.flow.guards import (
-    arm_guards,
-    has_other_features,
-    is_of_redundant_force,
-    keep_end,
-    keep_start,
-    watch_features,
-    write_guards,
-)
+from nonsmooth.engine.flow.guard_values import has_other_features, watch_features, write_guards
+from nonsmooth.engine.flow.guards import is_of_redundant_force
 from nonsmooth.engine.flow.leap import leap, measure_noise, passed_flat
 from nonsmooth.engine.flow.location import first_crossing, locate
 from nonsmooth.engine.flow.projection import (

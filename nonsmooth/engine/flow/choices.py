@@ -12,7 +12,8 @@ from nonsmooth.engine.delassus.islands import group_closed
 from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.flow.flow import right_hand_side
 from nonsmooth.engine.flow.guard_numbers import first_own_guard
-from nonsmooth.engine.flow.guards import NO_GUARD, first_fired, has_fired, is_of_redundant_force, write_guards
+from nonsmooth.engine.flow.guard_values import write_guards
+from nonsmooth.engine.flow.guards import NO_GUARD, first_fired, has_fired, is_of_redundant_force
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
 

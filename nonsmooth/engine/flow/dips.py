@@ -11,10 +11,11 @@ from __future__ import annotations
 from nonsmooth.engine.bodies.bodies import evaluate_body, evaluate_driven_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
 from nonsmooth.engine.flow.clearance import arm_of, fall_of, too_far
+from nonsmooth.engine.flow.deflation import deflated
 from nonsmooth.engine.flow.flight import body_within
 from nonsmooth.engine.flow.flow import slip_guard
 from nonsmooth.engine.flow.guard_numbers import friction_guard, normal_guard
-from nonsmooth.engine.flow.guards import deflated, has_fired
+from nonsmooth.engine.flow.guards import has_fired
 from nonsmooth.engine.flow.self_check import NEAR, NOUGHT, blame
 from nonsmooth.engine.memory.layout import PARTS
 from nonsmooth.engine.memory.modes import Status

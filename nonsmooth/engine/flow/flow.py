@@ -42,10 +42,10 @@ WRONG_FORCE = -2.0
 def right_hand_side(ws: Workspace, t: float, y: int, may_choose: bool, of_all_bodies: bool) -> bool:
     """Evaluate bodies, closed contacts, their forces and the accelerations ``du`` at ``t`` and ``y``.
 
-    That is of all bodies, or of those that are integrated.  The closed contacts are grouped into islands.  In free flight
-    the driven bodies are left alone.  If it ``may_choose``, the null-space force of contact forces that are not unique is
-    chosen anew: false if somewhere none keeps every bound.  Within an implicit step friction opposes the slip that the
-    stage ends with.
+    That is of all bodies, or of those that are integrated. The closed contacts are grouped into islands. In free flight
+    the driven bodies are left alone. If it ``may_choose``, the null-space force of contact forces that are not unique
+    is chosen anew: false if somewhere none keeps every bound. Within an implicit step friction opposes the slip that
+    the stage ends with.
     """
     keeps = True
     ws.island.singular_contact = -1

@@ -9,8 +9,10 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.flow.arming import arm_further, keep_end
 from nonsmooth.engine.flow.choices import blend_choices, choose_at_end
 from nonsmooth.engine.flow.clearance import bound_speeds, find_doubtful
+from nonsmooth.engine.flow.deflation import deflate
 from nonsmooth.engine.flow.dips import WAY, first_closing, look_at_gap, look_at_slip
 from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.flow.guard_numbers import (
@@ -21,18 +23,8 @@ from nonsmooth.engine.flow.guard_numbers import (
     normal_guard,
     number_of_guards,
 )
-from nonsmooth.engine.flow.guards import (
-    NO_GUARD,
-    arm_further,
-    deflate,
-    evaluate_guards,
-    evaluate_motion,
-    first_fired,
-    is_gap,
-    keep_end,
-    sign_depends_on,
-    write_guards,
-)
+from nonsmooth.engine.flow.guard_values import evaluate_guards, evaluate_motion, write_guards
+from nonsmooth.engine.flow.guards import NO_GUARD, DependsOn, first_fired, is_gap, sign_depends_on
 from nonsmooth.engine.flow.self_check import EXPLAINED, NEAR, explained_gap
 from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.layout import LAST_STAGE, PARTS
@@ -94,9 +86,9 @@ def guards_within(ws: Workspace, h: float, theta: float, forces: int) -> None:
 def _guard_at(ws: Workspace, h: float, theta: float, i: int, forces: int) -> float:
     """Return guard ``i`` at the fraction ``theta`` of the step; of a gap and of a slip nothing else is evaluated."""
     alone = sign_depends_on(ws, i)
-    if alone == 1:
+    if alone == DependsOn.GAP:
         look_at_gap(ws, h, theta, i)
-    elif alone == 2:
+    elif alone == DependsOn.SLIP:
         look_at_slip(ws, h, theta, contact_of(ws, i))
     else:
         guards_within(ws, h, theta, forces)
@@ -281,7 +273,7 @@ def _event_fraction(ws: Workspace, h: float, high: float, i: int, forces: int) -
     the guard jumps.
     """
     theta = _vanishing(ws, h, high, i, forces)
-    if sign_depends_on(ws, i) > 0:
+    if sign_depends_on(ws, i) != DependsOn.FORCE:
         guards_within(ws, h, theta, forces)
     return theta
 

@@ -114,6 +114,7 @@ def _add_gaps(ws: Workspace) -> bool:
         active.is_normal_force_unknown = not contact.is_compliant
         active.sticks = False
         active.normal_force = active.friction_coefficient = 0.0
+        active.direction = contact.direction
         active.free[0] = held_gap(ws, c)
     if m > 1:
         _damp(ws, max(_DAMPING, (0.5 * share / _FARTHEST) ** 2))
