@@ -13,25 +13,27 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from llvmlite import ir
 from numba import types
-from numba.core.typeconv import Conversion
-from numba.core.typing.templates import AttributeTemplate
 from numba.extending import (
-    infer_getattr,
     lower_builtin,
-    lower_cast,
-    lower_getattr_generic,
-    lower_setattr_generic,
     models,
     register_model,
     type_callable,
 )
 
 from nonsmooth.engine.memory.tables import CONSTANT_SCALARS, N_SCALARS, SCALARS
+from nonsmooth.engine.native.numba_names import (
+    AttributeTemplate,
+    Conversion,
+    infer_getattr,
+    ir,
+    lower_cast,
+    lower_getattr_generic,
+    lower_setattr_generic,
+)
 
 
-class Heap(types.Type):  # type: ignore[misc]
+class Heap(types.Type):
     """A pointer to floats or integers."""
 
     def __init__(self, name: str, dtype: Any) -> None:
@@ -39,7 +41,7 @@ class Heap(types.Type):  # type: ignore[misc]
         super().__init__(name=name)
 
 
-class Table(types.Type):  # type: ignore[misc]
+class Table(types.Type):
     """A pointer to the record ``S``, whose fields are all eight bytes long.
 
     An engine's own, which has further ones at its end, is taken for that of all engines.
@@ -61,13 +63,13 @@ TABLE = Table(SCALARS)
 
 
 @register_model(Heap)
-class _HeapModel(models.PrimitiveModel):  # type: ignore[misc]
+class _HeapModel(models.PrimitiveModel):
     def __init__(self, manager: Any, heap: Heap) -> None:
         super().__init__(manager, heap, manager.lookup(heap.dtype).get_data_type().as_pointer())
 
 
 @register_model(Table)
-class _TableModel(models.PrimitiveModel):  # type: ignore[misc]
+class _TableModel(models.PrimitiveModel):
     def __init__(self, manager: Any, table: Table) -> None:
         super().__init__(manager, table, ir.IntType(64).as_pointer())
 
@@ -109,7 +111,7 @@ def tag(access: Any, name: str) -> None:
     access.set_metadata("tbaa", module.add_metadata([kind, kind, zero]))
 
 
-@type_callable(operator.getitem)  # type: ignore[untyped-decorator]
+@type_callable(operator.getitem)
 def _type_getitem(context: Any) -> Any:
     def typer(heap: Any, index: Any) -> Any:
         return heap.dtype if isinstance(heap, Heap) and isinstance(index, types.Integer) else None
@@ -117,7 +119,7 @@ def _type_getitem(context: Any) -> Any:
     return typer
 
 
-@type_callable(operator.setitem)  # type: ignore[untyped-decorator]
+@type_callable(operator.setitem)
 def _type_setitem(context: Any) -> Any:
     def typer(heap: Any, index: Any, value: Any) -> Any:
         if isinstance(heap, Heap) and isinstance(index, types.Integer):
@@ -127,7 +129,7 @@ def _type_setitem(context: Any) -> Any:
     return typer
 
 
-@lower_builtin(operator.getitem, Heap, types.Integer)  # type: ignore[untyped-decorator]
+@lower_builtin(operator.getitem, Heap, types.Integer)
 def _get_item(context: Any, builder: Any, signature: Any, args: Any) -> Any:
     heap = signature.args[0]
     load = builder.load(moved(context, builder, heap, *args), typ=context.get_value_type(heap.dtype))
@@ -135,7 +137,7 @@ def _get_item(context: Any, builder: Any, signature: Any, args: Any) -> Any:
     return load
 
 
-@lower_builtin(operator.setitem, Heap, types.Integer, types.Any)  # type: ignore[untyped-decorator]
+@lower_builtin(operator.setitem, Heap, types.Integer, types.Any)
 def _set_item(context: Any, builder: Any, signature: Any, args: Any) -> Any:
     heap, _index, value = signature.args
     place = moved(context, builder, heap, args[0], args[1])
@@ -144,7 +146,7 @@ def _set_item(context: Any, builder: Any, signature: Any, args: Any) -> Any:
     return context.get_dummy_value()
 
 
-@lower_cast(Table, Table)  # type: ignore[untyped-decorator]
+@lower_cast(Table, Table)
 def _as_other(context: Any, builder: Any, table: Table, other: Table, value: Any) -> Any:
     return value
 
@@ -161,14 +163,14 @@ def _field(context: Any, builder: Any, table: Table, value: Any, name: str) -> A
 
 
 @infer_getattr
-class _TableFields(AttributeTemplate):  # type: ignore[misc]
+class _TableFields(AttributeTemplate):
     key = Table
 
     def generic_resolve(self, table: Table, name: str) -> Any:
         return field_type(table, name) if name in table.names else None
 
 
-@lower_getattr_generic(Table)  # type: ignore[untyped-decorator]
+@lower_getattr_generic(Table)
 def get_field(context: Any, builder: Any, table: Table, value: Any, name: str) -> Any:
     """Load a scalar of the record."""
     place, kind = _field(context, builder, table, value, name), context.get_value_type(field_type(table, name))
@@ -179,7 +181,7 @@ def get_field(context: Any, builder: Any, table: Table, value: Any, name: str) -
     return load
 
 
-@lower_setattr_generic(Table)  # type: ignore[untyped-decorator]
+@lower_setattr_generic(Table)
 def set_field(context: Any, builder: Any, signature: Any, args: Any, name: str) -> None:
     """Store a scalar of the record."""
     table, given = signature.args
