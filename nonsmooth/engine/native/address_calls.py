@@ -70,17 +70,17 @@ def forget_watch(address: int) -> None:
 
 
 @intrinsic
-def at(typingctx: Any, heap: Any, offset: Any) -> Any:
-    """The numbers of a heap from ``offset`` on, as a pointer."""
+def at(typingctx: Any, floats: Any, offset: Any) -> Any:
+    """The floats from ``offset`` on, as a pointer."""
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        return moved(context, builder, heap, *args)
+        return moved(context, builder, floats, *args)
 
-    return heap(heap, types.int64), codegen
+    return floats(floats, types.int64), codegen
 
 
 @intrinsic
-def _support_at(typingctx: Any, heap: Any, place: Any, x: Any, y: Any, z: Any) -> Any:
+def _support_at(typingctx: Any, floats: Any, place: Any, x: Any, y: Any, z: Any) -> Any:
     point = types.UniTuple(types.float64, 3)
 
     def lower(context: Any, builder: Any, signature: Any, args: Any) -> Any:
@@ -89,25 +89,25 @@ def _support_at(typingctx: Any, heap: Any, place: Any, x: Any, y: Any, z: Any) -
         indices = [size(i) for i in range(3)]
         for i, value in zip(indices, args[2:], strict=True):
             builder.store(value, moved(context, builder, FLOATS, direction, i))
-        if heap == FLOATS:
-            address = builder.load(moved(context, builder, heap, args[0], args[1]), typ=number)
-            parameters = moved(context, builder, heap, args[0], builder.add(args[1], size(1)))
+        if floats == FLOATS:
+            address = builder.load(moved(context, builder, floats, args[0], args[1]), typ=number)
+            parameters = moved(context, builder, floats, args[0], builder.add(args[1], size(1)))
             call_at(builder, builder.fptosi(address, size), ir.VoidType(), [direction, parameters, found])
         values = [builder.load(moved(context, builder, FLOATS, found, i), typ=number) for i in indices]
         return context.make_tuple(builder, point, values)
 
-    return point(heap, types.int64, types.float64, types.float64, types.float64), lower
+    return point(floats, types.int64, types.float64, types.float64, types.float64), lower
 
 
-def _compiled_support(heap: Any, place: int, x: float, y: float, z: float) -> Any:
-    return _support_at(heap, place, x, y, z)
+def _compiled_support(floats: Any, place: int, x: float, y: float, z: float) -> Any:
+    return _support_at(floats, place, x, y, z)
 
 
-def _support(heap: Any, place: int, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Call ``void support(direction, parameters, point)``, whose address and parameters stand in a heap."""
-    parameters = (ctypes.c_double * (len(heap) - place))(*heap[place + 1 :])
+def _support(floats: Any, place: int, x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Call ``void support(direction, parameters, point)``, whose address stands at a place, followed by the parameters."""
+    parameters = (ctypes.c_double * (len(floats) - place))(*floats[place + 1 :])
     direction, found = (ctypes.c_double * 3)(x, y, z), (ctypes.c_double * 3)()
-    FORMS["support"].prototype()(int(heap[place]))(direction, parameters, found)
+    FORMS["support"].prototype()(int(floats[place]))(direction, parameters, found)
     return found[0], found[1], found[2]
 
 

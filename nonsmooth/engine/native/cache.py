@@ -18,9 +18,11 @@ import uuid
 from typing import Any, final
 
 from nonsmooth.engine.native.folders import folders, is_safe
-from nonsmooth.engine.native.numba_names import CompileResult, dumps, parse_assembly
+from nonsmooth.engine.native.numba_names import CompileResult, dumps, parse_assembly, rtsys
 from nonsmooth.notices import say
 
+_ALLOCATING = b"NRT_"
+"""Prefix of the functions by which compiled code of plug-ins allocates memory."""
 _CHECKSUM = hashlib.sha256().digest_size
 
 
@@ -60,6 +62,9 @@ class Store:
         self._content = None
         if content is None:
             return None
+        if _ALLOCATING in content:
+            # numba's `context.refresh` would do this too, but it imports all of numpy and scipy: a third of a start
+            rtsys.initialize(context)
         processor, reduced = pickle.loads(content)
         return None if processor != context.codegen().magic_tuple() else CompileResult._rebuild(context, *reduced)
 

@@ -67,6 +67,7 @@ __all__ = [
     "normalize_signature",
     "parse_assembly",
     "register_pass",
+    "rtsys",
     "signature",
 ]
 
@@ -138,6 +139,7 @@ try:
     from numba.core.compiler_machinery import FunctionPass, PassManager, register_pass
     from numba.core.funcdesc import FunctionDescriptor
     from numba.core.registry import cpu_target
+    from numba.core.runtime import rtsys
     from numba.core.serialize import dumps
     from numba.core.sigutils import normalize_signature
     from numba.core.typed_passes import (
@@ -170,6 +172,7 @@ try:
         Attribute(CompileResult, "_reduce", "nothing is written to disk"),
         Attribute(CompileResult, "_rebuild", "nothing is loaded from disk"),
         Attribute(Context, "resolve_function_type", "types are searched again at each place, a tenth of the time"),
+        Attribute(rtsys, "initialize", "a law that allocates memory, loaded from disk, ends the process"),
     )
     MISSING = _first_missing(OF_PASSES)
 except (ImportError, AttributeError) as error:

@@ -23,19 +23,21 @@ _OPTIONS: dict[str, Any] = {
     "nogil": True,
     "error_model": "numpy",
     **NO_WRAPPERS,
-    **NO_ALLOCATION,
 }
 _alive: list[CFunction] = []
 """All C functions: their code must outlive the last call."""
 
 
 def kernel_dispatcher(function: Callable[..., Any]) -> Any:
-    """Numba's dispatcher of a kernel."""
-    return numba.jit(pipeline_class=KernelPasses, **_OPTIONS)(function)
+    """Numba's dispatcher of a kernel, which does not compile if it allocates memory."""
+    return numba.jit(pipeline_class=KernelPasses, **_OPTIONS, **NO_ALLOCATION)(function)
 
 
 def law_dispatcher(function: Callable[..., Any]) -> Any:
-    """Numba's dispatcher of a plug-in's function. Its code is kept with that of the shim that calls it."""
+    """Numba's dispatcher of a plug-in's function, whose code is kept with that of the shim that calls it.
+
+    It may allocate memory: impact laws need arrays whose length is the number of contacts.
+    """
     return numba.jit(pipeline_class=LawPasses, **_OPTIONS)(function)
 
 
@@ -61,7 +63,8 @@ def entry_address(function: Callable[..., Any], signature: Any, key: str) -> int
 def shim_address(function: Callable[..., Any], signature: Any, key: str) -> int:
     """Address of the C function of a shim, which is compiled or loaded from disk."""
     with uncollected():
-        return _address(CFunction(function, signature, Store(f"shim-{key}") if key else None, ShimPasses))
+        store = Store(f"shim-{key}") if key else None
+        return _address(CFunction(function, signature, store, ShimPasses, may_allocate=True))
 
 
 def _address(function: CFunction) -> int:

@@ -272,12 +272,20 @@ class CFunction(CFunc):
         Its file, if it is kept on disk.
     passes : type
         The passes of the compiler.
+    may_allocate : bool
+        Whether a function that allocates memory compiles, as laws of impact with arrays do.
     """
 
     def __init__(
-        self, function: Callable[..., Any], signature: Any, store: Store | None, passes: type[CompilerBase]
+        self,
+        function: Callable[..., Any],
+        signature: Any,
+        store: Store | None,
+        passes: type[CompilerBase],
+        *,
+        may_allocate: bool = False,
     ) -> None:
-        options = {"nopython": True, "error_model": "numpy", **NO_ALLOCATION}
+        options = {"nopython": True, "error_model": "numpy", **({} if may_allocate else NO_ALLOCATION)}
         super().__init__(function, normalize_signature(signature), locals={}, options=options, pipeline_class=passes)
         if store is not None:
             self._cache = store

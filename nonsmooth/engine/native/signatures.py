@@ -1,7 +1,7 @@
 """The numba types of a kernel's arguments and result, from the text of its signature.
 
-``"f8(ws, Contact)"`` takes the workspace and a contact, and returns a float. :mod:`nonsmooth.engine.native.kernel` lists
-the names. No name stands for an array: kernels reach arrays through the workspace.
+``"f8(ws, Contact)"`` takes the workspace and a contact, and returns a float. All names are listed in
+:mod:`nonsmooth.engine.native.kernel`. No name stands for an array: kernels reach arrays through the workspace.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from nonsmooth.engine.memory.modes import ENUMERATIONS
 from nonsmooth.engine.memory.tables import record_with
 from nonsmooth.engine.native.record_view import types_of
 from nonsmooth.engine.native.results import type_of_result
-from nonsmooth.engine.native.types import FLOATS, INTEGERS, Table
+from nonsmooth.engine.native.types import FLOATS, INTEGERS, ScalarRecord
 from nonsmooth.engine.native.workspace_view import WORKSPACE, Workspace
 
 _TYPES: dict[str, Any] = {
@@ -49,4 +49,4 @@ def signature_of(text: str, workspace: Any = WORKSPACE) -> Any:
 
 def workspace_with(own: type[Part]) -> Any:
     """Type of the workspace of an engine that adds a part of its own."""
-    return Workspace(Table(record_with([own])), {own.key: own})
+    return Workspace(ScalarRecord(record_with([own])), {own.key: own})

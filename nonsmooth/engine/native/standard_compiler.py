@@ -20,17 +20,19 @@ from nonsmooth.engine.native.folders import build_name
 from nonsmooth.engine.native.numba_names import MISSING, NO_ALLOCATION, NO_WRAPPERS
 from nonsmooth.notices import say
 
-_OPTIONS: dict[str, Any] = {"error_model": "numpy", **NO_ALLOCATION}
+_OPTIONS: dict[str, Any] = {"error_model": "numpy"}
 _alive: list[Any] = []
 """All C functions: their code must outlive the last call."""
 
 
 def kernel_dispatcher(function: Callable[..., Any]) -> Any:
-    """Numba's dispatcher of a kernel."""
+    """Numba's dispatcher of a kernel, which does not compile if it allocates memory."""
+    return numba.njit(nogil=True, **_OPTIONS, **NO_WRAPPERS, **NO_ALLOCATION)(function)
+
+
+def law_dispatcher(function: Callable[..., Any]) -> Any:
+    """Numba's dispatcher of a plug-in's function, which may allocate memory."""
     return numba.njit(nogil=True, **_OPTIONS, **NO_WRAPPERS)(function)
-
-
-law_dispatcher = kernel_dispatcher
 
 
 def is_stored(key: str) -> bool:
@@ -49,10 +51,10 @@ def entry_address(function: Callable[..., Any], signature: Any, key: str) -> int
     for kernel in kernels:
         kernel.dispatcher.disable_compile()
     with contextlib.suppress(numba.TypingError):
-        return _address(function, signature, key)
+        return _address(function, signature, key, **NO_ALLOCATION)
     for kernel in kernels:
         kernel.compile()
-    return _address(function, signature, key)
+    return _address(function, signature, key, **NO_ALLOCATION)
 
 
 def shim_address(function: Callable[..., Any], signature: Any, key: str) -> int:
@@ -68,8 +70,8 @@ def _say_why() -> None:
     )
 
 
-def _address(function: Callable[..., Any], signature: Any, key: str) -> int:
-    compiler = functools.partial(numba.cfunc, signature, **_OPTIONS)
+def _address(function: Callable[..., Any], signature: Any, key: str, **options: bool) -> int:
+    compiler = functools.partial(numba.cfunc, signature, **_OPTIONS, **options)
     if key and Path(function.__code__.co_filename).is_file():
         compiled = compiler(cache=True)(_renamed(function, key))
     else:
