@@ -104,7 +104,7 @@ def _compiled_support(floats: Any, place: int, x: float, y: float, z: float) -> 
 
 
 def _support(floats: Any, place: int, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Call ``void support(direction, parameters, point)``, whose address stands at a place, followed by the parameters."""
+    """Call ``support(direction, parameters, point)``. Its address stands at a place, followed by the parameters."""
     parameters = (ctypes.c_double * (len(floats) - place))(*floats[place + 1 :])
     direction, found = (ctypes.c_double * 3)(x, y, z), (ctypes.c_double * 3)()
     FORMS["support"].prototype()(int(floats[place]))(direction, parameters, found)

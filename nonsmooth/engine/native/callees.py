@@ -32,7 +32,6 @@ class Kernel:
         A call with other types then converts its arguments. Numba would compile one more copy for each set of types.
         """
         if not self.is_compiled:
-            self.dispatcher.disable_compile(False)
             self.dispatcher.compile(self.signature)
             self.dispatcher.disable_compile()
             self.is_compiled = True

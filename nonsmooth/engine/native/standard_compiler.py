@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import contextlib
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from types import FunctionType
 from typing import Any
 
 import numba
 
-from nonsmooth.engine.native.callees import callees_of
+from nonsmooth.engine.native.callees import Kernel, callees_of
 from nonsmooth.engine.native.folders import build_name
 from nonsmooth.engine.native.numba_names import MISSING, NO_ALLOCATION, NO_WRAPPERS
 from nonsmooth.notices import say
@@ -43,18 +43,33 @@ def is_stored(key: str) -> bool:
 def entry_address(function: Callable[..., Any], signature: Any, key: str) -> int:
     """Address of the C function of an entry point, which is compiled or loaded from numba's files.
 
-    Whether numba has a file is not documented. So the entry point is compiled first while its kernels are not: this
+    Numba does not tell whether it has a file. So the entry point is compiled first while no kernel can be. This
     succeeds if there is a file, and fails at the first call of a kernel otherwise.
     """
     _say_why()
     kernels = callees_of(function)
-    for kernel in kernels:
-        kernel.dispatcher.disable_compile()
-    with contextlib.suppress(numba.TypingError):
+    with _uncompilable(kernels), contextlib.suppress(numba.TypingError):
         return _address(function, signature, key, **NO_ALLOCATION)
     for kernel in kernels:
         kernel.compile()
     return _address(function, signature, key, **NO_ALLOCATION)
+
+
+@contextlib.contextmanager
+def _uncompilable(kernels: Sequence[Kernel]) -> Iterator[None]:
+    """Let numba refuse to compile kernels that are not compiled yet."""
+
+    def refuse(signature: Any) -> None:
+        raise numba.TypingError("to be compiled with the signature that it declares")
+
+    pending = [kernel.dispatcher for kernel in kernels if not kernel.is_compiled]
+    for dispatcher in pending:
+        dispatcher.compile = refuse
+    try:
+        yield
+    finally:
+        for dispatcher in pending:
+            del dispatcher.compile
 
 
 def shim_address(function: Callable[..., Any], signature: Any, key: str) -> int:

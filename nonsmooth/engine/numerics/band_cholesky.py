@@ -13,7 +13,7 @@ from nonsmooth.engine.numerics.linear import band_row
 
 @kernel("void(F, i8, i8, i8, f8)")
 def factorise_band(floats: Floats, a: int, n: int, half: int, least: float) -> None:
-    """Overwrite the lower triangle of the band at ``a`` by its Cholesky factor. Squared pivots are at least ``least``."""
+    """Overwrite the lower triangle of the band at ``a`` by its Cholesky factor. Pivots are at least ``least``."""
     for i in range(n):
         row = band_row(a, i, n, half)
         for j in range(max(0, i - half), i + 1):

@@ -56,8 +56,8 @@ def multiply(floats: Floats, a: int, n: int, x: int, out: int) -> None:
 def eliminate(floats: Floats, a: int, n: int, half: int, x: int, least: float) -> bool:
     """Solve the banded system at ``a`` for the right-hand side at ``x``; both are overwritten. False if singular.
 
-    Gaussian elimination with exchange of rows. Entries more than ``half`` from the diagonal are zero, and exchanges fill
-    some of them. A pivot below ``least``, relative to the largest entry, counts as zero.
+    Gaussian elimination with exchange of rows. Entries more than ``half`` from the diagonal are zero, and exchanges
+    fill some of them. A pivot below ``least``, relative to the largest entry, counts as zero.
     """
     width = band_width(n, half)
     largest = 0.0
@@ -119,7 +119,7 @@ def solve_three(row_0: Vector, row_1: Vector, row_2: Vector, right: Vector, leas
 
 @kernel("i8(F, i8, i8)")
 def rank_of_semidefinite(floats: Floats, a: int, n: int) -> int:
-    """Rank of the positive semidefinite matrix at ``a``, which is overwritten. The largest pivot is chosen each time."""
+    """Rank of the positive semidefinite matrix at ``a``, which is overwritten. Pivots are the largest left."""
     largest = 0.0
     for rank in range(n):
         best = rank
@@ -187,8 +187,8 @@ def complete(floats: Floats, v: int, n: int, rank: int) -> None:
 def _triangulate(floats: Floats, a: int, n: int, b: int, r: int, marks: int, most: int) -> int:
     """Factorise A = Q R with the largest remaining column first. Returns the rank, at most ``most``.
 
-    The matrix at ``a`` is stored by columns. The columns and ``b`` lose their components along the columns chosen so far.
-    Rows of R are written to ``r``. The first n entries of ``marks`` are 1 for chosen columns; Q^T b follows them.
+    The matrix at ``a`` is stored by columns. The columns and ``b`` lose their components along the columns chosen so
+    far. Rows of R are written to ``r``. The first n entries of ``marks`` are 1 for chosen columns; Q^T b follows them.
     """
     for j in range(n):
         floats[marks + j] = 0.0

@@ -126,7 +126,8 @@ def _write_square(ws: Workspace, n: int) -> None:
 def least_norm_in_band(ws: Workspace, n: int) -> None:
     """Solve ``reduced . x = right`` for least norm.
 
-    Writes ``x``, H to ``basis``, its factor to ``null``, and the band of the projector on the null space to ``reduced``.
+    Writes ``x``, H to ``basis``, its factor to ``null``, and the band of the projector on the null space to
+    ``reduced``.
     """
     if n * band_width(n, 2 * ws.problem.half_band) > MOST_ENTRIES:
         ws.run.has_too_many_blocks = True

@@ -81,7 +81,7 @@ def dense_state(ws: Workspace, start: int, slopes: int, n: int, h: float, theta:
 def _dense_weight(ws: Workspace, stage: int, theta: float) -> float:
     """Weight of the slope of a stage at the fraction ``theta`` of a step, per ``theta``: a polynomial."""
     d = ws.coefficients.dense.start + 4 * stage
-    return ws.floats[d] + theta * (ws.floats[d + 1] + theta * (ws.floats[d + 2] + theta * ws.floats[d + 3]))
+    return float(ws.floats[d] + theta * (ws.floats[d + 1] + theta * (ws.floats[d + 2] + theta * ws.floats[d + 3])))
 
 
 @kernel("v3(ws, f8, f8, b1)")
