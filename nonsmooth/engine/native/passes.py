@@ -3,7 +3,7 @@
 * Kernels stay intermediate code, which the optimiser sees once, as part of an entry point. Numba would optimise each of
   them alone, and again within each caller.
 * The engine needs a third of numba's passes: it has no closures, literals, overloads or array expressions.
-* The types of an operation are found once, not at every place where it is used.
+* The types of an operation are found once. Numba would find them again at every place.
 * Short loops are not unrolled.
 
 All of it consists of subclasses, so that other functions that numba compiles in the process are not affected.
@@ -82,12 +82,13 @@ class _Typing:
 
 
 _typed: dict[Any, Any] = {}
+"""Signatures found so far, by function and types of arguments."""
 
 
 @register_pass(mutates_CFG=True, analysis_only=False)
 @final
 class TypeOnce(NopythonTypeInference):
-    """Type inference that remembers the types of operations, which saves a tenth of the time."""
+    """Type inference that finds the types of each operation once, which saves a tenth of the time."""
 
     _name = "remembering_type_inference"
 
