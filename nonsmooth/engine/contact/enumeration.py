@@ -92,7 +92,7 @@ def enumerate_modes(ws: Workspace, first: int) -> int:
     for _a in range(ws.problem.n_active):
         combinations *= 3
     for number in range(first, combinations):
-        if interrupted(ws, ws.problem.n_active) == 1:
+        if interrupted(ws, ws.problem.n_active):
             return 0
         if not _write_modes(ws, number):
             continue

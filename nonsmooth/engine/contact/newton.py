@@ -162,7 +162,7 @@ def step_by_newton(ws: Workspace, steps: int) -> bool:
     square = write_natural_map(ws)
     mean, weight = square, 1.0
     for _step in range(steps):
-        if interrupted(ws, ws.problem.n_active * ws.problem.half_band) == 1:
+        if interrupted(ws, ws.problem.n_active * ws.problem.half_band):
             return False
         size = 0.0
         for i in range(width):

@@ -208,7 +208,7 @@ def _search_round(ws: Workspace, solver: int) -> bool:
     for i in range(3 * ws.problem.n_active):
         ws.problem.forces_at_start[i] = 0.0
     for stage in range(stages):
-        if ws.problem.effort >= _MOST_EFFORT or interrupted(ws, ws.problem.n_active) == 1:
+        if ws.problem.effort >= _MOST_EFFORT or interrupted(ws, ws.problem.n_active):
             return False
         for i in range(3 * ws.problem.n_active):
             ws.problem.forces[i] = ws.problem.forces_at_start[i]

@@ -294,7 +294,7 @@ def run_impact(ws: Workspace, h: float, shortest: float, windowed: int) -> int:
     write_impact_slope(ws, ws.impact.slopes.start)
     before, error_before = 0.0, 1.0
     for _step in range(MOST_STEPS):
-        if interrupted(ws, 8 * ws.problem.n_active) == 1:
+        if interrupted(ws, 8 * ws.problem.n_active):
             return ENDLESS
         if finished(ws):
             finish(ws)
