@@ -24,7 +24,7 @@ _PASSED = 1e-7
 
 Ten times what tolerances leave of the gap of a body that moves by a hundred times its size.
 """
-_ENDLESS = 1e300
+_ENDLESS = float(np.finfo(np.float64).max)
 """Distance to the farthest point of a half-space [m]; times no turn at all it is zero."""
 
 

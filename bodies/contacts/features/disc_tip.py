@@ -31,7 +31,7 @@ def tip_past_rim(
     beside, and it is the rim that meets it.  An edge counts for the end of it that is nearer to the plane; without any
     the number is large.
     """
-    least = 1e300
+    least = math.inf
     for i in range(int(n_star)):
         ex, ey, ez = vector_in_world(b, star[3 * i], star[3 * i + 1], star[3 * i + 2])
         rise = nx * ex + ny * ey + nz * ez

@@ -20,7 +20,7 @@ _SAME = 1e-14
 @compiled
 def _face(faces: Floats, n_faces: float, x: float, y: float, z: float) -> tuple[int, float]:
     """Return the face that is nearest to a point and its height over it, or -1 where an edge or a vertex is."""
-    highest, best = -1e300, -1
+    highest, best = -math.inf, -1
     for i in range(int(n_faces)):
         height = plane_height(faces, FACE * i, x, y, z)
         if height > highest:
@@ -40,7 +40,7 @@ def _edge(edges: Floats, n_edges: float, x: float, y: float, z: float) -> tuple[
 
     Next to a vertex the distances of its edges are the same to round-off: the one with the point inside is taken.
     """
-    least, best, place, inside = 1e300, 0, 0.0, 0.0
+    least, best, place, inside = math.inf, 0, 0.0, 0.0
     for i in range(int(n_edges)):
         e = EDGE * i
         wx, wy, wz = x - edges[e], y - edges[e + 1], z - edges[e + 2]

@@ -82,7 +82,7 @@ def write_vertex_over(
     other = b if swap == 1.0 else a
     number, distance, nx, ny, nz, within = found
     nx, ny, nz = vector_in_world(other, nx, ny, nz)
-    shared = END * size - within if swap == 1.0 else -1e300
+    shared = END * size - within if swap == 1.0 else -math.inf
     gap, past = ended_gap(distance - sweep - radius, max(past, shared), size)
     if shared > 0.0:
         # so small a way past the end is written large, that nobody takes the open contact for one that touches

@@ -52,7 +52,7 @@ def _least(
         other[POSITION + 1] - frame[POSITION + 1],
         other[POSITION + 2] - frame[POSITION + 2],
     )
-    base, least = plane_height(faces, face, x, y, z), 1e300
+    base, least = plane_height(faces, face, x, y, z), math.inf
     for i in range(int(n_vertices)):
         height = base + nx * vertices[3 * i] + ny * vertices[3 * i + 1] + nz * vertices[3 * i + 2]
         if height < least:
@@ -66,7 +66,7 @@ def _least(
 def past_face(faces: Floats, n_faces: float, face: int, height: float, x: float, y: float, z: float) -> float:
     """Return how far the point under (x, y, z) on a face is past its edges, by the planes of the other faces."""
     x, y, z = x - height * faces[face], y - height * faces[face + 1], z - height * faces[face + 2]
-    past = -1e300
+    past = -math.inf
     for i in range(int(n_faces)):
         if FACE * i != face:
             past = max(past, plane_height(faces, FACE * i, x, y, z))
@@ -86,7 +86,7 @@ def _past_end(
 def height_over(frame: Floats, n_faces: float, faces: Floats, x: float, y: float, z: float) -> float:
     """Return the height of a point of the world over the highest of the planes of the faces: negative inside."""
     x, y, z = vector_in_body(frame, x - frame[POSITION], y - frame[POSITION + 1], z - frame[POSITION + 2])
-    highest = -1e300
+    highest = -math.inf
     for i in range(int(n_faces)):
         highest = max(highest, plane_height(faces, FACE * i, x, y, z))
     return highest
@@ -114,7 +114,7 @@ def nearest_face(
     x, y, z = vector_in_body(frame, px - frame[POSITION], py - frame[POSITION + 1], pz - frame[POSITION + 2])
     # a point by itself has no edges beside it
     margin = (CLOSED if n_vertices > 1.0 else REACH) * size
-    best, deepest, inner = -1e300, -1e300, 0
+    best, deepest, inner = -math.inf, -math.inf, 0
     for i in range(int(n_faces)):
         best = max(best, _least(frame, other, faces, FACE * i, n_vertices, vertices, best))
         height = plane_height(faces, FACE * i, x, y, z)
@@ -122,7 +122,7 @@ def nearest_face(
             deepest, inner = height, i
     # a corner in the plane of a side does not touch that side
     beside = margin < deepest <= BESIDE * size
-    found, gap, past = -1, deepest, 1e300
+    found, gap, past = -1, deepest, math.inf
     for i in range(int(n_faces)):
         height = plane_height(faces, FACE * i, x, y, z)
         # next to a face a vertex that is farther under another touches the one, not the other

@@ -53,7 +53,7 @@ def evaluate_flank_edge(
         fx, fy, ratio = 1.0, 0.0, 0.0 if sine == 0.0 else -math.copysign(2.0, sine * dz)
     part = min(max(ratio, -1.0), 1.0)
     other = math.sqrt(1.0 - part * part)
-    gap, ex, ey = -1e300, 1.0, 0.0
+    gap, ex, ey = -math.inf, 1.0, 0.0
     for sign in (-1.0, 1.0):
         gx, gy = part * fx - sign * other * fy, part * fy + sign * other * fx
         found = cosine * (gx * vx + gy * vy) + sine * vz - reach

@@ -58,7 +58,7 @@ def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats, 
     rest = 1.0 - (p * one + q * two)
     none = none or rest < 0.0
     part = math.sqrt(max(rest, 0.0) / square)
-    gap, nx, ny, nz = -1e300, 1.0, 0.0, 0.0
+    gap, nx, ny, nz = -math.inf, 1.0, 0.0, 0.0
     reach_a = first[COS] * first[0] + first[SIN] * first[LOW]
     reach_b = second[COS] * second[0] + second[SIN] * second[LOW]
     for sign in (-1.0, 1.0):

@@ -56,7 +56,7 @@ def _least(
     """Return the least height of the second body's vertices over the plane through a point with the normal n."""
     base = nx * (b[POSITION] - x) + ny * (b[POSITION + 1] - y) + nz * (b[POSITION + 2] - z)
     nx, ny, nz = vector_in_body(b, nx, ny, nz)
-    least = 1e300
+    least = math.inf
     for i in range(int(n_vertices)):
         least = min(least, nx * vertices[3 * i] + ny * vertices[3 * i + 1] + nz * vertices[3 * i + 2])
     return base + least
@@ -86,7 +86,7 @@ def _evaluate(
     dr, dz = away - frustum[0], along - frustum[LOW]
     margin = REACH * size
     flat = frustum[SIDE] == 0.0
-    best, deepest, inner = -1e300, -1e300, LOW_CAP
+    best, deepest, inner = -math.inf, -math.inf, LOW_CAP
     for part in (LOW_CAP, FLANK, HIGH_CAP):
         if (part == FLANK and flat) or (part == HIGH_CAP and frustum[1] == 0.0):
             continue
@@ -100,7 +100,7 @@ def _evaluate(
         best = max(best, _least(a, b, n_vertices, vertices, nx, ny, nz, qx, qy, qz))
         if height > deepest:
             deepest, inner = height, part
-    found, gap, past = inner, deepest, 1e300
+    found, gap, past = inner, deepest, math.inf
     for part in (LOW_CAP, FLANK, HIGH_CAP):
         if (part == FLANK and flat) or (part == HIGH_CAP and frustum[1] == 0.0):
             continue

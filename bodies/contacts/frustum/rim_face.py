@@ -65,12 +65,12 @@ def _evaluate(
     ux, uy, uz = vector_in_body(b, ax, ay, az)
     kx, ky, kz = vector_in_body(b, cx - b[POSITION], cy - b[POSITION + 1], cz - b[POSITION + 2])
     margin = REACH * size
-    best = -1e300
+    best = -math.inf
     for i in range(int(n_faces)):
         f = FACE * i
         cosine = faces[f] * ux + faces[f + 1] * uy + faces[f + 2] * uz
         best = max(best, least_height(frustum, plane_height(faces, f, kx, ky, kz), cosine))
-    found, gap, past, deepest = 0, 0.0, 1e300, -1e300
+    found, gap, past, deepest = 0, 0.0, math.inf, -math.inf
     for i in range(int(n_faces)):
         f = FACE * i
         cosine = faces[f] * ux + faces[f + 1] * uy + faces[f + 2] * uz

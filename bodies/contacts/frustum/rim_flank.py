@@ -74,7 +74,7 @@ def least_round(
 ) -> tuple[float, bool]:
     """Return the angle between bounds at which the height is a minimum, and whether there is one."""
     step = (high - low) / _SAMPLES
-    best, angle = 1e300, low
+    best, angle = math.inf, low
     for i in range(_SAMPLES + 1):
         value, _, _ = _height(second, cx, cy, cz, gx, gy, gz, hx, hy, hz, low + i * step)
         if value < best:
@@ -86,7 +86,7 @@ def least_round(
             most = angle
         else:
             least = angle
-        after = angle - slope / bend if bend > 0.0 else 1e300
+        after = angle - slope / bend if bend > 0.0 else math.inf
         if after < least or after > most:
             after = 0.5 * (least + most)
         if abs(after - angle) <= 2e-16 * max(abs(angle), 0.1):

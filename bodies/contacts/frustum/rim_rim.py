@@ -103,7 +103,7 @@ def _inside(frustum: Floats, radius: float, c: Point, g: Point, h: Point, axis: 
 
     All of it is told from the centre of the body; beside a crossing the distance has one minimum.
     """
-    least, most, found = -reach, reach, 1e300
+    least, most, found = -reach, reach, math.inf
     for _ in range(_NARROWINGS):
         middle = 0.5 * (least + most)
         for angle in (middle - 0.1 * (most - least), middle + 0.1 * (most - least)):
@@ -155,7 +155,7 @@ def _evaluate(
     low, high = -_BOTH, math.pi + _BOTH
     begin, step, angle = low, (high - low) / _SAMPLES, low
     for _ in range(_LEVELS):
-        best, curved, chosen = 1e300, 0.0, 0
+        best, curved, chosen = math.inf, 0.0, 0
         for i in range(_SAMPLES + 1):
             square, _, bend = _slope(wide, radius, cx, cy, cz, gx, gy, gz, hx, hy, hz, begin + i * step)
             if square < best:
@@ -173,7 +173,7 @@ def _evaluate(
             most = angle
         else:
             least = angle
-        after = angle - slope / bend if bend > 0.0 else 1e300
+        after = angle - slope / bend if bend > 0.0 else math.inf
         if after < least or after > most:
             after = 0.5 * (least + most)
         if abs(after - angle) <= 2e-16 * max(abs(angle), 0.1):

@@ -81,12 +81,12 @@ def _evaluate(
     px, py, pz = point_in_world(b, corner_x, corner_y, corner_z)
     along, away, ex, ey, ez = across(px - cx, py - cy, pz - cz, ax, ay, az)
     flat, margin = frustum[SIDE] == 0.0, REACH * size
-    deepest, inner = -1e300, LOW_CAP
+    deepest, inner = -math.inf, LOW_CAP
     for part in (LOW_CAP, FLANK, HIGH_CAP):
         height, _, _, _ = over_part(frustum, part, along, away)
         if not ((part == FLANK and flat) or (part == HIGH_CAP and frustum[1] == 0.0)) and height > deepest:
             deepest, inner = height, part
-    best, found, gap, past = 1e300, inner, deepest, 1e300
+    best, found, gap, past = math.inf, inner, deepest, math.inf
     for part in (LOW_CAP, FLANK, HIGH_CAP):
         if (part == FLANK and flat) or (part == HIGH_CAP and frustum[1] == 0.0):
             continue

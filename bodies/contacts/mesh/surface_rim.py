@@ -108,8 +108,8 @@ def rim_under(
     nodes, members, n_triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[N_TRIANGLES])
     size = surface[SIZE]
     margin = REACH * size
-    best, height_best, apart, past, found = 1e300, 0.0, 0.0, 1e300, 0
-    under, under_past, under_face = 1e300, 0.0, -1
+    best, height_best, apart, past, found = math.inf, 0.0, 0.0, math.inf, 0
+    under, under_past, under_face = math.inf, 0.0, -1
     x, y, z, u, v, w = cx, cy, cz, cx, cy, cz
     node = 0
     while node < int(surface[N_NODES]):
@@ -170,7 +170,7 @@ def rim_over(
     height = face_height(surface, f, x, y, z)
     lean = size * (astray_of_rim(frustum, up, radial, axial, frustum[SIDE] == 0.0) - ASTRAY)
     best, height_best, apart, past = reach * reach, 0.0, reach, reach
-    under, under_past, under_face = 1e300, 0.0, -1
+    under, under_past, under_face = math.inf, 0.0, -1
     node = 0
     while node < int(surface[N_NODES]):
         at = nodes + NODE * node

@@ -26,7 +26,7 @@ from nonsmooth.types import Floats
 @compiled
 def steepest(surface: Floats, corner: int, x: float, y: float, z: float) -> float:
     """Return how far a vector in the axes of a surface points along the edge of a corner that is most along it."""
-    most, star = -1e300, int(surface[STARS]) + int(surface[corner + 4])
+    most, star = -math.inf, int(surface[STARS]) + int(surface[corner + 4])
     for _ in range(int(surface[corner + 5])):
         most = max(most, x * surface[star] + y * surface[star + 1] + z * surface[star + 2])
         star += 3

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TypeAlias
 
 from bodies.contacts.features.vertex_face import REACH
@@ -60,7 +61,7 @@ def face_height(surface: Floats, face: int, x: float, y: float, z: float) -> flo
 @compiled
 def over_ends(surface: Floats, triangle: int, x: float, y: float, z: float) -> tuple[float, float]:
     """Return how far a point over the plane of a triangle is past its edges, and past those at which its face ends."""
-    over, ends = -1e300, -1e300
+    over, ends = -math.inf, -math.inf
     for i in range(3):
         e = triangle + 10 + 4 * i
         out = surface[e] * x + surface[e + 1] * y + surface[e + 2] * z - surface[e + 3]
@@ -137,7 +138,7 @@ def depth_inside(surface: Floats, x: float, y: float, z: float) -> float:
     nodes, members, triangles = int(surface[NODES]), int(surface[MEMBERS]), int(surface[TRIANGLES])
     if box_square(surface, nodes, x, y, z) > 0.0:
         return 0.0
-    least, side = 1e300, 0.0
+    least, side = math.inf, 0.0
     first = first_leaf(surface, -1.0, x, y, z)
     node = -1
     while node < int(surface[N_NODES]):
@@ -212,7 +213,7 @@ def past_edge(surface: Floats, edge: int, x: float, y: float, z: float) -> tuple
 def past_corner(surface: Floats, corner: int, x: float, y: float, z: float) -> float:
     """Return how far a point is past the normals of a corner."""
     wx, wy, wz = x - surface[corner], y - surface[corner + 1], z - surface[corner + 2]
-    past, star = -1e300, int(surface[STARS]) + int(surface[corner + 4])
+    past, star = -math.inf, int(surface[STARS]) + int(surface[corner + 4])
     for _ in range(int(surface[corner + 5])):
         past = max(past, wx * surface[star] + wy * surface[star + 1] + wz * surface[star + 2])
         star += 3
@@ -235,7 +236,7 @@ def nearest_in_patch(surface: Floats, patch: float, x: float, y: float, z: float
     same = 4.0 * margin * margin
     best, distance, past, kind, number = reach * reach, reach, reach, ON_FACE, 0
     qx, qy, qz = x, y, z - reach
-    under, under_past, under_face = 1e300, 0.0, -1
+    under, under_past, under_face = math.inf, 0.0, -1
     first = first_leaf(surface, patch, x, y, z)
     node = -1
     while node < int(surface[N_NODES]):

@@ -83,7 +83,7 @@ def _least(core: Floats, turn: Axes, x: float, y: float, z: float) -> float:
     """Return a distance that the body keeps at least from what is nowhere nearer than this vector to its centre."""
     apart = math.sqrt(x * x + y * y + z * z)
     if apart == 0.0:
-        return -1e300
+        return -math.inf
     mx, my, mz = back(turn, -x / apart, -y / apart, -z / apart)
     return float(apart - support_of(core, mx, my, mz)[0] - core[RADIUS])
 
@@ -229,9 +229,9 @@ def _nearest(
     x, y, z = center
     size = _extent(core)
     same = _SAME * (size + surface[SIZE])
-    best, missed, found = reach, 1e300, 0
+    best, missed, found = reach, math.inf, 0
     distance, past, bx, by, bz = reach + core[RADIUS], reach, 0.0, 0.0, 1.0
-    aim: Aim = (0.0, 0.0, 0.0, -1e300)
+    aim: Aim = (0.0, 0.0, 0.0, -math.inf)
     # the feature nearest to the centre, then faces, which cost least: they rule out most of the others
     _, _, kind, number, _, _, _ = nearest_in_patch(surface, patch, x, y, z, reach + size)
     if kind != ON_FACE:

@@ -139,7 +139,7 @@ def face_under(
     size = surface[SIZE]
     margin = REACH * size
     best, height_best, apart, past, found = reach * reach, 0.0, reach, reach, 0
-    under, under_past, under_face = 1e300, 0.0, -1
+    under, under_past, under_face = math.inf, 0.0, -1
     first = first_leaf(surface, patch, x, y, z)
     node = -1
     while node < int(surface[N_NODES]):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.kinematics import evaluate_row_response, push_response, wrench_row
 from nonsmooth.engine.memory.blocks import DELASSUS, FORCE_AND_MOMENT, TRACTION, TRACTION_MOMENT
-from nonsmooth.engine.memory.layout import N_ACCOUNTS
+from nonsmooth.engine.memory.layout import FIRST_ROW, N_ACCOUNTS, NORMAL_ROW
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import (
     Floats,
@@ -138,8 +138,8 @@ def write_wrench(ws: Workspace, c: int, f: Floats) -> None:
     if contact.has_traction_law:
         m = at(ws.floats, contact.traction_out + TRACTION_MOMENT)
         moment = _in_world(ws, c, m[2], m[0], m[1])
-    wrench_row(ws, c, 1, force, moment)
-    evaluate_row_response(ws, c, 1, 0)
+    wrench_row(ws, c, FIRST_ROW, force, moment)
+    evaluate_row_response(ws, c, FIRST_ROW, NORMAL_ROW)
 
 
 @kernel("void(ws, i8, F, i8)")
@@ -161,9 +161,9 @@ def push_compliant(ws: Workspace) -> None:
         if contact.has_traction_law:
             rub_by_traction(ws, c, contact.force, ws.island.y.start)
             write_wrench(ws, c, contact.force)
-            push_response(ws, c, 0, 1.0, ws.island.du.start)
+            push_response(ws, c, NORMAL_ROW, 1.0, ws.island.du.start)
         else:
-            push_response(ws, c, 0, contact.compliant_force, ws.island.du.start)
+            push_response(ws, c, NORMAL_ROW, contact.compliant_force, ws.island.du.start)
 
 
 @kernel("b1(ws, i8)")

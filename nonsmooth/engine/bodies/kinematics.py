@@ -6,6 +6,7 @@ import math
 
 from nonsmooth.engine.bodies.anisotropy import stretch_bias, stretch_tangents
 from nonsmooth.engine.memory.blocks import FRAME
+from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
 from nonsmooth.engine.native.kernel import (
     Floats,
     Workspace,
@@ -194,9 +195,9 @@ def row(ws: Workspace, c: int, r: int, du: int) -> float:
 def evaluate_jacobian(ws: Workspace, c: int) -> None:
     """Write W^T and N^T of contact ``c`` (rows n, t1, t2), K times them, and the prescribed rates."""
     contact = ws.contacts[c]
-    evaluate_row(ws, c, 0, contact.axis_n)
-    evaluate_row(ws, c, 1, contact.axis_1)
-    evaluate_row(ws, c, 2, contact.axis_2)
+    evaluate_row(ws, c, NORMAL_ROW, contact.axis_n)
+    evaluate_row(ws, c, FIRST_ROW, contact.axis_1)
+    evaluate_row(ws, c, SECOND_ROW, contact.axis_2)
     for r in range(3):
         evaluate_row_response(ws, c, r, r)
         contact.prescribed_rate[r] = contact.rate[r] - row(ws, c, r, ws.island.velocities)

@@ -136,7 +136,7 @@ def _sort_units(ws: Workspace, axis: int) -> None:
 def _widest_axis(ws: Workspace) -> int:
     best, widest = 0, -1.0
     for axis in range(3):
-        low, high = 1e300, -1e300
+        low, high = math.inf, -math.inf
         for number in range(ws.model.n_spheres):
             place = ws.spheres[number].places[axis]
             low, high = min(low, place), max(high, place)
@@ -220,7 +220,7 @@ def _unit_speed(ws: Workspace, number: int) -> float:
 @kernel("f8(ws)")
 def longest_step(ws: Workspace) -> float:
     """Return for how long the list holds, the bodies being evaluated; 0 if it must be drawn anew."""
-    longest = 1e300
+    longest = math.inf
     for number in range(ws.model.n_spheres):
         unit, way, speed = ws.spheres[number], _way(ws, number), _unit_speed(ws, number)
         left = 0.5 * ws.island.list_margin - way

@@ -6,6 +6,7 @@ from nonsmooth.engine.contact.cone import gauss_seidel
 from nonsmooth.engine.contact.polish import polish
 from nonsmooth.engine.contact.trial import hold_tried, verify
 from nonsmooth.engine.delassus.delassus import add_product
+from nonsmooth.engine.memory.layout import FIRST_ROW, SECOND_ROW
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.memory.solvers import MOST_ENUMERATED
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
@@ -55,8 +56,8 @@ def _start_slips(ws: Workspace) -> int:
         active = ws.actives[a]
         if not active.is_at_rest or active.mode_tried != Mode.SLIDE:
             continue
-        a1 = add_product(ws, active.free[1], a, 1, ws.problem.forces.start)
-        a2 = add_product(ws, active.free[2], a, 2, ws.problem.forces.start)
+        a1 = add_product(ws, active.free[1], a, FIRST_ROW, ws.problem.forces.start)
+        a2 = add_product(ws, active.free[2], a, SECOND_ROW, ws.problem.forces.start)
         norm = length((a1, a2))
         active.direction = a1 / norm if norm > 0.0 else 1.0, a2 / norm if norm > 0.0 else 0.0
     return count

@@ -10,6 +10,7 @@ from __future__ import annotations
 from nonsmooth.engine.contact.unknowns import list_unknown, set_force
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
+from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
 from nonsmooth.engine.native.kernel import (
     Workspace,
     at,
@@ -217,13 +218,13 @@ def _collect(ws: Workspace) -> int:
         active.has_redundant_force = False
         active.first_unknown = n
         if active.is_normal_force_unknown:
-            list_unknown(ws, n, a, 0, turn=False)
+            list_unknown(ws, n, a, NORMAL_ROW, turn=False)
             n += 1
             active.normal_force = 0.0
         active.friction = 0.0, 0.0
         if active.sticks:
-            list_unknown(ws, n, a, 1, turn=False)
-            list_unknown(ws, n + 1, a, 2, turn=False)
+            list_unknown(ws, n, a, FIRST_ROW, turn=False)
+            list_unknown(ws, n + 1, a, SECOND_ROW, turn=False)
             n += 2
         else:
             friction_of_slip(ws, a)

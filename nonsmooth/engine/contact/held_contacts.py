@@ -13,6 +13,7 @@ from nonsmooth.engine.bodies.kinematics import evaluate_row, evaluate_row_respon
 from nonsmooth.engine.contact.forces import DOUBTFUL, friction_of_slip, solve_doubtful, solve_unknowns
 from nonsmooth.engine.contact.null_space_forces import add_null_space_force, choose_null_space_force
 from nonsmooth.engine.contact.unknowns import list_unknown
+from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import (
     Workspace,
@@ -30,9 +31,9 @@ def write_rows(ws: Workspace, a: int) -> None:
     contact = ws.contacts[c]
     n, t1, t2 = contact.axis_n, contact.axis_1, contact.axis_2
     if active.sticks:
-        evaluate_row(ws, c, 0, n)
-        evaluate_row(ws, c, 1, t1)
-        evaluate_row(ws, c, 2, t2)
+        evaluate_row(ws, c, NORMAL_ROW, n)
+        evaluate_row(ws, c, FIRST_ROW, t1)
+        evaluate_row(ws, c, SECOND_ROW, t2)
         for r in range(3):
             evaluate_row_response(ws, c, r, r)
         return
@@ -45,9 +46,9 @@ def write_rows(ws: Workspace, a: int) -> None:
         n[1] - m1 * t1[1] - m2 * t2[1],
         n[2] - m1 * t1[2] - m2 * t2[2],
     )
-    evaluate_row(ws, c, 0, n)
-    evaluate_row(ws, c, 1, push)
-    evaluate_row_response(ws, c, 1, 0)
+    evaluate_row(ws, c, NORMAL_ROW, n)
+    evaluate_row(ws, c, FIRST_ROW, push)
+    evaluate_row_response(ws, c, FIRST_ROW, NORMAL_ROW)
 
 
 @kernel("f8(ws, i8, i8, i8, i8)")
@@ -121,7 +122,7 @@ def _push_compliant(ws: Workspace) -> None:
         c, sticks = active.contact, active.sticks
         contact = ws.contacts[c]
         force = active.normal_force if sticks == 1 else 1.0
-        push_response(ws, c, 0, force, ws.island.du.start)
+        push_response(ws, c, NORMAL_ROW, force, ws.island.du.start)
         ws.step.driven_power += force * row(ws, c, 1 - sticks, ws.island.velocities) - contact.dissipated_by_spin
         if contact.is_compliant:
             ws.step.load_power += active.normal_force * contact.rate[0]
@@ -141,7 +142,7 @@ def _solve_held(ws: Workspace) -> bool:
         for a in range(ws.problem.n_active):
             active = ws.actives[a]
             if not active.sticks and active.is_normal_force_unknown:
-                evaluate_row_response(ws, active.contact, 0, 1)
+                evaluate_row_response(ws, active.contact, NORMAL_ROW, FIRST_ROW)
         for a in range(ws.problem.n_active):
             active = ws.actives[a]
             for i in range(active.first_unknown, active.end_unknown):
@@ -156,14 +157,18 @@ def _stick_alone(ws: Workspace) -> bool:
     active = ws.actives[0]
     c = active.contact
     contact = ws.contacts[c]
-    row_0 = coupling(ws, c, 0, c, 0), 0.0, 0.0
-    row_1 = coupling(ws, c, 1, c, 0), coupling(ws, c, 1, c, 1), 0.0
-    row_2 = coupling(ws, c, 2, c, 0), coupling(ws, c, 2, c, 1), coupling(ws, c, 2, c, 2)
+    row_0 = coupling(ws, c, NORMAL_ROW, c, NORMAL_ROW), 0.0, 0.0
+    row_1 = coupling(ws, c, FIRST_ROW, c, NORMAL_ROW), coupling(ws, c, FIRST_ROW, c, FIRST_ROW), 0.0
+    row_2 = (
+        coupling(ws, c, SECOND_ROW, c, NORMAL_ROW),
+        coupling(ws, c, SECOND_ROW, c, FIRST_ROW),
+        coupling(ws, c, SECOND_ROW, c, SECOND_ROW),
+    )
     bias, du = contact.bias, ws.island.du.start
     right = (
-        -bias[0] - row(ws, c, 0, du),
-        -bias[1] - row(ws, c, 1, du),
-        -bias[2] - row(ws, c, 2, du),
+        -bias[0] - row(ws, c, NORMAL_ROW, du),
+        -bias[1] - row(ws, c, FIRST_ROW, du),
+        -bias[2] - row(ws, c, SECOND_ROW, du),
     )
     forces = solve_three(row_0, row_1, row_2, right, DOUBTFUL)
     if forces[0] != forces[0]:
@@ -192,7 +197,7 @@ def _hold_alone(ws: Workspace) -> bool:
         return _stick_alone(ws)
     c = active.contact
     contact = ws.contacts[c]
-    own = coupling(ws, c, 0, c, 0)
+    own = coupling(ws, c, NORMAL_ROW, c, NORMAL_ROW)
     if own == 0.0:
         return False
     if contact.mode == Mode.SLIDE and own < 0.0:
@@ -203,12 +208,12 @@ def _hold_alone(ws: Workspace) -> bool:
         False,
         False,
     )
-    force = (-contact.bias[0] - row(ws, c, 0, ws.island.du.start)) / own
+    force = (-contact.bias[0] - row(ws, c, NORMAL_ROW, ws.island.du.start)) / own
     active.normal_force = force
-    push_response(ws, c, 0, force, ws.island.du.start)
+    push_response(ws, c, NORMAL_ROW, force, ws.island.du.start)
     friction_of_slip(ws, 0)
     (t1, t2), (v1, v2) = active.friction, contact.slip
-    on_coordinates = force * row(ws, c, 1, ws.island.velocities)
+    on_coordinates = force * row(ws, c, FIRST_ROW, ws.island.velocities)
     ws.step.driven_power += on_coordinates - force * contact.rate[0] - t1 * v1 - t2 * v2
     return True
 

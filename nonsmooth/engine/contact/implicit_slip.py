@@ -16,6 +16,7 @@ from nonsmooth.engine.contact.polish import EXACT, polish
 from nonsmooth.engine.contact.problem import friction_coefficient, slip_coefficient
 from nonsmooth.engine.contact.trial import hold_tried
 from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus, diagonal_block
+from nonsmooth.engine.memory.layout import FIRST_ROW, SECOND_ROW
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.vectors import length
@@ -90,8 +91,8 @@ def _stop_and_go(ws: Workspace) -> int:
                 active.direction = -t1 / norm, -t2 / norm
                 changed += 1
             continue
-        a1 = add_product(ws, active.free[1], a, 1, ws.problem.forces.start)
-        a2 = add_product(ws, active.free[2], a, 2, ws.problem.forces.start)
+        a1 = add_product(ws, active.free[1], a, FIRST_ROW, ws.problem.forces.start)
+        a2 = add_product(ws, active.free[2], a, SECOND_ROW, ws.problem.forces.start)
         if a1 * active.direction[0] + a2 * active.direction[1] < 0.0:
             active.mode_tried = Mode.STICK
             changed += 1

@@ -141,7 +141,7 @@ def _first_row(ws: Workspace, n: int) -> int:
 @kernel("i8(ws, i8, i8)")
 def _leaving(ws: Workspace, n: int, s: int) -> int:
     """Return the row that reaches zero first when column ``s`` grows, or -1; among equals the covering variable."""
-    best, chosen = 1e300, -1
+    best, chosen = math.inf, -1
     for i in range(n):
         row = _row(ws, n, i)
         entry = ws.floats[row + s]

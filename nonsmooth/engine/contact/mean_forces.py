@@ -15,6 +15,7 @@ from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.contact.inelastic import inelastic_impulses
 from nonsmooth.engine.contact.trial import slope_of_slip
 from nonsmooth.engine.delassus.delassus import add_product, assemble_delassus
+from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.vectors import length
@@ -38,12 +39,12 @@ def averaging_time(ws: Workspace) -> float:
 
     It is 0 where one has none, or all give way.
     """
-    time = 1e300
+    time = math.inf
     for a in range(ws.problem.n_active):
         contact = ws.contacts[ws.actives[a].contact]
         if not contact.is_compliant:
             time = min(time, contact.contact_time)
-    return time if time < 1e300 else 0.0
+    return time if time < math.inf else 0.0
 
 
 @kernel("b1(ws)")
@@ -139,7 +140,7 @@ def gap_after(ws: Workspace, a: int, time: float) -> float:
     """Return the gap of an active contact after its impulses in a ``time``, as if no row of a Jacobian changed [m]."""
     active = ws.actives[a]
     contact = ws.contacts[active.contact]
-    rate = add_product(ws, active.free[0], a, 0, ws.problem.forces.start)
+    rate = add_product(ws, active.free[0], a, NORMAL_ROW, ws.problem.forces.start)
     # of these rates those that close the gap are part
     closing = max(0.0, contact.gap)
     return float(contact.gap - 0.5 * closing + 0.5 * time * (contact.rate[0] + rate))
@@ -155,8 +156,8 @@ def take_mean_forces(ws: Workspace, time: float) -> None:
     ws.island.strayed = 0.0
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
-        v1 = add_product(ws, active.free[1], a, 1, ws.problem.forces.start)
-        v2 = add_product(ws, active.free[2], a, 2, ws.problem.forces.start)
+        v1 = add_product(ws, active.free[1], a, FIRST_ROW, ws.problem.forces.start)
+        v2 = add_product(ws, active.free[2], a, SECOND_ROW, ws.problem.forces.start)
         speed = length((v1, v2))
         active.mode_tried = Mode.OPEN
         if active.normal_force > 0.0:

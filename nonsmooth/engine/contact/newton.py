@@ -15,6 +15,7 @@ from nonsmooth.engine.contact.gauss_seidel import sweep
 from nonsmooth.engine.contact.trial import slope_of_slip
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
+from nonsmooth.engine.memory.layout import NORMAL_ROW
 from nonsmooth.engine.native.kernel import Workspace, at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.band import open_band
@@ -120,7 +121,7 @@ def _write_jacobian(ws: Workspace) -> bool:
         y = active.normal_force - active.normal_acceleration / own
         row = band_row(ws.problem.matrix.start, line, n, ws.problem.half_band)
         if y > 0.0:
-            _add_row(ws, a, 0, own)
+            _add_row(ws, a, NORMAL_ROW, own)
             ws.floats[row + line] += _FLOOR
         else:
             ws.floats[row + line] = 1.0

@@ -9,6 +9,8 @@ the contacts let go.
 
 from __future__ import annotations
 
+import math
+
 from nonsmooth.engine.contact.distribution import distribute
 from nonsmooth.engine.contact.trial import NO_FORCE
 from nonsmooth.engine.contact.unknowns import force_of, set_force
@@ -33,7 +35,7 @@ _SLACK = 2.0 * NO_FORCE
 @kernel("f8(ws, i8)")
 def _least_distance(ws: Workspace, n: int) -> float:
     """Return how far the forces that are not unique are from their bounds at least [N]."""
-    least = 1e300
+    least = math.inf
     for i in range(n):
         unknown = ws.unknowns[i]
         active = ws.actives[unknown.contact]

@@ -9,6 +9,7 @@ from nonsmooth.engine.contact.trial import hold_tried
 from nonsmooth.engine.contact.unknowns import list_unknown
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
+from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import (
     Workspace,
@@ -40,7 +41,7 @@ def _acceleration(ws: Workspace, a: int, r: int) -> float:
 def _across(ws: Workspace, a: int, i: int) -> float:
     """Write what row ``i`` of contact ``a``, that of its turn, lacks; return how wrong it is, relative."""
     d1, d2 = ws.actives[a].direction
-    a1, a2 = _acceleration(ws, a, 1), _acceleration(ws, a, 2)
+    a1, a2 = _acceleration(ws, a, FIRST_ROW), _acceleration(ws, a, SECOND_ROW)
     ws.problem.right[i] = -(a1 * d2 - a2 * d1)
     return float(abs(ws.problem.right[i]) / max(ws.problem.acceleration_scale, abs(a1), abs(a2)))
 
@@ -100,7 +101,7 @@ def _add_turn(ws: Workspace, a: int, i: int, n: int) -> None:
     if not abs(force) > 0.0:
         return
     line = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band)
-    turned = (_acceleration(ws, a, 1) * d1 + _acceleration(ws, a, 2) * d2) / force
+    turned = (_acceleration(ws, a, FIRST_ROW) * d1 + _acceleration(ws, a, SECOND_ROW) * d2) / force
     ws.floats[line + i] += turned
     mobility = max(own.nn, own.t11, own.t22)
     weight = mobility / (mobility + abs(turned))
@@ -121,7 +122,7 @@ def _list_unknowns(ws: Workspace) -> int:
                 list_unknown(ws, n, a, r, turn=False)
                 n += 1
         if _starts(ws, a):
-            list_unknown(ws, n, a, 0, turn=True)
+            list_unknown(ws, n, a, NORMAL_ROW, turn=True)
             n += 1
     ws.problem.first_unknown[ws.problem.n_active] = n
     return n
@@ -147,7 +148,7 @@ def _turn(ws: Workspace, i: int) -> None:
             d2 * math.cos(angle) + d1 * math.sin(angle),
         )
         return
-    a1, a2 = _acceleration(ws, a, 1), _acceleration(ws, a, 2)
+    a1, a2 = _acceleration(ws, a, FIRST_ROW), _acceleration(ws, a, SECOND_ROW)
     norm = length((a1, a2))
     if norm > 0.0:
         active.direction = a1 / norm, a2 / norm
@@ -189,7 +190,7 @@ def polish(ws: Workspace) -> int:
         turns += _starts(ws, a)
     if turns == 0:
         return 2
-    best = 1e300
+    best = math.inf
     for _step in range(_STEPS):
         hold_tried(ws)
         n = _list_unknowns(ws)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from nonsmooth.engine.bodies.compliance import begin_contact, push_compliant
 from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.bodies.kinematics import row
@@ -17,6 +19,7 @@ from nonsmooth.engine.events.record import CLOSING_LOSS, DRIVEN_WORK, record_eve
 from nonsmooth.engine.events.twins import closed_twin, take_over
 from nonsmooth.engine.flow.projection import project_rates
 from nonsmooth.engine.flow.self_check import EXPLAINED, NOUGHT
+from nonsmooth.engine.memory.layout import NORMAL_ROW
 from nonsmooth.engine.memory.modes import NO_RELEASE, Cause, Mode, Truncation
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
@@ -50,7 +53,7 @@ def _is_short(ws: Workspace, c: int, time: float) -> bool:
     """
     contact = ws.contacts[c]
     rate = contact.rate[0]
-    approach = -(contact.bias[0] + row(ws, c, 0, ws.island.du.start))
+    approach = -(contact.bias[0] + row(ws, c, NORMAL_ROW, ws.island.du.start))
     if rate <= ws.tolerance.velocity or approach <= 0.0:
         return False
     # the touch-down is due after 2 rate / approach
@@ -67,12 +70,12 @@ def close_contacts(ws: Workspace) -> int:
     One of a contact by itself is left out.  Where several touch, the forces of their island are averaged, so that all
     land together.  The modes must be those agreed on for this instant.
     """
-    ws.island.first_step = 1e300
+    ws.island.first_step = math.inf
     group_touching(ws)
     closing = 0
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
-        time, fastest = averaging_time(ws), 1e300
+        time, fastest = averaging_time(ws), math.inf
         if ws.problem.n_active > 1:
             # what is averaged comes to rest within that time, on its way up, which is none that can be told
             time *= _RESTS
@@ -150,12 +153,12 @@ def slow_speed(ws: Workspace) -> float:
     It is what the greatest approach of the free accelerations, which must be written, makes of it in the shortest
     contact time: Eq. (33), of an island in place of a contact.
     """
-    time, approach = 1e300, 0.0
+    time, approach = math.inf, 0.0
     for a in range(ws.problem.n_active):
         c = ws.actives[a].contact
         contact = ws.contacts[c]
         time = min(time, contact.contact_time)
-        approach = max(approach, -(contact.bias[0] + row(ws, c, 0, ws.island.du.start)))
+        approach = max(approach, -(contact.bias[0] + row(ws, c, NORMAL_ROW, ws.island.du.start)))
     return float(approach * time)
 
 
@@ -256,7 +259,11 @@ def stop_creeping(ws: Workspace) -> float:
         for a in range(ws.problem.n_active):
             active = ws.actives[a]
             contact = ws.contacts[active.contact]
-            loss -= 0.5 * active.normal_force * add_product(ws, 2.0 * contact.rate[0], a, 0, ws.problem.forces.start)
+            loss -= (
+                0.5
+                * active.normal_force
+                * add_product(ws, 2.0 * contact.rate[0], a, NORMAL_ROW, ws.problem.forces.start)
+            )
             ws.totals.driven_work -= active.normal_force * contact.prescribed_rate[0]
     return loss
 

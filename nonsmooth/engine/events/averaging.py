@@ -105,7 +105,7 @@ def holds_time_up(ws: Workspace) -> int:
 
     Evaluations of forces fill a store that empties with time.
     """
-    time = 1e300
+    time = math.inf
     for i in range(ws.island.n_grouped):
         time = min(time, ws.contacts[ws.island.grouped[i]].contact_time)
     if time == 0.0:

@@ -114,7 +114,7 @@ def _end_within(ws: Workspace) -> Status:
     h = ws.request.t_end - ws.island.time
     record_samples(ws, h)
     ws.step.h = h
-    if not try_step(ws, h) < 1e300:
+    if not try_step(ws, h) < math.inf:
         return Status.NOT_FINITE
     _take_over(ws, h)
     return _arrived(ws)
@@ -149,7 +149,7 @@ def _step(ws: Workspace) -> Status:
     which = _due_at_start(ws)
     if which >= 0:
         return _carry_out(ws, cause_at_start(ws, which), which)
-    ws.step.listed_step = longest_step(ws) if ws.model.n_spheres > 0 else 1e300
+    ws.step.listed_step = longest_step(ws) if ws.model.n_spheres > 0 else math.inf
     if ws.step.listed_step == 0.0:
         return list_contacts(ws)
     orient_slips(ws, at_end=True)
@@ -164,7 +164,7 @@ def _step(ws: Workspace) -> Status:
     ws.totals.n_steps += 1
     high = first_crossing(ws, ws.step.h)
     for i in range(first_own_guard(ws), first_end_guard(ws)):
-        if not abs(ws.guards[i].at_end) < 1e300:
+        if not abs(ws.guards[i].at_end) < math.inf:
             return _up_to_end(ws, Status.NOT_FINITE)
     if high > 0.0:
         return _step_to_event(ws, high)
@@ -400,7 +400,7 @@ def advance(ws: Workspace, most_steps: int, is_wary: bool) -> Status:
         _derive(ws)
     if ws.island.resumed_end != ws.request.t_end:
         # what had no value behind another end time may have one now
-        ws.island.resumed_end, ws.island.resumed_step = ws.request.t_end, 1e300
+        ws.island.resumed_end, ws.island.resumed_step = ws.request.t_end, math.inf
     for _index in range(most_steps):
         # late in a run doubles are farther apart than the tolerance
         ws.tolerance.time = max(ws.tolerance.resolution, _SPACINGS * abs(ws.island.time))

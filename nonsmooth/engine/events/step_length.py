@@ -52,7 +52,7 @@ def _first_of_compliant(ws: Workspace, c: int) -> float:
     """
     contact = ws.contacts[c]
     if not contact.is_compliant or ws.guards[normal_guard(c)].at_end > NEAR * ws.tolerance.gap:
-        return 1e300
+        return math.inf
     speed = math.sqrt(dot(contact.velocity_at_end, contact.velocity_at_end))
     return float(_FIRST_WAY * contact.size / max(speed, ws.tolerance.velocity))
 
@@ -94,7 +94,7 @@ def _wanted(ws: Workspace) -> float:
 @kernel("f8(ws, f8)")
 def _first_attempt(ws: Workspace, wanted: float) -> float:
     """Return the step that is tried first, ``wanted`` if nothing cuts it short."""
-    ws.step.turning_step = _TURN / ws.island.fastest_turn if ws.island.fastest_turn > 0.0 else 1e300
+    ws.step.turning_step = _TURN / ws.island.fastest_turn if ws.island.fastest_turn > 0.0 else math.inf
     h = min(
         wanted,
         ws.step.listed_step,
@@ -104,8 +104,8 @@ def _first_attempt(ws: Workspace, wanted: float) -> float:
         ws.island.averaged_until - ws.island.time,
         ws.island.own_steps_end - ws.island.time,
     )
-    ws.step.closing_step = ws.step.arrival_step = 1e300
-    soonest = foresee(ws, h) if not ws.island.follows_a_step or ws.island.n_ballistic > 0 else 1e300
+    ws.step.closing_step = ws.step.arrival_step = math.inf
+    soonest = foresee(ws, h) if not ws.island.follows_a_step or ws.island.n_ballistic > 0 else math.inf
     if not ws.island.follows_a_step:
         for c in range(ws.island.n_contacts):
             contact = ws.contacts[c]
@@ -157,7 +157,7 @@ def _remember_step(ws: Workspace, h: float, error: float, wanted: float) -> None
     """Keep the accepted step of ``h`` and how long the next one may be."""
     ws.step.h, ws.step.error = h, error
     # the touch-down that was due is behind it, or is an event of it
-    ws.island.first_step = 1e300
+    ws.island.first_step = math.inf
     # what cut a step short says nothing of the next one
     following = h * step_factor(error)
     if h < wanted:
@@ -204,9 +204,9 @@ def accepted_step(ws: Workspace) -> Status:
             ws.totals.n_rejected += 1
             ws.step.limit = BY_ERROR
             wanted = 0.0
-            if not error < 1e300 and 0.1 * h < ws.tolerance.time:
+            if not error < math.inf and 0.1 * h < ws.tolerance.time:
                 return Status.NOT_FINITE
-            factor = step_factor(error) if error < 1e300 else 0.1
+            factor = step_factor(error) if error < math.inf else 0.1
             if ws.island.stage_time > 0.0 and error > explained > 0.0:
                 # a slip that settles within the step leaves an error of low order
                 factor = max(SHRINK, SAFETY / error)

@@ -6,6 +6,7 @@ from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.flow.guard_numbers import friction_guard
 from nonsmooth.engine.flow.self_check import NOUGHT
 from nonsmooth.engine.flow.step import STIFF
+from nonsmooth.engine.memory.layout import FIRST_ROW, SECOND_ROW
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.vectors import length
@@ -27,7 +28,7 @@ def _share(ws: Workspace, c: int, h: float) -> float:
     first = length(contact.slip_at_end)
     v1, v2 = contact.slip_at_end
     du = ws.island.slopes.start + ws.model.n_q
-    a1, a2 = row(ws, c, 1, du) + contact.bias[1], row(ws, c, 2, du) + contact.bias[2]
+    a1, a2 = row(ws, c, FIRST_ROW, du) + contact.bias[1], row(ws, c, SECOND_ROW, du) + contact.bias[2]
     slowing = -h * (v1 * a1 + v2 * a2) / first
     part, least = _BLIND, 2.0 * ws.tolerance.time
     if slowing > 0.0:

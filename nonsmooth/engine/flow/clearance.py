@@ -115,15 +115,15 @@ def arm_of(ws: Workspace, c: int) -> Vector:
     return minus(contact.point_a, frame_at(ws.floats, contact.frame_a).origin)
 
 
-@kernel("v3(ws, i8, i8, i8, i8)")
-def _acceleration(ws: Workspace, c: int, side: int, angular: int, du: int) -> Vector:
-    """Return the acceleration of the origin of a frame, or (1) its angular acceleration."""
+@kernel("v3(ws, i8, i8, b1, i8)")
+def _acceleration(ws: Workspace, c: int, side: int, is_angular: bool, du: int) -> Vector:
+    """The acceleration of the origin of a frame, or its angular acceleration."""
     contact = ws.contacts[c]
     frame = contact.frame_a if side == 0 else contact.frame_b
     n_u = contact.n_u_a if side == 0 else contact.n_u_b
     first = du + ws.bodies[contact.body_a if side == 0 else contact.body_b].u
-    x, y, z = frame_at(ws.floats, frame).spin_acceleration if angular == 1 else frame_at(ws.floats, frame).acceleration
-    row = frame + FRAME + 3 * angular * n_u
+    x, y, z = frame_at(ws.floats, frame).spin_acceleration if is_angular else frame_at(ws.floats, frame).acceleration
+    row = frame + FRAME + (3 * n_u if is_angular else 0)
     for j in range(n_u):
         x += ws.floats[row + j] * ws.floats[first + j]
         y += ws.floats[row + n_u + j] * ws.floats[first + j]
@@ -147,9 +147,11 @@ def fall_of(ws: Workspace, c: int, du: int) -> Vector:
     b = frame_at(ws.floats, contact.frame_b if second else contact.frame_a)
     spin, way, turning = a.spin, minus(b.origin, a.origin), minus(b.spin, a.spin)
     velocity = minus(minus(b.velocity, a.velocity), cross(spin, way))
-    linear = minus(_acceleration(ws, c, other, 0, du), _acceleration(ws, c, one, 0, du))
-    alpha = _acceleration(ws, c, one, 1, du)
-    angular = minus(minus(_acceleration(ws, c, other, 1, du), alpha), cross(spin, turning))
+    linear = minus(
+        _acceleration(ws, c, other, is_angular=False, du=du), _acceleration(ws, c, one, is_angular=False, du=du)
+    )
+    alpha = _acceleration(ws, c, one, is_angular=True, du=du)
+    angular = minus(minus(_acceleration(ws, c, other, is_angular=True, du=du), alpha), cross(spin, turning))
     axis = _axis(ws, c)
     own, turning = dot(turning, axis), _across(turning, axis)
     # what is across the axis changes as that turns, too
@@ -166,7 +168,7 @@ def fall_of(ws: Workspace, c: int, du: int) -> Vector:
     if lever > 0.0:
         fall += _CURVED * rate * rate * lever
         grows = _CURVED * rate * math.sqrt(dot(linear, linear))
-        if max(contact.support_radius_a, contact.support_radius_b) < 1e300:
+        if max(contact.support_radius_a, contact.support_radius_b) < math.inf:
             fall += _CURVED * rate * speed
     return fall, grows, rate
 
@@ -179,12 +181,12 @@ def _expected_closing(ws: Workspace, c: int, du: int) -> float:
     """
     contact = ws.contacts[c]
     if min(contact.support_radius_a, contact.support_radius_b) > 0.0:
-        return 1e300
+        return math.inf
     gap, rate = contact.gap_at_end, contact.gap_rate_at_end
-    one, other = _acceleration(ws, c, 0, 0, du), _acceleration(ws, c, 1, 0, du)
+    one, other = _acceleration(ws, c, 0, is_angular=False, du=du), _acceleration(ws, c, 1, is_angular=False, du=du)
     square = rate * rate - 2.0 * dot(contact.normal, minus(other, one)) * gap
     if gap <= ws.tolerance.gap or square < 0.0 or math.sqrt(square) <= rate:
-        return 1e300
+        return math.inf
     return float(2.0 * gap / (math.sqrt(square) - rate))
 
 
@@ -202,10 +204,10 @@ def foresee(ws: Workspace, h: float) -> float:
 
     When each of them is stays with it.
     """
-    soonest = 1e300
+    soonest = math.inf
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
-        contact.closing_time = 1e300
+        contact.closing_time = math.inf
         if _will_be_doubtful(ws, c, min(h, soonest)):
             contact.closing_time = _expected_closing(ws, c, ws.island.slopes.start + ws.model.n_q)
             soonest = min(soonest, contact.closing_time)
@@ -221,7 +223,7 @@ def _flies(ws: Workspace, number: int) -> bool:
 
 @kernel("f8(ws, i8)")
 def _closing_of_flying(ws: Workspace, c: int) -> float:
-    """Return when the gap of ``c`` is next to none, but open, if its bodies fly on [s]; 1e300 if that is not found.
+    """Return when the gap of ``c`` is next to none, but open, if its bodies fly on [s]; infinite if that is not found.
 
     Newton's method, from when it is due.
     """
@@ -244,9 +246,9 @@ def _closing_of_flying(ws: Workspace, c: int) -> float:
         if abs(left) <= 0.5 * aim:
             return float(elapsed)
         if not rate < -ws.tolerance.velocity or contact.past_feature > 0.0 or not elapsed > left / rate:
-            return 1e300
+            return math.inf
         elapsed -= left / rate
-    return 1e300
+    return math.inf
 
 
 @kernel("f8(ws, f8)")
@@ -255,7 +257,7 @@ def first_of_flying(ws: Workspace, soonest: float) -> float:
 
     The bodies do not stand at the start any more.
     """
-    first = 1e300
+    first = math.inf
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         fly_both = _flies(ws, contact.body_a) and _flies(ws, contact.body_b)

@@ -130,7 +130,7 @@ def _step_alone(ws: Workspace, usual: float, longest: float) -> float:
     h = min(wanted, longest, ws.island.own_steps_end - ws.island.time)
     for _attempt in range(_ATTEMPTS):
         error = explicit_step(ws, h)
-        factor = step_factor(error) if error < 1e300 else SHRINK
+        factor = step_factor(error) if error < math.inf else SHRINK
         if error <= 1.0:
             ws.island.own_step = max(wanted, h * factor) if h < wanted else h * factor
             return float(h)
@@ -162,7 +162,7 @@ def set_off(ws: Workspace, usual: float, longest: float) -> None:
         return
     stage_time = ws.island.stage_time
     for i in range(ws.island.n_grouped):
-        ws.contacts[ws.island.grouped[i]].least_force = 1e300
+        ws.contacts[ws.island.grouped[i]].least_force = math.inf
     slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=False, of_all_bodies=False)
     _look_at_forces(ws, anew=True)
     h = _step_alone(ws, usual, longest)

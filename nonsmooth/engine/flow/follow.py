@@ -5,6 +5,8 @@ Nothing here looks for events: there are none between a stored state and the tim
 
 from __future__ import annotations
 
+import math
+
 from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_driven_bodies
 from nonsmooth.engine.bodies.joint_forces import evaluate_joint_forces
 from nonsmooth.engine.bodies.kinematics import evaluate_contact
@@ -100,7 +102,7 @@ def _found_step(ws: Workspace, h: float) -> float:
             slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=False, of_all_bodies=True)
             part = 0.5
         elif part == 1.0:
-            part = step_factor(error) if error < 1e300 else SHRINK
+            part = step_factor(error) if error < math.inf else SHRINK
         h *= min(part, SAFETY)
 
 

@@ -74,16 +74,16 @@ def _asks_forces(ws: Workspace) -> bool:
     return ws.island.n_grouped > 0 and ws.island.stage_time == 0.0
 
 
-@entry_point("void(ws, f8, f8, i8)")
-def guards_within(ws: Workspace, h: float, theta: float, forces: int) -> None:
+@entry_point("void(ws, f8, f8, b1)")
+def guards_within(ws: Workspace, h: float, theta: float, needs_forces: bool) -> None:
     """Evaluate the motion and write the guards at the fraction ``theta`` of the step, on the interpolant."""
     state_within(ws, h, theta, ws.step.y_stage.start)
     blend_choices(ws, theta)
-    evaluate_guards(ws, ws.island.time + theta * h, ws.step.y_stage.start, theta * h, forces == 1)
+    evaluate_guards(ws, ws.island.time + theta * h, ws.step.y_stage.start, theta * h, needs_forces)
 
 
-@kernel("f8(ws, f8, f8, i8, i8)")
-def _guard_at(ws: Workspace, h: float, theta: float, i: int, forces: int) -> float:
+@kernel("f8(ws, f8, f8, i8, b1)")
+def _guard_at(ws: Workspace, h: float, theta: float, i: int, needs_forces: bool) -> float:
     """Return guard ``i`` at the fraction ``theta`` of the step; of a gap and of a slip nothing else is evaluated."""
     alone = sign_depends_on(ws, i)
     if alone == DependsOn.GAP:
@@ -91,7 +91,7 @@ def _guard_at(ws: Workspace, h: float, theta: float, i: int, forces: int) -> flo
     elif alone == DependsOn.SLIP:
         look_at_slip(ws, h, theta, contact_of(ws, i))
     else:
-        guards_within(ws, h, theta, forces)
+        guards_within(ws, h, theta, needs_forces)
     return float(ws.guards[i].value)
 
 
@@ -111,7 +111,7 @@ def _lowest(ws: Workspace, h: float, i: int) -> float:
             return 0.0
         if abs(vertex - middle) < SHORT:
             return 0.0
-        g = _guard_at(ws, h, vertex, i, 1)
+        g = _guard_at(ws, h, vertex, i, needs_forces=True)
         if g < 0.0:
             return float(vertex)
         if vertex > middle:
@@ -140,7 +140,7 @@ def _force_dip(ws: Workspace, h: float) -> float:
 @kernel("f8(ws)")
 def _soonest(ws: Workspace) -> float:
     """Return after what time the first of the open gaps is closed if they go on closing as at present [s]."""
-    soonest = 1e300
+    soonest = math.inf
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         gap, rate = contact.gap, contact.gap_rate
@@ -177,7 +177,7 @@ def _sampled(ws: Workspace, h: float, high: float) -> float:
     while theta < high:
         ws.totals.n_gap_evaluations += 1
         # right at the start nothing has grown yet
-        guards_within(ws, h, max(theta, _FAINT), 0)
+        guards_within(ws, h, max(theta, _FAINT), needs_forces=False)
         if theta > 0.0:
             if first_fired(ws, forces_are_known=False, located=NO_GUARD) >= 0:
                 guards_within(ws, h, theta, _asks_forces(ws))
@@ -228,18 +228,18 @@ def first_crossing(ws: Workspace, h: float) -> float:
         i = normal_guard(c)
         if contact.mode != Mode.OPEN and contact.least_force < min(ws.guards[i].initial, ws.guards[i].at_end):
             suspect = True
-    forces = closed if suspect else 0
-    looks = forces + ws.model.n_own_guards
+    needs_forces = closed and suspect
+    looks = needs_forces + ws.model.n_own_guards
     if looks > 0:
-        guards_within(ws, h, _MIDDLE, forces)
-        if first_fired(ws, forces == 1, NO_GUARD) >= 0:
-            if forces != closed:
+        guards_within(ws, h, _MIDDLE, needs_forces)
+        if first_fired(ws, needs_forces, NO_GUARD) >= 0:
+            if needs_forces != closed:
                 guards_within(ws, h, _MIDDLE, closed)
             return _MIDDLE
-        arm_further(ws, forces == 1)
+        arm_further(ws, needs_forces)
         for i in range(number_of_guards(ws)):
             ws.guards[i].middle = ws.guards[i].value
-        if forces == 1 and fired < 0:
+        if needs_forces and fired < 0:
             theta = _force_dip(ws, h)
             if theta > 0.0:
                 return theta
@@ -265,21 +265,21 @@ def first_crossing(ws: Workspace, h: float) -> float:
     return 1.0 if first_fired(ws, forces_are_known=True, located=NO_GUARD) >= 0 else 0.0
 
 
-@kernel("f8(ws, f8, f8, i8, i8)")
-def _event_fraction(ws: Workspace, h: float, high: float, i: int, forces: int) -> float:
+@kernel("f8(ws, f8, f8, i8, b1)")
+def _event_fraction(ws: Workspace, h: float, high: float, i: int, needs_forces: bool) -> float:
     """Return the fraction of the step at which guard ``i``, now evaluated at ``high``, vanishes on the interpolant.
 
     The guards are left evaluated there, the slope of guard ``i`` in ``guard_slope``: infinite, right behind it, where
     the guard jumps.
     """
-    theta = _vanishing(ws, h, high, i, forces)
+    theta = _vanishing(ws, h, high, i, needs_forces)
     if sign_depends_on(ws, i) != DependsOn.FORCE:
-        guards_within(ws, h, theta, forces)
+        guards_within(ws, h, theta, needs_forces)
     return theta
 
 
-@kernel("f8(ws, f8, f8, i8, i8)")
-def _vanishing(ws: Workspace, h: float, high: float, i: int, forces: int) -> float:
+@kernel("f8(ws, f8, f8, i8, b1)")
+def _vanishing(ws: Workspace, h: float, high: float, i: int, needs_forces: bool) -> float:
     """Return the same; of the guards ``i`` is evaluated there, those that are no gaps together with it.
 
     Anderson-Bjorck, with Newton's step where the guard is a gap, whose rate is known.
@@ -292,7 +292,7 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, forces: int) -> flo
     while g_low <= _FAINT * abs(g_high) and (rises or is_gap(ws, i)):
         # it was armed inside the step, or rises from zero with no rate: look for where it is positive
         low = 0.5 * high if low == 0.0 else 0.5 * low
-        g_low = _guard_at(ws, h, low, i, forces)
+        g_low = _guard_at(ws, h, low, i, needs_forces)
         if low < _SHORTEST * high:
             if g_low > 0.0 or rises:
                 return low
@@ -308,7 +308,7 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, forces: int) -> flo
         # next to a huge value the secant does not leave the other end
         if not low < theta <= high or slow > _SLOW:
             theta = 0.5 * (low + high)
-        g = _guard_at(ws, h, theta, i, forces)
+        g = _guard_at(ws, h, theta, i, needs_forces)
         if theta != theta_before:
             ws.step.guard_slope = (g - g_before) / ((theta - theta_before) * h)
         theta_before, g_before = theta, g
@@ -325,7 +325,7 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, forces: int) -> flo
             ws.step.guard_slope = -math.inf
             if g <= 0.0:
                 return float(theta)
-            guards_within(ws, h, high, forces)
+            guards_within(ws, h, high, needs_forces)
             return high
         way = high - low
         if g < 0.0:
@@ -369,7 +369,7 @@ def _corrected(ws: Workspace, root: float, i: int) -> float:
     """Step to where guard ``i`` vanishes, on the interpolant after the time ``root``; return the step."""
     h, step = ws.step.h, root
     # the guard is positive before the first and not after the second of these steps
-    early, late = 0.0, 1e300
+    early, late = 0.0, math.inf
     # two or three do unless the guard is not smooth
     for _halving in range(PARTS):
         ws.step.h = step
@@ -399,7 +399,7 @@ def _corrected(ws: Workspace, root: float, i: int) -> float:
         else:
             late = step
         if not early < step + correction < late:
-            if late == 1e300 or early == 0.0:
+            if late == math.inf or early == 0.0:
                 return -1.0
             correction = 0.5 * (early + late) - step
         step += correction
@@ -454,9 +454,9 @@ def locate(ws: Workspace, h: float, high: float) -> float:
     fired = max(0, first)
     roots = 0
     while first >= 0 and roots < number_of_guards(ws):
-        if closed == 1 and roots == _MOST_ROOTS:
+        if closed and roots == _MOST_ROOTS:
             return -1.0
-        if closed == 1 and roots > _FEW_ROOTS and ws.guards[first].initial < 0.0:
+        if closed and roots > _FEW_ROOTS and ws.guards[first].initial < 0.0:
             return -1.0
         roots += 1
         later = theta
@@ -466,11 +466,11 @@ def locate(ws: Workspace, h: float, high: float) -> float:
             first = -1
         else:
             fired = first
-            first = first_fired(ws, closed == 1, fired)
+            first = first_fired(ws, closed, fired)
         if first < 0 and ws.step.n_not_facing + ws.step.n_may_close > 0:
             earlier = _closed_before(ws, h, theta, contact_of(ws, fired))
             if earlier > 0.0:
-                theta, first = earlier, first_fired(ws, closed == 1, NO_GUARD)
+                theta, first = earlier, first_fired(ws, closed, NO_GUARD)
             elif ws.step.n_not_facing > 0:
                 guards_within(ws, h, theta, closed)
     if first >= 0:

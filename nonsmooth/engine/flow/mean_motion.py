@@ -13,7 +13,7 @@ from nonsmooth.engine.bodies.compliance import refresh_states
 from nonsmooth.engine.bodies.kinematics import evaluate_contact, evaluate_geometry
 from nonsmooth.engine.contact.mean_forces import averaging_span, find_mean_impulses, gap_after, take_mean_forces
 from nonsmooth.engine.delassus.delassus import add_response
-from nonsmooth.engine.flow.self_check import EXPLAINED, energy_of_bodies, scale_energy, tolerated_gap
+from nonsmooth.engine.flow.self_check import EXPLAINED, energies_of_bodies, scale_energy, tolerated_gap
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
 _SHARE = 0.1
@@ -64,7 +64,7 @@ def _go_on(ws: Workspace, time: float) -> None:
 @kernel("f8(ws)")
 def _explained_work(ws: Workspace) -> float:
     """Return what a force that leads a gap astray may do unasked: that part of what steps explain of an energy [J]."""
-    return float(_SHARE * EXPLAINED * ws.tolerance.relative * (energy_of_bodies(ws, 0) + scale_energy(ws)))
+    return float(_SHARE * EXPLAINED * ws.tolerance.relative * (energies_of_bodies(ws)[0] + scale_energy(ws)))
 
 
 @kernel("f8(ws, i8, f8, f8, f8)")

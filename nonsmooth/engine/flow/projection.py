@@ -18,7 +18,8 @@ from nonsmooth.engine.contact.held_contacts import coupling
 from nonsmooth.engine.contact.mean_forces import is_averaged
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus, diagonal_block
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
-from nonsmooth.engine.flow.self_check import EXPLAINED, NOUGHT, blame, energy_of_bodies, explained_gap, held_gap
+from nonsmooth.engine.flow.self_check import EXPLAINED, NOUGHT, blame, energies_of_bodies, explained_gap, held_gap
+from nonsmooth.engine.memory.layout import NORMAL_ROW
 from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.engine.native.kernel import (
     Workspace,
@@ -131,15 +132,15 @@ def _stop_alone(ws: Workspace) -> float:
     """
     c = ws.actives[0].contact
     contact = ws.contacts[c]
-    evaluate_row(ws, c, 0, contact.axis_n)
-    evaluate_row_response(ws, c, 0, 0)
-    own, gap, rate = coupling(ws, c, 0, c, 0), held_gap(ws, c), contact.rate[0]
+    evaluate_row(ws, c, NORMAL_ROW, contact.axis_n)
+    evaluate_row_response(ws, c, NORMAL_ROW, NORMAL_ROW)
+    own, gap, rate = coupling(ws, c, NORMAL_ROW, c, NORMAL_ROW), held_gap(ws, c), contact.rate[0]
     if own <= 0.0:
         return 0.0
     if NOUGHT * ws.tolerance.gap < abs(gap) <= explained_gap(ws, c):
-        push_response(ws, c, 0, -gap / own, ws.step.y_stage.start + ws.model.n_q)
-    impulse, prescribed = -rate / own, rate - row(ws, c, 0, ws.island.velocities)
-    push_response(ws, c, 0, impulse, ws.island.y.start + ws.model.n_q)
+        push_response(ws, c, NORMAL_ROW, -gap / own, ws.step.y_stage.start + ws.model.n_q)
+    impulse, prescribed = -rate / own, rate - row(ws, c, NORMAL_ROW, ws.island.velocities)
+    push_response(ws, c, NORMAL_ROW, impulse, ws.island.y.start + ws.model.n_q)
     ws.totals.driven_work -= impulse * prescribed
     return float(-0.5 * impulse * rate)
 
@@ -212,7 +213,7 @@ def _motion_by_gaps(ws: Workspace, number: int, i: int) -> float:
             continue
         for j in range(ws.model.n_y):
             ws.step.y_guess[j] = ws.island.y[j] if j < ws.model.n_q else 0.0
-        push_response(ws, c, 0, 1.0, ws.step.y_guess.start + ws.model.n_q)
+        push_response(ws, c, NORMAL_ROW, 1.0, ws.step.y_guess.start + ws.model.n_q)
         evaluate_body(ws, ws.island.time, ws.step.y_guess.start, number)
         speed = _speed_at(ws, c, number)
         if speed > 0.0:
@@ -296,18 +297,18 @@ def project_closed(ws: Workspace, at_event: bool, averaged: bool) -> float:
         loss += project_rates(ws, at_event)
         moved += _add_gaps(ws)
     if moved > 0:
-        before = energy_of_bodies(ws, 1)
+        before = energies_of_bodies(ws)[1]
         _displace(ws)
         evaluate_free_bodies(ws, ws.island.time, ws.island.y.start, of_all_bodies=True)
         if at_event:
-            loss += before - energy_of_bodies(ws, 1)
+            loss += before - energies_of_bodies(ws)[1]
     return loss
 
 
 @entry_point()
 def project_joints(ws: Workspace) -> None:
     """Bring residuals and rates of the joints to zero by the least motion, and evaluate the bodies there."""
-    worst, before = 0.0, 1e300
+    worst, before = 0.0, math.inf
     for iteration in range(_MOST_ITERATIONS):
         evaluate_bodies(ws, ws.island.time, ws.island.y.start)
         for i in range(ws.model.n_y):

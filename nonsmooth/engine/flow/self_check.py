@@ -16,7 +16,7 @@ from nonsmooth.engine.native.kernel import (
     frame_at,
     kernel,
 )
-from nonsmooth.engine.numerics.vectors import minus
+from nonsmooth.engine.numerics.vectors import Pair, minus
 from nonsmooth.engine.pairs.look import look_at_pairs
 
 EXPLAINED = 1e3
@@ -174,23 +174,25 @@ def _booked(ws: Workspace) -> float:
     return float(ws.totals.driven_work - ws.totals.restitution_loss - ws.totals.friction_loss - ws.totals.closing_loss)
 
 
-@kernel("f8(ws, i8)")
-def energy_of_bodies(ws: Workspace, which: int) -> float:
-    """Return the kinetic (0) or potential (1) energy of the bodies as evaluated [J]."""
-    total = 0.0
+@kernel("v2(ws)")
+def energies_of_bodies(ws: Workspace) -> Pair:
+    """Kinetic and potential energy of the bodies as evaluated [J]."""
+    kinetic = potential = 0.0
     for number in range(ws.model.n_bodies):
         body = ws.bodies[number]
         n_u = body.n_u
         if n_u > 0:
-            total += ws.floats[body.tail + body.n_q + n_u + n_u * n_u + which]
-    return total
+            energies = body.tail + body.n_q + n_u + n_u * n_u
+            kinetic += ws.floats[energies]
+            potential += ws.floats[energies + 1]
+    return kinetic, potential
 
 
 @kernel()
 def open_account(ws: Workspace) -> None:
     """Keep the energy and the account as they are before an event, the bodies being evaluated."""
     ws.island.has_energy_account = True
-    ws.island.kinetic_before, ws.island.potential_before = energy_of_bodies(ws, 0), energy_of_bodies(ws, 1)
+    ws.island.kinetic_before, ws.island.potential_before = energies_of_bodies(ws)
     ws.island.accounted_before = _booked(ws)
 
 
@@ -204,7 +206,7 @@ def close_account(ws: Workspace) -> None:
     if not ws.island.has_energy_account:
         return
     ws.island.has_energy_account = False
-    kinetic, potential = energy_of_bodies(ws, 0), energy_of_bodies(ws, 1)
+    kinetic, potential = energies_of_bodies(ws)
     booked = _booked(ws) - ws.island.accounted_before
     change = kinetic - ws.island.kinetic_before + (potential - ws.island.potential_before)
     exchanged = abs(ws.island.y[ws.model.n_q + ws.model.n_u + EXCHANGED])

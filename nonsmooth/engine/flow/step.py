@@ -294,7 +294,7 @@ def try_step(ws: Workspace, h: float) -> float:
         for i in range(ws.model.n_y):
             ws.island.slopes[i] = ws.step.first_slope[i]
     for c in range(ws.island.n_contacts):
-        ws.contacts[c].least_force = 1e300
+        ws.contacts[c].least_force = math.inf
     error = _integrated(ws, h)
     # where nobody trusts the step, it is not asked where the others are
     return error + land(ws, h) if ws.island.n_ballistic > 0 and error <= TRUSTED else error

@@ -26,3 +26,6 @@ LAST_STAGE = N_STAGES - 1
 """the slope of the last one is that at the end of the step."""
 TOTALS = 9
 """Floats of a contact that go from one window of a large impact to the next."""
+
+NORMAL_ROW, FIRST_ROW, SECOND_ROW = 0, 1, 2
+"""Rows of a contact: along the normal and along the two tangents."""

@@ -38,7 +38,7 @@ def _unit(v: Vector, other: Vector) -> Vector:
 def _search(ws: Workspace, number: int, start: Vector, shift: Vector, size: float) -> Vector:
     """Return the unit vector along which the parts are farthest apart, the second being moved by ``shift``."""
     n = best = start
-    bound, upper, held, far = -1e300, 1e300, 0, 0.0
+    bound, upper, held, far = -math.inf, math.inf, 0, 0.0
     for _ in range(_MOST):
         x, y, z = difference(ws, number, n)
         found = x + shift[0], y + shift[1], z + shift[2]

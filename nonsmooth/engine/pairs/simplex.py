@@ -5,6 +5,8 @@ The corners stand in ``simplex``, three numbers each, and behind them the parts 
 
 from __future__ import annotations
 
+import math
+
 from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.vectors import Vector, cross, dot, minus, scaled
 
@@ -97,12 +99,12 @@ def _side(ws: Workspace, i: int, j: int, m: int) -> float:
 def _try_tetrahedron(ws: Workspace, size: float) -> float:
     """Take the nearest point of a tetrahedron; return its square, 0 where the origin is inside."""
     flat = abs(_volume(ws, 0, 1, 2, 3)) <= _EMPTY * size * size * size
-    best = 1e300
+    best = math.inf
     for top in range(CORNERS):
         i, j, m = (top + 1) % CORNERS, (top + 2) % CORNERS, (top + 3) % CORNERS
         if flat or _side(ws, i, j, m) * _volume(ws, i, j, m, top) <= 0.0:
             best = _try_face(ws, i, j, m, best)
-    return 0.0 if best == 1e300 else best
+    return 0.0 if best == math.inf else best
 
 
 @kernel("i8(ws, i8, f8)")
@@ -113,9 +115,9 @@ def reduce_to_nearest(ws: Workspace, n: int, size: float) -> int:
     if n == 1:
         ws.floats[parts] = 1.0
     elif n == 2:
-        _try_edge(ws, 0, 1, 1e300)
+        _try_edge(ws, 0, 1, math.inf)
     elif n == 3:
-        _try_face(ws, 0, 1, 2, 1e300)
+        _try_face(ws, 0, 1, 2, math.inf)
     elif _try_tetrahedron(ws, size) == 0.0:
         return 0
     kept = 0

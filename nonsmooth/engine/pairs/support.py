@@ -51,13 +51,13 @@ def _on_rings(w: Floats, place: int, n: Vector) -> Vector:
     rings = at(w, place + PART_RINGS)
     x, y, z = n
     across = math.sqrt(x * x + y * y)
-    best, found = -1e300, 0
+    best, found = -math.inf, 0
     for i in range(int(part_at(w, place).rings)):
         at_i = RING * i
         height = rings[at_i] * x + rings[at_i + 1] * y + rings[at_i + 2] * z + rings[at_i + 3] * across
         if height > best:
             best, found = height, at_i
-    if best == -1e300:
+    if best == -math.inf:
         return 0.0, 0.0, 0.0
     part = rings[found + 3] / across if across > 0.0 else 0.0
     return rings[found] + part * x, rings[found + 1] + part * y, rings[found + 2]
