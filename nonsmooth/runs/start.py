@@ -139,7 +139,7 @@ def _place(model: LaidOut, blank: Image, state: State, modes: Integers) -> None:
     places = memory.declared(owners.Contact.features)
     for number in np.flatnonzero((places > 0) & (state.features[:, 0] != 0.0)).tolist():
         memory.floats[places[number] :][:CANDIDATE] = state.features[number]
-    memory[owners.OwnGuard.has_just_fired][: len(model.system.guards)][:] = state.guards_spent
+    memory[owners.OwnGuard.has_just_fired][: len(model.system.guards)] = state.guards_spent
     model.list_contacts()
 
 
