@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, final
 import numpy as np
 
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.modes import AFTER, CODE, OPEN, REASONS, RUNNING, SLIDE, STICK
+from nonsmooth.engine.memory.modes import AFTER, CODE, OPEN, REASONS, RUNNING, SLIDE, STICK, Status
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.histories.arrays import Floats, Integers
@@ -137,7 +137,7 @@ class Visitor:
                     self._put(here)
                 status = int(watch.call("follow", float(times[i])))
                 if status != RUNNING:
-                    raise RunFailed(f"What led to t = {times[i]:.9g} s is not found again: {REASONS[status]}.")
+                    raise RunFailed(f"What led to t = {times[i]:.9g} s is not found again: {REASONS[Status(status)]}.")
                 if forces:
                     watch.call("evaluate_forces", 0)
                 look(i)

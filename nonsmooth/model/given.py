@@ -21,8 +21,7 @@ from nonsmooth.system.contact import Contact
 
 _GIVEN = (
     *(one for one in declarations(owners.DeclaredContact).values() if one.name.endswith("_parameters")),
-    owners.DeclaredContact.inner_states_at_start,  # type: ignore[attr-defined]
-    owners.DeclaredContact.anisotropy,  # type: ignore[attr-defined]
+    *(declarations(owners.DeclaredContact)[name] for name in ("inner_states_at_start", "anisotropy")),
 )
 _REMEDY = "It is damaged, or made up: take another."
 

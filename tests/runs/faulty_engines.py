@@ -159,7 +159,7 @@ FAULTS: tuple[tuple[type[Engine], str], ...] = (
     (WrongStatus, "advance: its status must be DONE.*but it is 77"),
     (NoStatus, "advance: its status must be DONE.*but it is None"),
     (WrongEntry, "advance: entry point must be a known one, but it is 'nonsense'"),
-    (DoneAtOnce, "advance: S.t must be at the end time 0.1 s where it is DONE, but it is 0"),
+    (DoneAtOnce, r"advance: ws\.island\.time must be at the end time 0.1 s where it is DONE, but it is 0"),
     (WithoutSamples, "advance must append all samples.*but it is 'none for t = 0 s'"),
     (Idle, "advance must do a step.*but it is 'nothing done at t = 0 s'"),
 )

@@ -7,7 +7,7 @@ tangential force is either unknown (``tangent_held``: sticking) or follows the s
 
 from __future__ import annotations
 
-from nonsmooth.engine.contact.unknowns import list_unknown, set_force
+from nonsmooth.engine.contact.unknowns import list_force, set_force
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.native.kernel import (
@@ -205,7 +205,8 @@ def null_entry(ws: Workspace, i: int, j: int) -> float:
         return ws.problem.null[i * ws.problem.n_unknown + j]
     if abs(i - j) > ws.problem.null_half_band:
         return 0.0
-    return ws.floats[band_row(ws.problem.reduced.start, i, ws.problem.n_unknown, ws.problem.null_half_band) + j]
+    row = band_row(ws.problem.reduced.start, i, ws.problem.n_unknown, ws.problem.null_half_band)
+    return float(ws.floats[row + j])
 
 
 @kernel("i8(ws)")
@@ -217,13 +218,13 @@ def _collect(ws: Workspace) -> int:
         active.has_redundant_force = False
         active.first_unknown = n
         if active.is_normal_force_unknown:
-            list_unknown(ws, n, a, 0, 0)
+            list_force(ws, n, a, 0)
             n += 1
             active.normal_force = 0.0
         active.friction = 0.0, 0.0
         if active.sticks:
-            list_unknown(ws, n, a, 1, 0)
-            list_unknown(ws, n + 1, a, 2, 0)
+            list_force(ws, n, a, 1)
+            list_force(ws, n + 1, a, 2)
             n += 2
         else:
             friction_of_slip(ws, a)

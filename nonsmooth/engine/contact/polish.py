@@ -6,7 +6,7 @@ import math
 
 from nonsmooth.engine.contact.forces import eliminate_reduced
 from nonsmooth.engine.contact.trial import hold_tried
-from nonsmooth.engine.contact.unknowns import list_unknown
+from nonsmooth.engine.contact.unknowns import list_force, list_turn
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.memory.modes import Mode
@@ -110,7 +110,7 @@ def _add_turn(ws: Workspace, a: int, i: int, n: int) -> None:
 
 
 @kernel("i8(ws)")
-def _list_unknowns(ws: Workspace) -> int:
+def _list_force, list_turns(ws: Workspace) -> int:
     """List the forces that are held and the turns of the contacts that start to slide; return how many there are."""
     n = 0
     for a in range(ws.problem.n_active):
@@ -118,10 +118,10 @@ def _list_unknowns(ws: Workspace) -> int:
         active.first_unknown = n
         for r in range(3):
             if (active.is_normal_force_unknown if r == 0 else active.sticks) == 1:
-                list_unknown(ws, n, a, r, 0)
+                list_force(ws, n, a, r)
                 n += 1
         if _starts(ws, a):
-            list_unknown(ws, n, a, 0, 1)
+            list_turn(ws, n, a)
             n += 1
     ws.problem.first_unknown[ws.problem.n_active] = n
     return n
@@ -192,7 +192,7 @@ def polish(ws: Workspace) -> int:
     best = 1e300
     for _step in range(_STEPS):
         hold_tried(ws)
-        n = _list_unknowns(ws)
+        n = _list_force, list_turns(ws)
         worst = _worst_across(ws, n)
         if worst <= EXACT or (worst <= _NEAR and worst >= best):
             return 1
