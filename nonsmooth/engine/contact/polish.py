@@ -110,7 +110,7 @@ def _add_turn(ws: Workspace, a: int, i: int, n: int) -> None:
 
 
 @kernel("i8(ws)")
-def _list_force, list_turns(ws: Workspace) -> int:
+def _list_unknowns(ws: Workspace) -> int:
     """List the forces that are held and the turns of the contacts that start to slide; return how many there are."""
     n = 0
     for a in range(ws.problem.n_active):
@@ -192,7 +192,7 @@ def polish(ws: Workspace) -> int:
     best = 1e300
     for _step in range(_STEPS):
         hold_tried(ws)
-        n = _list_force, list_turns(ws)
+        n = _list_unknowns(ws)
         worst = _worst_across(ws, n)
         if worst <= EXACT or (worst <= _NEAR and worst >= best):
             return 1
