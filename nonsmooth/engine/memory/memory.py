@@ -93,11 +93,13 @@ def view_of(declared: Declaration, record: np.void, heap: np.ndarray) -> np.ndar
     counts = {name: record[f"{Model.key}.{name}"].item() for name in COUNTS}
     storage, start = storage_of(declared), int(record[declared.key])
     numbers = heap[start : start + length_of(storage, counts)]
-    if issubclass(declared.owner, Part) or storage.has_end:
+    if issubclass(declared.owner, Part):
         return numbers
     stride, first, n = stride_of(storage), declared.inside[1], declared.owner.capacity(counts)
-    columns = numbers[: stride * n].reshape(n, stride)[:, first : first + declared.numbers]
-    return columns[:, 0] if declared.numbers == 1 else columns
+    if declared.numbers == 1:
+        # the end of a range is the start of the next one, in the row behind its own
+        return numbers[first::stride][: n + declared.has_end]
+    return numbers[: stride * n].reshape(n, stride)[:, first : first + declared.numbers]
 
 
 @dataclass(frozen=True)
