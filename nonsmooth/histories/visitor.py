@@ -229,4 +229,4 @@ class Visitor:
         slots = int(memory[owners.Island.n_contacts])
         facing = np.ones(n)
         facing[numbers] = kept[:, 3]
-        memory[owners.Contact.facing][:slots][:] = facing[memory[owners.Contact.declared][:slots]]
+        memory[owners.Contact.facing][:slots] = facing[memory[owners.Contact.declared][:slots]]
