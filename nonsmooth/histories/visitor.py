@@ -204,7 +204,7 @@ class Visitor:
         memory[owners.Island.time] = self._time[row]
         for total, value in zip(_ACCOUNTED, self._booked[row].tolist(), strict=True):
             memory[total] = value
-        self.laid.memory[owners.Island.y][: self.laid.n_y][:] = self._y[row]
+        self.laid.memory[owners.Island.y][:] = self._y[row]
 
     def _put_modes(self, event: int) -> None:
         """Close the contacts that an event left closed, and put them into slots with what they go on with."""

@@ -23,7 +23,7 @@ TOO_FAST, SLOW = 100, 101
 class Falling(Part, key="falling"):
     """What :class:`Judged` measures."""
 
-    fastest: float = real(Life.STATE, "m/s", "Largest speed downwards at the end of a step.")
+    fastest_fall: float = real(Life.STATE, "m/s", "Largest speed downwards at the end of a step.")
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,7 @@ class Judged(Blind):
 
     @property
     def verdict(self) -> tuple[Measure, ...]:
-        return (Measure("fastest", "m/s", "largest speed downwards at the end of a step"),)
+        return (Measure("fastest_fall", "m/s", "largest speed downwards at the end of a step"),)
 
     @property
     def causes(self) -> tuple[Cause, ...]:
@@ -112,7 +112,7 @@ class Judged(Blind):
             before = memory[Island.time]
             status = Midpoint(self.step).advance(call, memory, 1, wary)
             fall = -float(memory[Island.y][n_q + n_u - 4])
-            memory[Falling.fastest] = max(memory[Falling.fastest], fall)
+            memory[Falling.fastest_fall] = max(memory[Falling.fastest_fall], fall)
             if memory[Island.time] > max(before, 0.0505):
                 memory[Totals.driven_work] += self.gain
             for speed, code in ((self.most, TOO_FAST), (self.enough, SLOW)):
