@@ -197,9 +197,10 @@ def test_contact_problem_in_a_band_has_the_dense_motion(push: float) -> None:
 def test_too_many_blocks_end_the_run() -> None:
     """Without room for the blocks of an island the run ends with that reason, and nothing is written beyond them."""
     memory = assemble(_row(6, np.arange(6), False), EventDriven()).memory
+    starts = memory[owners.Island.block_start][:6]
     memory[owners.Model.n_slots] = 2
     assert call_entry("advance", memory, 0, 0) == NO_SLOT
-    assert memory[owners.Island.block_start][:6].tolist() == [0, 1, 2, 3, 4, 5]
+    assert starts.tolist() == [0, 1, 2, 3, 4, 5]
 
 
 def test_a_matrix_goes_in_and_out() -> None:
