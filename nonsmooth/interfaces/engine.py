@@ -105,7 +105,7 @@ class Engine(Component, ABC):
 
     @abstractmethod
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
-        """Continue to the end time ``ws.request.t_end``, a failure, full buffers or ``most_steps``; return the status.
+        """Continue to the end time ``ws.request.t_end``, a failure, full buffers or ``most_steps``.
 
         Parameters
         ----------

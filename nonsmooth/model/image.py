@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import UNTOUCHED
 from nonsmooth.engine.memory.declare import Life, Part, declarations
-from nonsmooth.engine.memory.memory import Memory, view_of
+from nonsmooth.engine.memory.memory import Memory, counts_in, view_of
 from nonsmooth.engine.memory.modes import SLIDE
+from nonsmooth.engine.memory.sizes import Counts
 from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, N_SCALARS, SCALARS
 from nonsmooth.errors import InvalidInput
 from nonsmooth.packing import packed, unpacked
@@ -53,6 +54,10 @@ class Image:
         return cast(np.void, self.parts[0][:N_SCALARS].view(SCALARS)[0])
 
     @functools.cached_property
+    def _counts(self) -> Counts:
+        return counts_in(self.record)
+
+    @functools.cached_property
     def size(self) -> int:
         """Memory that it takes [bytes]."""
         return sum(part.nbytes for part in self.parts)
@@ -67,7 +72,7 @@ class Image:
         if declared.size is None and issubclass(declared.owner, Part):
             return self.record[declared.key].item()
         part = self.parts[1].view(np.float64) if declared.key in FLOAT_ARRAYS else self.parts[3]
-        return view_of(declared, self.record, part)
+        return view_of(declared, self.record, self._counts, part)
 
     def declared(self, declared: Any) -> np.ndarray:
         """Return a view of what the declared contacts hold of a number of contacts."""

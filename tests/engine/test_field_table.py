@@ -100,8 +100,10 @@ def _memory() -> Memory:
             memory[one] = random.normal(size=shape)
         elif one.kind is int:
             memory[one] = random.integers(1, 10**9, size=shape)
+        elif issubclass(one.kind, IntEnum):
+            memory[one] = random.integers(0, len(one.kind), size=shape)
         else:
-            memory[one] = random.integers(0, 2 if one.kind is bool else len([*one.kind]), size=shape)
+            memory[one] = random.integers(0, 2, size=shape)
     # the first record of a group is the first of all
     memory[Problem.first_grouped] = 0
     return memory

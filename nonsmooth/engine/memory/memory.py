@@ -15,6 +15,7 @@ from nonsmooth.engine.memory.blocks import GUARD, PAIR, UNTOUCHED
 from nonsmooth.engine.memory.declare import Declaration, Part
 from nonsmooth.engine.memory.owners.contact import Contact, DeclaredContact
 from nonsmooth.engine.memory.owners.model import Coefficients, Model
+from nonsmooth.engine.memory.sizes import Counts
 from nonsmooth.engine.memory.tables import (
     COUNTS,
     OWNERS,
@@ -88,9 +89,13 @@ def output_block(size: int) -> list[float]:
     return size * [0.0] + GUARD * [UNTOUCHED]
 
 
-def view_of(declared: Declaration, record: np.void, heap: np.ndarray) -> np.ndarray:
+def counts_in(record: np.void) -> Counts:
+    """Return the counts that a record of scalars was laid out for."""
+    return {name: record[f"{Model.key}.{name}"].item() for name in COUNTS}
+
+
+def view_of(declared: Declaration, record: np.void, counts: Counts, heap: np.ndarray) -> np.ndarray:
     """Return a view of the numbers of a declaration in a heap; the record of scalars says where they are."""
-    counts = {name: record[f"{Model.key}.{name}"].item() for name in COUNTS}
     storage, start = storage_of(declared), int(record[declared.key])
     numbers = heap[start : start + length_of(storage, counts)]
     if issubclass(declared.owner, Part):
@@ -164,8 +169,8 @@ class Memory:
         return self._views[declared]
 
     def _made_view(self, declared: Declaration) -> np.ndarray:
-        heap, _start = self._places[declared.key]
-        return view_of(declared, self.record, heap)
+        heap = self.floats if storage_of(declared).is_float else self.integers
+        return view_of(declared, self.record, self._counts, heap)
 
     @functools.cached_property
     def _views(self) -> dict[Declaration, np.ndarray]:
@@ -185,14 +190,8 @@ class Memory:
         return self.scalars.view(np.float64), self.scalars.view(np.int64)
 
     @functools.cached_property
-    def _places(self) -> dict[str, tuple[np.ndarray, int]]:
-        owners = (*OWNERS, *self.own)
-        heaps = (
-            (self.floats, arrays_of(owners, of_floats=True)),
-            (self.integers, arrays_of(owners, of_floats=False)),
-        )
-        starts = dict(zip(self.scalars.dtype.names or (), self.scalars.item(), strict=True))
-        return {name: (heap, starts[name]) for heap, names in heaps for name in names}
+    def _counts(self) -> Counts:
+        return counts_in(self.record)
 
     @functools.cached_property
     def addresses(self) -> tuple[int, int, int]:
