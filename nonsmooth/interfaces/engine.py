@@ -69,7 +69,7 @@ class Engine(Component, ABC):
     def promised_residual(self) -> float | None:
         """Largest part of the exchanged energy that its account may lack in a good run.
 
-        Without a promise the tolerances ``rtol`` and ``impact_rtol`` decide, as for the event-driven engine.
+        Without a promise ``ws.tolerance.relative`` and ``ws.tolerance.impact`` decide.
         """
         return None
 

@@ -38,7 +38,6 @@ _OUTPUT = (
 _WHOLE = ("modes", "guards_spent")
 _NUMBERS = ("q", "u", "slip_directions", "closing_rates", "features", "law_states")
 _REMEDY = "Take a state of this system: solution.state of a run of it, or State.at(system, ...)."
-"""By how much a quaternion may be off unit length."""
 _NOT_CLOSED = 1e3
 """A contact that is closed may have a gap of so many gap tolerances."""
 
