@@ -13,6 +13,7 @@ from nonsmooth.checks import check_kind, floats
 from nonsmooth.contact_result import MODES, ContactResult
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Heap, Memory, allocate
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.memory.solvers import ENUMERATION, MOST_ENUMERATED, solver_number
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import entry_addresses
@@ -165,7 +166,7 @@ def _memory(friction: Sequence[FrictionLaw], solver: int) -> Memory:
     memory[owners.Problem.n_active], memory[owners.Options.solver] = n, solver
     memory[owners.Problem.active][:n] = np.arange(n)
     memory[owners.Contact.direction][:, 0] = 1.0
-    memory[owners.ActiveContact.mode_tried][:n] = -1
+    memory[owners.ActiveContact.mode_tried][:n] = Mode.UNKNOWN
     heap = Heap(memory)
     for i, (address, values) in enumerate(bound):
         memory[owners.Contact.friction_function][:n][i] = address

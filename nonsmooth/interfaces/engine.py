@@ -122,7 +122,7 @@ class Engine(Component, ABC):
         Returns
         -------
         int
-            ``DONE`` at the end time, to which ``ws.island.time`` is set, ``PAUSED`` to be called again, ``STOPPED`` if a
-            guard ends the run, a failure of :data:`nonsmooth.engine.memory.modes.REASONS`, or the code of one of its
+            ``DONE`` at the end time, to which ``ws.island.time`` is set, ``PAUSED`` to be called again, ``STOPPED`` if
+            a guard ends the run, a failure of :data:`nonsmooth.engine.memory.modes.REASONS`, or the code of one of its
             causes.
         """

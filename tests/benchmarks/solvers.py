@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory, allocate
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.memory.solvers import ENUMERATION, MOST_ENUMERATED, SOLVERS
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import call_entry, entry_addresses
@@ -85,7 +86,7 @@ def measure(problem: Problem, solver: int, repetitions: int) -> tuple[float, boo
     n = len(problem.bias) // 3
     least, solved = np.inf, False
     for _ in range(repetitions):
-        memory[owners.ActiveContact.mode_tried][:n] = -1
+        memory[owners.ActiveContact.mode_tried][:n] = Mode.UNKNOWN
         memory[owners.ActiveContact.direction][:n] = (1.0, 0.0)
         began = time.perf_counter()
         solved = call_entry("solve_contact", memory) == 1

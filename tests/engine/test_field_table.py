@@ -101,7 +101,7 @@ def _memory() -> Memory:
         elif one.kind is int:
             memory[one] = random.integers(1, 10**9, size=shape)
         elif issubclass(one.kind, IntEnum):
-            memory[one] = random.integers(0, len(one.kind), size=shape)
+            memory[one] = random.choice([*one.kind], size=shape)
         else:
             memory[one] = random.integers(0, 2, size=shape)
     # the first record of a group is the first of all
