@@ -151,7 +151,7 @@ def solve_impact(
     rates = columns.T @ u + z_driven.ravel()
     memory = _memory(impact, friction, tolerance)
     write_delassus(memory, delassus)
-    memory[owners.Impact.rates_before][: 3 * n][:] = rates
+    memory[owners.Impact.rates_before][: 3 * n] = rates
     outcome = FINISHED
     if np.any(rates[::3] < 0.0):
         with Watch(memory) as watch:
@@ -197,10 +197,10 @@ def _memory(impact: Sequence[ImpactProcess], friction: Sequence[FrictionLaw], to
         ):
             blocks.append((i, name, *bind(function, "scalar", law.parameters(), type(law).__name__)))
     memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_articulations": 0})
-    memory[owners.Model.entry_points][: len(entry_addresses())][:] = entry_addresses()
+    memory[owners.Model.entry_points][: len(entry_addresses())] = entry_addresses()
     memory[owners.Problem.n_active] = n
     memory[owners.Tolerance.impact] = tolerance
-    memory[owners.Problem.active][:n][:] = np.arange(n)
+    memory[owners.Problem.active][:n] = np.arange(n)
     memory[owners.Contact.direction][:, 0] = 1.0
     heap = Heap(memory)
     for i, name, address, values in blocks:

@@ -69,7 +69,7 @@ def _sweep_slips(ws: Workspace) -> None:
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
         mode = active.mode_tried
-        active.is_normal_force_unknown = not (mode == Mode.OPEN)
+        active.is_normal_force_unknown = mode != Mode.OPEN
         active.static_kept = active.static_coefficient
         active.static_coefficient = _ENDLESS if mode == Mode.STICK else 0.0
         for r in range(3):

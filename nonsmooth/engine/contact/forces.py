@@ -7,7 +7,7 @@ tangential force is either unknown (``tangent_held``: sticking) or follows the s
 
 from __future__ import annotations
 
-from nonsmooth.engine.contact.unknowns import list_unknown, set_force
+from nonsmooth.engine.contact.unknowns import list_force, set_force
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
@@ -206,7 +206,8 @@ def null_entry(ws: Workspace, i: int, j: int) -> float:
         return ws.problem.null[i * ws.problem.n_unknown + j]
     if abs(i - j) > ws.problem.null_half_band:
         return 0.0
-    return ws.floats[band_row(ws.problem.reduced.start, i, ws.problem.n_unknown, ws.problem.null_half_band) + j]
+    row = band_row(ws.problem.reduced.start, i, ws.problem.n_unknown, ws.problem.null_half_band)
+    return float(ws.floats[row + j])
 
 
 @kernel("i8(ws)")
@@ -218,13 +219,13 @@ def _collect(ws: Workspace) -> int:
         active.has_redundant_force = False
         active.first_unknown = n
         if active.is_normal_force_unknown:
-            list_unknown(ws, n, a, NORMAL_ROW, turn=False)
+            list_force(ws, n, a, NORMAL_ROW)
             n += 1
             active.normal_force = 0.0
         active.friction = 0.0, 0.0
         if active.sticks:
-            list_unknown(ws, n, a, FIRST_ROW, turn=False)
-            list_unknown(ws, n + 1, a, SECOND_ROW, turn=False)
+            list_force(ws, n, a, FIRST_ROW)
+            list_force(ws, n + 1, a, SECOND_ROW)
             n += 2
         else:
             friction_of_slip(ws, a)

@@ -12,7 +12,7 @@ from nonsmooth.engine.bodies.compliance import write_wrench
 from nonsmooth.engine.bodies.kinematics import evaluate_row, evaluate_row_response, push_response, row
 from nonsmooth.engine.contact.forces import DOUBTFUL, friction_of_slip, solve_doubtful, solve_unknowns
 from nonsmooth.engine.contact.null_space_forces import add_null_space_force, choose_null_space_force
-from nonsmooth.engine.contact.unknowns import list_unknown
+from nonsmooth.engine.contact.unknowns import list_force
 from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import (
@@ -76,7 +76,7 @@ def _list_rows(ws: Workspace) -> int:
         active.has_redundant_force = False
         active.first_unknown = n
         for r in range(1 - active.is_normal_force_unknown, 1 + 2 * active.sticks):
-            list_unknown(ws, n, a, r, turn=False)
+            list_force(ws, n, a, r)
             n += 1
     ws.problem.first_unknown[ws.problem.n_active] = n
     return n

@@ -154,19 +154,19 @@ def set_up(ws: Workspace) -> None:
 def solve_contact(ws: Workspace) -> bool:
     """Find modes and forces of the active contacts, ``mode_tried`` holding the past modes; return 1 if found.
 
-    The kinematics of the active contacts must be evaluated and :func:`set_up` called.  A past mode of -1 is none.  On
-    return ``mode_tried``, ``active_forces`` and ``active_directions`` describe the solution.
+    The kinematics of the active contacts must be evaluated and :func:`set_up` called. A past mode may be unknown. On
+    return ``mode_tried``, ``force`` and ``direction`` of the active contacts describe the solution.
     """
     ws.problem.effort = 0.0
-    past = True
+    has_past_modes = True
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
         if not active.is_at_rest and active.mode_tried == Mode.STICK:
             active.mode_tried = Mode.SLIDE
         active.mode_past = active.mode_tried
-        if active.mode_tried < 0:
-            past = False
-    if past and verify(ws, is_lenient=False):
+        if active.mode_tried == Mode.UNKNOWN:
+            has_past_modes = False
+    if has_past_modes and verify(ws, is_lenient=False):
         return True
     if ws.options.solver != AUTO:
         return find_modes(ws, ws.options.solver)

@@ -5,11 +5,18 @@ from __future__ import annotations
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
 
-@kernel("void(ws, i8, i8, i8, b1)")
-def list_unknown(ws: Workspace, i: int, a: int, r: int, turn: bool) -> None:
-    """Let unknown ``i`` be the force of the active contact ``a`` along direction ``r``, or its turn (1)."""
+@kernel("void(ws, i8, i8, i8)")
+def list_force(ws: Workspace, i: int, a: int, r: int) -> None:
+    """Let unknown ``i`` be the force of the active contact ``a`` along direction ``r``."""
     unknown = ws.unknowns[i]
-    unknown.contact, unknown.direction, unknown.is_turn = a, r, turn
+    unknown.contact, unknown.direction, unknown.is_turn = a, r, False
+
+
+@kernel("void(ws, i8, i8)")
+def list_turn(ws: Workspace, i: int, a: int) -> None:
+    """Let unknown ``i`` be the turn of the slip direction of the active contact ``a``."""
+    unknown = ws.unknowns[i]
+    unknown.contact, unknown.direction, unknown.is_turn = a, 0, True
 
 
 @kernel("f8(ws, i8)")

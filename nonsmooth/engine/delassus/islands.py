@@ -108,5 +108,5 @@ def group_touching(ws: Workspace) -> None:
     """Sort the touching contacts that collide, not those that give way, into islands."""
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
-        contact.is_in_problem = contact.is_touching if not contact.is_compliant else False
+        contact.is_in_problem = contact.is_touching and not contact.is_compliant
     group_members(ws)

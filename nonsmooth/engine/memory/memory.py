@@ -15,6 +15,7 @@ from nonsmooth.engine.memory.blocks import GUARD, PAIR, UNTOUCHED
 from nonsmooth.engine.memory.declare import Declaration, Part
 from nonsmooth.engine.memory.owners.contact import Contact, DeclaredContact
 from nonsmooth.engine.memory.owners.model import Coefficients, Model
+from nonsmooth.engine.memory.sizes import Counts
 from nonsmooth.engine.memory.tables import (
     COUNTS,
     OWNERS,
@@ -101,16 +102,22 @@ def output_block(size: int) -> list[float]:
     return size * [0.0] + GUARD * [UNTOUCHED]
 
 
-def view_of(declared: Declaration, record: np.void, heap: np.ndarray) -> np.ndarray:
+def counts_in(record: np.void) -> Counts:
+    """Return the counts that a record of scalars was laid out for."""
+    return {name: record[f"{Model.key}.{name}"].item() for name in COUNTS}
+
+
+def view_of(declared: Declaration, record: np.void, counts: Counts, heap: np.ndarray) -> np.ndarray:
     """Return a view of the numbers of a declaration in a heap; the record of scalars says where they are."""
-    counts = {name: record[f"{Model.key}.{name}"].item() for name in COUNTS}
     storage, start = storage_of(declared), int(record[declared.key])
     numbers = heap[start : start + length_of(storage, counts)]
-    if issubclass(declared.owner, Part) or storage.has_end:
+    if issubclass(declared.owner, Part):
         return numbers
     stride, first, n = stride_of(storage), declared.inside[1], declared.owner.capacity(counts)
-    columns = numbers[: stride * n].reshape(n, stride)[:, first : first + declared.numbers]
-    return columns[:, 0] if declared.numbers == 1 else columns
+    if declared.numbers == 1:
+        # the end of a range is the start of the next one, in the row behind its own
+        return numbers[first::stride][: n + declared.has_end]
+    return numbers[: stride * n].reshape(n, stride)[:, first : first + declared.numbers]
 
 
 @dataclass(frozen=True)
@@ -178,8 +185,8 @@ class Memory:
         return self._views[declared]
 
     def _made_view(self, declared: Declaration) -> np.ndarray:
-        heap, _start = self._places[declared.key]
-        return view_of(declared, self.record, heap)
+        heap = self.floats if storage_of(declared).is_float else self.integers
+        return view_of(declared, self.record, self._counts, heap)
 
     @functools.cached_property
     def _views(self) -> dict[Declaration, np.ndarray]:
@@ -199,14 +206,8 @@ class Memory:
         return self.scalars.view(np.float64), self.scalars.view(np.int64)
 
     @functools.cached_property
-    def _places(self) -> dict[str, tuple[np.ndarray, int]]:
-        owners = (*OWNERS, *self.own)
-        heaps = (
-            (self.floats, arrays_of(owners, of_floats=True)),
-            (self.integers, arrays_of(owners, of_floats=False)),
-        )
-        starts = dict(zip(self.scalars.dtype.names or (), self.scalars.item(), strict=True))
-        return {name: (heap, starts[name]) for heap, names in heaps for name in names}
+    def _counts(self) -> Counts:
+        return counts_in(self.record)
 
     @functools.cached_property
     def addresses(self) -> tuple[int, int, int]:
@@ -237,8 +238,7 @@ class Memory:
 
     @functools.cached_property
     def _lengths(self) -> tuple[tuple[int, int, int], ...]:
-        counts = {name: self.record[f"{Model.key}.{name}"].item() for name in COUNTS}
-        return tuple(lengths_of((*OWNERS, *self.own), of_floats, counts) for of_floats in (True, False))
+        return tuple(lengths_of((*OWNERS, *self.own), of_floats, self._counts) for of_floats in (True, False))
 
 
 def allocate(counts: Mapping[str, int], own: tuple[type[Part], ...] = ()) -> Memory:

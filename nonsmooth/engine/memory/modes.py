@@ -8,6 +8,8 @@ from enum import IntEnum
 class Mode(IntEnum):
     """Mode of a contact between events."""
 
+    UNKNOWN = -1
+    """No mode is known. Only a contact problem may begin so."""
     OPEN = 0
     """The bodies are apart, or separate."""
     STICK = 1
@@ -186,7 +188,7 @@ def word(a: list[int], b: list[int], c: list[int]) -> str:
     return "{" + ",".join("".join(str(bit) for bit in reversed(bits)) for bits in (a, b, c)) + "}"
 
 
-OPEN, STICK, SLIDE = Mode
+OPEN, STICK, SLIDE = Mode.OPEN, Mode.STICK, Mode.SLIDE
 START, IMPACT, LIFT_OFF, SLIP_TO_STICK, STICK_TO_SLIP, CLOSING, PAINLEVE, END, JAM, GUARD, TOUCH, FEATURE_END = [
     *Cause
 ][:12]

@@ -95,6 +95,12 @@ def kept_scalars(own: Iterable[type[Part]]) -> NDArray[np.bool_]:
 
 def record_with(own: Iterable[type[Part]]) -> np.dtype[np.void]:
     """Return the record of scalars of an engine that has numbers of its own, which stand at its end."""
+    return _record_with(tuple(own))
+
+
+@functools.cache
+def _record_with(own: tuple[type[Part], ...]) -> np.dtype[np.void]:
+    # kept, as each run asks for it
     entries = _entries(own)
     return np.dtype([*SCALARS.descr, *entries], align=True) if entries else SCALARS
 
