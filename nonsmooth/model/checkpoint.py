@@ -1,8 +1,8 @@
 """Checkpoints: what a step may find of those before it, taken from a memory and put back.
 
-A checkpoint is what the field table says that outlives a step, and the blocks that plug-ins write. Nothing else is read
-before it is written, so a memory that holds a checkpoint goes on with the same bits. Parameters, sizes and addresses are
-no part of it: what comes from a file cannot change them.
+A checkpoint is what the field table says that outlives a step, and the blocks that plug-ins write. Nothing else is
+read before it is written, so a memory that holds a checkpoint goes on with the same bits. Parameters, sizes and
+addresses are no part of it: what comes from a file cannot change them.
 """
 
 from __future__ import annotations

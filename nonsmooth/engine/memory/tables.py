@@ -1,11 +1,12 @@
 """Where the numbers of the field table stand: scalars in one record, arrays one behind another in two heaps.
 
-Every scalar of a :class:`~nonsmooth.engine.memory.declare.Part` is an entry of the record of scalars; so is the offset of
-every array in the heap of floats or in that of integers. The entries are named by owner and field: ``"island.time"``,
-``"contacts.gap"``. All sizes are counts of a system: another number of bodies or contacts is another set of offsets,
-never another compilation. The numbers of an engine that is no built-in one come last.
+Every scalar of a :class:`~nonsmooth.engine.memory.declare.Part` is an entry of the record of scalars; so is the
+offset of every array in the heap of floats or in that of integers. The entries are named by owner and field:
+``"island.time"``, ``"contacts.gap"``. All sizes are counts of a system: another number of bodies or contacts is
+another set of offsets, never another compilation. The numbers of an engine that is no built-in one come last.
 
-Arrays that outlive a step come first in their heap, so that a checkpoint takes one piece of each. Late arrays come last.
+Arrays that outlive a step come first in their heap, so that a checkpoint takes one piece of each. Late arrays come
+last.
 """
 
 from __future__ import annotations

@@ -80,7 +80,7 @@ PART_OF_STEP: Fields = {
     "past": packed(3, 1, PART_END),
     "arm": packed(4, 3, PART_END),
 }
-"""Of an end of a part of a step: fraction, gap, its rate, distance past the end of the features, offset of the witness."""
+"""Of an end of a part of a step: fraction, gap, gap rate, distance past the features, offset of the witness."""
 
 IMPACT_STATE: Fields = {
     "impulse": Field("", 8, 0, 3),
