@@ -182,7 +182,7 @@ class Model:
         """
         check_kind("with_laws_of: system", system, System, "Make it by nonsmooth.with_laws(model.system, ...).")
         made = Model(lay_laws(self._copied(), system), self._engine, State.at(system))
-        check_start(made._laid, made._guards)
+        check_start(made._laid, made._ends)
         return made
 
     @functools.cached_property

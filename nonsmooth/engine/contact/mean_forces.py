@@ -120,7 +120,7 @@ def _solve(ws: Workspace, time: float) -> bool:
         # what is left of a gap may close
         active.free[0] += max(0.0, contact.gap) / (time * time)
     decouple_normals(ws)
-    return int(inelastic_impulses(ws, time))
+    return inelastic_impulses(ws, time) != 0
 
 
 @kernel("f8(ws, f8)")
