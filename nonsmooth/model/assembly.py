@@ -129,4 +129,5 @@ def lay(system: System, engine: Engine) -> LaidOut:
     model = LaidOut(system, heap.close(), n_q, n_u, n_states)
     for scalar, value in settings.items():
         model.memory[scalar] = value
+    engine.prepare(model)
     return model
