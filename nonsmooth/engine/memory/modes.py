@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from enum import IntEnum
 
+from nonsmooth.engine.memory.limits import Limit
+
 
 class Mode(IntEnum):
     """Mode of a contact between events."""
@@ -175,7 +177,7 @@ REASONS = {
 }
 """Why a run ended, by status."""
 
-ENUMERATIONS = (Mode, Cause, Truncation, Painleve, Status)
+ENUMERATIONS = (Mode, Cause, Truncation, Painleve, Status, Limit)
 """All of them; signatures of kernels know them by their names."""
 
 

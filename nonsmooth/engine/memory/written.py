@@ -1,4 +1,4 @@
-"""Blocks in the heap of floats that functions of plug-ins write or read, and those of impacts and steps, by name."""
+"""Blocks among the floats that functions of plug-ins write or read, and those of impacts and steps, by name."""
 
 from __future__ import annotations
 
