@@ -43,7 +43,7 @@ from nonsmooth.engine.numerics.vectors import Pair
 NOISE = 1e-12
 """Rate that does not switch a phase, relative to the largest speed of the impact. It is round-off."""
 _SEPARATES = 1e-300
-"""Least gap rate of an expansion [m/s]. At rate 0 a law returns the efficiency of compression, which is 1."""
+"""Least gap rate of an expansion [m/s]. At rate 0 a law returns :func:`returned_part`, not an efficiency."""
 
 
 # --- the state --------------------------------------------------------------------------------------------------------
@@ -104,17 +104,20 @@ def efficiency(ws: Workspace, active: ActiveContact, rate: float) -> float:
 
 @kernel("f8(ws, ActiveContact, f8)")
 def expansion_efficiency(ws: Workspace, active: ActiveContact, rate: float) -> float:
-    """Efficiency of an expansion at a gap ``rate`` [m/s], Eq. (28) [1]: at zero that of an expansion that begins."""
+    """Efficiency of the expansion of an active contact at a gap ``rate`` [m/s], Eq. (28) [1]."""
     return efficiency(ws, active, max(rate, _SEPARATES))
 
 
 @kernel("f8(ws, ActiveContact)")
-def least_efficiency(ws: Workspace, active: ActiveContact) -> float:
-    """Efficiency with which an active contact begins to expand, Eq. (28) [1].
+def returned_part(ws: Workspace, active: ActiveContact) -> float:
+    """Part of the stored energy that an active contact gives up before it opens [1]: less than 1 if under load."""
+    return efficiency(ws, active, 0.0)
 
-    It is the smaller one of those at rest and at a rate next to zero. A law may lose energy in either.
-    """
-    return min(efficiency(ws, active, 0.0), efficiency(ws, active, _SEPARATES))
+
+@kernel("f8(ws, ActiveContact)")
+def least_efficiency(ws: Workspace, active: ActiveContact) -> float:
+    """Smaller one of the two numbers by which an active contact loses energy [1]: at its opening, and on the way."""
+    return min(returned_part(ws, active), efficiency(ws, active, _SEPARATES))
 
 
 # --- rates and forces -------------------------------------------------------------------------------------------------
