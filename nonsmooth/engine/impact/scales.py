@@ -106,7 +106,11 @@ def grow_scales(ws: Workspace) -> None:
     """Let the slips that count as rest grow with the energies, as the errors do."""
     has_grown = False
     for active in ws.actives:
-        energy, inverse_mass, scale = reached_energy(ws, active), diagonal_block(ws, active.index).nn, active.impulse_scale
+        energy, inverse_mass, scale = (
+            reached_energy(ws, active),
+            diagonal_block(ws, active.index).nn,
+            active.impulse_scale,
+        )
         if energy > inverse_mass * (_GROWTH * scale) ** 2:
             active.impulse_scale = math.sqrt(energy / inverse_mass)
             has_grown = True

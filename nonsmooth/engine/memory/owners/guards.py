@@ -35,9 +35,7 @@ class OwnGuard(Record, key="own_guards", capacity="n_own_guards", length="model.
 
 
 @final
-class ImpactGuard(
-    Record, key="impact_guards", capacity=per(IMPACT_GUARDS, "n_slots"), length="impact.n_guards"
-):
+class ImpactGuard(Record, key="impact_guards", capacity=per(IMPACT_GUARDS, "n_slots"), length="impact.n_guards"):
     """A guard of an impact: three of every active contact, those of its rate, its energy and its friction."""
 
     value: float = real(_IMPACT, "1", "Value where it was evaluated last.", inside=("impact.guards", 0))

@@ -38,8 +38,16 @@ class Impact(Part, key="impact"):
     impulse: FloatRow = array(_IMPACT, impulse_numbers, float, "N s", "Impulses of the active contacts.")
     map_block: FloatRow = array(_IMPACT, map_numbers, float, "", "What an impact law that maps velocities is given.")
     y: FloatRow = array(_IMPACT, per(IMPACT_STATE, "n_slots"), float, "", "State of the impact.", is_late=True)
-    y_new: FloatRow = array(_IMPACT, per(IMPACT_STATE, "n_slots"), float, "", "State at the end of the step.", is_late=True)
+    y_new: FloatRow = array(
+        _IMPACT, per(IMPACT_STATE, "n_slots"), float, "", "State at the end of the step.", is_late=True
+    )
     y_stage: FloatRow = array(_IMPACT, per(IMPACT_STATE, "n_slots"), float, "", "State of a stage.", is_late=True)
-    y_guess: FloatRow = array(_IMPACT, per(IMPACT_STATE, "n_slots"), float, "", "First guess of an implicit stage.", is_late=True)
-    y_kept: FloatRow = array(_IMPACT, per(IMPACT_STATE, "n_slots"), float, "", "State before a contact became the clock.", is_late=True)
-    slopes: FloatRow = array(_IMPACT, per(IMPACT_STATE * N_STAGES, "n_slots"), float, "", "Slopes of the stages.", is_late=True)
+    y_guess: FloatRow = array(
+        _IMPACT, per(IMPACT_STATE, "n_slots"), float, "", "First guess of an implicit stage.", is_late=True
+    )
+    y_kept: FloatRow = array(
+        _IMPACT, per(IMPACT_STATE, "n_slots"), float, "", "State before a contact became the clock.", is_late=True
+    )
+    slopes: FloatRow = array(
+        _IMPACT, per(IMPACT_STATE * N_STAGES, "n_slots"), float, "", "Slopes of the stages.", is_late=True
+    )
