@@ -1,8 +1,8 @@
-"""The clock of an impact: common to all contacts, until one is left with a load, whose impulse is the clock from then on.
+"""The clock of an impact: common to all contacts until one is left with a load; then the impulse of that one.
 
-With its own clock the phases of a lone contact are polynomials (:mod:`nonsmooth.engine.impact.rates`), so the next event is
-known in closed form and a step can end there. The state is kept where the clock changes. If another contact is loaded
-before the lone one is done, the impact returns to that state, and continues with the common clock for good.
+With its own clock the phases of a lone contact are polynomials (:mod:`nonsmooth.engine.impact.rates`), so the next
+event is known in closed form and a step can end there. The state is kept where the clock changes. If another contact is
+loaded before the lone one is done, the impact returns to that state, and continues with the common clock for good.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ class Acting(NamedTuple):
 
 @kernel("b1(ws)")
 def change_clock(ws: Workspace) -> bool:
-    """Let the last contact with a load be the clock, or return from it if others follow. True if the clock has changed."""
+    """Let the last contact with a load be the clock, or undo that if others follow. True if the clock has changed."""
     acting = _acting(ws)
     if ws.impact.lone_contact == NO_CONTACT:
         if acting.number != 1 or not _can_be_clock(ws, ws.actives[acting.last]):
@@ -142,7 +142,7 @@ def aim(ws: Workspace, h: float) -> Aim:
     if not active.sticks and active.friction_coefficient > 0.0 and slip > 0.0 and slip_growth < 0.0:
         root = -slip / slip_growth
         if root < found.h:
-            return Aim(h=root, guard=guard_of(active, GuardKind.FRICTION))
+            return Aim(h=root, guard=guard_of(ws, active, GuardKind.FRICTION).index)
     return found
 
 
@@ -157,14 +157,14 @@ def _aim_at_end_of_phase(ws: Workspace, active: ActiveContact, growth: float, ai
     if active.phase == Phase.COMPRESSION and growth > 0.0:
         root = -rate / growth
         if 0.0 < root < aim.h:
-            return Aim(h=root, guard=guard_of(active, GuardKind.RATE))
+            return Aim(h=root, guard=guard_of(ws, active, GuardKind.RATE).index)
     if active.phase == Phase.EXPANSION and growth > 0.0:
         state = state_of(ws, active)
         energy, first = state.energy - state.lost, state_at(ws, ws.impact.slopes.start, active).energy
         square = first * first + 2.0 * growth / expansion_efficiency(ws, active, rate) * energy
         speed = math.sqrt(max(0.0, square)) - first
         if speed > 0.0 and 0.0 < 2.0 * energy / speed < aim.h:
-            return Aim(h=2.0 * energy / speed, guard=guard_of(active, GuardKind.ENERGY))
+            return Aim(h=2.0 * energy / speed, guard=guard_of(ws, active, GuardKind.ENERGY).index)
     return aim
 
 
@@ -179,7 +179,7 @@ def has_arrived(ws: Workspace, aim: Aim) -> bool:
         return False
     active = ws.actives[ws.impact.lone_contact]
     near, lost = _AT_EVENT, state_of(ws, active).lost
-    if aim.guard == guard_of(active, GuardKind.ENERGY) and lost != 0.0:
+    if aim.guard == guard_of(ws, active, GuardKind.ENERGY).index and lost != 0.0:
         part = returned_part(ws, active)
         returned = lost * part / ((1.0 - part) * active.energy_scale)
         near = _AT_EVENT * min(1.0, returned)

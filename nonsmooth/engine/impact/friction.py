@@ -21,6 +21,7 @@ from nonsmooth.engine.contact.polish import polish
 from nonsmooth.engine.contact.problem import friction_coefficient, slip_coefficient
 from nonsmooth.engine.contact.trial import hold_tried
 from nonsmooth.engine.delassus.delassus import diagonal_block
+from nonsmooth.engine.impact.guards import GuardKind, guard_of
 from nonsmooth.engine.impact.rates import (
     NOISE,
     evaluate_impact_rates,
@@ -211,7 +212,7 @@ def orient(ws: Workspace) -> None:
         speed = length(active.slip)
         if active.phase != Phase.IDLE and not active.sticks and speed > active.rest_slip:
             ws.contacts[active.contact].direction = v1 / speed, v2 / speed
-            active.friction_guard = NOISE + speed / ws.impact.speed_scale
+            guard_of(ws, active, GuardKind.FRICTION).value = NOISE + speed / ws.impact.speed_scale
 
 
 @kernel("b1(ws)")

@@ -13,10 +13,10 @@ expansion    gap rate                    deformation; energy left if it opens   
 held         normal force                1
 ===========  ==========================  =========================================  ====================================
 
-Round-off may turn the sign of a guard that is about zero. A guard is armed when it has been positive in its phase, and an
-armed guard fires at zero. A disarmed guard fires only when it is negative by more than the error of a switch. An
-alternative is to divide out the root, as the guards of the motion do; here a phase may begin with several guards at zero
-whose slopes are unknown.
+Round-off may turn the sign of a guard that is about zero. A guard is armed when it has been positive in its phase, and
+an armed guard fires at zero. A disarmed guard fires only when it is negative by more than the error of a switch. An
+alternative is to divide out the root, as the guards of the motion do; here a phase may begin with several guards at
+zero whose slopes are unknown.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from nonsmooth.engine.impact.rates import (
 )
 from nonsmooth.engine.memory.layout import IMPACT_GUARDS
 from nonsmooth.engine.memory.modes import Phase
-from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel, result
+from nonsmooth.engine.native.kernel import ActiveContact, ImpactGuard, Workspace, kernel, result
 from nonsmooth.engine.numerics.vectors import length
 
 NO_GUARD = -1
@@ -59,10 +59,10 @@ class GuardKind(IntEnum):
     """The slip, or the distance of the friction to its static bound."""
 
 
-@kernel("i8(ActiveContact, GuardKind)")
-def guard_of(active: ActiveContact, kind: GuardKind) -> int:
-    """Number of a guard of an active contact."""
-    return IMPACT_GUARDS * active.index + kind
+@kernel("ImpactGuard(ws, ActiveContact, GuardKind)")
+def guard_of(ws: Workspace, active: ActiveContact, kind: GuardKind) -> ImpactGuard:
+    """Guard of an active contact, of a kind."""
+    return ws.impact_guards[IMPACT_GUARDS * active.index + kind]
 
 
 @kernel("b1(i8)")
@@ -88,9 +88,9 @@ def write_impact_guards(ws: Workspace, y: int) -> None:
     for active in ws.actives:
         if active.phase == Phase.IDLE:
             write_rates(ws, active, y)
-        active.rate_guard = _rate_guard(ws, active)
-        active.energy_guard = _energy_guard(ws, active, state_at(ws, y, active))
-        active.friction_guard = _friction_guard(ws, active)
+        guard_of(ws, active, GuardKind.RATE).value = _rate_guard(ws, active)
+        guard_of(ws, active, GuardKind.ENERGY).value = _energy_guard(ws, active, state_at(ws, y, active))
+        guard_of(ws, active, GuardKind.FRICTION).value = _friction_guard(ws, active)
 
 
 @kernel("f8(ws, ActiveContact)")

@@ -9,9 +9,9 @@ attempt  Takes a step of the Runge-Kutta pair, and steps to the first guard that
 accept   Takes over the state, and lets slips stick that the step has stopped.
 switch   Changes the phases whose guards vanish (:mod:`nonsmooth.engine.impact.phases`).
 
-The impact ends when no contact is loaded (:mod:`nonsmooth.engine.impact.end`). The right-hand side is smooth between its
-events only. An integrator that steps over them, as one with impulses of fixed size does, is of first order; and it does not
-find which of two contacts turns first, which decides how the energy is distributed.
+The impact ends when no contact is loaded (:mod:`nonsmooth.engine.impact.end`). The right-hand side is smooth between
+its events only. An integrator that steps over them, as one with impulses of fixed size does, is of first order; and it
+does not find which of two contacts turns first, which decides how the energy is distributed.
 """
 
 from __future__ import annotations
@@ -124,8 +124,8 @@ def energetic_impact(ws: Workspace, seed: float) -> Outcome:
 def run_impact(ws: Workspace, h: float, shortest: float, is_windowed: bool) -> Outcome:
     """Integrate from the present phases and state, with a first step of ``h`` in pseudo-time.
 
-    The active contacts are all contacts of the impact, or those of a window of it. ``shortest`` is the pseudo-time of the
-    shortest compression.
+    The active contacts are all contacts of the impact, or those of a window of it. ``shortest`` is the pseudo-time of
+    the shortest compression.
     """
     prepare_guards(ws)
     write_impact_slope(ws, ws.impact.slopes.start)

@@ -102,7 +102,8 @@ def _extend(ws: Workspace, correction: float) -> None:
 def _first_root(ws: Workspace, h: float, fired: int) -> Root:
     """First root of a guard on the interpolant of a step of ``h``.
 
-    Guards that are negative from the start would shorten the step to zero in turn, so the first of them ends the search.
+    Guards that are negative from the start would shorten the step to zero in turn, so the first of them ends the
+    search.
     """
     root = Root(guard=fired, theta=1.0, slope=0.0)
     following = first_fired(ws, NO_GUARD)

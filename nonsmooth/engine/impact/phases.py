@@ -10,8 +10,8 @@ expansion    The contact separates and returns energy. It ends where its energy 
 held         Without restitution the stored energy is lost at once, and the contact stays closed while it is pressed.
 idle         No force acts. An approach begins a new compression.
 
-The end of a phase is a root of a guard (:mod:`nonsmooth.engine.impact.guards`). Several guards may vanish together, as in a
-symmetric impact, so all of them are checked wherever one fires.
+The end of a phase is a root of a guard (:mod:`nonsmooth.engine.impact.guards`). Several guards may vanish together, as
+in a symmetric impact, so all of them are checked wherever one fires.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from nonsmooth.engine.impact.rates import (
     state_size,
 )
 from nonsmooth.engine.memory.modes import Phase
-from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel
+from nonsmooth.engine.native.kernel import ActiveContact, ImpactGuard, Workspace, kernel
 from nonsmooth.engine.numerics.vectors import length
 
 _SEED = 1e-3
@@ -48,8 +48,8 @@ _FAINT = 0.5
 def start_phases(ws: Workspace, probe: float, seed: float) -> None:
     """Set the phases in which the active contacts start, and their friction.
 
-    ``probe`` is a short pseudo-time, ``seed`` the speed of an impact without collision [m/s], or zero. A contact at rest
-    that the other contacts press together takes part from the start.
+    ``probe`` is a short pseudo-time, ``seed`` the speed of an impact without collision [m/s], or zero. A contact at
+    rest that the other contacts press together takes part from the start.
     """
     for i in range(state_size(ws)):
         ws.impact.y[i] = 0.0
@@ -109,19 +109,25 @@ def _switch(ws: Workspace, active: ActiveContact, fired: int) -> bool:
 
     A contact that opens under load leaves the others with forces that they did not have.
     """
-    if is_loaded(active) and (fired == guard_of(active, GuardKind.ENERGY) or active.energy_guard < TOGETHER):
+    if is_loaded(active) and _vanishes(guard_of(ws, active, GuardKind.ENERGY), fired):
         opens_under_load = state_of(ws, active).lost > 0.0
         _pass_wave(ws, active)
         return opens_under_load
-    if fired == guard_of(active, GuardKind.RATE) or active.rate_guard < TOGETHER:
+    if _vanishes(guard_of(ws, active, GuardKind.RATE), fired):
         ws.event.n_phases += 1
         needs_friction = _turn(ws, active)
         # if joints leave one line to move along, slip and approach come to rest together
         return has_stopped(active) or needs_friction
-    if fired == guard_of(active, GuardKind.FRICTION) or active.friction_guard < TOGETHER:
+    if _vanishes(guard_of(ws, active, GuardKind.FRICTION), fired):
         ws.event.n_phases += 1
         return _switch_friction(ws, active)
     return False
+
+
+@kernel("b1(ImpactGuard, i8)")
+def _vanishes(guard: ImpactGuard, fired: int) -> bool:
+    """True if a guard is the one that has ``fired``, or vanishes together with it."""
+    return guard.index == fired or guard.value < TOGETHER
 
 
 @kernel("void(ws, ActiveContact)")

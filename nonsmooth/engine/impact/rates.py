@@ -1,7 +1,7 @@
 """Rates of the multiple impact in pseudo-time: forces, impulses, deformations, energies, Eqs. (19) to (28).
 
-The paper integrates over the impulse of a primary contact, Eqs. (24) to (27). Its start is singular: no energy is stored
-yet, so the ratio of two forces is 0 / 0. Here the impulses of all contacts are divided by one clock s, dP_i = F_i ds. No
+The paper integrates over the impulse of a primary contact, Eqs. (24) to (27). Its start is singular: no energy is
+stored yet, so the ratio of two forces is 0 / 0. Here one clock s drives the impulses of all contacts, dP_i = F_i ds. No
 contact is primary then, and the start is regular:
 
     z = z_0 + G P                                  gap rate g' and slip v of all contacts, G the Delassus matrix
@@ -11,12 +11,12 @@ contact is primary then, and the start is regular:
 
 The path in velocities and energies is that of Eqs. (24) to (28). It depends on the ratios of the stiffnesses only.
 
-The state of a contact is (P_n, P_1, P_2, x, W, D, E, L): its impulses, its deformation, the work of its normal force, the
-energy dissipated by its friction, its stored energy, and the part of that which is lost when it opens.
+The state of a contact is (P_n, P_1, P_2, x, W, D, E, L): its impulses, its deformation, the work of its normal force,
+the energy dissipated by its friction, its stored energy, and the part of that which is lost when it opens.
 
 A lone contact, the last one with a load, has the clock s = P_n: its normal force is 1. Its energy replaces its
-deformation. Forces and rates are then linear in s while a slip keeps its direction, so every phase is a polynomial, which
-the integrator follows exactly. With the common clock the end of an expansion is not smooth, and costs many steps.
+deformation. Forces and rates are then linear in s while a slip keeps its direction, so every phase is a polynomial,
+which the integrator follows exactly. With the common clock the end of an expansion is not smooth, and costs many steps.
 """
 
 from __future__ import annotations

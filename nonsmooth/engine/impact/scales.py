@@ -5,8 +5,8 @@ takes up no more energy than the fastest approach would bring to it, and no more
 bring. Without the first bound a heavy body would set the scale of its light neighbours; without the second, a contact
 with a small effective inverse mass would set one that nothing reaches, and its errors would count as small.
 
-The deformation of a contact that takes up its energy E follows from E = F(x) x, by a secant in the logarithms: force laws
-are close to powers of x.
+The deformation of a contact that takes up its energy E follows from E = F(x) x, by a secant in the logarithms: force
+laws are close to powers of x.
 """
 
 from __future__ import annotations

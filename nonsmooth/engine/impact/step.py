@@ -142,7 +142,7 @@ def try_linear_step(ws: Workspace, h: float) -> bool:
 
 @kernel("b1(ws, ActiveContact, i8, i8)")
 def _is_straight(ws: Workspace, active: ActiveContact, middle: int, end: int) -> bool:
-    """True if the slope of an active contact is linear over the step, by the slopes at its start, ``middle`` and ``end``.
+    """True if the slope of an active contact is linear over the step: those at the start, ``middle`` and ``end`` agree.
 
     A component of an impulse is compared with the force: one that is round-off relative to the force is straight.
     """
@@ -184,7 +184,7 @@ def _is_stiff(ws: Workspace, h: float) -> bool:
 
 @kernel("f8(ws, f8)")
 def _try_implicit_step(ws: Workspace, h: float) -> float:
-    """Take one step of ``h`` to ``y_new`` whose stages end with friction against their own slip. Its relative error [1].
+    """Take one step of ``h`` to ``y_new`` whose stages end with friction against their own slip. Its relative error.
 
     The slopes are left so that the dense output of the explicit step is the interpolant of this one.
     """
@@ -269,8 +269,8 @@ def _solve_stage(ws: Workspace, h: float, stage: int) -> bool:
 def _advance_stage(ws: Workspace, ahead: float, out: int, here: int, guess: int) -> None:
     """Add what the slope ``here`` does in ``ahead`` to all of the state ``out`` but its impulses.
 
-    The last change of the slope, times ``ahead``, takes the place of the ``guess``. Nothing depends on energies, so they
-    count as unchanged.
+    The last change of the slope, times ``ahead``, takes the place of the ``guess``. Nothing depends on energies, so
+    they count as unchanged.
     """
     for i in range(state_size(ws)):
         component = i % IMPACT_STATE

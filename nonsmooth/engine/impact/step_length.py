@@ -28,8 +28,8 @@ _LAST = 2.0
 _LAST_POWER = 0.4
 """Power of the tolerance that is this deformation, relative to that of a full compression."""
 _SETTLING_POWER = -0.4
-"""Inverse of the power 2.5 with which the error grows of an implicit step in which slips settle. Its stages are of second
-order there."""
+"""Inverse of the power 2.5 with which the error grows of an implicit step in which slips settle. Its stages are of
+second order there."""
 _NOT_FINITE = 0.1
 """Factor by which a step is shortened whose error is not finite."""
 

@@ -1,8 +1,8 @@
 """A large multiple impact, of which only the contacts near a travelling wave are evaluated.
 
-Most contacts of a long chain are idle at any time of its impact. A window holds the contacts that are not idle, and their
-neighbours in a few layers. Where the wave reaches the rim of the window, the bodies get the impulses so far, and the next
-window is drawn about the contacts that are not idle then:
+Most contacts of a long chain are idle at any time of its impact. A window holds the contacts that are not idle, and
+their neighbours in a few layers. Where the wave reaches the rim of the window, the bodies get the impulses so far, and
+the next window is drawn about the contacts that are not idle then:
 
     gather ---> draw ---> load ---> integrate ---> store ---> collect
                   ^                                  |
@@ -85,7 +85,7 @@ def _run_window(ws: Workspace, fastest: float, is_first: bool) -> Outcome:
 
 @kernel("f8(ws)")
 def _gather(ws: Workspace) -> float:
-    """Take the active contacts as those of the impact, all idle, and list them by articulation. Fastest approach [m/s]."""
+    """List the active contacts, all idle, as those of the impact, and by articulation. Fastest approach [m/s]."""
     fastest = 0.0
     ws.impact.n_colliding = len(ws.actives)
     for articulation in ws.articulations:

@@ -89,11 +89,6 @@ class ActiveContact(Record, key="actives", capacity="n_slots", length="problem.n
     force_scale: float = real(_IMPACT, "N", "Scale of the force.")
     energy_scale: float = real(_IMPACT, "J", "Scale of the energy.")
     work_accounted: float = real(_IMPACT, "J", "Work of the normal force that is accounted for.")
-    rate_guard: float = real(_IMPACT, "1", "Guard of its gap rate.", inside=("impact.guards", 0))
-    energy_guard: float = real(_IMPACT, "1", "Guard of its energy.", inside=("impact.guards", 1))
-    friction_guard: float = real(
-        _IMPACT, "1", "Guard of its slip or of its static friction.", inside=("impact.guards", 2)
-    )
     phase_kept: Phase = one_of(Phase, _IMPACT, "Phase before a contact became the clock.")
     sticking_kept: bool = question(_IMPACT, "Friction held it before a contact became the clock.")
     stored_kept: float = real(_IMPACT, "J", "Energy stored before a contact became the clock.")

@@ -38,6 +38,6 @@ class OwnGuard(Record, key="own_guards", capacity="n_own_guards", length="model.
 class ImpactGuard(Record, key="impact_guards", capacity=per(IMPACT_GUARDS, "n_slots"), length="impact.n_guards"):
     """A guard of an impact: three of every active contact, those of its rate, its energy and its friction."""
 
-    value: float = real(_IMPACT, "1", "Value where it was evaluated last.", inside=("impact.guards", 0))
+    value: float = real(_IMPACT, "1", "Value where it was evaluated last.")
     at_start: float = real(_IMPACT, "1", "Value at the start of the step.")
     is_armed: bool = question(_IMPACT, "It was positive in its phase, so that it may fire.")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import final
 
 from nonsmooth.engine.memory.declare import FloatRow, IntegerRow, Life, Part, array, question, real, whole
-from nonsmooth.engine.memory.layout import IMPACT_GUARDS, IMPACT_STATE, N_STAGES
+from nonsmooth.engine.memory.layout import IMPACT_STATE, N_STAGES
 from nonsmooth.engine.memory.sizes import impulse_numbers, map_numbers, per
 
 _IMPACT = Life.IMPACT
@@ -30,7 +30,6 @@ class Impact(Part, key="impact"):
     )
     u: FloatRow = array(_IMPACT, per(1, "n_u"), float, "", "Velocities between windows of a large impact.")
     n_guards: int = whole(_IMPACT, "Number of guards of the impact.")
-    guards: FloatRow = array(_IMPACT, per(IMPACT_GUARDS, "n_slots"), float, "1", "Guards of the active contacts.")
     rates: FloatRow = array(_IMPACT, per(3, "n_slots"), float, "m/s", "Rates of the active contacts.")
     rates_before: FloatRow = array(
         _IMPACT, per(3, "n_slots"), float, "m/s", "Rates of the active contacts before the impact."
