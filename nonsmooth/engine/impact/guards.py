@@ -22,11 +22,11 @@ zero whose slopes are unknown.
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import Any
 
 from nonsmooth.engine.contact.forces import evaluate_margins
 from nonsmooth.engine.impact.rates import (
     NOISE,
+    ContactState,
     evaluate_impact_forces,
     is_lone,
     state_at,
@@ -115,7 +115,7 @@ def _rate_guard(ws: Workspace, active: ActiveContact) -> float:
 
 
 @kernel("f8(ws, ActiveContact, impact_state)")
-def _energy_guard(ws: Workspace, active: ActiveContact, state: Any) -> float:
+def _energy_guard(ws: Workspace, active: ActiveContact, state: ContactState) -> float:
     """Guard of the deformation or of the energy of an active contact, relative to its scale [1]."""
     if active.phase == Phase.COMPRESSION and not is_lone(ws, active):
         return _SLACK + state.deformation / active.deformation_scale

@@ -54,7 +54,7 @@ def _write_jam(ws: Workspace, active: ActiveContact) -> bool:
         return False
     active.friction_coefficient = slip_coefficient(ws, active.contact, speed)
     active.direction = v1 / speed, v2 / speed
-    jams = reduced_coefficient(ws, active.index) < _SINGULAR * diagonal_block(ws, active.index).nn
+    jams: bool = reduced_coefficient(ws, active.index) < _SINGULAR * diagonal_block(ws, active.index).nn
     if jams:
         active.sticks = True
     return jams

@@ -82,6 +82,7 @@ def _start(ws: Workspace, active: ActiveContact, is_without_collision: bool) -> 
 
 @kernel("void(ws, ActiveContact)")
 def _begin_compression(ws: Workspace, active: ActiveContact) -> None:
+    """Begin a compression of an active contact."""
     active.phase = Phase.COMPRESSION
     ws.event.n_phases += 1
 

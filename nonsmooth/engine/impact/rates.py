@@ -21,7 +21,7 @@ which the integrator follows exactly. With the common clock the end of an expans
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Protocol
 
 from nonsmooth.engine.contact.forces import friction_of_slip, resolve
 from nonsmooth.engine.contact.problem import follow_slip
@@ -31,6 +31,7 @@ from nonsmooth.engine.memory.layout import IMPACT_STATE
 from nonsmooth.engine.memory.modes import Phase
 from nonsmooth.engine.native.kernel import (
     ActiveContact,
+    Floats,
     Workspace,
     at,
     call_scalar,
@@ -46,6 +47,27 @@ _SEPARATES = 1e-300
 """Least gap rate of an expansion [m/s]. At rate 0 a law returns :func:`returned_part`, not an efficiency."""
 
 
+class ContactState(Protocol):
+    """Numbers of an active contact in the state of an impact, or their slopes in pseudo-time."""
+
+    impulse: Floats
+    """Impulse, n, t1, t2 [N s]; one by one below."""
+    normal_force: float
+    """Normal impulse; its slope is the normal force [N]."""
+    friction: Pair
+    """Tangential impulse; its slope is the friction [N]."""
+    deformation: float
+    """Deformation x [m]."""
+    work: float
+    """Work W of the normal force on the bodies [J]."""
+    dissipated: float
+    """Energy D dissipated by friction [J]."""
+    energy: float
+    """Stored energy E [J]."""
+    lost: float
+    """Part L of the stored energy that is lost when the contact opens [J]."""
+
+
 # --- the state --------------------------------------------------------------------------------------------------------
 
 
@@ -56,15 +78,16 @@ def state_size(ws: Workspace) -> int:
 
 
 @kernel("impact_state(ws, i8, ActiveContact)")
-def state_at(ws: Workspace, y: int, active: ActiveContact) -> Any:
+def state_at(ws: Workspace, y: int, active: ActiveContact) -> ContactState:
     """Numbers of an active contact in the state, or the slope, of the impact at ``y``."""
-    return impact_state(ws.floats, y, active.index)
+    state: ContactState = impact_state(ws.floats, y, active.index)
+    return state
 
 
 @kernel("impact_state(ws, ActiveContact)")
-def state_of(ws: Workspace, active: ActiveContact) -> Any:
+def state_of(ws: Workspace, active: ActiveContact) -> ContactState:
     """Numbers of an active contact in the state of the impact."""
-    return impact_state(ws.floats, ws.impact.y.start, active.index)
+    return state_at(ws, ws.impact.y.start, active)
 
 
 @kernel("b1(ActiveContact)")

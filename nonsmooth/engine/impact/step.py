@@ -13,12 +13,12 @@ rejects is checked for stiffness.
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from nonsmooth.engine.contact.implicit_slip import oppose_slips
 from nonsmooth.engine.contact.problem import slip_coefficient
 from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.impact.rates import (
+    ContactState,
     evaluate_impact_rates,
     impact_slope,
     is_loaded,
@@ -92,7 +92,7 @@ def _relative_error(ws: Workspace, errors: int) -> float:
 
 
 @kernel("f8(ws, ActiveContact, impact_state, f8)")
-def _worse_error(ws: Workspace, active: ActiveContact, error: Any, worst: float) -> float:
+def _worse_error(ws: Workspace, active: ActiveContact, error: ContactState, worst: float) -> float:
     """Larger one of ``worst`` and the ``error`` of an active contact, relative to its scales [1]; infinite for a NaN.
 
     An error of the impulses counts by the energy p . G p of what it moves, relative to the energy of the contact.
