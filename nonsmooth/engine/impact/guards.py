@@ -14,9 +14,9 @@ held         normal force                1
 ===========  ==========================  =========================================  ====================================
 
 Round-off may turn the sign of a guard that is about zero. A guard is armed when it has been positive in its phase, and
-an armed guard fires at zero. A disarmed guard fires only when it is negative by more than the error of a switch. An
-alternative is to divide out the root, as the guards of the motion do; here a phase may begin with several guards at
-zero whose slopes are unknown.
+an armed guard fires at zero. A disarmed guard fires only when it is negative by more than the error of a switch. Guards
+of the motion divide out a known root instead. Here several guards may be about zero where a phase begins, and their
+growth is not known before the first step.
 """
 
 from __future__ import annotations

@@ -35,7 +35,7 @@ _SMALL = 1e-3
 _NARROW = 1e-14
 """Width of the bracket of a root, in fractions of the step, that counts as none. It is round-off."""
 _ITERATIONS = 60
-"""Maximum number of iterations for a root on the interpolant. Each at least halves the bracket in the long run."""
+"""Maximum number of iterations for a root on the interpolant. It ends a search among round-off."""
 _VIOLATED_FROM_START = 1e-3
 """Fraction of the step that is taken for a guard that is negative from the start. It has no root in the step."""
 _CORRECTIONS = 8

@@ -6,8 +6,8 @@ not be longer than that. The stages of an implicit step end with friction agains
 (:mod:`nonsmooth.engine.contact.implicit_slip`), as in the motion. A slip that keeps its direction, as the terminal one
 does, is exact in such a step of any length.
 
-The explicit pair is tried first: its error estimate costs nothing more, and few steps are stiff. Only a step that it
-rejects is checked for stiffness.
+The explicit pair is tried first: it costs less, and few steps are stiff. Only a step that it rejects is checked for
+stiffness.
 """
 
 from __future__ import annotations

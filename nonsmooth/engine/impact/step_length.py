@@ -11,14 +11,15 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.impact.clock import NO_CONTACT
 from nonsmooth.engine.impact.rates import state_at, state_of
 from nonsmooth.engine.memory.modes import Phase
 from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.runge_kutta import SAFETY, SHRINK, step_factor
 
 _FIRST_POWER = 0.25
-"""Power of the tolerance that is the first step, relative to the shortest compression. The error of a step is of fourth
-order."""
+"""Power of the tolerance that is the first step, relative to the shortest compression. Forces that have not built up yet
+are compared after that step."""
 _FAR = 4.0
 """First step of a lone contact, relative to the impulse that stops it. It is past all events of the contact."""
 _LARGEST_LOSS = 0.7
@@ -43,7 +44,7 @@ def first_step(ws: Workspace, shortest: float) -> float:
 @kernel("f8(ws, f8, f8)")
 def step_after_switch(ws: Workspace, h: float, shortest: float) -> float:
     """Step after a switch of phases at the end of a step of ``h``: that, but not less than the first step."""
-    if ws.impact.lone_contact >= 0:
+    if ws.impact.lone_contact != NO_CONTACT:
         return lone_step(ws)
     return float(max(h, shortest * ws.tolerance.impact**_FIRST_POWER))
 

@@ -18,11 +18,13 @@ class Impact(Part, key="impact"):
     lone_contact: int = whole(_IMPACT, "Active contact whose impulse is the clock, or -1.")
     may_be_lone: bool = question(_IMPACT, "One contact may become the clock.")
     phases_kept: int = whole(_IMPACT, "Number of phases before a contact became the clock.")
-    slow_steps: int = whole(_IMPACT, "Number of slow steps in a row.")
+    slow_steps: int = whole(_IMPACT, "Number of steps in a row with a slip next to rest.")
     speed_scale: float = real(_IMPACT, "m/s", "Largest speed of the impact.")
     rest_speed: float = real(_IMPACT, "m/s", "Slip that counts as rest.")
-    h: float = real(_IMPACT, "N s", "Step of the impact.")
-    faint_rate: float = real(_IMPACT, "m/s", "Approach below which a contact of a window begins no phase.")
+    h: float = real(_IMPACT, "", "Step with which the next window begins, in pseudo-time.")
+    faint_rate: float = real(
+        _IMPACT, "1", "Approach with which a contact of a window begins a phase, relative to the largest speed."
+    )
     n_colliding: int = whole(_IMPACT, "Number of contacts of the whole impact.")
     colliding: IntegerRow = array(_IMPACT, per(1, "n_slots"), int, "", "Contacts of the whole impact.")
     chain: IntegerRow = array(
