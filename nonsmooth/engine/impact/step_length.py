@@ -18,8 +18,8 @@ from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.runge_kutta import SAFETY, SHRINK, step_factor
 
 _FIRST_POWER = 0.25
-"""Power of the tolerance that is the first step, relative to the shortest compression. Forces that have not built up yet
-are compared after that step."""
+"""Power of the tolerance that is the first step, relative to the shortest compression. Forces that have not built up are
+compared after that step."""
 _FAR = 4.0
 """First step of a lone contact, relative to the impulse that stops it. It is past all events of the contact."""
 _LARGEST_LOSS = 0.7
