@@ -12,10 +12,10 @@ from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import entry_addresses
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.articulations import articulations
+from nonsmooth.model.block_ends import BlockEnds
 from nonsmooth.model.checks import check_guards, check_start
 from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.engine_parts import check_report, counts_of, laid_own, settings_of
-from nonsmooth.model.image import Guards
 from nonsmooth.model.laid_out import LaidOut, map_width
 from nonsmooth.model.laying import lay_bodies, lay_guards, lay_joints, lay_loads
 from nonsmooth.model.laying_contacts import by_kind, initial_state, lay_contacts
@@ -40,9 +40,9 @@ def assemble(system: System, engine: Engine) -> LaidOut:
         If bodies overlap at the start, a joint is not closed there, or a guard has no value.
     """
     model = lay(system, engine)
-    guards = Guards.of(model.memory)
+    ends = BlockEnds.of(model.memory)
     _stand(model)
-    check_start(model, guards)
+    check_start(model, ends)
     return model
 
 

@@ -13,7 +13,7 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT, FRAME, GEOMETRY, GUARD, JOINT_ROW, LOAD, PAIR, UNTOUCHED
 from nonsmooth.interfaces import ImpactMap, Joint, Load, StatefulFrictionLaw, TractionLaw
 from nonsmooth.model.articulations import articulations
-from nonsmooth.model.image import Guards
+from nonsmooth.model.block_ends import BlockEnds
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.pools import find_pools
 from nonsmooth.system.contact import Contact, Tie
@@ -122,10 +122,10 @@ def _entry(model: LaidOut, declared: Any, i: int) -> int:
     return int(model.memory[declared][i])
 
 
-def written_past(model: LaidOut, guards: Guards) -> str:
+def written_past(model: LaidOut, ends: BlockEnds) -> str:
     """Return a sentence that names a function that has written past its block; nothing if none has."""
     memory = model.memory
-    if guards.hold(memory) and not int(memory[owners.Run.n_past_map]) > 0:
+    if ends.hold(memory) and not int(memory[owners.Run.n_past_map]) > 0:
         return ""
     slots, listed = memory[owners.Model.n_slots], memory[owners.Island.n_contacts]
     behind = memory[owners.Contact.geometry][:slots][:, PAIR:]

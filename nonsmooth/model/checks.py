@@ -12,8 +12,8 @@ from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.interfaces.guard import guard_value
 from nonsmooth.model.articulations import articulations
+from nonsmooth.model.block_ends import BlockEnds
 from nonsmooth.model.blocks import written_past
-from nonsmooth.model.image import Guards
 from nonsmooth.model.immobile import REMEDY, held_by, immobile_contact
 from nonsmooth.model.laid_out import LaidOut, energies
 from nonsmooth.model.overlaps import check_overlaps, frames_of, overlap_allowed
@@ -23,8 +23,8 @@ from nonsmooth.system.system import System
 _OPEN = 1e-9
 
 
-def check_start(model: LaidOut, guards: Guards) -> None:
-    """Look at gaps and joints at the start; ``guards`` are those of the model.
+def check_start(model: LaidOut, ends: BlockEnds) -> None:
+    """Look at gaps and joints at the start; ``ends`` are those of its blocks.
 
     Raises
     ------
@@ -35,7 +35,7 @@ def check_start(model: LaidOut, guards: Guards) -> None:
         If a function writes past its block.
     """
     gaps = model.gaps()
-    past = written_past(model, guards)
+    past = written_past(model, ends)
     if past:
         raise PluginError(past[0].upper() + past[1:])
     _check_energy(model)

@@ -25,7 +25,7 @@ def copied(memory: Memory) -> Memory:
         integers=np.zeros_like(memory.integers),
         owner=None if PLAIN else owner,
     )
-    for own, other in zip(made.kept, memory.kept, strict=True):
+    for own, other in zip(made.early, memory.early, strict=True):
         own[:] = other
     floats[memory.tables :] = owner.floats[memory.tables : len(floats)]
     way = 0 if PLAIN else (owner.floats.ctypes.data - floats.ctypes.data) // floats.itemsize

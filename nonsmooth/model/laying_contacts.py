@@ -14,7 +14,7 @@ import numpy as np
 from nonsmooth.binding.bounds import try_out
 from nonsmooth.binding.compile import bind, parameter_names, parameter_place, vector_place
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT, FRAME, PAIR
+from nonsmooth.engine.memory.blocks import CANDIDATE, FORCE_AND_MOMENT, FRAME, PAIR
 from nonsmooth.engine.memory.memory import Heap, Memory, output_block
 from nonsmooth.engine.memory.modes import OPEN
 from nonsmooth.errors import InvalidInput
@@ -51,6 +51,8 @@ class Kind:
         Those that lead to a place in the block, from its beginning.
     block : list of float
         What each of them has on the heap.
+    written : list of tuple
+        (place in the block, length) of what the engine or a law writes there.
     tables : list of tuple
         (place in the block, place from which its number counts, table).
     """
@@ -58,6 +60,7 @@ class Kind:
     fields: dict[str, int] = field(default_factory=lambda: {"mode": OPEN})
     offsets: dict[str, int] = field(default_factory=dict)
     block: list[float] = field(default_factory=list)
+    written: list[tuple[int, int]] = field(default_factory=list)
     tables: list[tuple[int, int, Table]] = field(default_factory=list)
 
     def store(self, name: str, values: Sequence[float]) -> int:
@@ -65,6 +68,10 @@ class Kind:
         start = self.offsets[name] = len(self.block)
         self.block += values
         return start
+
+    def output(self, name: str, size: int) -> None:
+        """Append numbers that a law writes, to which an entry leads."""
+        self.written.append((self.store(name, output_block(size)), size))
 
 
 def lay_contacts(
@@ -75,6 +82,8 @@ def lay_contacts(
     for numbers in kinds:
         kind = kind_of(memory, contacts[numbers[0]], tried)
         starts = heap.repeat(kind.block, len(numbers)) + len(kind.block) * np.arange(len(numbers))
+        for place, size in kind.written:
+            heap.write(starts + place, size)
         for name, value in kind.fields.items():
             memory.declared(getattr(owners.Contact, name))[numbers] = value
         for name, offset in kind.offsets.items():
@@ -191,13 +200,16 @@ def kind_of(memory: Memory, contact: Contact, tried: set[tuple[Any, ...]] | None
         made.tables += [(at + parameter_place(function, form, n), at, table) for n, table in tables.items()]
         if name == "geometry" and contact.kinematics.candidates is not None:
             made.offsets["features"] = at + vector_place(function, form, values, "candidate")
+            # the features, and how far apart they may be
+            made.written.append((made.offsets["features"], CANDIDATE + 1))
         if name == "friction" and isinstance(contact.friction, StatefulFrictionLaw):
             made.offsets["inner_states_copy"] = at + _place_of_state(contact.friction, values)
+            made.written.append((made.offsets["inner_states_copy"], len(start)))
     if start or isinstance(contact.friction, TractionLaw):
         made.fields["n_inner_states"] = len(start)
         made.store("inner_states_at_start", start)
-        made.store("traction_out", output_block(FORCE_AND_MOMENT + len(start)))
-        made.store("rates_out", output_block(len(start)))
+        made.output("traction_out", FORCE_AND_MOMENT + len(start))
+        made.output("rates_out", len(start))
     if isinstance(contact.friction, AnisotropicFrictionLaw):
         law, on_second = contact.friction, float(contact.friction.body == "second")
         made.fields["is_anisotropic"] = 1

@@ -75,7 +75,7 @@ def versions() -> Mapping[str, str]:
     }
     if not PLAIN:
         # the plain half does not import numba
-        from nonsmooth.engine.native.cache import build_name
+        from nonsmooth.engine.native.folders import build_name
 
         found |= {"numba": version("numba"), "engine": build_name()}
     return found

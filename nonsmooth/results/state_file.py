@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from nonsmooth.errors import InvalidInput
-from nonsmooth.model.image import Difference
+from nonsmooth.model.checkpoint import Difference
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.state import Continuation, State
 

@@ -12,7 +12,7 @@ from nonsmooth.engine.memory.modes import CONDITION_MET, DONE, PAUSED, REASONS
 from nonsmooth.engine.memory.tables import places
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.interfaces import Engine
-from nonsmooth.model.image import Image
+from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
 
 _STATUSES = tuple(status for status in REASONS if status != CONDITION_MET)
@@ -63,8 +63,8 @@ class Advancing:
             raise InvalidInput(f"{thing}: S.t", rule, t, "Return PAUSED to be called again, or set S.t to S.t_end.")
         return int(status)
 
-    def get_on(self, most_steps: int, before: Image) -> int:
-        """Let the engine go on that need not be wary, with empty buffers, from an image that the memory has.
+    def get_on(self, most_steps: int, before: Checkpoint) -> int:
+        """Let the engine go on that need not be wary, with empty buffers, from a checkpoint that the memory has.
 
         Errors are those of :meth:`advance`.
         """
@@ -78,10 +78,10 @@ class Advancing:
             )
         return status
 
-    def _is_as(self, image: Image) -> bool:
-        if self._memory[owners.Island.time] != image[owners.Island.time]:
+    def _is_as(self, checkpoint: Checkpoint) -> bool:
+        if self._memory[owners.Island.time] != checkpoint[owners.Island.time]:
             return False
-        (now, *others), (then, *kept) = self._memory.bits, image.parts
+        (now, *others), (then, *kept) = self._memory.kept, checkpoint.parts
         differ = now != then
         differ[_WATCH] = False
         return not differ.any() and all(map(np.array_equal, others, kept))

@@ -3,93 +3,54 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Iterator
 
 import numpy as np
 
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.declare import Life, declarations
-from nonsmooth.engine.memory.tables import (
-    CONSTANT_SCALARS,
-    COUNTS,
-    FLOAT_ARRAYS,
-    INTEGER_ARRAYS,
-    N_SCALARS,
-    OWNERS,
-    SCALARS,
-    places,
-)
+from nonsmooth.engine.memory.declare import Declaration, Life, declarations
+from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, INTEGER_ARRAYS, OWNERS, SCALARS
 from nonsmooth.interfaces import Engine
-from nonsmooth.model.given import parameter_places
-from nonsmooth.model.image import Booleans, Image
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.laying_contacts import by_kind
 from nonsmooth.parameters import rules
 
-_FUNCTIONS = tuple(name for name in INTEGER_ARRAYS if name.endswith("_function") or name == "model.entry_points")
-_FUNCTIONS += tuple(name for name in INTEGER_ARRAYS if name.endswith(".function"))
-_STANDING = tuple(
-    one.key
-    for owner in OWNERS
-    for one in declarations(owner).values()
-    if one.key in INTEGER_ARRAYS and one.life is Life.PARAMETER and (owner is not owners.Contact or one.is_of_slot)
-)
-"""Integers that no run changes: they say where something stands."""
-_NUMERICS = tuple(one.key for one in declarations(owners.Coefficients).values())
 _LAYOUT = hashlib.blake2b(repr((SCALARS.names, (*FLOAT_ARRAYS,), (*INTEGER_ARRAYS,))).encode()).digest()
 
 
-def digest(model: LaidOut, blank: Image, engine: Engine) -> str:
-    """Return a digest of all numbers of a model that stands nowhere yet, of the kinds of its parts, and of an engine.
+def digest(model: LaidOut, engine: Engine) -> str:
+    """Digest of all parameters of a model, of the kinds of its parts, and of an engine.
 
-    ``blank`` is its image.  Models with one digest run alike, in whatever process.
+    Models with one digest run alike, in whatever process.
     """
-    scalars, floats, blocks, integers = blank.parts
-    scalars, blocks, integers = scalars.copy(), blocks.copy(), integers.copy()
-    memory, record = model.memory, scalars[:N_SCALARS].view(SCALARS)
-    # functions stand elsewhere in every process, and so do the tables of copies
-    record["options.impact_map"] = record["options.impact_map"] != 0
-    for name in _FUNCTIONS:
-        start = int(record[name][0])
-        integers[start : start + _size(record, name)] = 0
-    for place, _, _ in memory.references:
-        blocks[place - memory.blocks] = 0
     found = hashlib.blake2b(_LAYOUT + _kinds(model) + _said(engine))
-    for part in (scalars, floats, blocks, integers):
+    for numbers in _parameters(model.memory):
         # most of them are zero
-        filled = np.flatnonzero(part)
+        bits = np.ascontiguousarray(numbers).view(np.uint8 if numbers.dtype == bool else np.int64).ravel()
+        filled = np.flatnonzero(bits)
         found.update(filled.data)
-        found.update(part[filled].data)
-    found.update((memory.owner or memory).floats[memory.tables :].data)
+        found.update(bits[filled].data)
     return found.hexdigest()
 
 
-def changing(model: LaidOut, blank: Image) -> tuple[Booleans, ...]:
-    """Return of every place in the parts of an image whether a run may change it.
-
-    It does not change sizes, offsets, functions, and ways to tables: where the rest of an image comes from a file,
-    these are left as this process has them.  Last comes, of every place in the blocks, whether it may be other than a
-    parameter, which is the same in all processes.
-    """
-    record = blank.parts[0][:N_SCALARS].copy().view(SCALARS)
-    ranges, numerics = (
-        [np.arange(_size(record, name)) + int(record[name][0]) for name in names] for names in (_STANDING, _NUMERICS)
-    )
-    blocks = np.array([place - model.memory.blocks for place, _, _ in model.memory.references], dtype=np.int64)
-    integers = np.concatenate(ranges).astype(np.int64)
-    standing = (
-        places(*CONSTANT_SCALARS, "options.impact_map", "request.interrupt_check"),
-        np.concatenate(numerics),
-        blocks,
-        integers,
-    )
-    made = tuple(np.ones(len(part), bool) for part in (*blank.parts, blank.parts[2]))
-    for part, those in zip(made, (*standing, parameter_places(model)), strict=True):
-        part[those] = False
-    return made
+def _parameters(memory: Memory) -> Iterator[np.ndarray]:
+    """All numbers of a memory that no run changes and that are the same in every process."""
+    for owner in (*OWNERS, *memory.own):
+        for one in declarations(owner).values():
+            if one.life is Life.PARAMETER and not one.inside[0] and not one.is_address and not _is_copied(one):
+                yield np.atleast_1d(np.asarray(memory[one]))
+    blocks = memory.floats[memory.blocks : memory.tables].copy()
+    blocks[memory.written] = 0.0
+    # tables stand elsewhere in a copy
+    blocks[[place - memory.blocks for place, _, _ in memory.references]] = 0.0
+    yield blocks
+    yield (memory.owner or memory).floats[memory.tables :]
 
 
-def _size(record: np.ndarray, name: str) -> int:
-    return int({**FLOAT_ARRAYS, **INTEGER_ARRAYS}[name]({count: int(record[f"model.{count}"][0]) for count in COUNTS}))
+def _is_copied(one: Declaration) -> bool:
+    """True for what a listed contact takes from its declared one."""
+    return one.owner is owners.Contact and not one.is_of_slot
 
 
 def _said(engine: Engine) -> bytes:

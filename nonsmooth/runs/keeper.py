@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from typing import final
 
-from nonsmooth.model.image import Image
+from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.solution.solution import Solution
 
 _STEPS_AT_ONCE = 2000
@@ -16,15 +16,15 @@ class Keeper(ABC):
 
     The contract:
 
-    1. ``begin`` takes the image of the memory as the run begins.
+    1. ``begin`` takes a checkpoint of the memory as the run begins.
     2. ``steps`` says how many steps the engine takes before the next look.
-    3. ``keep`` takes the image of the memory, which the memory has at that moment; it may drain the records.
+    3. ``keep`` takes a checkpoint of the memory, which the memory has at that moment; it may drain the records.
     4. ``finish`` gets the solution of the whole run.
     5. ``close`` comes last, also where the run or its keeping failed.
     """
 
     @abstractmethod
-    def begin(self, image: Image) -> None:
+    def begin(self, checkpoint: Checkpoint) -> None:
         """Keep where the run begins.
 
         Raises
@@ -39,7 +39,7 @@ class Keeper(ABC):
         """Steps of the engine before the next look."""
 
     @abstractmethod
-    def keep(self, image: Image) -> None:
+    def keep(self, checkpoint: Checkpoint) -> None:
         """Keep what the run has done so far.
 
         Raises
@@ -67,7 +67,7 @@ class Keeper(ABC):
 class KeepsNothing(Keeper):
     """A run whose results stay in memory."""
 
-    def begin(self, image: Image) -> None:
+    def begin(self, checkpoint: Checkpoint) -> None:
         """Do nothing."""
 
     @property
@@ -75,7 +75,7 @@ class KeepsNothing(Keeper):
         """Many: what is done between two looks costs least."""
         return _STEPS_AT_ONCE
 
-    def keep(self, image: Image) -> None:
+    def keep(self, checkpoint: Checkpoint) -> None:
         """Do nothing."""
 
     def finish(self, solution: Solution) -> None:

@@ -13,10 +13,11 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.limits import LIMITS
+from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.tables import record_with
 from nonsmooth.interfaces import Engine, StatefulFrictionLaw, TractionLaw
+from nonsmooth.model.checkpoint import Booleans, Checkpoint, Difference, Integers
 from nonsmooth.model.engine_parts import own_of
-from nonsmooth.model.image import Difference, Image
 from nonsmooth.model.laid_out import energies
 from nonsmooth.queries.near import size_of
 from nonsmooth.runs.open_span import open_span
@@ -28,6 +29,28 @@ from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import Continuation, Floats, State
 from nonsmooth.solution.suspicion import suspicions
 from nonsmooth.system.system import System
+
+
+class Standing(NamedTuple):
+    """What no run changes of a memory, which goes on to other runs.
+
+    Attributes
+    ----------
+    tails, features : array
+        Places of the tails of the bodies, and of the pairs of features of the declared contacts.
+    changing : tuple of array
+        :attr:`nonsmooth.engine.memory.memory.Memory.changing`.
+    """
+
+    tails: Integers
+    features: Integers
+    changing: tuple[Booleans, ...]
+
+    @classmethod
+    def of(cls, memory: Memory, n_bodies: int) -> Standing:
+        """Take it from a memory."""
+        tails, features = memory[owners.Body.tail][:n_bodies], memory.declared(owners.Contact.features)
+        return cls(tails - memory.blocks, features.copy(), memory.changing)
 
 
 class Left(NamedTuple):
@@ -43,20 +66,23 @@ class Left(NamedTuple):
         Returns the digest of its model.
     start : tuple
         Kinetic and potential energy where the account begins [J].
-    blank, before, now : Image
+    blank, before, now : Checkpoint
         What the memory held before any run, where nothing yet said when the run would end, and now.
     told : int
         Events since ``before``.
+    standing : Standing
+        What of the memory no run changes.
     """
 
     system: System
     engine: Engine
     key: Callable[[], str]
     start: tuple[float, float]
-    blank: Image
-    before: Image
-    now: Image
+    blank: Checkpoint
+    before: Checkpoint
+    now: Checkpoint
     told: int
+    standing: Standing
 
     def end(self, said: tuple[str, str], code: int, wall: float, recorded: Recorded) -> End:
         """Return how a run ended that recorded so much.
@@ -130,8 +156,7 @@ class Left(NamedTuple):
     def _floor(self) -> float:
         """Return the work of the forces on all bodies, as they are now, on a way as long as the bodies [J]."""
         now, total = self.now, 0.0
-        tails = now[owners.Body.tail][: len(self.system.bodies)] - now.first
-        for body, tail in zip(self.system.bodies, tails.tolist(), strict=True):
+        for body, tail in zip(self.system.bodies, self.standing.tails.tolist(), strict=True):
             size = size_of(body)
             if body.n_u > 0 and math.isfinite(size):
                 force = now.blocks[tail + body.n_q : tail + body.n_q + body.n_u]
@@ -151,7 +176,7 @@ class Left(NamedTuple):
         modes[listed] = now[owners.Contact.mode][:slots]
         directions[listed] = now[owners.Contact.direction][:slots]
         rates[listed] = now[owners.Contact.closing_rate][:slots]
-        features, places = np.zeros((n, CANDIDATE)), now.declared(contact.features)
+        features, places = np.zeros((n, CANDIDATE)), self.standing.features
         for number in np.flatnonzero(places > 0).tolist():
             features[number] = now.blocks[places[number] - now.first :][:CANDIDATE]
         state = State(
@@ -166,14 +191,15 @@ class Left(NamedTuple):
             now[owners.OwnGuard.has_just_fired][: now[owners.Model.n_own_guards]],
             self._account(y[n_q + n_u :]),
         )
-        return state.with_continuation(Continuation(self.key(), Difference.between(self.blank, self.before), self.told))
+        difference = Difference.between(self.blank, self.before, self.standing.changing)
+        return state.with_continuation(Continuation(self.key(), difference, self.told))
 
     def _account(self, integrated: Floats) -> EnergyAccount:
         now, bodies = self.now, self.system.bodies
         driven, rubbed, exchanged, loads = integrated[:N_ACCOUNTS].tolist()
         return EnergyAccount(
             *self.start,
-            *energies(bodies, now[owners.Body.tail][: len(bodies)] - now.first, now.blocks),
+            *energies(bodies, self.standing.tails, now.blocks),
             driven_work=now[owners.Totals.driven_work] + driven,
             restitution_loss=now[owners.Totals.restitution_loss],
             friction_loss=now[owners.Totals.friction_loss] + rubbed,

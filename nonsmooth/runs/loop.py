@@ -10,7 +10,7 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.modes import CONDITION_MET, DONE, PAUSED, STOPPED
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Engine
-from nonsmooth.model.image import Image
+from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.runs.advancing import Advancing
 from nonsmooth.runs.keeper import Keeper
@@ -20,8 +20,8 @@ from nonsmooth.runs.so_far import RunSoFar, Until
 from nonsmooth.solution.files import FileError
 
 _STEPS_NEAR_END = 16
-"""So many steps at most a run that goes on repeats, or more where an image is large:"""
-_IMAGE_PER_STEP = 1 << 13
+"""So many steps at most a run that goes on repeats, or more where a checkpoint is large:"""
+_BYTES_PER_STEP = 1 << 13
 """to copy so much of one takes a small part of the time of a step [bytes]."""
 Progress = Callable[[float, float], None]
 
@@ -35,7 +35,7 @@ class Ending(NamedTuple):
         Its status.
     interrupted : bool
         Whether that was asked for.
-    image : Image
+    checkpoint : Checkpoint
         What its memory held at last where nothing yet said when the run would end.
     told : int
         Events from there on.
@@ -47,7 +47,7 @@ class Ending(NamedTuple):
 
     status: int
     interrupted: bool
-    image: Image
+    checkpoint: Checkpoint
     told: int
     hint: str
     trouble: str = ""
@@ -57,14 +57,14 @@ def run_engine(
     engine: Engine,
     model: LaidOut,
     records: Records,
-    begun: Image,
+    begun: Checkpoint,
     progress: Progress | None,
     keeper: Keeper,
     until: Until | None = None,
 ) -> Ending:
     """Run to the end time, to a failure, until a condition is met or somebody interrupts.
 
-    ``begun`` is the image of where it starts.
+    ``begun`` is the checkpoint of where it starts.
 
     Raises
     ------
@@ -77,7 +77,7 @@ def run_engine(
     t_end = float(memory[owners.Request.t_end])
     report = None if progress is None else lambda t: progress(t, t_end)
     status, interrupted, trouble = PAUSED, False, ""
-    image, before = begun, records.n_passed
+    checkpoint, before = begun, records.n_passed
     pace: Pace | None = None
     so_far, looks = None if until is None else RunSoFar(model, records, engine), 0
     try:
@@ -90,16 +90,16 @@ def run_engine(
                 # a wary engine that does nothing is next to the end
                 near = status == PAUSED and (so_far is None or reached == so_far.reached)
                 if near or (status == PAUSED and looks % keeper.steps == 0):
-                    image, before = Image.of(memory), records.n_passed
-                    keeper.keep(image)
+                    checkpoint, before = Checkpoint.of(memory), records.n_passed
+                    keeper.keep(checkpoint)
                 if near:
                     if records.waiting:
                         # with full buffers an engine would do nothing
                         pace = pace or Pace(model, begun)
                         pace.look(status)
                         records.drain()
-                    most = max(_STEPS_NEAR_END, image.size // _IMAGE_PER_STEP)
-                    status = engine_at.get_on(most if until is None else 1, image)
+                    most = max(_STEPS_NEAR_END, checkpoint.size // _BYTES_PER_STEP)
+                    status = engine_at.get_on(most if until is None else 1, checkpoint)
                 if status != DONE:
                     pace = pace or Pace(model, begun)
                     pace.look(status)
@@ -124,9 +124,9 @@ def run_engine(
         records.check_end(engine)
     records.end()
     if status in (STOPPED, CONDITION_MET, *(cause.code for cause in engine.causes if not cause.is_failure)):
-        image, before = Image.of(memory), records.n_passed
+        checkpoint, before = Checkpoint.of(memory), records.n_passed
     hint = "" if pace is None else pace.hint(status)
-    return Ending(status, interrupted, image, records.n_passed - before, hint, trouble)
+    return Ending(status, interrupted, checkpoint, records.n_passed - before, hint, trouble)
 
 
 def _is_met(until: Until, run: RunSoFar) -> bool:

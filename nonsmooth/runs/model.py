@@ -18,17 +18,18 @@ from nonsmooth.engine.memory.tables import places
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.assembly import lay
+from nonsmooth.model.block_ends import BlockEnds
+from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.checks import check_start
 from nonsmooth.model.copying import copied
-from nonsmooth.model.image import Booleans, Guards, Image
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.other_laws import lay_laws
 from nonsmooth.queries.undeclared import Undeclared
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
-from nonsmooth.runs.identity import changing, digest
+from nonsmooth.runs.identity import digest
 from nonsmooth.runs.keeper import Keeper, KeepsNothing
-from nonsmooth.runs.left import Left
+from nonsmooth.runs.left import Left, Standing
 from nonsmooth.runs.loop import Progress, run_engine
 from nonsmooth.runs.outcome import reason
 from nonsmooth.runs.passed import passed
@@ -69,13 +70,13 @@ class Model:
 
     def __init__(self, laid: LaidOut, engine: Engine, start: State, key: Callable[[], str] | None = None) -> None:
         self._laid, self._engine, self._start = laid, engine, start
-        self._guards = Guards.of(laid.memory)
-        self._blank = Image.of(laid.memory)
+        self._ends = BlockEnds.of(laid.memory)
+        self._blank = Checkpoint.of(laid.memory)
         # for continuing only, and to read all numbers takes as long as to lay them
-        self._key = key or functools.cache(partial(digest, laid, self._blank, engine))
+        self._key = key or functools.cache(partial(digest, laid, engine))
         begin(laid, self._blank, start)
         self._energy = laid.energy()
-        self._begun = Image.of(laid.memory)
+        self._begun = Checkpoint.of(laid.memory)
         self._records = Records(laid)
         self._runs = threading.Lock()
         self._start_is_valid = False
@@ -117,7 +118,7 @@ class Model:
 
     def _check_start(self) -> None:
         if not self._start_is_valid:
-            check_start(self._laid, self._guards)
+            check_start(self._laid, self._ends)
             self._start_is_valid = True
 
     def __repr__(self) -> str:
@@ -189,8 +190,8 @@ class Model:
         return Undeclared.of(self._laid.system)
 
     @functools.cached_property
-    def _changing(self) -> tuple[Booleans, ...]:
-        return changing(self._laid, self._blank)
+    def _standing(self) -> Standing:
+        return Standing.of(self._laid.memory, len(self._laid.system.bodies))
 
     def _copied(self) -> LaidOut:
         self._seize("copy")
@@ -333,11 +334,11 @@ class Model:
         try:
             laid = self._laid
             self._records = records = Records(laid, (folder.events(), folder.rows()))
-            restore(laid, self._blank, state, self._changing)
+            restore(laid, self._blank, state)
             energy = state.energy.kinetic_start, state.energy.potential_start
             wall = folder.wall_seconds
             keeper = Writer(folder, records, self._states_from(energy), wall)
-            return self._complete(records, Image.of(laid.memory), energy, progress, keeper, wall, until)
+            return self._complete(records, Checkpoint.of(laid.memory), energy, progress, keeper, wall, until)
         finally:
             self._runs.release()
             folder.close()
@@ -362,15 +363,16 @@ class Model:
             )
         return state
 
-    def _states_from(self, energy: tuple[float, float]) -> Callable[[Image], State]:
-        """Return what makes states of images, for the account of energy that begins with these [J]."""
-        return lambda image: self._left(energy, image, 0).state()
+    def _states_from(self, energy: tuple[float, float]) -> Callable[[Checkpoint], State]:
+        """Return what makes states of checkpoints, for the account of energy that begins with these [J]."""
+        return lambda checkpoint: self._left(energy, checkpoint, 0).state()
 
-    def _left(self, energy: tuple[float, float], before: Image, told: int) -> Left:
-        """Return what has been left by now, so many events after an image."""
+    def _left(self, energy: tuple[float, float], before: Checkpoint, told: int) -> Left:
+        """Return what has been left by now, so many events after a checkpoint."""
         laid = self._laid
         laid.evaluate()
-        return Left(laid.system, self._engine, self._key, energy, self._blank, before, Image.of(laid.memory), told)
+        now, standing = Checkpoint.of(laid.memory), self._standing
+        return Left(laid.system, self._engine, self._key, energy, self._blank, before, now, told, standing)
 
     def _goes_on(self, state: State) -> bool:
         """Tell whether a run of this model left a state, which goes on then."""
@@ -395,13 +397,13 @@ class Model:
             self._check_start()
             energy = self._energy
         elif self._goes_on(state):
-            go_on(laid, self._blank, state, self._changing)
+            go_on(laid, self._blank, state)
             records.begin_with(state)
             energy = state.energy.kinetic_start, state.energy.potential_start
         else:
             begin(laid, self._blank, state)
             check_closed(laid, state)
-            check_start(laid, self._guards)
+            check_start(laid, self._ends)
             energy = laid.energy()
         floats[_T_END], floats[_INTERVAL], integers[_INDEX] = t_end, interval, 0
         floats[_FIRST] = floats[_NEXT] = state.time
@@ -410,7 +412,7 @@ class Model:
         keeper: Keeper = KeepsNothing()
         if begun is None or output is not None:
             # takes milliseconds where there are many contacts
-            begun = Image.of(laid.memory)
+            begun = Checkpoint.of(laid.memory)
         if output is not None:
             folder = SolutionFolder.created(output, laid.system, self._engine, t_end, laid.n_states, until is not None)
             keeper = Writer(folder, records, self._states_from(energy), 0.0)
@@ -424,7 +426,7 @@ class Model:
     def _complete(
         self,
         records: Records,
-        begun: Image,
+        begun: Checkpoint,
         energy: tuple[float, float],
         progress: Progress | None,
         keeper: Keeper,
@@ -437,9 +439,9 @@ class Model:
         try:
             keeper.begin(begun)
             ending = run_engine(self._engine, laid, records, begun, progress, keeper, until)
-            said = reason(laid, self._guards, ending, self._engine)
+            said = reason(laid, self._ends, ending, self._engine)
             wall += time.perf_counter() - began
-            left, recorded = self._left(energy, ending.image, ending.told), records.joined(self._engine)
+            left, recorded = self._left(energy, ending.checkpoint, ending.told), records.joined(self._engine)
             if said[0] == "done" and (found := passed(laid, recorded.rows)):
                 said = "failed", found
             solution = Solution(laid.system, recorded, partial(left.end, said, ending.status, wall, recorded))

@@ -5,8 +5,8 @@ from __future__ import annotations
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.modes import CONDITION_MET, DONE, PAUSED, REASONS, STOPPED
 from nonsmooth.interfaces import Cause, Engine
+from nonsmooth.model.block_ends import BlockEnds
 from nonsmooth.model.blocks import written_past
-from nonsmooth.model.image import Guards
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.runs.diagnose import culprit
 from nonsmooth.runs.loop import Ending
@@ -17,9 +17,9 @@ def cause_of(engine: Engine, status: int) -> Cause | None:
     return next((cause for cause in engine.causes if cause.code == status), None)
 
 
-def reason(model: LaidOut, guards: Guards, ending: Ending, engine: Engine) -> tuple[str, str]:
+def reason(model: LaidOut, ends: BlockEnds, ending: Ending, engine: Engine) -> tuple[str, str]:
     """Return the status of a run that has ended, in a word, and why it did; ``guards`` are those of the model."""
-    past, status = written_past(model, guards), ending.status
+    past, status = written_past(model, ends), ending.status
     if ending.trouble:
         return "failed", f"At t = {model.memory[owners.Island.time]:.9g} s {ending.trouble}"
     if (cause := cause_of(engine, status)) and not past:

@@ -28,7 +28,7 @@ from nonsmooth.engine.memory.modes import (
     UPDATE_ENDLESS,
 )
 from nonsmooth.errors import NonsmoothWarning
-from nonsmooth.model.image import Image
+from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
 
 _HARDLY = 1e-10
@@ -60,12 +60,12 @@ class Pace:
     ----------
     model : LaidOut
         What runs.
-    begun : Image
+    begun : Checkpoint
         What its memory held as the run began.
     """
 
     model: LaidOut
-    begun: Image
+    begun: Checkpoint
     _last: deque[_Event] = field(default_factory=lambda: deque(maxlen=_LAST))
     _passes: int = 0
     _passed: float = 0.0

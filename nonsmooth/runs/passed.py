@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.memory import owners
-from nonsmooth.model.image import Image
+from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.overlaps import deepest_overlap
 from nonsmooth.solution.state import Floats
@@ -33,7 +33,7 @@ def passed(model: LaidOut, rows: Floats) -> str:
     numbers = model.unwatched
     if not numbers:
         return ""
-    left = Image.of(model.memory)
+    left = Checkpoint.of(model.memory)
     size = min(contacts[i].size for i in numbers)
     try:
         for row in rows[_apart(rows[:, 1 : 1 + model.n_q], _MOVED * size)]:

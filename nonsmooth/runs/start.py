@@ -11,10 +11,10 @@ from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
-from nonsmooth.model.given import check_candidates, check_parameters
-from nonsmooth.model.image import Booleans, Image
+from nonsmooth.model.candidates import check_candidates
+from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.solution.state import Continuation, Integers, State
+from nonsmooth.solution.state import Integers, State
 from nonsmooth.system.given import check_quaternion
 
 _COUNTERS = (
@@ -26,15 +26,6 @@ _COUNTERS = (
     owners.Totals.n_listings,
     owners.Totals.n_steps_limited,
 )
-_OUTPUT = (
-    owners.Output.n_events,
-    owners.Output.n_samples,
-    owners.Output.floats_used,
-    owners.Output.integers_used,
-    owners.Output.last_floats,
-    owners.Request.is_interrupted,
-)
-"""What stands in buffers that Python has emptied."""
 _WHOLE = ("modes", "guards_spent")
 _NUMBERS = ("q", "u", "slip_directions", "closing_rates", "features", "law_states")
 _REMEDY = "Take a state of this system: solution.state of a run of it, or State.at(system, ...)."
@@ -98,7 +89,7 @@ def check_start_numbers(model: LaidOut, state: State) -> None:
         first += body.n_q
 
 
-def begin(model: LaidOut, blank: Image, state: State) -> None:
+def begin(model: LaidOut, blank: Checkpoint, state: State) -> None:
     """Put a model where a run begins, and list the contacts that are near each other there.
 
     Raises
@@ -111,7 +102,7 @@ def begin(model: LaidOut, blank: Image, state: State) -> None:
     _place(model, blank, state, state.modes)
 
 
-def _check_features(model: LaidOut, blank: Image, state: State) -> None:
+def _check_features(model: LaidOut, blank: Checkpoint, state: State) -> None:
     """Raise InvalidInput if a search does not find the features of a closed contact: nobody else knows them."""
     _place(model, blank, state, np.full(len(state.modes), OPEN))
     places = model.memory.declared(owners.Contact.features)
@@ -125,7 +116,7 @@ def _check_features(model: LaidOut, blank: Image, state: State) -> None:
             )
 
 
-def _place(model: LaidOut, blank: Image, state: State, modes: Integers) -> None:
+def _place(model: LaidOut, blank: Checkpoint, state: State, modes: Integers) -> None:
     """Put a model where a state is, with such modes, and list the contacts that are near each other there."""
     blank.put(model.memory)
     memory = model.memory
@@ -167,44 +158,31 @@ def check_closed(model: LaidOut, state: State) -> None:
             )
 
 
-def go_on(model: LaidOut, blank: Image, state: State, changing: tuple[Booleans, ...]) -> None:
-    """Put a model in the midst of the run that left a state, and goes on.
-
-    ``changing`` says which places a run may change (:func:`nonsmooth.runs.identity.changing`).
+def go_on(model: LaidOut, blank: Checkpoint, state: State) -> None:
+    """Put a model in the midst of the run that left a state, and goes on; its counters begin anew.
 
     Raises
     ------
     InvalidInput
         If what comes from a file cannot be of such a run.
     """
-    continuation = _continue(model, blank, state, changing)
-    memory = model.memory
-    for one in (*_COUNTERS, *_OUTPUT):
-        memory[one] = 0
-    memory[owners.Request.n_known_events], memory[owners.Request.is_resumed] = continuation.told, 1
+    restore(model, blank, state)
+    for one in _COUNTERS:
+        model.memory[one] = 0
+    assert state.continuation is not None
+    model.memory[owners.Request.n_known_events] = state.continuation.told
 
 
-def restore(model: LaidOut, blank: Image, state: State, changing: tuple[Booleans, ...]) -> None:
-    """Put a model where a run was cut off, in the midst of whatever it was told at its start; as :func:`go_on`."""
-    _continue(model, blank, state, changing)
-    memory = model.memory
-    for one in _OUTPUT:
-        memory[one] = 0
-    memory[owners.Request.is_resumed] = memory[owners.Run.has_started]
-
-
-def _continue(model: LaidOut, blank: Image, state: State, changing: tuple[Booleans, ...]) -> Continuation:
-    continuation = state.continuation
+def restore(model: LaidOut, blank: Checkpoint, state: State) -> None:
+    """Put a model where a run was cut off; errors as :func:`go_on`."""
+    continuation, memory = state.continuation, model.memory
     assert continuation is not None
-    blank.put(model.memory)
-    *may_change, others = changing
-    continuation.difference.check(model.memory)
-    check_parameters(model, continuation.difference, others)
-    continuation.difference.within(tuple(may_change)).put(model.memory)
+    blank.put(memory)
+    continuation.difference.put(memory)
     check_candidates(model)
-    t, told = float(model.memory[owners.Island.time]), continuation.told
+    t, told = float(memory[owners.Island.time]), continuation.told
     if not t <= state.time or told < 0:
         raise InvalidInput(
             "State.continuation", f"must begin before {state.time:.9g} s", (t, told), "It is damaged: take another."
         )
-    return continuation
+    memory[owners.Request.is_resumed] = memory[owners.Run.has_started]

@@ -8,7 +8,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field
 from typing import final
 
-from nonsmooth.model.image import Image
+from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.runs.keeper import Keeper
 from nonsmooth.runs.records import Records
@@ -35,14 +35,14 @@ class Writer(Keeper):
     records : Records
         What the engine has recorded.
     state_at : callable
-        From an image to the state from which the run goes on.
+        From a checkpoint to the state from which the run goes on.
     wall : float
         Time that the run has taken before [s].
     """
 
     folder: SolutionFolder
     records: Records
-    state_at: Callable[[Image], State]
+    state_at: Callable[[Checkpoint], State]
     wall: float
     _steps: int = _FIRST
     _began: float = field(default_factory=time.perf_counter)
@@ -57,13 +57,13 @@ class Writer(Keeper):
         """As many as take a small part of a second."""
         return self._steps
 
-    def begin(self, image: Image) -> None:
+    def begin(self, checkpoint: Checkpoint) -> None:
         """Write where the run begins."""
-        self.folder.begin(*self.records.unwritten(), self.state_at(image), self.wall)
+        self.folder.begin(*self.records.unwritten(), self.state_at(checkpoint), self.wall)
         self.records.written = self.records.n_parts
         self._looked = time.perf_counter()
 
-    def keep(self, image: Image) -> None:
+    def keep(self, checkpoint: Checkpoint) -> None:
         """Have written what is new, if it is time to and the disk has come so far."""
         now = time.perf_counter()
         wanted = self._steps * _CALL / max(now - self._looked, 1e-6)
@@ -74,7 +74,7 @@ class Writer(Keeper):
             self.records.drain()
             n, (events, rows) = self.records.n_parts, self.records.unwritten()
             wall = self.wall + now - self._began
-            self._commit = self._pool.submit(self.folder.append, events, rows, self.state_at(image), wall)
+            self._commit = self._pool.submit(self.folder.append, events, rows, self.state_at(checkpoint), wall)
             self.records.written = n
         self._looked = time.perf_counter()
 

@@ -18,7 +18,7 @@ from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.system.system import System
 
 if TYPE_CHECKING:
-    from nonsmooth.model.image import Difference
+    from nonsmooth.model.checkpoint import Difference
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]

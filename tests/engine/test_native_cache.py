@@ -19,8 +19,9 @@ from nonsmooth.engine.native.kernel import PLAIN
 if PLAIN:
     pytest.skip("nothing is compiled", allow_module_level=True)
 
-from nonsmooth.engine.native import cache
-from nonsmooth.engine.native.cache import Store, build_name, folders
+from nonsmooth.engine.native import folders as folders_module
+from nonsmooth.engine.native.cache import Store
+from nonsmooth.engine.native.folders import build_name, folders
 from nonsmooth.notices import say
 
 needs_users = pytest.mark.skipif(sys.platform == "win32", reason="a status does not say whose a file is")
@@ -283,5 +284,5 @@ def test_code_for_a_chosen_processor_is_code_of_its_own_on_every_processor(monke
     monkeypatch.setattr(numba.config, "CPU_FEATURES", "")
     generic = name()
     assert generic != here
-    monkeypatch.setattr(cache, "get_host_cpu_name", lambda: "another")
+    monkeypatch.setattr(folders_module, "get_host_cpu_name", lambda: "another")
     assert name() == generic

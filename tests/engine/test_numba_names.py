@@ -1,11 +1,19 @@
-"""What the engine leans on of numba and llvmlite that they do not promise, and what breaks without it."""
+"""The names of numba and llvmlite that are not documented: all are there, in one file, and some can be missing."""
 
 from __future__ import annotations
 
+import importlib
 import inspect
 import itertools
+import os
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from nonsmooth.engine.native.kernel import PLAIN
@@ -13,54 +21,185 @@ from nonsmooth.engine.native.kernel import PLAIN
 if PLAIN:
     pytest.skip("nothing is compiled", allow_module_level=True)
 
+import numba
 from llvmlite import __version__, ir
 from llvmlite.binding import parse_assembly
 from numba import types
-from numba.core import ccallback, cgutils, codegen, compiler, event, funcdesc, runtime, typing
+from numba.core import ccallback, codegen, event
 from numba.core.bytecode import FunctionIdentity
 from numba.core.dispatcher import Dispatcher
 from numba.core.registry import cpu_target
 from numba.core.types.functions import BaseFunction
 
-from nonsmooth.engine.native import build
-from nonsmooth.engine.native.build import CFunction, ShimPasses
+from nonsmooth.engine.native import numba_names, passes
+from nonsmooth.engine.native.callees import KERNELS
 from nonsmooth.engine.native.forms import FORMS
-from nonsmooth.engine.native.native import address_of, jit
+from nonsmooth.engine.native.kernel import address_of, jit
+from nonsmooth.engine.native.passes import CFunction, ShimPasses
 from nonsmooth.engine.native.types import FLOATS, call_at, moved
 
-NAMES: tuple[tuple[Any, str, str], ...] = (
-    (codegen.JITCodeLibrary, "_optimize_final_module", "each kernel is optimised by itself, and again in every caller"),
-    (codegen.JITCodeLibrary, "add_ir_module", "a law is called by two calls"),
-    (codegen.JITCodeLibrary, "_optimize_functions", "loops are unrolled, for a fifth more of the time"),
-    (cpu_target.target_context.codegen(), "_tm", "no passes of our own are built"),
-    (cpu_target.target_context.codegen(), "_data_layout", "code is optimised for a processor without vectors"),
-    (codegen.JITCodeLibrary, "_finalize_final_module", "each kernel becomes machine code that nobody calls"),
-    (codegen.JITCodeLibrary, "_finalized", "callers do not take in what each kernel is lowered to"),
-    (codegen.JITCodeLibrary, "has_dynamic_globals", "code with addresses of this process is kept for others"),
-    (codegen.JITCodeLibrary, "codegen", "raw code is told of its environment, at an address that it has not"),
-    (codegen.JITCPUCodegen, "set_env", "the same"),
-    (codegen.JITCPUCodegen, "magic_tuple", "code of another processor is loaded"),
-    (Dispatcher, "disable_compile", "a kernel is compiled again for each literal that it is called with"),
-    (compiler.CompilerBase, "define_pipelines", "numba's own passes run, for twice the time"),
-    (compiler.PassManager, "add_pass_after", "functions are not numbered"),
-    (compiler.DefaultPassBuilder, "define_nopython_pipeline", "laws are not compiled"),
-    (funcdesc.FunctionDescriptor, "llvm_cfunc_wrapper_name", "code from disk has nothing that can be called"),
-    (cgutils.create_struct_proxy(types.complex128), "_getvalue", "records with names have no value"),
-    (compiler.CompileResult, "_reduce", "nothing is kept on disk"),
-    (compiler.CompileResult, "_rebuild", "nothing is loaded from disk"),
-    (
-        typing.Context,
-        "resolve_function_type",
-        "types of operations are searched for at each place, a tenth of the time",
-    ),
-    (runtime.rtsys, "initialize", "a law that allocates memory, loaded from disk, ends the process"),
-)
+ROOT = Path(__file__).parents[2]
+NAMES = (*numba_names.OF_TYPES, *numba_names.OF_PASSES)
 
 
-@pytest.mark.parametrize(("owner", "name", "without"), NAMES, ids=[name for _, name, _ in NAMES])
+@pytest.mark.parametrize(("owner", "name", "without"), NAMES, ids=[one.name for one in NAMES])
 def test_it_is_there(owner: Any, name: str, without: str) -> None:
     """Under the name by which it is overridden or called."""
     assert inspect.getattr_static(owner, name) is not None, without
+
+
+def test_this_version_lacks_nothing() -> None:
+    """So the engine's own passes compile it, and kernels that allocate memory do not compile."""
+    assert numba_names.MISSING == ""
+    assert numba_names.NO_ALLOCATION == {"_nrt": False}
+    assert len(numba_names.NO_WRAPPERS) == 2
+
+
+def test_supported_versions_are_those_of_the_package() -> None:
+    """The message about a missing name must not name others."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    assert f"numba{numba_names.SUPPORTED}" in project["dependencies"]
+
+
+def test_one_file_has_all_of_them() -> None:
+    """No other one imports from numba's inner modules or from llvmlite."""
+    sources = [
+        path for folder in ("nonsmooth", "bodies", "laws", "scenarios") for path in (ROOT / folder).rglob("*.py")
+    ]
+    imports = re.compile(r"^\s*(?:from|import) (?:numba\.(?!extending\b|types\b)|llvmlite)", re.M)
+    assert [path.name for path in sources if imports.search(path.read_text())] == ["numba_names.py"]
+
+
+def test_no_kernel_has_an_array() -> None:
+    """Neither as argument nor as result; numba would count references to it."""
+    importlib.import_module("nonsmooth.engine.events.event_loop")
+    assert len(KERNELS) > 500
+    for kernel in KERNELS:
+        for kind in (kernel.signature.return_type, *kernel.signature.args):
+            assert not any(isinstance(one, types.Buffer) for one in _parts(kind)), (kernel, kind)
+
+
+def _parts(kind: Any) -> list[Any]:
+    return [kind, *(part for one in kind for part in _parts(one))] if isinstance(kind, types.BaseTuple) else [kind]
+
+
+_ALLOCATE = """
+import sys
+import numpy as np
+from nonsmooth.engine.native.callees import Kernel
+from nonsmooth.engine.native.compiler import kernel_dispatcher
+from nonsmooth.engine.native.signatures import signature_of
+
+def array(x):
+    numbers = np.zeros(3)
+    numbers[1] = x
+    return numbers[1]
+
+def list(x):
+    numbers = [x, 2.0]
+    return numbers[0]
+
+def number(x):
+    return 2.0 * x
+
+Kernel(kernel_dispatcher(globals()[sys.argv[1]]), signature_of("f8(f8)")).compile()
+"""
+
+
+@pytest.mark.parametrize("name", ["array", "list", "number"])
+def test_a_kernel_that_allocates_does_not_compile(name: str, tmp_path: Path) -> None:
+    """Numba refuses it. In a process of its own, as the functions of arrays may be compiled already in this one."""
+    done = _python(_ALLOCATE, tmp_path, name)
+    assert (done.returncode == 0) == (name == "number"), done.stderr
+    if name != "number":
+        assert re.search("NRT required but not enabled|Only accept returning of array", done.stderr)
+
+
+def _with_array(x: float) -> float:
+    numbers = np.zeros(3)
+    numbers[1] = x
+    return float(numbers[1])
+
+
+def test_a_law_may_allocate() -> None:
+    """Impact laws have arrays whose length is the number of contacts."""
+    assert _call(address_of(_shim(jit(_with_array)), "scalar", ""), 3.0) == 3.0
+
+
+_WITHOUT = """
+import importlib, sys
+owner, _, name = sys.argv[1].rpartition(".")
+module, _, kind = owner.partition(":")
+owner = importlib.import_module(module)
+delattr(getattr(owner, kind) if kind else owner, name)
+"""
+_COMPILE = """
+from numba.core import event
+from nonsmooth.binding.compile import bind, evaluate
+from nonsmooth.engine.native import compiler, entry_points
+import nonsmooth.engine.events.event_loop
+
+def law(x): return 2.0 * x + 1.0
+
+assert compiler._compiler.__name__.endswith("standard_compiler")
+assert evaluate(*bind(law, "scalar", {}, "test"), 3.0) == 7.0
+with event.install_recorder("numba:run_pass") as passes:
+    assert entry_points._address("ENTRY") > 0
+print(len(passes.buffer))
+"""
+_RUN = """
+import numpy as np
+import nonsmooth as ns
+from bodies import Dumbbell, Harmonic, Plate
+from laws import Coulomb, EnergeticImpact, Unilateral
+
+plate, body = Plate(motion=Harmonic(amplitude=3.58e-4, frequency=25.0)), Dumbbell(radius=4.76e-3, aspect_ratio=3.9)
+system = ns.System([plate, body], gravity=9.81)
+system.contact(body, plate, normal=Unilateral(), friction=Coulomb(0.2), impact=EnergeticImpact(restitution=0.65))
+system.place(body, position=(0.0, 0.0, 2.0 * body.radius))
+found = ns.simulate(system, t_end=0.2)
+print(found.q[-1].tobytes().hex())
+"""
+
+
+def _python(text: str, cache: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(cache / "numba"), "PYTHONPATH": str(ROOT)}
+    return subprocess.run([sys.executable, "-c", text, *arguments], env=environment, capture_output=True, text=True)
+
+
+@pytest.mark.parametrize(
+    "missing",
+    ["numba.core.compiler_machinery:PassManager.add_pass_after", "numba.core.compiler_machinery:.register_pass"],
+    ids=["attribute", "import"],
+)
+def test_without_a_name_of_the_passes_numba_compiles_alone(missing: str, tmp_path: Path) -> None:
+    """A line says so, once. A second process compiles nothing but the law."""
+    for _ in range(2):
+        done = _python(_WITHOUT + _COMPILE.replace("ENTRY", "assemble_delassus"), tmp_path, missing)
+        assert done.returncode == 0, done.stderr
+        assert missing.rpartition(".")[2] in done.stderr
+        assert done.stderr.count("the engine is compiled by numba.njit(cache=True)") == 1
+    assert done.stdout == "0\n"
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(390)
+def test_without_a_name_of_the_passes_results_are_the_same(tmp_path: Path) -> None:
+    """To the last bit: the same operations in the same order."""
+    missing = "numba.core.compiler_machinery:PassManager.add_pass_after"
+    one, other = _python(_RUN, tmp_path), _python(_WITHOUT + _RUN, tmp_path, missing)
+    assert one.returncode == 0, one.stderr
+    assert other.returncode == 0, other.stderr
+    assert one.stdout == other.stdout
+
+
+def test_without_a_name_of_the_types_the_message_names_it(tmp_path: Path) -> None:
+    """The version and the supported ones, too."""
+    missing = "numba.core.typing.templates:.AbstractTemplate"
+    done = _python(_WITHOUT + "import nonsmooth.engine.native.kernel", tmp_path, missing)
+    assert done.returncode == 1
+    for part in ("AbstractTemplate", numba.__version__, numba_names.SUPPORTED, "NONSMOOTH_PLAIN=1"):
+        assert part in done.stderr.splitlines()[-1]
 
 
 def _law(x: float) -> float:
@@ -119,10 +258,10 @@ def test_numba_is_not_patched() -> None:
 def test_what_a_shim_calls_is_compiled_within_it_alone() -> None:
     """The function itself stays intermediate code; our passes take the places of numba's."""
     law = jit(_law)
-    with event.install_recorder("numba:run_pass") as passes:
+    with event.install_recorder("numba:run_pass") as recorder:
         address = address_of(_shim(law), "scalar", "")
     named: dict[str, set[str]] = {"_law": set(), "shim": set()}
-    for _, record in passes.buffer:
+    for _, record in recorder.buffer:
         named[record.data["qualname"]].add(record.data["name"].split()[0])
     for names in named.values():
         assert {"number", "remembering_type_inference"} <= names
@@ -132,11 +271,11 @@ def test_what_a_shim_calls_is_compiled_within_it_alone() -> None:
         (False, True),
     ]
     (compiled,) = law.overloads.values()
-    assert isinstance(compiled.library, build._RawLibrary)
+    assert isinstance(compiled.library, passes._RawLibrary)
     defined = compiled.library._codegen._engine.is_symbol_defined
     assert not defined(compiled.fndesc.llvm_func_name)
     assert _call(address, -1.0) == -1.0
-    assert build._typed
+    assert passes._typed
 
 
 def test_a_call_of_a_shim_is_one() -> None:

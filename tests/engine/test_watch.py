@@ -148,10 +148,10 @@ def test_a_watch_that_was_given_up_looks_again_in_the_next_run() -> None:
 @pytest.mark.slow
 def test_a_model_leaves_no_watch_behind() -> None:
     gc.collect()
-    before = len(_half._watches)
+    before = len(_half.watches)
     models = [ns.assemble(_between_two_plates(False)) for _ in range(3)]
     with pytest.raises(ns.RunFailed, match="did not end"):
         models[0].run(1.0)
     del models
     gc.collect()
-    assert len(_half._watches) == before
+    assert len(_half.watches) == before

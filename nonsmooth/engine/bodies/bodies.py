@@ -109,13 +109,13 @@ def evaluate_integrated_bodies(ws: Workspace, t: float, y: int) -> None:
         evaluate_body(ws, t, y, ws.island.integrated[i])
 
 
-@entry_point("void(ws, f8, i8, i8)")
-def evaluate_free_bodies(ws: Workspace, t: float, y: int, every: int) -> None:
+@entry_point("void(ws, f8, i8, b1)")
+def evaluate_free_bodies(ws: Workspace, t: float, y: int, of_all_bodies: bool) -> None:
     """Let the bodies that have coordinates write their output blocks, then loads and joints act on them.
 
     That is every one of them (1), or those that are integrated.
     """
-    if every == 0 and ws.model.n_loads + ws.model.n_joints == 0:
+    if not of_all_bodies and ws.model.n_loads + ws.model.n_joints == 0:
         evaluate_integrated_bodies(ws, t, y)
         return
     interrupted(ws, ws.island.n_contacts + ws.model.n_bodies)
@@ -124,10 +124,10 @@ def evaluate_free_bodies(ws: Workspace, t: float, y: int, every: int) -> None:
     ws.step.load_power = 0.0
     if ws.model.n_loads + ws.model.n_joints > 0:
         evaluate_driven_bodies(ws, t, y)
-    if every == 1 and _all_stand(ws, t, y):
+    if of_all_bodies and _all_stand(ws, t, y):
         return
-    for i in range(ws.model.n_bodies if every == 1 else ws.island.n_integrated):
-        number = i if every == 1 else ws.island.integrated[i]
+    for i in range(ws.model.n_bodies if of_all_bodies else ws.island.n_integrated):
+        number = i if of_all_bodies else ws.island.integrated[i]
         body = ws.bodies[number]
         if body.n_u == 0:
             continue
@@ -136,11 +136,11 @@ def evaluate_free_bodies(ws: Workspace, t: float, y: int, every: int) -> None:
             force = body.tail + body.n_q
             for j in range(body.n_u):
                 ws.floats[force + j] = 0.0
-        if every == 1:
+        if of_all_bodies:
             evaluate_once(ws, t, y, number)
         else:
             evaluate_body(ws, t, y, number)
-    if every == 1:
+    if of_all_bodies:
         ws.island.free_time = t
     for load in range(ws.model.n_loads):
         _apply(ws, load, t, y)
@@ -157,7 +157,7 @@ def evaluate_free_bodies(ws: Workspace, t: float, y: int, every: int) -> None:
 def evaluate_bodies(ws: Workspace, t: float, y: int) -> None:
     """Let every body write its output block at time ``t`` and the state at offset ``y``."""
     evaluate_driven_bodies(ws, t, y)
-    evaluate_free_bodies(ws, t, y, 1)
+    evaluate_free_bodies(ws, t, y, of_all_bodies=True)
 
 
 @kernel("void(ws, i8, f8, i8)")

@@ -35,11 +35,11 @@ def _keep(ws: Workspace, declared: int, found: int, n: int) -> None:
     """Empty an open contact whose features are not among ``n`` that were found; cross them out where they are."""
     candidate = ws.declared_contacts[declared].features
     for i in range(n):
-        same = 1
+        same = True
         for r in range(CANDIDATE):
             if ws.floats[found + CANDIDATE * i + r] != ws.floats[candidate + r]:
-                same = 0
-        if same == 1:
+                same = False
+        if same:
             ws.floats[found + CANDIDATE * i] = 0.0
             return
     if ws.declared_contacts[declared].mode == Mode.OPEN:

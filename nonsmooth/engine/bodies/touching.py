@@ -15,32 +15,32 @@ from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
 
 
-@entry_point("i8(ws)")
-def touch(ws: Workspace) -> int:
-    """Find and evaluate the touching contacts; return 1 if one of them approaches.
+@entry_point("b1(ws)")
+def touch(ws: Workspace) -> bool:
+    """Find and evaluate the touching contacts; true if one of them approaches.
 
     What bodies on their courses stand on is left out; the course of one that something else touches ends.
     """
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     refresh_states(ws, ws.island.y.start)
-    approaching, ended = 0, 1
-    while ended > 0:
-        approaching = ended = 0
+    is_approaching, has_ended = False, True
+    while has_ended:
+        is_approaching, has_ended = False, False
         for c in range(ws.island.n_contacts):
-            approaching = max(approaching, _touch(ws, c))
+            is_approaching = _touch(ws, c) or is_approaching
             if ws.contacts[c].is_touching:
-                ended += end_courses_of(ws, c)
-    return approaching
+                has_ended = end_courses_of(ws, c) > 0 or has_ended
+    return is_approaching
 
 
 @kernel("b1(ws, i8)")
 def _touch(ws: Workspace, c: int) -> bool:
-    """Find whether contact ``c`` touches, and evaluate it then; return 1 if it approaches."""
+    """Find whether contact ``c`` touches, and evaluate it then; true if it approaches."""
     contact = ws.contacts[c]
     contact.is_touching = False
     evaluate_kinematics(ws, c)
     rate = contact.rate[0]
-    if has_own_step(ws, c) == 1 or (contact.past_feature > ws.tolerance.gap and contact.gap > 0.0):
+    if has_own_step(ws, c) or (contact.past_feature > ws.tolerance.gap and contact.gap > 0.0):
         return False
     contact.is_touching = True
     if contact.is_compliant:

@@ -118,8 +118,8 @@ def _add_curve(ws: Workspace, n: int, matrix: int, half: int, factor: float, ins
             ws.floats[h2 + 1] += c1 * c2 / s - round_ * c1 * c2
 
 
-@kernel("i8(ws, i8, f8)")
-def _step(ws: Workspace, n: int, inset: float) -> int:
+@kernel("b1(ws, i8, f8)")
+def _step(ws: Workspace, n: int, inset: float) -> bool:
     """Write Newton's step along the basis of the null space to ``x``; return 0 if there is none."""
     free, basis = n - ws.problem.rank, ws.problem.basis.start + ws.problem.rank * n
     for i in range(n * n):
@@ -137,14 +137,14 @@ def _step(ws: Workspace, n: int, inset: float) -> int:
         ws.problem.reduced[c * free + c] += _FLOOR
         ws.problem.x[c] = -product(ws.floats, 0.0, row, ws.problem.right.start, n)
     if not eliminate(ws.floats, ws.problem.reduced.start, free, free, ws.problem.x.start, SINGULAR):
-        return 0
+        return False
     for c in range(free):
         ws.problem.sigma[c] = ws.problem.x[c]
     for i in range(n):
         ws.problem.x[i] = 0.0
     for c in range(free):
         subtract_part(ws.floats, ws.problem.x.start, -ws.problem.sigma[c], basis + c * n, n)
-    return 1
+    return True
 
 
 @kernel("b1(ws, i8, f8)")
@@ -184,7 +184,7 @@ def distribute(ws: Workspace, inset: float, arrived: float) -> bool:
             worst = max(worst, abs(ws.problem.right[i]))
         if worst <= arrived:
             return True
-        if (_step_in_band(ws, n, inset) if ws.problem.is_null_space_banded else _step(ws, n, inset)) == 0:
+        if not (_step_in_band(ws, n, inset) if ws.problem.is_null_space_banded else _step(ws, n, inset)):
             return False
         slope = 0.0
         for i in range(n):
@@ -193,15 +193,15 @@ def distribute(ws: Workspace, inset: float, arrived: float) -> bool:
         # where the distance has its smallest value, and it is not zero, there are no such forces
         if not slope < 0.0:
             return False
-        share, moved = 1.0, 0
+        share, moved = 1.0, False
         for _halving in range(30):
             for i in range(n):
                 set_force(ws, i, ws.problem.sigma[i] + share * ws.problem.x[i])
             new = _excess(ws, n, inset)
             if new <= square + 1e-4 * share * slope:
-                square, moved = new, 1
+                square, moved = new, True
                 break
             share *= 0.5
-        if moved == 0:
+        if not moved:
             return False
     return False

@@ -92,18 +92,18 @@ def enumerate_modes(ws: Workspace, first: int) -> int:
     for _a in range(ws.problem.n_active):
         combinations *= 3
     for number in range(first, combinations):
-        if interrupted(ws, ws.problem.n_active) == 1:
+        if interrupted(ws, ws.problem.n_active):
             return 0
         if not _write_modes(ws, number):
             continue
         slips = _start_slips(ws)
         if slips > 0:
             polish(ws)
-        if verify(ws, 0):
+        if verify(ws, is_lenient=False):
             return number + 1
         if slips > 0:
             _sweep_slips(ws)
             polish(ws)
-            if verify(ws, 0):
+            if verify(ws, is_lenient=False):
                 return number + 1
     return 0

@@ -44,7 +44,7 @@ def resolve(ws: Workspace) -> None:
     """Complete ``active_forces``; where the forces are not unique, take those of least norm and mark the contacts."""
     n = _collect(ws)
     interrupted(ws, n * ws.problem.n_active)
-    if ws.problem.n_active == 1 and n == 3 and _stick_alone(ws) == 1:
+    if ws.problem.n_active == 1 and n == 3 and _stick_alone(ws):
         return
     if not open_band(ws, n, ws.problem.reduced.start):
         return
@@ -66,18 +66,18 @@ def resolve(ws: Workspace) -> None:
             friction_of_slip(ws, a)
 
 
-@kernel("i8(ws)")
-def _stick_alone(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _stick_alone(ws: Workspace) -> bool:
     """Complete the forces of an island of one contact that sticks; return 0, nothing done, where that is doubtful."""
     active, own = ws.actives[0], diagonal_block(ws, 0).entries
     rows = (own[0], own[1], own[2]), (own[3], own[4], own[5]), (own[6], own[7], own[8])
     right = -active.free[0], -active.free[1], -active.free[2]
     forces = solve_three(rows[0], rows[1], rows[2], right, DOUBTFUL)
     if forces[0] != forces[0]:
-        return 0
+        return False
     ws.problem.n_unknown, ws.problem.is_deficient, ws.problem.is_null_space_banded = 3, False, False
     active.normal_force, active.friction = forces[0], (forces[1], forces[2])
-    return 1
+    return True
 
 
 @kernel("void(ws, i8, i8, i8)")
@@ -217,13 +217,13 @@ def _collect(ws: Workspace) -> int:
         active.has_redundant_force = False
         active.first_unknown = n
         if active.is_normal_force_unknown:
-            list_unknown(ws, n, a, 0, 0)
+            list_unknown(ws, n, a, 0, turn=False)
             n += 1
             active.normal_force = 0.0
         active.friction = 0.0, 0.0
         if active.sticks:
-            list_unknown(ws, n, a, 1, 0)
-            list_unknown(ws, n + 1, a, 2, 0)
+            list_unknown(ws, n, a, 1, turn=False)
+            list_unknown(ws, n + 1, a, 2, turn=False)
             n += 2
         else:
             friction_of_slip(ws, a)

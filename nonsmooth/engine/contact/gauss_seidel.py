@@ -11,8 +11,8 @@ SWEEPS = 20
 """Of the first stage; ten times more in each that follows."""
 
 
-@kernel("i8(ws, i8)")
-def sweep(ws: Workspace, sweeps: int) -> int:
+@kernel("b1(ws, i8)")
+def sweep(ws: Workspace, sweeps: int) -> bool:
     """Improve the forces by some sweeps; return 1 if they have settled."""
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
@@ -21,8 +21,8 @@ def sweep(ws: Workspace, sweeps: int) -> int:
     return gauss_seidel(ws, sweeps)
 
 
-@kernel("i8(ws, i8)")
-def search_by_sweeps(ws: Workspace, stage: int) -> int:
+@kernel("b1(ws, i8)")
+def search_by_sweeps(ws: Workspace, stage: int) -> bool:
     """Improve the forces; return 1 if they have settled."""
     sweeps = SWEEPS
     for _stage in range(stage):

@@ -75,7 +75,7 @@ def _list_rows(ws: Workspace) -> int:
         active.has_redundant_force = False
         active.first_unknown = n
         for r in range(1 - active.is_normal_force_unknown, 1 + 2 * active.sticks):
-            list_unknown(ws, n, a, r, 0)
+            list_unknown(ws, n, a, r, turn=False)
             n += 1
     ws.problem.first_unknown[ws.problem.n_active] = n
     return n
@@ -150,9 +150,9 @@ def _solve_held(ws: Workspace) -> bool:
     return True
 
 
-@kernel("i8(ws)")
-def _stick_alone(ws: Workspace) -> int:
-    """Hold an island of one rigid contact that sticks; return 0, nothing done, where it is doubtful what holds it."""
+@kernel("b1(ws)")
+def _stick_alone(ws: Workspace) -> bool:
+    """Hold an island of one rigid contact that sticks; false, nothing done, where it is doubtful what holds it."""
     active = ws.actives[0]
     c = active.contact
     contact = ws.contacts[c]
@@ -167,7 +167,7 @@ def _stick_alone(ws: Workspace) -> int:
     )
     forces = solve_three(row_0, row_1, row_2, right, DOUBTFUL)
     if forces[0] != forces[0]:
-        return 0
+        return False
     ws.problem.n_unknown, ws.problem.is_deficient, ws.problem.is_null_space_banded, active.has_redundant_force = (
         3,
         False,
@@ -178,23 +178,23 @@ def _stick_alone(ws: Workspace) -> int:
     for r in range(3):
         push_response(ws, c, r, active.force[r], du)
         ws.step.driven_power += active.force[r] * (row(ws, c, r, ws.island.velocities) - contact.rate[r])
-    return 1
+    return True
 
 
-@kernel("i8(ws)")
-def _hold_alone(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _hold_alone(ws: Workspace) -> bool:
     """Do the same for an island of one rigid contact.
 
-    If it does not stick its only row is a division; return 0, nothing done, if its force moves nothing.
+    If it does not stick its only row is a division; false, nothing done, if its force moves nothing.
     """
     active = ws.actives[0]
     if active.sticks:
-        return int(_stick_alone(ws))
+        return _stick_alone(ws)
     c = active.contact
     contact = ws.contacts[c]
     own = coupling(ws, c, 0, c, 0)
     if own == 0.0:
-        return 0
+        return False
     if contact.mode == Mode.SLIDE and own < 0.0:
         ws.island.singular_contact = c
     ws.problem.n_unknown, ws.problem.is_deficient, ws.problem.is_null_space_banded, active.has_redundant_force = (
@@ -210,38 +210,38 @@ def _hold_alone(ws: Workspace) -> int:
     (t1, t2), (v1, v2) = active.friction, contact.slip
     on_coordinates = force * row(ws, c, 1, ws.island.velocities)
     ws.step.driven_power += on_coordinates - force * contact.rate[0] - t1 * v1 - t2 * v2
-    return 1
+    return True
 
 
-@kernel("i8(ws, i8)")
-def hold_contacts(ws: Workspace, choosing: int) -> int:
+@kernel("b1(ws, b1)")
+def hold_contacts(ws: Workspace, may_choose: bool) -> bool:
     """Write the ``active_forces`` of the active contacts, add what they do to ``du``, note the driven bodies' power.
 
-    Rows and columns must be laid, and the given forces; the free accelerations stand in ``du``.  With ``choosing`` (1)
-    the null-space force of those not unique is chosen anew; return 0 if there is none that keeps every bound, else 1.
+    Rows and columns must be laid, and the given forces; the free accelerations stand in ``du``.  If it
+    ``may_choose``, the null-space force of those not unique is chosen anew: false if there is none that keeps every bound.
     """
-    keeps = 1
-    if ws.problem.n_active == 1 and ws.actives[0].is_normal_force_unknown and _hold_alone(ws) == 1:
-        return keeps
+    if ws.problem.n_active == 1 and ws.actives[0].is_normal_force_unknown and _hold_alone(ws):
+        return True
     _push_compliant(ws)
     if not _solve_held(ws):
-        return keeps
+        return True
+    keeps = True
     if ws.problem.is_deficient:
-        if choosing == 1:
+        if may_choose:
             keeps = choose_null_space_force(ws)
         add_null_space_force(ws)
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
         c = active.contact
         contact = ws.contacts[c]
-        sticks = active.sticks
+        first_row = 0 if active.sticks else 1
         for i in range(active.first_unknown, active.end_unknown):
             r, force = ws.unknowns[i].direction, ws.problem.x[i]
             active.force[r] = force
             push_response(ws, c, r, force, ws.island.du.start)
             # the power of what the coordinates do not move: that of the force less that on them
-            ws.step.driven_power += force * row(ws, c, r + 1 - sticks, ws.island.velocities)
-        if sticks == 0 and active.is_normal_force_unknown:
+            ws.step.driven_power += force * row(ws, c, r + first_row, ws.island.velocities)
+        if not active.sticks and active.is_normal_force_unknown:
             friction_of_slip(ws, a)
         for r in range(3):
             ws.step.driven_power -= active.force[r] * contact.rate[r]

@@ -106,13 +106,13 @@ def oppose_slips(ws: Workspace) -> bool:
     laid, and the given normal forces.  Directions that lead nowhere are looked for from those in which slips that are
     held break away.
     """
-    held = 0
+    held = False
     for _round in range(2 * (2 + ws.problem.n_active)):
         polished = polish(ws)
         if polished == 0:
-            if held == 1:
+            if held:
                 return False
-            held = 1
+            held = True
             for a in range(ws.problem.n_active):
                 active = ws.actives[a]
                 active.mode_tried = Mode.STICK if active.is_at_rest else active.mode_past
@@ -175,8 +175,8 @@ def _note(ws: Workspace) -> None:
             contact.slip = 0.0, 0.0
 
 
-@kernel("i8(ws)")
-def _solve(ws: Workspace) -> int:
+@kernel("b1(ws)")
+def _solve(ws: Workspace) -> bool:
     """Find the ``active_forces`` with which a stage ends, as the contacts face; return 1 if they are found."""
     ws.problem.acceleration_scale = 0.0
     for a in range(ws.problem.n_active):
@@ -186,8 +186,8 @@ def _solve(ws: Workspace) -> int:
         _lay(ws, a)
     if not ws.problem.acceleration_scale > 0.0:
         # a trial step far too long led to what is no number
-        return 0
-    return 1 if _oppose_alone(ws) else oppose_slips(ws)
+        return False
+    return True if _oppose_alone(ws) else oppose_slips(ws)
 
 
 @kernel("i8(ws)")
@@ -208,13 +208,13 @@ def hold_at_end(ws: Workspace) -> None:
     Geometry and rates are those of the state that the accelerations at ``guess`` lead to.  Where no forces are found
     ``unsettled`` is raised.
     """
-    settled = 0
+    settled = False
     for _facing in range(1 + ws.problem.n_active):
-        if _solve(ws) == 0:
+        if not _solve(ws):
             break
         if _face(ws) == 0:
-            settled = 1
+            settled = True
             break
-    if settled == 0:
+    if not settled:
         ws.problem.is_unsettled = True
     _note(ws)

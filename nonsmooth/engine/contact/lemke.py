@@ -179,7 +179,7 @@ def search_by_pivots(ws: Workspace, stage: int) -> bool:
     _lay(ws, n, g, size)
     row, column = _first_row(ws, n), n
     for _pivots in range(50 * n):
-        if row < 0 or interrupted(ws, m) == 1:
+        if row < 0 or interrupted(ws, m):
             break
         left = ws.problem.lemke_row[row]
         _pivot(ws, n, row, column)

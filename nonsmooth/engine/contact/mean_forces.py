@@ -59,14 +59,14 @@ def is_settled(ws: Workspace) -> bool:
     return True
 
 
-@kernel("f8(ws, i8)")
-def averaging_span(ws: Workspace, follows: int) -> float:
+@kernel("f8(ws, b1)")
+def averaging_span(ws: Workspace, follows: bool) -> float:
     """Return over what time the forces of the active contacts are averaged next [s]; as long as they can if it follows.
 
     That is what the last averaging, to the end of which they came, left of accuracy.
     """
     least = averaging_time(ws)
-    if follows == 0:
+    if not follows:
         return float(least)
     span = _LONGEST * least
     for a in range(ws.problem.n_active):
@@ -105,8 +105,8 @@ def _keep_span(ws: Workspace, span: float) -> None:
         ws.contacts[ws.actives[a].contact].mean_span = kept
 
 
-@kernel("i8(ws, f8)")
-def _solve(ws: Workspace, time: float) -> int:
+@kernel("b1(ws, f8)")
+def _solve(ws: Workspace, time: float) -> bool:
     """Write the impulses of the active contacts in a ``time`` to ``active_forces``; return 1 if they are found."""
     assemble_delassus(ws)
     for a in range(ws.problem.n_active):
@@ -128,7 +128,7 @@ def find_mean_impulses(ws: Workspace, time: float) -> float:
 
     Their rates and the accelerations without forces must be written.
     """
-    if _solve(ws, time) == 0 and time > averaging_time(ws):
+    if not _solve(ws, time) and time > averaging_time(ws):
         time = averaging_time(ws)
         _solve(ws, time)
     return time

@@ -162,7 +162,7 @@ def step_by_newton(ws: Workspace, steps: int) -> bool:
     square = write_natural_map(ws)
     mean, weight = square, 1.0
     for _step in range(steps):
-        if interrupted(ws, ws.problem.n_active * ws.problem.half_band) == 1:
+        if interrupted(ws, ws.problem.n_active * ws.problem.half_band):
             return False
         size = 0.0
         for i in range(width):
@@ -177,16 +177,16 @@ def step_by_newton(ws: Workspace, steps: int) -> bool:
             return False
         for i in range(width):
             ws.problem.forces_kept[i] = ws.problem.forces[i]
-        share, better = 1.0, 0
+        share, better = 1.0, False
         for _halving in range(_HALVINGS):
             for i in range(width):
                 ws.problem.forces[i] = ws.problem.forces_kept[i] + share * ws.problem.x[i]
             new = write_natural_map(ws)
             if new < (1.0 - 1e-4 * share) * mean:
-                square, better = new, 1
+                square, better = new, True
                 break
             share *= 0.5
-        if better == 0:
+        if not better:
             for i in range(width):
                 ws.problem.forces[i] = ws.problem.forces_kept[i]
             return False

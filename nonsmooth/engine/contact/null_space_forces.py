@@ -65,13 +65,13 @@ def _choose(ws: Workspace, largest: float, rung: int) -> bool:
     return distribute(ws, 0.25**rung * largest, _ARRIVED * largest)
 
 
-@kernel("i8(ws, f8)")
-def _choose_farthest(ws: Workspace, largest: float) -> int:
-    """Choose forces as far off every bound as can be, within a factor; return 1 if there are any."""
+@kernel("b1(ws, f8)")
+def _choose_farthest(ws: Workspace, largest: float) -> bool:
+    """Choose forces as far off every bound as can be, within a factor; false if there are none."""
     near, far = 1, 0
     while not _choose(ws, largest, near):
         if near == _RUNGS:
-            return 0
+            return False
         far, near = near, min(2 * near, _RUNGS)
     rung = near
     while near - far > 1:
@@ -80,12 +80,12 @@ def _choose_farthest(ws: Workspace, largest: float) -> int:
             near = rung
         else:
             far = rung
-    return int(rung == near or _choose(ws, largest, near))
+    return rung == near or _choose(ws, largest, near)
 
 
-@entry_point("i8(ws)")
-def choose_null_space_force(ws: Workspace) -> int:
-    """Choose the null-space force, ``x`` being the forces of least norm; return 1 if it keeps off every bound."""
+@entry_point("b1(ws)")
+def choose_null_space_force(ws: Workspace) -> bool:
+    """Choose the null-space force, ``x`` being the forces of least norm; true if it keeps off every bound."""
     n = ws.problem.n_unknown
     largest = 0.0
     for a in range(ws.problem.n_active):
@@ -98,9 +98,9 @@ def choose_null_space_force(ws: Workspace) -> int:
         set_force(ws, i, ws.problem.x[i])
         largest = max(largest, abs(ws.problem.x[i]))
     if _least_distance(ws, n) >= _AMPLE * largest:
-        return 1
+        return True
     found = _choose_farthest(ws, largest)
-    if found == 0:
+    if not found:
         for i in range(n):
             set_force(ws, i, ws.problem.forces_at_start[i])
         distribute(ws, 0.0, _ARRIVED * largest)

@@ -72,7 +72,7 @@ def _write_row(ws: Workspace, a: int, i: int, n: int) -> None:
         if out == end:
             continue
         g = at(ws.floats, ws.island.delassus.start + DELASSUS * block)
-        if turn == 1:
+        if turn:
             g0, g1, g2 = d2 * g[3] - d1 * g[6], d2 * g[4] - d1 * g[7], d2 * g[5] - d1 * g[8]
         else:
             g0, g1, g2 = g[3 * r], g[3 * r + 1], g[3 * r + 2]
@@ -85,7 +85,7 @@ def _write_row(ws: Workspace, a: int, i: int, n: int) -> None:
             out += 2
         if out < end:
             ws.floats[out] = e2 * g1 - e1 * g2
-    if turn == 1:
+    if turn:
         _add_turn(ws, a, i, n)
 
 
@@ -117,11 +117,11 @@ def _list_unknowns(ws: Workspace) -> int:
         active = ws.actives[a]
         active.first_unknown = n
         for r in range(3):
-            if (active.is_normal_force_unknown if r == 0 else active.sticks) == 1:
-                list_unknown(ws, n, a, r, 0)
+            if active.is_normal_force_unknown if r == 0 else active.sticks:
+                list_unknown(ws, n, a, r, turn=False)
                 n += 1
         if _starts(ws, a):
-            list_unknown(ws, n, a, 0, 1)
+            list_unknown(ws, n, a, 0, turn=True)
             n += 1
     ws.problem.first_unknown[ws.problem.n_active] = n
     return n

@@ -89,11 +89,11 @@ def accelerate_freely(ws: Workspace, number: int) -> None:
         ws.island.du[i] = ws.island.du_free[i]
 
 
-@kernel("void(ws, i8)")
-def free_acceleration(ws: Workspace, every: int) -> None:
+@kernel("void(ws, b1)")
+def free_acceleration(ws: Workspace, of_all_bodies: bool) -> None:
     """Write M^-1 h to ``du``, and what the joints leave of it, of every body (1), or of those that are integrated."""
-    for i in range(ws.model.n_bodies if every == 1 else ws.island.n_integrated):
-        accelerate_freely(ws, i if every == 1 else ws.island.integrated[i])
+    for i in range(ws.model.n_bodies if of_all_bodies else ws.island.n_integrated):
+        accelerate_freely(ws, i if of_all_bodies else ws.island.integrated[i])
     if ws.model.n_joints > 0:
         for number in range(ws.model.n_articulations):
             if ws.articulations[number].n_rows > 0:
@@ -104,7 +104,7 @@ def free_acceleration(ws: Workspace, every: int) -> None:
 def accelerate_touching(ws: Workspace) -> None:
     """Write the same of the bodies of contacts that touch, which is all that an instant asks for."""
     if ws.model.n_joints > 0:
-        free_acceleration(ws, 1)
+        free_acceleration(ws, of_all_bodies=True)
         return
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
@@ -158,15 +158,15 @@ def solve_contact(ws: Workspace) -> bool:
     return ``mode_tried``, ``active_forces`` and ``active_directions`` describe the solution.
     """
     ws.problem.effort = 0.0
-    past = 1
+    past = True
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
         if not active.is_at_rest and active.mode_tried == Mode.STICK:
             active.mode_tried = Mode.SLIDE
         active.mode_past = active.mode_tried
         if active.mode_tried < 0:
-            past = 0
-    if past == 1 and verify(ws, 0):
+            past = False
+    if past and verify(ws, is_lenient=False):
         return True
     if ws.options.solver != AUTO:
         return find_modes(ws, ws.options.solver)

@@ -27,8 +27,8 @@ _SAME = 1e-6
 """Contacts that pull alike, but for this part, open together."""
 
 
-@kernel("i8(ws, i8, i8)")
-def _improve(ws: Workspace, solver: int, stage: int) -> int:
+@kernel("b1(ws, i8, i8)")
+def _improve(ws: Workspace, solver: int, stage: int) -> bool:
     if solver == GAUSS_SEIDEL:
         return search_by_sweeps(ws, stage)
     if solver == LEMKE:
@@ -59,7 +59,7 @@ def _restore_cones(ws: Workspace) -> None:
 @kernel("b1(ws)")
 def _guess_by_motion(ws: Workspace) -> bool:
     """Try the modes that the accelerations tell, but for those of the past; return 1 if they differ."""
-    differ = 0
+    differ = False
     small = EQUAL * ws.problem.small_acceleration
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
@@ -71,11 +71,11 @@ def _guess_by_motion(ws: Workspace) -> bool:
         if active.is_at_rest and slip <= small:
             mode = Mode.STICK
         if mode != active.mode_tried:
-            differ = 1
+            differ = True
             active.mode_tried = mode
             if active.is_at_rest and mode == Mode.SLIDE:
                 active.direction = a1 / slip, a2 / slip
-    return differ != 0
+    return differ
 
 
 @kernel()
@@ -119,20 +119,20 @@ def _accept(ws: Workspace) -> bool:
         active = ws.actives[a]
         active.mode_closed = active.mode_tried
         active.direction_closed = active.direction
-    if verify(ws, 0):
+    if verify(ws, is_lenient=False):
         return True
     if not ws.problem.is_deficient:
         return False
     while ws.problem.effort < _MOST_EFFORT and _open_pulling(ws) > 0:
         polish(ws)
-        if verify(ws, 0):
+        if verify(ws, is_lenient=False):
             return True
     # without the share of those opened the others may not hold: forces that press, though not of least norm
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
         active.mode_tried = active.mode_closed
         active.direction = active.direction_closed
-    return verify(ws, 1)
+    return verify(ws, is_lenient=True)
 
 
 @kernel("b1(ws)")
@@ -194,7 +194,7 @@ def _accept_raw(ws: Workspace) -> bool:
         active = ws.actives[a]
         active.has_redundant_force = False
     ws.problem.is_deficient = False
-    return judge(ws, 0) and _rubs(ws)
+    return judge(ws, is_lenient=False) and _rubs(ws)
 
 
 @kernel("b1(ws, i8)")
@@ -208,7 +208,7 @@ def _search_round(ws: Workspace, solver: int) -> bool:
     for i in range(3 * ws.problem.n_active):
         ws.problem.forces_at_start[i] = 0.0
     for stage in range(stages):
-        if ws.problem.effort >= _MOST_EFFORT or interrupted(ws, ws.problem.n_active) == 1:
+        if ws.problem.effort >= _MOST_EFFORT or interrupted(ws, ws.problem.n_active):
             return False
         for i in range(3 * ws.problem.n_active):
             ws.problem.forces[i] = ws.problem.forces_at_start[i]
@@ -218,7 +218,7 @@ def _search_round(ws: Workspace, solver: int) -> bool:
             ws.problem.forces_at_start[i] = ws.problem.forces[i]
         identify(ws)
         _restore_cones(ws)
-        if settled == 0 and stage < stages - 1 and _hasty(ws):
+        if not settled and stage < stages - 1 and _hasty(ws):
             continue
         _keep_found(ws)
         if _try_by_motion(ws):
@@ -229,7 +229,7 @@ def _search_round(ws: Workspace, solver: int) -> bool:
         if ws.problem.is_deficient and _accept_raw(ws):
             return True
         _take_found(ws)
-        if settled == 1:
+        if settled:
             return False
     return False
 
@@ -287,7 +287,7 @@ def _close_idle(ws: Workspace) -> None:
 def _prefer_stick(ws: Workspace) -> None:
     """Between the two bounds a contact at rest may stick and may slide: what is at rest stays so if all can."""
     _keep_answer(ws)
-    changed = 0
+    changed = False
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
         undecided = (
@@ -297,8 +297,8 @@ def _prefer_stick(ws: Workspace) -> None:
         )
         if undecided and active.mode_tried == Mode.SLIDE:
             active.mode_tried = Mode.STICK
-            changed = 1
-    if changed == 0:
+            changed = True
+    if not changed:
         return
     polish(ws)
     if not _accept(ws):
@@ -308,9 +308,9 @@ def _prefer_stick(ws: Workspace) -> None:
 @entry_point("b1(ws, i8)")
 def find_modes(ws: Workspace, solver: int) -> bool:
     """Search by one solver, ``mode_past`` holding the past modes; return 1 if a verified answer is found."""
-    found = 0
+    found = False
     if solver == ENUMERATION:
-        found = 1 if enumerate_modes(ws, 0) > 0 else 0
+        found = enumerate_modes(ws, 0) > 0
     else:
         for a in range(ws.problem.n_active):
             active = ws.actives[a]
@@ -327,9 +327,9 @@ def find_modes(ws: Workspace, solver: int) -> bool:
             for a in range(ws.problem.n_active):
                 active = ws.actives[a]
                 active.was_freed = False
-        if found == 0:
+        if not found:
             found = _search_from(ws, solver)
-    if found == 1:
+    if found:
         _prefer_stick(ws)
         _close_idle(ws)
-    return found != 0
+    return found

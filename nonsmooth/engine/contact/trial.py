@@ -75,20 +75,20 @@ def small_force(ws: Workspace, a: int) -> float:
     return float(NO_FORCE * size + _SOLVED * ws.problem.small_force)
 
 
-@entry_point("b1(ws, i8)")
-def verify(ws: Workspace, lenient: int) -> bool:
+@entry_point("b1(ws, b1)")
+def verify(ws: Workspace, is_lenient: bool) -> bool:
     """Find the forces of the modes under trial; return 1 if modes and forces fulfil the laws themselves.
 
     Where the forces are not unique those of least norm are found; where they break Coulomb's bound, others that
-    give the same motion and keep it are looked for, and the modes pass iff there are such; a lenient look (1) does so
+    give the same motion and keep it are looked for, and the modes pass iff there are such; a lenient look does so
     where they pull, too.
     """
     hold_tried(ws)
-    return judge(ws, lenient)
+    return judge(ws, is_lenient)
 
 
-@kernel("i8(ws, i8)")
-def _compare(ws: Workspace, lenient: int) -> int:
+@kernel("i8(ws, b1)")
+def _compare(ws: Workspace, is_lenient: bool) -> int:
     """Return 1 if the forces fulfil the laws, 2 if others that are as good may, 0 if not."""
     set_scales(ws)
     small = ws.problem.small_acceleration
@@ -108,7 +108,7 @@ def _compare(ws: Workspace, lenient: int) -> int:
         if mode == Mode.SLIDE and not active.is_at_rest and reduced_coefficient(ws, a) <= 0.0:
             return 0
         if not active.normal_force >= -faint:
-            if lenient == 0 or not ws.problem.is_deficient:
+            if not is_lenient or not ws.problem.is_deficient:
                 return 0
             result = 2
         a1, a2 = active.slip_acceleration
@@ -127,16 +127,16 @@ def _compare(ws: Workspace, lenient: int) -> int:
     return result
 
 
-@kernel("b1(ws, i8)")
-def judge(ws: Workspace, lenient: int) -> bool:
+@kernel("b1(ws, b1)")
+def judge(ws: Workspace, is_lenient: bool) -> bool:
     """Return 1 if the ``active_forces`` fulfil the laws in the modes under trial, distributed where not unique."""
-    result = _compare(ws, lenient)
+    result = _compare(ws, is_lenient)
     if result == 2 and distribute(ws, 0.0, _ARRIVED * ws.problem.small_force):
         # the share of sliding contacts may have moved with their normal forces: all is looked at again
         for a in range(ws.problem.n_active):
             if ws.actives[a].mode_tried == Mode.SLIDE:
                 friction_of_slip(ws, a)
-        result = _compare(ws, lenient)
+        result = _compare(ws, is_lenient)
     return result == 1
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
 
-@kernel("void(ws, i8, i8, i8, i8)")
-def list_unknown(ws: Workspace, i: int, a: int, r: int, turn: int) -> None:
+@kernel("void(ws, i8, i8, i8, b1)")
+def list_unknown(ws: Workspace, i: int, a: int, r: int, turn: bool) -> None:
     """Let unknown ``i`` be the force of the active contact ``a`` along direction ``r``, or its turn (1)."""
     unknown = ws.unknowns[i]
     unknown.contact, unknown.direction, unknown.is_turn = a, r, turn

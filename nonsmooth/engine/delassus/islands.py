@@ -99,7 +99,7 @@ def group_closed(ws: Workspace) -> None:
     """Sort the closed contacts into islands, but for those of bodies on their courses."""
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
-        contact.is_in_problem = contact.mode != Mode.OPEN and has_own_step(ws, c) == 0
+        contact.is_in_problem = contact.mode != Mode.OPEN and not has_own_step(ws, c)
     group_members(ws)
 
 
@@ -108,5 +108,5 @@ def group_touching(ws: Workspace) -> None:
     """Sort the touching contacts that collide, not those that give way, into islands."""
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
-        contact.is_in_problem = contact.is_touching if not contact.is_compliant else 0
+        contact.is_in_problem = contact.is_touching if not contact.is_compliant else False
     group_members(ws)

@@ -29,7 +29,7 @@ def provisional_mode(ws: Workspace, c: int) -> None:
     """Give contact ``c`` the mode that its rates tell, until the instant is settled."""
     contact = ws.contacts[c]
     rigid = not contact.is_compliant
-    if has_own_step(ws, c) == 1:
+    if has_own_step(ws, c):
         return
     if not contact.is_touching or contact.release != NO_RELEASE or (rigid and contact.rate[0] > ws.tolerance.velocity):
         contact.mode = Mode.OPEN
@@ -97,7 +97,7 @@ def _close(ws: Workspace, c: int) -> None:
     contact = ws.contacts[c]
     contact.mode = Mode.SLIDE if slip_speed(ws, c) > ws.tolerance.velocity else Mode.STICK
     before = ws.totals.driven_work
-    _book(ws, project_rates(ws, 1), before)
+    _book(ws, project_rates(ws, at_event=True), before)
     record_event(ws, Cause.CLOSING, c, 0)
 
 
@@ -198,7 +198,7 @@ def average_slow(ws: Workspace) -> bool:
     accelerate_touching(ws)
     push_compliant(ws)
     group_touching(ws)
-    others = 0
+    others = False
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
         fastest = _fastest_of_active(ws)
@@ -206,8 +206,8 @@ def average_slow(ws: Workspace) -> bool:
             continue
         slow = -ws.contacts[fastest].rate[0] <= slow_speed(ws)
         if not slow or (not is_averaged(ws) and not average_active(ws)):
-            others = 1
-    return others != 0
+            others = True
+    return others
 
 
 @kernel()
@@ -219,7 +219,7 @@ def _rest_closed(ws: Workspace) -> None:
         fastest = _fastest_of_active(ws)
         if fastest >= 0 and -ws.contacts[fastest].rate[0] <= slow_speed(ws):
             before = ws.totals.driven_work
-            _book(ws, project_rates(ws, 1), before)
+            _book(ws, project_rates(ws, at_event=True), before)
 
 
 @kernel("f8(ws)")
@@ -248,6 +248,7 @@ def stop_creeping(ws: Workspace) -> float:
             contact = ws.contacts[active.contact]
             active.is_at_rest, active.is_normal_force_unknown = False, True
             active.friction_coefficient = active.normal_force = 0.0
+            active.direction = contact.direction
             for r in range(3):
                 active.free[r] = contact.rate[r]
         gauss_seidel(ws, SWEEPS)

@@ -53,12 +53,12 @@ def average_island_of(ws: Workspace, c: int) -> bool:
     return average_active(ws)
 
 
-@kernel("b1(ws, i8)")
-def keeps_averaging(ws: Workspace, ends: int) -> bool:
+@kernel("b1(ws, b1)")
+def keeps_averaging(ws: Workspace, ends: bool) -> bool:
     """Return 1 if the forces of the active contacts are averaged, and stay so where the last ones end (1)."""
     if not is_averaged(ws):
         return False
-    if ends == 0:
+    if not ends:
         return True
     # a contact by itself has forces of its own
     if ws.problem.n_active == 1:
@@ -80,12 +80,12 @@ def end_averaging(ws: Workspace) -> None:
     """
     touch(ws)
     book_mean_forces(ws)
-    ws.totals.closing_loss += project_closed(ws, 1, 1)
+    ws.totals.closing_loss += project_closed(ws, at_event=True, averaged=True)
     ws.island.averaged_until = math.inf
 
 
-@kernel("void(ws, i8)")
-def average(ws: Workspace, follows: int) -> None:
+@kernel("void(ws, b1)")
+def average(ws: Workspace, follows: bool) -> None:
     """Agree on the modes of the active contacts, whose forces are averaged: slips are those at hand."""
     find_mean_forces(ws, follows)
     for a in range(ws.problem.n_active):

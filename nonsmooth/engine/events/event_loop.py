@@ -24,6 +24,7 @@ from nonsmooth.engine.events.record import (
 from nonsmooth.engine.events.stall import stalls
 from nonsmooth.engine.events.step_length import accepted_step, is_held, longest_wanted
 from nonsmooth.engine.events.stopping import stopping
+from nonsmooth.engine.flow.arming import arm_guards, keep_end, keep_start
 from nonsmooth.engine.flow.choices import choices_bend, choose_anew
 from nonsmooth.engine.flow.clearance import bound_speeds
 from nonsmooth.engine.flow.courses import drifted, end_courses, set_off
@@ -37,15 +38,8 @@ from nonsmooth.engine.flow.guard_numbers import (
     first_own_guard,
     normal_guard,
 )
-from nonsmooth.engine.flow.guards import (
-    arm_guards,
-    has_other_features,
-    is_of_redundant_force,
-    keep_end,
-    keep_start,
-    watch_features,
-    write_guards,
-)
+from nonsmooth.engine.flow.guard_values import has_other_features, watch_features, write_guards
+from nonsmooth.engine.flow.guards import is_of_redundant_force
 from nonsmooth.engine.flow.leap import leap, measure_noise, passed_flat
 from nonsmooth.engine.flow.location import first_crossing, locate
 from nonsmooth.engine.flow.projection import (
@@ -89,7 +83,7 @@ def _take_over(ws: Workspace, h: float) -> int:
     if ended > 0:
         group_closed(ws)
     if drifted(ws):
-        ws.totals.closing_loss += project_closed(ws, 0, 0)
+        ws.totals.closing_loss += project_closed(ws, at_event=False, averaged=False)
     return ended
 
 
@@ -158,7 +152,7 @@ def _step(ws: Workspace) -> Status:
     ws.step.listed_step = longest_step(ws) if ws.model.n_spheres > 0 else 1e300
     if ws.step.listed_step == 0.0:
         return list_contacts(ws)
-    orient_slips(ws, 1)
+    orient_slips(ws, at_end=True)
     arm_guards(ws)
     which = holds_time_up(ws) if ws.island.n_grouped > 0 else -1
     if which >= 0 and average_island_of(ws, which):
@@ -191,7 +185,7 @@ def _evaluate_start(ws: Workspace) -> None:
     set_off(ws, ws.island.closed_step, ws.island.resumed_step)
     group_closed(ws)
     choose_integrated(ws)
-    slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, 1, 1)
+    slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=True, of_all_bodies=True)
     take_off(ws)
     close_account(ws)
     watch_features(ws)
@@ -213,7 +207,7 @@ def _due_at_start(ws: Workspace) -> int:
         # what put the contacts on their constraints may have put one past its end
         if contact.mode != Mode.OPEN and ws.guards[first_end_guard(ws) + c].at_end < 0.0:
             return c
-        if has_own_step(ws, c) == 1:
+        if has_own_step(ws, c):
             continue
         # and may have turned a slip so that its force is another one
         unique = contact.mode != Mode.OPEN and not contact.is_compliant and not contact.has_redundant_force
@@ -234,12 +228,12 @@ def _without_step(ws: Workspace, status: Status) -> Status:
             changed = has_other_features(ws, ws.contacts[which])
             _take_over(ws, ws.step.h)
             return _pass_on(ws, which, changed)
-        which = hardest_pressed(ws, 1)
+        which = hardest_pressed(ws, sliding=True)
         if which >= 0:
             outcome = _carry_out(ws, Cause.JAM, which)
             if outcome != Status.NO_CONTACT_SOLUTION:
                 return outcome
-        which = hardest_pressed(ws, 0)
+        which = hardest_pressed(ws, sliding=False)
         if which >= 0 and average_island_of(ws, which):
             ws.island.follows_a_step = False
             return update_at_event(ws, Cause.AVERAGING, which)
@@ -340,7 +334,7 @@ def _event(ws: Workspace, h: float, guard: int) -> Status:
     if cause == Cause.STICK_TO_SLIP:
         _break_direction(ws, which)
     _commit(ws, h)
-    if is_of_redundant_force(ws, guard) == 1 and choose_anew(ws) == 1:
+    if is_of_redundant_force(ws, guard) and choose_anew(ws):
         return Status.RUNNING
     return _carry_out(ws, cause, which)
 
@@ -378,6 +372,14 @@ def _break_direction(ws: Workspace, which: int) -> None:
         contact.direction = contact.slip[0] / speed, contact.slip[1] / speed
 
 
+@kernel()
+def _derive(ws: Workspace) -> None:
+    """Evaluate what follows from the state and is no part of a checkpoint (:attr:`Life.DERIVED`)."""
+    ws.island.velocities = ws.island.y.start + ws.model.n_q
+    group_closed(ws)
+    choose_integrated(ws)
+
+
 @entry_point("Status(ws, i8, b1)")
 def advance(ws: Workspace, most_steps: int, is_wary: bool) -> Status:
     """Run until the end time, a failure, full buffers or ``most_steps``; return the status.
@@ -394,10 +396,8 @@ def advance(ws: Workspace, most_steps: int, is_wary: bool) -> Status:
         if status != Status.RUNNING:
             return status
     if ws.request.is_resumed:
-        # what follows from modes and is long is not kept in a state
         ws.request.is_resumed = False
-        group_closed(ws)
-        choose_integrated(ws)
+        _derive(ws)
     if ws.island.resumed_end != ws.request.t_end:
         # what had no value behind another end time may have one now
         ws.island.resumed_end, ws.island.resumed_step = ws.request.t_end, 1e300

@@ -31,7 +31,7 @@ def join_near(ws: Workspace, speed: float) -> int:
         contact = ws.contacts[c]
         apart = not contact.is_touching and not contact.is_compliant and contact.past_feature <= 0.0
         near = min(contact.contact_time * speed, EXPLAINED * ws.tolerance.gap)
-        if apart and contact.gap <= near and has_own_step(ws, c) == 0 and not _touches_already(ws, c):
+        if apart and contact.gap <= near and not has_own_step(ws, c) and not _touches_already(ws, c):
             contact.is_touching = True
             evaluate_jacobian(ws, c)
             evaluate_bias(ws, c, 3)

@@ -40,33 +40,33 @@ def closed_twin(ws: Workspace, c: int) -> int:
     return -1
 
 
-@kernel("i8(ws, i8)")
-def has_replaced(ws: Workspace, c: int) -> int:
-    """Return 1 if ``c``, or another at its place, is closed where one was before, without a collision.
+@kernel("b1(ws, i8)")
+def has_replaced(ws: Workspace, c: int) -> bool:
+    """True if ``c``, or another at its place, is closed where one was before, without a collision.
 
     That one may stand on: where margins overlap, both do for a moment.
     """
-    stood = stands = 0
+    stood, stands = False, False
     for other in range(ws.island.n_contacts):
         contact = ws.contacts[other]
         if other == c or _is_twin(ws, c, other):
-            stands = 1 if contact.mode != Mode.OPEN else stands
-            stood = 1 if contact.code_before != 0 else stood
-    return stood * stands
+            stands = stands or contact.mode != Mode.OPEN
+            stood = stood or contact.code_before != 0
+    return stood and stands
 
 
 @kernel("b1(ws, i8)")
 def take_over(ws: Workspace, c: int) -> bool:
     """Close a contact in place of those at its place; return 1, or 0 if there are none."""
     contact = ws.contacts[c]
-    twin, taken = closed_twin(ws, c), 0
+    twin, taken = closed_twin(ws, c), False
     while twin >= 0:
-        if taken == 0:
+        if not taken:
             if contact.mode == Mode.OPEN:
                 begin_contact(ws, c)
             contact.mode = ws.contacts[twin].mode
-            taken = 1
+            taken = True
         ws.contacts[twin].mode = Mode.OPEN
         ws.contacts[twin].is_in_problem = False
         twin = closed_twin(ws, c)
-    return taken != 0
+    return taken

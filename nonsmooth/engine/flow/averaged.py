@@ -25,13 +25,13 @@ def reach_end(ws: Workspace) -> None:
         contact = ws.contacts[c]
         if contact.is_averaged and contact.mode != Mode.OPEN:
             contact.mode = contact.mode_after_averaging
-    ws.totals.closing_loss += project_closed(ws, 1, 1)
+    ws.totals.closing_loss += project_closed(ws, at_event=True, averaged=True)
     for c in range(ws.island.n_contacts):
         ws.contacts[c].mean_gap_change = 0.0
 
 
-@kernel("void(ws, i8)")
-def renew_mean_forces(ws: Workspace, follows: int) -> None:
+@kernel("void(ws, b1)")
+def renew_mean_forces(ws: Workspace, follows: bool) -> None:
     """Find the mean forces of the closed contacts that are averaged, from now on; after the end of the last (1)."""
     ws.island.averaged_until = math.inf
     group_closed(ws)
@@ -42,7 +42,7 @@ def renew_mean_forces(ws: Workspace, follows: int) -> None:
         evaluate_contact(ws, c, 3)
         ws.contacts[c].is_touching = True
     book_mean_forces(ws)
-    free_acceleration(ws, 1)
+    free_acceleration(ws, of_all_bodies=True)
     push_compliant(ws)
     for group in range(ws.island.n_groups):
         activate_group(ws, group)

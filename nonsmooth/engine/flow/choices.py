@@ -12,21 +12,22 @@ from nonsmooth.engine.delassus.islands import group_closed
 from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.flow.flow import right_hand_side
 from nonsmooth.engine.flow.guard_numbers import first_own_guard
-from nonsmooth.engine.flow.guards import NO_GUARD, first_fired, has_fired, is_of_redundant_force, write_guards
+from nonsmooth.engine.flow.guard_values import write_guards
+from nonsmooth.engine.flow.guards import NO_GUARD, first_fired, has_fired, is_of_redundant_force
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
 
-@kernel("i8(ws)")
-def choose_anew(ws: Workspace) -> int:
-    """Choose the forces that are not unique anew; return 1 if all closed contacts can keep their bounds.
+@kernel("b1(ws)")
+def choose_anew(ws: Workspace) -> bool:
+    """Choose the forces that are not unique anew; true if all closed contacts can keep their bounds.
 
     A second time within the time tolerance there is no choice: then all forces vanish.
     """
     if ws.island.time - ws.island.last_choice <= ws.tolerance.time:
-        return 0
+        return False
     ws.island.last_choice = ws.island.time
     group_closed(ws)
-    return int(right_hand_side(ws, ws.island.time, ws.island.y.start, 1, 1))
+    return right_hand_side(ws, ws.island.time, ws.island.y.start, may_choose=True, of_all_bodies=True)
 
 
 @kernel("void(ws, f8)")
@@ -43,11 +44,11 @@ def blend_choices(ws: Workspace, theta: float) -> None:
 
 @kernel("b1(ws, f8, i8)")
 def _choose_at(ws: Workspace, elapsed: float, y: int) -> bool:
-    """Choose forces at the time ``elapsed`` in the step and the state ``y``; return 1 if there are any.
+    """Choose forces at the time ``elapsed`` in the step and the state ``y``; true if there are any.
 
     Where there are none, what lets forces hold that were chosen would let their end be late.
     """
-    if right_hand_side(ws, ws.island.time + elapsed, y, 1, 0) == 1:
+    if right_hand_side(ws, ws.island.time + elapsed, y, may_choose=True, of_all_bodies=False):
         return True
     for c in range(ws.island.n_contacts):
         ws.contacts[c].slack = 0.0
@@ -58,7 +59,7 @@ def _choose_at(ws: Workspace, elapsed: float, y: int) -> bool:
 def _passes_bound(ws: Workspace) -> bool:
     """Return 1 if a force that is chosen has passed its bound."""
     for i in range(first_own_guard(ws)):
-        if is_of_redundant_force(ws, i) == 1 and has_fired(ws, i) == 1:
+        if is_of_redundant_force(ws, i) and has_fired(ws, i):
             return True
     return False
 
@@ -78,7 +79,7 @@ def choose_at_end(ws: Workspace, h: float) -> None:
             contact.choice_at_start[r] = contact.null_space_force[r]
     ws.step.is_blended = True
     if not _choose_at(ws, h, ws.step.y_new.start):
-        right_hand_side(ws, ws.island.time + h, ws.step.y_new.start, 0, 0)
+        right_hand_side(ws, ws.island.time + h, ws.step.y_new.start, may_choose=False, of_all_bodies=False)
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         for r in range(3):
@@ -95,8 +96,8 @@ def choices_bend(ws: Workspace, high: float) -> bool:
     """
     if not ws.step.is_blended or high == 1.0 or ws.step.h <= ws.tolerance.time:
         return False
-    fired = first_fired(ws, True, NO_GUARD)
-    if not 0 <= fired < first_own_guard(ws) or is_of_redundant_force(ws, fired) == 0:
+    fired = first_fired(ws, forces_are_known=True, located=NO_GUARD)
+    if not 0 <= fired < first_own_guard(ws) or not is_of_redundant_force(ws, fired):
         return False
     state_within(ws, ws.step.h, high, ws.step.y_stage.start)
     return _choose_at(ws, high * ws.step.h, ws.step.y_stage.start)

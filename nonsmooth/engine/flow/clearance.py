@@ -15,9 +15,9 @@ import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_body, evaluate_driven_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
+from nonsmooth.engine.flow.arming import NO_BOUND
 from nonsmooth.engine.flow.flight import fly
 from nonsmooth.engine.flow.guard_numbers import normal_guard
-from nonsmooth.engine.flow.guards import NO_BOUND
 from nonsmooth.engine.flow.self_check import NOUGHT
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.memory.layout import LAST_STAGE

@@ -36,12 +36,12 @@ _ATTEMPTS = 3
 """Lengths that are tried of a course; where none does, the next one begins with what was left."""
 
 
-@kernel("i8(ws, i8, i8)")
-def _rests(ws: Workspace, number: int, frame: int) -> int:
-    """Return 1 if a body has no coordinates, and a frame of it no velocity."""
+@kernel("b1(ws, i8, i8)")
+def _rests(ws: Workspace, number: int, frame: int) -> bool:
+    """True if a body has no coordinates, and a frame of it no velocity."""
     one = frame_at(ws.floats, frame)
     moves = dot(one.velocity, one.velocity) + dot(one.spin, one.spin)
-    return 1 if ws.bodies[number].n_u == 0 and moves == 0.0 else 0
+    return ws.bodies[number].n_u == 0 and moves == 0.0
 
 
 @kernel("i8(ws, i8)")
@@ -55,9 +55,9 @@ def _rider(ws: Workspace, c: int) -> int:
     if contact.mode != Mode.STICK or not rigid or contact.past_feature > 0.0:
         return -1
     number = contact.body_b
-    if _rests(ws, contact.body_a, contact.frame_a) == 0:
+    if not _rests(ws, contact.body_a, contact.frame_a):
         number = contact.body_a
-        if _rests(ws, contact.body_b, contact.frame_b) == 0:
+        if not _rests(ws, contact.body_b, contact.frame_b):
             return -1
     body = ws.bodies[number]
     alone = body.n_closed == 1 and not body.has_own_step
@@ -88,16 +88,16 @@ def _find_riders(ws: Workspace) -> int:
     return int(ws.island.n_integrated)
 
 
-@kernel("void(ws, i8, f8, i8)")
-def _widen(ws: Workspace, i: int, value: float, anew: int) -> None:
+@kernel("void(ws, i8, f8, b1)")
+def _widen(ws: Workspace, i: int, value: float, anew: bool) -> None:
     """Let the range of guard ``i`` reach to a value."""
     guard = ws.guards[i]
-    guard.base = value if anew == 1 else min(guard.base, value)
-    guard.at_end = value if anew == 1 else max(guard.at_end, value)
+    guard.base = value if anew else min(guard.base, value)
+    guard.at_end = value if anew else max(guard.at_end, value)
 
 
-@kernel("void(ws, i8)")
-def _look_at_forces(ws: Workspace, anew: int) -> None:
+@kernel("void(ws, b1)")
+def _look_at_forces(ws: Workspace, anew: bool) -> None:
     """Let the ranges of the forces of the grouped contacts reach to what they are.
 
     Its guard stays armed if at all looks it has the same features, sticks by friction, and what bears it rests.
@@ -108,7 +108,7 @@ def _look_at_forces(ws: Workspace, anew: int) -> None:
         _widen(ws, normal_guard(c), hold_guard(ws, c), anew)
         _widen(ws, friction_guard(ws, c), contact.static_margin, anew)
         normal = ws.guards[normal_guard(c)]
-        if anew == 1:
+        if anew:
             contact.feature, normal.is_armed = int(contact.feature_now), True
         is_same = contact.past_feature <= 0.0 and int(contact.feature_now) == contact.feature
         bears = _rests(ws, contact.body_a, contact.frame_a) + _rests(ws, contact.body_b, contact.frame_b)
@@ -163,20 +163,20 @@ def set_off(ws: Workspace, usual: float, longest: float) -> None:
     stage_time = ws.island.stage_time
     for i in range(ws.island.n_grouped):
         ws.contacts[ws.island.grouped[i]].least_force = 1e300
-    slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, 0, 0)
-    _look_at_forces(ws, 1)
+    slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=False, of_all_bodies=False)
+    _look_at_forces(ws, anew=True)
     h = _step_alone(ws, usual, longest)
     ws.island.stage_time = stage_time
     if h == 0.0:
         return
-    _look_at_forces(ws, 0)
+    _look_at_forces(ws, anew=False)
     dense_state(ws, ws.island.y.start, ws.island.slopes.start, ws.model.n_y, h, 0.5, ws.step.y_stage.start)
-    right_hand_side(ws, ws.island.time + 0.5 * h, ws.step.y_stage.start, 0, 0)
-    _look_at_forces(ws, 0)
+    right_hand_side(ws, ws.island.time + 0.5 * h, ws.step.y_stage.start, may_choose=False, of_all_bodies=False)
+    _look_at_forces(ws, anew=False)
     for i in range(ws.island.n_grouped):
         c = ws.island.grouped[i]
         contact = ws.contacts[c]
-        _widen(ws, normal_guard(c), contact.least_force, 0)
+        _widen(ws, normal_guard(c), contact.least_force, anew=False)
         far = _stays_far(ws, normal_guard(c)) + _stays_far(ws, friction_guard(ws, c))
         if ws.guards[normal_guard(c)].is_armed and far == 2:
             number = contact.body_b if ws.bodies[contact.body_b].n_u > 0 else contact.body_a
@@ -214,6 +214,6 @@ def end_courses(ws: Workspace) -> int:
     if over:
         ws.island.own_steps_end = math.inf
     for c in range(ws.island.n_contacts):
-        if has_own_step(ws, c) == 1 and (over or _is_off(ws, c)):
+        if has_own_step(ws, c) and (over or _is_off(ws, c)):
             ended += end_courses_of(ws, c)
     return ended

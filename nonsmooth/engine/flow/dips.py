@@ -11,10 +11,11 @@ from __future__ import annotations
 from nonsmooth.engine.bodies.bodies import evaluate_body, evaluate_driven_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
 from nonsmooth.engine.flow.clearance import arm_of, fall_of, too_far
+from nonsmooth.engine.flow.deflation import deflated
 from nonsmooth.engine.flow.flight import body_within
 from nonsmooth.engine.flow.flow import slip_guard
 from nonsmooth.engine.flow.guard_numbers import friction_guard, normal_guard
-from nonsmooth.engine.flow.guards import deflated, has_fired
+from nonsmooth.engine.flow.guards import has_fired
 from nonsmooth.engine.flow.self_check import NEAR, NOUGHT, blame
 from nonsmooth.engine.memory.layout import PARTS
 from nonsmooth.engine.memory.modes import Status
@@ -150,8 +151,8 @@ def stays_open(
     return g0 + s * (r0 - 0.5 * fall * s) >= -tolerance
 
 
-@kernel("f8(ws, f8, i8, f8, i8)")
-def _first_dip(ws: Workspace, h: float, c: int, high: float, stands: int) -> float:
+@kernel("f8(ws, f8, i8, f8, b1)")
+def _first_dip(ws: Workspace, h: float, c: int, high: float, stands: bool) -> float:
     """Return a fraction of the step, up to ``high``, at which the gap of ``c`` has closed, or 0 if it stays open.
 
     It has been evaluated at ``high`` if the contact stands there (1).
@@ -167,7 +168,7 @@ def _first_dip(ws: Workspace, h: float, c: int, high: float, stands: int) -> flo
     left.rate, left.past, left.arm = contact.gap_rate_at_start, contact.past_feature_at_start, contact.offset_at_start
     speed = contact.speed_at_start + contact.speed_at_end
     if high < 1.0:
-        if stands == 1:
+        if stands:
             _keep(ws, h, high, c, 1)
         else:
             _look(ws, h, high, c, 1)
@@ -201,7 +202,7 @@ def _first_dip(ws: Workspace, h: float, c: int, high: float, stands: int) -> flo
                     blame(ws, Status.GAP_UNDECIDED, c, left.gap, ws.tolerance.gap)
                     return 0.0
                 _look(ws, h, left.theta + 0.5 * span, c, n)
-                if has_fired(ws, normal_guard(c)) == 1:
+                if has_fired(ws, normal_guard(c)):
                     return float(part_end(ws.floats, ws.step.part_ends.start, n).theta)
                 continue
         left.theta, left.gap, left.rate, left.past, left.arm = right.theta, right.gap, right.rate, right.past, right.arm
@@ -218,14 +219,14 @@ def first_closing(ws: Workspace, h: float, high: float, asked: int) -> float:
     not asked for at an event.
     """
     found = 0.0
-    stands = 1 if ws.step.n_not_facing == 0 else 0
+    stands = ws.step.n_not_facing == 0
     for i in range(ws.step.n_may_close):
         c = ws.step.may_close[i]
         ws.step.is_evaluated = False
         theta = _first_dip(ws, h, c, high, stands)
         if theta > 0.0:
             found = high = theta
-            stands = 0
+            stands = False
         elif ws.step.is_evaluated and (high == 1.0 or c == asked):
             _look(ws, h, high, c, 0)
     return found

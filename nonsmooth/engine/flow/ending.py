@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry
-from nonsmooth.engine.flow.guards import feature_guard
+from nonsmooth.engine.flow.guard_values import feature_guard
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
 _DOUBLINGS = 3

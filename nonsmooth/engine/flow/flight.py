@@ -100,7 +100,8 @@ def _go_on(ws: Workspace, t: float, number: int, out: int) -> None:
     """Write the state of a body on its course to the state at ``out``, its quaternion of unit length, as rates ask."""
     body = ws.bodies[number]
     theta = (t - body.own_step_time) / body.own_step
-    early, late = dense_weights(ws, body.own_step, theta, 0), dense_weights(ws, body.own_step, theta, 1)
+    early = dense_weights(ws, body.own_step, theta, is_late=False)
+    late = dense_weights(ws, body.own_step, theta, is_late=True)
     i, j, turn = body.q, ws.model.n_q + body.u, out + body.q + body.quaternion
     dense_part(
         ws.floats,
@@ -199,7 +200,8 @@ def body_within(ws: Workspace, h: float, theta: float, number: int, out: int) ->
         fly(ws, theta * h, number, out)
         return
     q, u = body.q, ws.model.n_q + body.u
-    early, late = dense_weights(ws, h, theta, 0), dense_weights(ws, h, theta, 1)
+    early = dense_weights(ws, h, theta, is_late=False)
+    late = dense_weights(ws, h, theta, is_late=True)
     dense_part(
         ws.floats, ws.island.y.start + q, ws.island.slopes.start + q, body.n_q, ws.model.n_y, early, late, out + q
     )
@@ -212,7 +214,8 @@ def body_within(ws: Workspace, h: float, theta: float, number: int, out: int) ->
 @kernel("void(ws, f8, f8, i8)")
 def state_within(ws: Workspace, h: float, theta: float, out: int) -> None:
     """Write the state at a fraction of the step."""
-    early, late = dense_weights(ws, h, theta, 0), dense_weights(ws, h, theta, 1)
+    early = dense_weights(ws, h, theta, is_late=False)
+    late = dense_weights(ws, h, theta, is_late=True)
     for span in range(ws.island.n_spans):
         i, n = ws.island.span_first[span], ws.island.span_length[span]
         dense_part(ws.floats, ws.island.y.start + i, ws.island.slopes.start + i, n, ws.model.n_y, early, late, out + i)

@@ -38,23 +38,23 @@ WRONG_FORCE = -2.0
 """A force below so many times what its contact problem took for zero violates its mode."""
 
 
-@entry_point("i8(ws, f8, i8, i8, i8)")
-def right_hand_side(ws: Workspace, t: float, y: int, choosing: int, every: int) -> int:
+@entry_point("b1(ws, f8, i8, b1, b1)")
+def right_hand_side(ws: Workspace, t: float, y: int, may_choose: bool, of_all_bodies: bool) -> bool:
     """Evaluate bodies, closed contacts, their forces and the accelerations ``du`` at ``t`` and ``y``.
 
-    That is of every body (1), or of those that are integrated.  The closed contacts are grouped into islands.  In free
-    flight the driven bodies are left alone.  With ``choosing`` (1) the null-space force of those not unique is chosen
-    anew; return 0 if somewhere none keeps every bound, else 1.  Within an implicit step friction opposes the slip that
+    That is of all bodies, or of those that are integrated. The closed contacts are grouped into islands. In free flight
+    the driven bodies are left alone. If it ``may_choose``, the null-space force of contact forces that are not unique
+    is chosen anew: false if somewhere none keeps every bound. Within an implicit step friction opposes the slip that
     the stage ends with.
     """
-    keeps = 1
+    keeps = True
     ws.island.singular_contact = -1
-    if every == 0 and ws.model.n_loads + ws.model.n_joints == 0:
+    if not of_all_bodies and ws.model.n_loads + ws.model.n_joints == 0:
         # no call: most right-hand sides are of these
         evaluate_integrated_bodies(ws, t, y)
     else:
-        evaluate_free_bodies(ws, t, y, every)
-    free_acceleration(ws, every)
+        evaluate_free_bodies(ws, t, y, of_all_bodies)
+    free_acceleration(ws, of_all_bodies)
     if ws.island.n_grouped == 0:
         return keeps
     evaluate_driven_bodies(ws, t, y)
@@ -81,7 +81,7 @@ def right_hand_side(ws: Workspace, t: float, y: int, choosing: int, every: int) 
         if implicit:
             hold_at_end(ws)
         else:
-            keeps = min(keeps, hold_contacts(ws, choosing))
+            keeps = hold_contacts(ws, may_choose) and keeps
         for a in range(ws.problem.n_active):
             active = ws.actives[a]
             c = active.contact
@@ -98,14 +98,14 @@ def right_hand_side(ws: Workspace, t: float, y: int, choosing: int, every: int) 
 @kernel("b1(ws)")
 def _slides(ws: Workspace) -> bool:
     """Return 1 if one of the active contacts slides, and their forces are none that are averaged."""
-    slides = 0
+    slides = False
     for a in range(ws.problem.n_active):
         contact = ws.contacts[ws.actives[a].contact]
         if contact.is_averaged:
             return False
         if contact.mode == Mode.SLIDE:
-            slides = 1
-    return slides != 0
+            slides = True
+    return slides
 
 
 @kernel("f8(ws, i8)")
@@ -198,22 +198,22 @@ def slip_guard(ws: Workspace, c: int) -> float:
     return float(contact.slip[0] * contact.direction[0] + contact.slip[1] * contact.direction[1])
 
 
-@entry_point("void(ws, f8, i8, i8, i8, i8)")
-def slope(ws: Workspace, t: float, y: int, out: int, choosing: int, every: int) -> None:
+@entry_point("void(ws, f8, i8, i8, b1, b1)")
+def slope(ws: Workspace, t: float, y: int, out: int, may_choose: bool, of_all_bodies: bool) -> None:
     """Write dy/dt: coordinate rates, accelerations, and four powers.
 
     These are of the driven bodies, lost to friction, exchanged in all by what is integrated, and of the loads.  For
-    ``choosing`` and ``every`` see :func:`right_hand_side`.
+    ``may_choose`` and ``of_all_bodies`` see :func:`right_hand_side`.
     """
     ws.totals.n_evaluations += 1
-    right_hand_side(ws, t, y, choosing, every)
-    if every == 1:
+    right_hand_side(ws, t, y, may_choose, of_all_bodies)
+    if of_all_bodies:
         for i in range(ws.island.n_ballistic):
             if ws.bodies[ws.island.ballistic[i]].has_own_step:
                 accelerate_in_flight(ws, t, ws.island.ballistic[i])
     lost = own = 0.0
-    for i in range(ws.model.n_bodies if every == 1 else ws.island.n_integrated):
-        body = ws.bodies[i if every == 1 else ws.island.integrated[i]]
+    for i in range(ws.model.n_bodies if of_all_bodies else ws.island.n_integrated):
+        body = ws.bodies[i if of_all_bodies else ws.island.integrated[i]]
         rates, n_q, n_u = body.tail, body.n_q, body.n_u
         accelerations, velocities = ws.island.du.start + body.u, ws.model.n_q + body.u
         for j in range(n_q):
@@ -244,18 +244,18 @@ def slope(ws: Workspace, t: float, y: int, out: int, choosing: int, every: int) 
     write_state_rates(ws, y, out)
 
 
-@kernel("i8(ws, i8)")
-def hardest_pressed(ws: Workspace, sliding: int) -> int:
+@kernel("i8(ws, b1)")
+def hardest_pressed(ws: Workspace, sliding: bool) -> int:
     """Return the closed contact of the greatest normal force, or -1; of those only that slide (1), or all (0)."""
     group_closed(ws)
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
-    right_hand_side(ws, ws.island.time, ws.island.y.start, 0, 1)
+    right_hand_side(ws, ws.island.time, ws.island.y.start, may_choose=False, of_all_bodies=True)
     hardest, most = -1, 0.0
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
-        takes_part = contact.mode == Mode.SLIDE if sliding == 1 else contact.mode != Mode.OPEN
-        takes_part = takes_part and has_own_step(ws, c) == 0
-        force = contact.force[0] if sliding == 1 else abs(contact.force[0])
+        takes_part = contact.mode == Mode.SLIDE if sliding else contact.mode != Mode.OPEN
+        takes_part = takes_part and not has_own_step(ws, c)
+        force = contact.force[0] if sliding else abs(contact.force[0])
         if takes_part and not contact.is_compliant and force > most:
             hardest, most = c, force
     return hardest

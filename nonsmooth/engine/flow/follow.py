@@ -31,13 +31,13 @@ _EXCESS = 1e-8
 """Forces past their bounds by this part of the largest are so by more than round-off."""
 
 
-@kernel("void(ws, i8)")
-def orient_slips(ws: Workspace, at_end: int) -> None:
+@kernel("void(ws, b1)")
+def orient_slips(ws: Workspace, at_end: bool) -> None:
     """Take the directions of slips at hand, or of those at the end of the last step (1), for the step that begins."""
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         if contact.mode == Mode.SLIDE:
-            slip = contact.slip_at_end if at_end == 1 else contact.slip
+            slip = contact.slip_at_end if at_end else contact.slip
             speed = length(slip)
             if speed > ws.tolerance.velocity:
                 contact.direction = slip[0] / speed, slip[1] / speed
@@ -49,14 +49,14 @@ def _turned_round(ws: Workspace) -> bool:
 
     A slip may turn round without an event, as where a belt pulls on.
     """
-    against = 0
+    against = False
     for i in range(ws.island.n_grouped):
         c = ws.island.grouped[i]
         contact = ws.contacts[c]
         if contact.mode == Mode.SLIDE and slip_guard(ws, c) < -ws.tolerance.velocity:
-            against = 1
-    orient_slips(ws, 0)
-    return against != 0
+            against = True
+    orient_slips(ws, at_end=False)
+    return against
 
 
 @kernel("f8(ws)")
@@ -97,7 +97,7 @@ def _found_step(ws: Workspace, h: float) -> float:
         elif not h > ws.tolerance.time:
             return -1.0
         if part == 0.0:
-            slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, 0, 1)
+            slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=False, of_all_bodies=True)
             part = 0.5
         elif part == 1.0:
             part = step_factor(error) if error < 1e300 else SHRINK
@@ -125,12 +125,12 @@ def follow(ws: Workspace, t: float) -> Status:
     _measure_mobilities(ws)
     wanted = ws.tolerance.largest_step
     if ws.island.averaged_until <= ws.island.time:
-        renew_mean_forces(ws, 0)
+        renew_mean_forces(ws, follows=False)
     while ws.island.time < t:
         ws.island.stage_time, ws.step.uses_last_slope, ws.step.has_replaced_slope = 0.0, False, False
-        slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, 0, 1)
+        slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=False, of_all_bodies=True)
         if _turned_round(ws):
-            slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, 0, 1)
+            slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=False, of_all_bodies=True)
         take_off(ws)
         for i in range(ws.island.n_grouped):
             c = ws.island.grouped[i]
@@ -153,9 +153,9 @@ def follow(ws: Workspace, t: float) -> Status:
             project_joints(ws)
         if ws.island.averaged_until - ws.island.time <= ws.tolerance.time:
             reach_end(ws)
-            renew_mean_forces(ws, 1)
+            renew_mean_forces(ws, follows=True)
         else:
-            ws.totals.closing_loss += project_closed(ws, 0, 0)
+            ws.totals.closing_loss += project_closed(ws, at_event=False, averaged=False)
         if ws.run.failure != Status.RUNNING:
             return ws.run.failure
         wanted = min(ws.tolerance.largest_step, 2.0 * h)
@@ -177,22 +177,22 @@ def _past_bounds(ws: Workspace) -> bool:
     return least < -_EXCESS * largest
 
 
-@entry_point("void(ws, i8)")
-def evaluate_forces(ws: Workspace, choosing: int) -> None:
+@entry_point("void(ws, b1)")
+def evaluate_forces(ws: Workspace, may_choose: bool) -> None:
     """Evaluate bodies, closed contacts and joints with their forces at the present state.
 
-    Of forces that are not unique the null-space force is chosen anew with ``choosing`` (1), as at an event, or if
-    with that at hand a bound is passed.
+    Of forces that are not unique the null-space force is chosen anew if it ``may_choose``, as at an event, or if with
+    that at hand a bound is passed.
     """
     group_closed(ws)
     ws.island.stage_time = 0.0
-    if choosing == 1 or ws.island.averaged_until <= ws.island.time:
-        renew_mean_forces(ws, 0)
+    if may_choose or ws.island.averaged_until <= ws.island.time:
+        renew_mean_forces(ws, follows=False)
     evaluate_driven_bodies(ws, ws.island.time, ws.island.y.start)
-    right_hand_side(ws, ws.island.time, ws.island.y.start, choosing, 1)
-    turned = _turned_round(ws)
-    anew = max(choosing, _past_bounds(ws))
-    if turned + anew > choosing:
-        right_hand_side(ws, ws.island.time, ws.island.y.start, anew, 1)
+    right_hand_side(ws, ws.island.time, ws.island.y.start, may_choose, of_all_bodies=True)
+    has_turned = _turned_round(ws)
+    is_past_bounds = not may_choose and _past_bounds(ws)
+    if has_turned or is_past_bounds:
+        right_hand_side(ws, ws.island.time, ws.island.y.start, may_choose or is_past_bounds, of_all_bodies=True)
     if ws.model.n_joints > 0:
         evaluate_joint_forces(ws)

@@ -165,7 +165,7 @@ def _runs(ws: Workspace, h: float, rate: float) -> int:
 @kernel()
 def measure_noise(ws: Workspace) -> None:
     """Write what counts as no force behind a leap: before it, next to the flat place, forces may have had no bound."""
-    right_hand_side(ws, ws.island.time, ws.island.y.start, 0, 1)
+    right_hand_side(ws, ws.island.time, ws.island.y.start, may_choose=False, of_all_bodies=True)
     largest = 0.0
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]
@@ -210,13 +210,13 @@ def passed_flat(ws: Workspace) -> int:
     Behind it they approach faster than tolerances explain of what is held: a face has fallen flat, and the other side
     of its rim is the lower one.
     """
-    approaches, explained = 0, EXPLAINED * ws.tolerance.velocity
+    approaches, explained = False, EXPLAINED * ws.tolerance.velocity
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]
         held = not contact.is_compliant and not contact.is_averaged and contact.past_feature_at_end <= 0.0
         if held and contact.velocity_at_end[0] < -explained:
-            approaches = 1
-    if approaches == 0:
+            approaches = True
+    if not approaches:
         return -1
     _keep_points(ws)
     evaluate_bodies(ws, ws.island.time + ws.step.h, ws.step.y_new.start)

@@ -9,8 +9,10 @@ from __future__ import annotations
 
 import math
 
+from nonsmooth.engine.flow.arming import arm_further, keep_end
 from nonsmooth.engine.flow.choices import blend_choices, choose_at_end
 from nonsmooth.engine.flow.clearance import bound_speeds, find_doubtful
+from nonsmooth.engine.flow.deflation import deflate
 from nonsmooth.engine.flow.dips import WAY, first_closing, look_at_gap, look_at_slip
 from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.flow.guard_numbers import (
@@ -21,18 +23,8 @@ from nonsmooth.engine.flow.guard_numbers import (
     normal_guard,
     number_of_guards,
 )
-from nonsmooth.engine.flow.guards import (
-    NO_GUARD,
-    arm_further,
-    deflate,
-    evaluate_guards,
-    evaluate_motion,
-    first_fired,
-    is_gap,
-    keep_end,
-    sign_depends_on,
-    write_guards,
-)
+from nonsmooth.engine.flow.guard_values import evaluate_guards, evaluate_motion, write_guards
+from nonsmooth.engine.flow.guards import NO_GUARD, DependsOn, first_fired, is_gap, sign_depends_on
 from nonsmooth.engine.flow.self_check import EXPLAINED, NEAR, explained_gap
 from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.layout import LAST_STAGE, PARTS
@@ -94,9 +86,9 @@ def guards_within(ws: Workspace, h: float, theta: float, forces: int) -> None:
 def _guard_at(ws: Workspace, h: float, theta: float, i: int, forces: int) -> float:
     """Return guard ``i`` at the fraction ``theta`` of the step; of a gap and of a slip nothing else is evaluated."""
     alone = sign_depends_on(ws, i)
-    if alone == 1:
+    if alone == DependsOn.GAP:
         look_at_gap(ws, h, theta, i)
-    elif alone == 2:
+    elif alone == DependsOn.SLIP:
         look_at_slip(ws, h, theta, contact_of(ws, i))
     else:
         guards_within(ws, h, theta, forces)
@@ -187,10 +179,10 @@ def _sampled(ws: Workspace, h: float, high: float) -> float:
         # right at the start nothing has grown yet
         guards_within(ws, h, max(theta, _FAINT), 0)
         if theta > 0.0:
-            if first_fired(ws, False, NO_GUARD) >= 0:
+            if first_fired(ws, forces_are_known=False, located=NO_GUARD) >= 0:
                 guards_within(ws, h, theta, _asks_forces(ws))
                 return theta
-            arm_further(ws, False)
+            arm_further(ws, forces_are_known=False)
         way, soonest = _advance(ws, h), (1.0 + _BEHIND) * _soonest(ws)
         looks = looks + 1 if soonest < way and looks < _LOOKS else 0
         theta += (soonest if looks > 0 else way) / h
@@ -228,7 +220,7 @@ def first_crossing(ws: Workspace, h: float) -> float:
     bound_speeds(ws)
     find_doubtful(ws, h)
     deflate(ws, h)
-    fired = first_fired(ws, True, NO_GUARD)
+    fired = first_fired(ws, forces_are_known=True, located=NO_GUARD)
     # where no stage saw a force or slip that violates its mode or dips, the middle is not looked at
     suspect = ws.step.has_doubtful_force
     for c in range(ws.island.n_contacts):
@@ -270,7 +262,7 @@ def first_crossing(ws: Workspace, h: float) -> float:
     elif fired >= 0 or ws.step.n_may_close == 0:
         return 1.0 if fired >= 0 else 0.0
     # guards armed only within the step count as well
-    return 1.0 if first_fired(ws, True, NO_GUARD) >= 0 else 0.0
+    return 1.0 if first_fired(ws, forces_are_known=True, located=NO_GUARD) >= 0 else 0.0
 
 
 @kernel("f8(ws, f8, f8, i8, i8)")
@@ -281,7 +273,7 @@ def _event_fraction(ws: Workspace, h: float, high: float, i: int, forces: int) -
     the guard jumps.
     """
     theta = _vanishing(ws, h, high, i, forces)
-    if sign_depends_on(ws, i) > 0:
+    if sign_depends_on(ws, i) != DependsOn.FORCE:
         guards_within(ws, h, theta, forces)
     return theta
 
@@ -297,7 +289,7 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, forces: int) -> flo
     g_high = ws.guards[i].value
     ws.step.guard_slope = 0.0
     rises = ws.guards[i].initial <= 0.0 or ws.guards[i].is_deflated
-    while g_low <= _FAINT * abs(g_high) and (rises or is_gap(ws, i) == 1):
+    while g_low <= _FAINT * abs(g_high) and (rises or is_gap(ws, i)):
         # it was armed inside the step, or rises from zero with no rate: look for where it is positive
         low = 0.5 * high if low == 0.0 else 0.5 * low
         g_low = _guard_at(ws, h, low, i, forces)
@@ -320,15 +312,15 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, forces: int) -> flo
         if theta != theta_before:
             ws.step.guard_slope = (g - g_before) / ((theta - theta_before) * h)
         theta_before, g_before = theta, g
-        if is_gap(ws, i) == 1:
+        if is_gap(ws, i):
             ws.step.guard_slope = ws.contacts[contact_of(ws, i)].gap_rate
             if ws.guards[i].is_deflated:
                 ws.step.guard_slope = (ws.step.guard_slope - g) / (theta * h)
         # the slope across a jump says nothing of a value that is as it was at the start
-        near = abs(g) <= -fine * ws.step.guard_slope and (abs(g) <= _NEARER * g_first or is_gap(ws, i) == 1)
+        near = abs(g) <= -fine * ws.step.guard_slope and (abs(g) <= _NEARER * g_first or is_gap(ws, i))
         if g == 0.0 or (high - low) * h <= fine or near:
             left, span = (g, high - theta) if g > 0.0 else (left, theta - low)
-            if left <= _JUMP * g_first or span * h > ws.tolerance.time or is_gap(ws, i) == 1:
+            if left <= _JUMP * g_first or span * h > ws.tolerance.time or is_gap(ws, i):
                 return float(theta)
             ws.step.guard_slope = -math.inf
             if g <= 0.0:
@@ -345,7 +337,7 @@ def _vanishing(ws: Workspace, h: float, high: float, i: int, forces: int) -> flo
             left = g
         slow = slow + 1 if high - low > 0.5 * way else max(slow - 1, 0)
         following = high - g_high * (high - low) / (g_high - g_low)
-        if is_gap(ws, i) == 1 and ws.step.guard_slope < 0.0:
+        if is_gap(ws, i) and ws.step.guard_slope < 0.0:
             newton = theta - g / (ws.step.guard_slope * h)
             if low < newton < high:
                 following = newton
@@ -361,7 +353,7 @@ def _behind_jump(ws: Workspace, step: float, i: int) -> float:
         return -1.0
     way = _FINE * ws.tolerance.time
     while way <= EXPLAINED * ws.tolerance.time:
-        evaluate_guards(ws, ws.island.time + step, ws.step.y_new.start, step, True)
+        evaluate_guards(ws, ws.island.time + step, ws.step.y_new.start, step, needs_forces=True)
         if ws.guards[i].value < 0.0:
             return step
         # so short a way is straight
@@ -389,12 +381,12 @@ def _corrected(ws: Workspace, root: float, i: int) -> float:
         slope = ws.step.guard_slope
         if ws.guards[i].is_deflated:
             value -= ws.guards[i].base
-        if is_gap(ws, i) == 1:
+        if is_gap(ws, i):
             slope = ws.contacts[contact_of(ws, i)].gap_rate
         elif ws.guards[i].is_deflated:
             value /= step
         # a gap that closes slower than what counts as rest does not tell where
-        if not slope < (-ws.tolerance.velocity if is_gap(ws, i) == 1 else 0.0):
+        if not slope < (-ws.tolerance.velocity if is_gap(ws, i) else 0.0):
             return step
         correction = min(0.2 * root, max(-0.2 * root, -value / slope))
         if abs(correction) <= SHORT * h:
@@ -453,7 +445,7 @@ def locate(ws: Workspace, h: float, high: float) -> float:
     higher.
     """
     closed = _asks_forces(ws)
-    first = first_fired(ws, True, NO_GUARD)
+    first = first_fired(ws, forces_are_known=True, located=NO_GUARD)
     of_contact = 0 <= first < first_own_guard(ws)
     if ws.island.stage_time > 0.0 and of_contact and ws.contacts[contact_of(ws, first)].mode != Mode.OPEN:
         # explicit steps, which are short enough then, find out when
@@ -490,13 +482,9 @@ def locate(ws: Workspace, h: float, high: float) -> float:
         return -1.0
     # a gap without a rate jumps where features come to face each other: there is nothing to follow on the step
     jumps = (
-        1
-        if fired < first_own_guard(ws)
-        and ws.contacts[contact_of(ws, fired)].mode == Mode.OPEN
-        and is_gap(ws, fired) == 0
-        else 0
+        fired < first_own_guard(ws) and ws.contacts[contact_of(ws, fired)].mode == Mode.OPEN and not is_gap(ws, fired)
     )
-    if ws.step.error <= NEGLIGIBLE or jumps == 1:
+    if ws.step.error <= NEGLIGIBLE or jumps:
         state_within(ws, h, theta, ws.step.y_new.start)
         return step
     if ws.step.guard_slope == -math.inf:

@@ -50,7 +50,7 @@ def _go_on(ws: Workspace, time: float) -> None:
         ws.step.y_stage[i] = ws.island.y[i]
     for i in range(ws.model.n_u):
         ws.floats[velocities + i] += 0.5 * ws.floats[change + i]
-    evaluate_free_bodies(ws, ws.island.time, ws.step.y_stage.start, 1)
+    evaluate_free_bodies(ws, ws.island.time, ws.step.y_stage.start, of_all_bodies=True)
     for number in range(ws.model.n_bodies):
         body = ws.bodies[number]
         for i in range(body.n_q):
@@ -105,8 +105,8 @@ def _departure(ws: Workspace, time: float) -> float:
     return worst
 
 
-@kernel("void(ws, i8)")
-def find_mean_forces(ws: Workspace, follows: int) -> None:
+@kernel("void(ws, b1)")
+def find_mean_forces(ws: Workspace, follows: bool) -> None:
     """Write the mean forces of the active contacts, and what these do at the end of the averaging.
 
     Their rates and the accelerations without forces must be written.  The ``active_forces`` are those, too.  An

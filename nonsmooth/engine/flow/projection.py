@@ -39,8 +39,8 @@ _MOST_ITERATIONS = 5
 """Of Newton's method, which is quadratic: two or three do within the tolerances of a step."""
 
 
-@entry_point("f8(ws, i8)")
-def project_rates(ws: Workspace, at_event: int) -> float:
+@entry_point("f8(ws, b1)")
+def project_rates(ws: Workspace, at_event: bool) -> float:
     """Bring gap rates of the active contacts, and slip velocities of those that do not slip, to zero.
 
     At an event (1) a slip that is only about to start counts as none: its direction would be that of round-off.  The
@@ -59,8 +59,8 @@ def project_rates(ws: Workspace, at_event: int) -> float:
         active.normal_force = 0.0
         slow = max(abs(contact.rate[1]), abs(contact.rate[2])) <= ws.tolerance.velocity
         rubs = contact.has_traction_law
-        active.sticks = contact.mode == Mode.STICK or (at_event == 1 and slow and not rubs)
-        active.friction_coefficient = 0.0
+        active.sticks = contact.mode == Mode.STICK or (at_event and slow and not rubs)
+        active.friction_coefficient, active.direction = 0.0, contact.direction
         for r in range(3):
             active.free[r] = contact.rate[r]
     part = _DAMPING if m > 1 else 0.0
@@ -114,6 +114,7 @@ def _add_gaps(ws: Workspace) -> bool:
         active.is_normal_force_unknown = not contact.is_compliant
         active.sticks = False
         active.normal_force = active.friction_coefficient = 0.0
+        active.direction = contact.direction
         active.free[0] = held_gap(ws, c)
     if m > 1:
         _damp(ws, max(_DAMPING, (0.5 * share / _FARTHEST) ** 2))
@@ -256,14 +257,14 @@ def _displace(ws: Workspace) -> None:
     normalise_quaternions(ws)
 
 
-@entry_point("f8(ws, i8, i8)")
-def project_closed(ws: Workspace, at_event: int, averaged: int) -> float:
+@entry_point("f8(ws, b1, b1)")
+def project_closed(ws: Workspace, at_event: bool, averaged: bool) -> float:
     """Put the closed contacts on their constraints, island by island; return the energy that this removes [J].
 
     What the gaps take counts at an event (1); within a step it is the error of the step, which no energy paid for.
     Of islands whose forces are ``averaged`` (1) only these come to rest, where that ends; else only the others (0).
     """
-    if at_event == 1:
+    if at_event:
         group_closed(ws)
     if ws.island.n_grouped == 0:
         return 0.0
@@ -286,7 +287,7 @@ def project_closed(ws: Workspace, at_event: int, averaged: int) -> float:
         if past > ws.tolerance.gap:
             # behind the end of a feature its rate is that of another one; the event that comes drops the contact
             continue
-        if at_event == 0 and _slides_alone(ws):
+        if not at_event and _slides_alone(ws):
             loss += _stop_alone(ws)
             moved += 1
             continue
@@ -297,8 +298,8 @@ def project_closed(ws: Workspace, at_event: int, averaged: int) -> float:
     if moved > 0:
         before = energy_of_bodies(ws, 1)
         _displace(ws)
-        evaluate_free_bodies(ws, ws.island.time, ws.island.y.start, 1)
-        if at_event == 1:
+        evaluate_free_bodies(ws, ws.island.time, ws.island.y.start, of_all_bodies=True)
+        if at_event:
             loss += before - energy_of_bodies(ws, 1)
     return loss
 

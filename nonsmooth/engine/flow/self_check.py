@@ -129,13 +129,13 @@ def _stored(ws: Workspace, c: int, depth: float) -> float:
     return float(depth * total)
 
 
-@kernel("f8(ws, i8, i8)")
-def _deepest_other(ws: Workspace, c: int, after: int) -> float:
+@kernel("f8(ws, i8, b1)")
+def _deepest_other(ws: Workspace, c: int, after: bool) -> float:
     """Return the least gap of the other closed contacts of the frames of a contact, before an event or after it."""
     contact, deepest = ws.contacts[c], 0.0
     for other in range(ws.island.n_contacts):
         another = ws.contacts[other]
-        mode = another.mode_agreed if after == 1 else another.mode
+        mode = another.mode_agreed if after else another.mode
         same = another.frame_a == contact.frame_a and another.frame_b == contact.frame_b
         if other != c and same and mode != Mode.OPEN:
             deepest = min(deepest, another.gap)
@@ -156,14 +156,14 @@ def check_begun(ws: Workspace) -> None:
         if contact.mode != Mode.OPEN:
             # past its end only what takes over knows the depth
             if contact.past_feature > 0.0:
-                ws.run.jumped_energy -= _stored(ws, c, -_deepest_other(ws, c, 1))
+                ws.run.jumped_energy -= _stored(ws, c, -_deepest_other(ws, c, after=True))
             continue
         tolerated = explained_gap(ws, c)
         if contact.gap >= -tolerated:
             continue
         ws.run.jumped_energy += _stored(ws, c, -contact.gap)
         ws.run.jump_time = ws.island.time
-        explained = tolerated - _deepest_other(ws, c, 0)
+        explained = tolerated - _deepest_other(ws, c, after=False)
         if contact.gap < -explained:
             blame(ws, Status.GAP_UNEXPLAINED, c, contact.gap, explained)
 

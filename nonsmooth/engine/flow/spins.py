@@ -58,7 +58,9 @@ def choose_spins(ws: Workspace) -> None:
         number = ws.island.integrated[i]
         body = ws.bodies[number]
         u = ws.model.n_q + body.u + body.spin
-        body.spins_apart = _turns(ws.floats, ws.island.y.start + u, ws.island.slopes.start + u) if body.spin >= 0 else 0
+        body.spins_apart = (
+            _turns(ws.floats, ws.island.y.start + u, ws.island.slopes.start + u) if body.spin >= 0 else False
+        )
         if body.spins_apart:
             ws.island.spinning[ws.island.n_spinning] = number
             ws.island.n_spinning += 1

@@ -140,8 +140,8 @@ def _predict_stage(ws: Workspace, h: float, stage: int, out: int) -> None:
         ws.floats[here + i] = (ws.floats[out + i] - ws.step.y_guess[i]) / ws.island.stage_time
 
 
-@kernel("i8(ws, f8, i8)")
-def _solve_stage(ws: Workspace, h: float, stage: int) -> int:
+@kernel("b1(ws, f8, i8)")
+def _solve_stage(ws: Workspace, h: float, stage: int) -> bool:
     """Find the slope of a stage at the state that it leads to itself; return 1 if it is found.
 
     Friction of slips, which is stiff, is solved for; all else is iterated, until what would be left if it fell on as
@@ -157,10 +157,10 @@ def _solve_stage(ws: Workspace, h: float, stage: int) -> int:
         for i in range(n):
             ws.step.y_guess[i] = ws.floats[here + i]
         ws.problem.stage_time, ws.problem.guess = ws.island.stage_time, ws.step.y_guess.start + ws.model.n_q
-        slope(ws, ws.island.time + implicit_tableau.NODES[stage] * h, out, here, 0, 0)
+        slope(ws, ws.island.time + implicit_tableau.NODES[stage] * h, out, here, may_choose=False, of_all_bodies=False)
         ws.problem.stage_time = 0.0
         if ws.problem.is_unsettled:
-            return 0
+            return False
         worst = 0.0
         for i in range(n):
             change = ws.island.stage_time * (ws.floats[here + i] - ws.step.y_guess[i])
@@ -172,7 +172,7 @@ def _solve_stage(ws: Workspace, h: float, stage: int) -> int:
         if left <= implicit_tableau.SETTLED:
             return _holds(ws)
         before = worst
-    return 0
+    return False
 
 
 @kernel("b1(ws)")
@@ -182,7 +182,14 @@ def _settle(ws: Workspace) -> bool:
         ws.step.y_guess[i] = 0.0
     ws.problem.is_unsettled = False
     ws.problem.stage_time, ws.problem.guess = ws.island.stage_time, ws.step.y_guess.start + ws.model.n_q
-    slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start + ws.model.n_y, 0, 0)
+    slope(
+        ws,
+        ws.island.time,
+        ws.island.y.start,
+        ws.island.slopes.start + ws.model.n_y,
+        may_choose=False,
+        of_all_bodies=False,
+    )
     ws.problem.stage_time = 0.0
     return False if ws.problem.is_unsettled else _holds(ws)
 
@@ -201,7 +208,7 @@ def _try_implicit_step(ws: Workspace, h: float) -> float:
     if not ws.step.uses_last_slope and not _settle(ws):
         return math.inf
     for stage in range(2, N_STAGES):
-        if _solve_stage(ws, h, stage) == 0:
+        if not _solve_stage(ws, h, stage):
             return math.inf
     weigh_slopes(ws, ws.coefficients.implicit_errors.start, ws.island.slopes.start, n, h, ws.step.y_stage.start)
     error = _relative_error(ws)
@@ -242,7 +249,14 @@ def explicit_step(ws: Workspace, h: float) -> float:
                 out + i,
             )
         stage_spins(ws, stage, h, out)
-        slope(ws, ws.island.time + tableau.NODES[stage] * h, out, ws.island.slopes.start + stage * n, 0, 0)
+        slope(
+            ws,
+            ws.island.time + tableau.NODES[stage] * h,
+            out,
+            ws.island.slopes.start + stage * n,
+            may_choose=False,
+            of_all_bodies=False,
+        )
         keep_spins(ws, stage, out)
     for span in range(ws.island.n_spans):
         i, length = ws.island.span_first[span], ws.island.span_length[span]

@@ -20,11 +20,9 @@ from nonsmooth.engine.impact.rates import (
     state_of,
     state_size,
 )
-from nonsmooth.engine.memory.modes import Phase
+from nonsmooth.engine.memory.modes import NO_CONTACT, Phase
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel, result
 
-NO_CONTACT = -1
-"""Number in place of a contact where there is none."""
 _AT_EVENT = 4.0 * NOISE
 """Value [1] within which the guard that a step aims at has fired. It is round-off of a few operations."""
 

@@ -20,7 +20,7 @@ import math
 from enum import IntEnum
 from typing import NamedTuple
 
-from nonsmooth.engine.impact.clock import NO_CONTACT, Aim, aim, change_clock, has_arrived
+from nonsmooth.engine.impact.clock import Aim, aim, change_clock, has_arrived
 from nonsmooth.engine.impact.end import cut_short, end_trapped, finish, has_faded, is_finished
 from nonsmooth.engine.impact.friction import choose_friction, orient, stays_slow, stop_halted
 from nonsmooth.engine.impact.guards import (
@@ -37,7 +37,7 @@ from nonsmooth.engine.impact.scales import grow_scales, scale_impact
 from nonsmooth.engine.impact.step import let_go, try_impact_step, try_linear_step
 from nonsmooth.engine.impact.step_length import first_step, graded, lone_step, rejection_factor, step_after_switch
 from nonsmooth.engine.memory.layout import LAST_STAGE
-from nonsmooth.engine.memory.modes import Truncation
+from nonsmooth.engine.memory.modes import NO_CONTACT, Truncation
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel, result
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.roots import TRUSTED

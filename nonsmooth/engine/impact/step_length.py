@@ -11,15 +11,14 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.impact.clock import NO_CONTACT
 from nonsmooth.engine.impact.rates import state_at, state_of
-from nonsmooth.engine.memory.modes import Phase
+from nonsmooth.engine.memory.modes import NO_CONTACT, Phase
 from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.runge_kutta import SAFETY, SHRINK, step_factor
 
 _FIRST_POWER = 0.25
-"""Power of the tolerance that is the first step, relative to the shortest compression. Forces that have not built up are
-compared after that step."""
+"""Power of the tolerance that is the first step, relative to the shortest compression. Forces are compared after
+that step if none has built up."""
 _FAR = 4.0
 """First step of a lone contact, relative to the impulse that stops it. It is past all events of the contact."""
 _LARGEST_LOSS = 0.7

@@ -21,14 +21,13 @@ from __future__ import annotations
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.delassus.blocks import link_active
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
-from nonsmooth.engine.impact.clock import NO_CONTACT
 from nonsmooth.engine.impact.end import account
 from nonsmooth.engine.impact.integration import MOST_STEPS, Outcome, run_impact
 from nonsmooth.engine.impact.phases import start_phases
 from nonsmooth.engine.impact.rates import NOISE, state_of
 from nonsmooth.engine.impact.scales import CIRCLING, scale_impact
 from nonsmooth.engine.impact.step_length import first_step
-from nonsmooth.engine.memory.modes import Phase, Truncation
+from nonsmooth.engine.memory.modes import NO_CONTACT, Phase, Truncation
 from nonsmooth.engine.native.kernel import ActiveContact, Contact, Workspace, entry_point, kernel
 
 LARGE = 16

@@ -27,9 +27,11 @@ class Life(Enum):
     REQUEST = "request"
     """With the call that asks for a run."""
     STATE = "state"
-    """With the run. A checkpoint is all of it."""
+    """With the run."""
     REUSED = "reused"
     """With the next step, which starts from it instead of evaluating it again."""
+    DERIVED = "derived"
+    """With the modes. It follows from the state, and is evaluated again when a run continues."""
     STEP = "step"
     """With the step that wrote it."""
     EVENT = "event"
@@ -74,6 +76,11 @@ class Declaration:
         True for room that most runs do not fill. It comes last, and costs no memory before it is written.
     is_of_slot : bool
         True for a parameter or a state of the place in a list, not of what is listed there.
+    is_address : bool
+        True for the address of a function, which is another one in every process.
+    below : Size or None
+        What an integer is always less than, as a function of the counts of a system. A checkpoint from a file is looked
+        through by it.
     owner : type
         Class that it stands in.
     name : str
@@ -93,6 +100,8 @@ class Declaration:
     has_end: bool = False
     is_late: bool = False
     is_of_slot: bool = False
+    is_address: bool = False
+    below: Size | None = None
     owner: Any = None
     name: str = ""
 
@@ -104,6 +113,11 @@ class Declaration:
     def is_float(self) -> bool:
         """True if it stands in the floats of the workspace, False if in its integers."""
         return self.kind is float
+
+    @property
+    def outlives_a_step(self) -> bool:
+        """True if a step may read what an earlier one wrote: a checkpoint holds it."""
+        return self.life in (Life.STATE, Life.REUSED)
 
     @property
     def key(self) -> str:
@@ -202,6 +216,11 @@ def whole(life: Life, sentence: str, **options: Any) -> Any:
     return Declaration(int, life, "", sentence, **options)
 
 
+def address(life: Life, sentence: str, **options: Any) -> Any:
+    """Declare the address of a function."""
+    return Declaration(int, life, "", sentence, is_address=True, **options)
+
+
 def question(life: Life, sentence: str, **options: Any) -> Any:
     """Declare a boolean."""
     return Declaration(bool, life, "", sentence, **options)
@@ -217,9 +236,9 @@ def end_of(start: str, sentence: str, **options: Any) -> Any:
     return Declaration(int, Life.PARAMETER, "", sentence, inside=(start, 1), **options)
 
 
-def array(life: Life, size: Size, kind: type, unit: str, sentence: str, *, is_late: bool = False) -> Any:
+def array(life: Life, size: Size, kind: type, unit: str, sentence: str, **options: Any) -> Any:
     """Declare an array of a part, of floats or integers."""
-    return Declaration(kind, life, unit, sentence, size=size, is_late=is_late)
+    return Declaration(kind, life, unit, sentence, size=size, **options)
 
 
 def declarations(owner: type) -> Mapping[str, Declaration]:

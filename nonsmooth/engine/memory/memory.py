@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 from array import array
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, cast
 
 import numpy as np
@@ -19,7 +19,9 @@ from nonsmooth.engine.memory.tables import (
     COUNTS,
     OWNERS,
     arrays_of,
+    kept_scalars,
     length_of,
+    lengths_of,
     record_with,
     scalars_of,
     storage_of,
@@ -35,13 +37,19 @@ class Heap:
         self._memory = memory
         self._first = len(memory.floats)
         self._values = array("d")
+        self._written: list[tuple[np.ndarray, int]] = []
         self._references: list[tuple[int, int, Table]] = []
 
     def block(self, size: int) -> int:
-        """Reserve floats; return their offset."""
+        """Reserve floats that the engine writes; return their offset."""
         start = self._first + len(self._values)
         self._values.frombytes(bytes(self._values.itemsize * size))
+        self.write(start, size)
         return start
+
+    def write(self, starts: int | np.ndarray, size: int) -> None:
+        """Note that numbers of blocks are no parameters: the engine or a plug-in writes them."""
+        self._written.append((np.atleast_1d(starts) - self._first, size))
 
     def store(self, values: Sequence[float] | np.ndarray) -> int:
         """Append values; return their offset."""
@@ -61,7 +69,9 @@ class Heap:
 
     def output(self, size: int) -> int:
         """Reserve floats that a plug-in writes, and guards behind them; return their offset."""
-        return self.store(output_block(size))
+        start = self.store(output_block(size))
+        self.write(start, size)
+        return start
 
     def close(self) -> Memory:
         """Return the memory with all blocks in it, and behind them every table once."""
@@ -72,15 +82,18 @@ class Heap:
             places[key] = end
             end += len(table)
         floats = np.zeros(end + 1)
-        written = int(old.scalars[0]["output.event_numbers"])
-        floats[:written] = old.floats[:written]
+        arrays = old.early[0]
+        floats[: len(arrays)] = arrays
         floats[self._first : first] = self._values
+        written = np.zeros(len(self._values), bool)
+        for starts, size in self._written:
+            written[starts[:, None] + np.arange(size)] = True
         for key, table in tables.items():
             floats[places[key] : places[key] + len(table)] = table.numbers
         references = tuple((place, start, places[id(table)]) for place, start, table in self._references)
         for place, start, at in references:
             floats[place] = at - start
-        return replace(old, floats=floats, tables=first, references=references)
+        return replace(old, floats=floats, tables=first, references=references, written=written)
 
 
 def output_block(size: int) -> list[float]:
@@ -117,6 +130,8 @@ class Memory:
     references : tuple
         (place of a number, the place from which that number counts, place of the table that it leads to), for every
         table that a function reads.
+    written : array
+        Of each number of the blocks whether the engine or a plug-in writes it: the others are parameters.
     own : tuple of type
         Parts of an engine that is no built-in one.
     owner : Memory or None
@@ -129,6 +144,7 @@ class Memory:
     blocks: int
     tables: int
     references: tuple[tuple[int, int, int], ...] = ()
+    written: np.ndarray = field(default_factory=lambda: np.zeros(0, bool))
     own: tuple[type[Part], ...] = ()
     owner: Memory | None = None
 
@@ -198,15 +214,31 @@ class Memory:
         return self.scalars.ctypes.data, self.floats.ctypes.data, self.integers.ctypes.data
 
     @functools.cached_property
-    def kept(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Views of what a step may find of those before it: neither output nor scratch that it writes itself."""
-        events, codes = (int(self.scalars[name][0]) for name in ("output.event_numbers", "output.event_codes"))
-        return self.floats[:events], self.floats[self.blocks : self.tables], self.integers[:codes]
+    def kept(self) -> tuple[np.ndarray, ...]:
+        """All scalars, the arrays that outlive a step, and the blocks: what a step may find of those before it.
+
+        Views of integers with the bits of the numbers: a number that is not finite differs from itself.
+        """
+        (floats, *_), (integers, *_) = self._lengths
+        parts = self.scalars, self.floats[:floats], self.integers[:integers], self.floats[self.blocks : self.tables]
+        return tuple(part.view(np.int64) for part in parts)
 
     @functools.cached_property
-    def bits(self) -> tuple[np.ndarray, ...]:
-        """Views of the scalars and of :attr:`kept` as integers: a number that is not finite differs from itself."""
-        return tuple(part.view(np.int64) for part in (self.scalars, *self.kept))
+    def changing(self) -> tuple[np.ndarray, ...]:
+        """Of each number of :attr:`kept` whether a run may change it."""
+        _, floats, integers, _ = self.kept
+        return kept_scalars(self.own), np.ones(len(floats), bool), np.ones(len(integers), bool), self.written
+
+    @functools.cached_property
+    def early(self) -> tuple[np.ndarray, ...]:
+        """Views of all arrays that are not late, and of the blocks."""
+        (_, floats, _), (_, integers, _) = self._lengths
+        return self.floats[:floats], self.integers[:integers], self.floats[self.blocks : self.tables]
+
+    @functools.cached_property
+    def _lengths(self) -> tuple[tuple[int, int, int], ...]:
+        counts = {name: self.record[f"{Model.key}.{name}"].item() for name in COUNTS}
+        return tuple(lengths_of((*OWNERS, *self.own), of_floats, counts) for of_floats in (True, False))
 
 
 def allocate(counts: Mapping[str, int], own: tuple[type[Part], ...] = ()) -> Memory:

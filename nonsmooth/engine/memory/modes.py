@@ -76,6 +76,8 @@ CAUSES = (
 )
 """The causes in words, by number."""
 
+NO_CONTACT = -1
+"""Number in place of a contact where there is none."""
 NO_RELEASE = Cause.START
 """Cause of the release of a contact that no jump of its contact point released."""
 

@@ -4,6 +4,8 @@ Every scalar of a :class:`~nonsmooth.engine.memory.declare.Part` is an entry of 
 every array in the heap of floats or in that of integers. The entries are named by owner and field: ``"island.time"``,
 ``"contacts.gap"``. All sizes are counts of a system: another number of bodies or contacts is another set of offsets,
 never another compilation. The numbers of an engine that is no built-in one come last.
+
+Arrays that outlive a step come first in their heap, so that a checkpoint takes one piece of each. Late arrays come last.
 """
 
 from __future__ import annotations
@@ -37,9 +39,26 @@ def _all(owners: Iterable[type]) -> list[Declaration]:
 
 
 def arrays_of(owners: Iterable[type], of_floats: bool) -> dict[str, Size]:
-    """Return the sizes of all arrays of some owners by name, in the order in which they stand: late ones last."""
+    """Return the sizes of all arrays of some owners by name, in the order in which they stand."""
     found = [one for one in _all(owners) if has_array(one) and one.is_float == of_floats]
-    return {one.key: functools.partial(length_of, one) for one in sorted(found, key=lambda one: one.is_late)}
+    return {one.key: functools.partial(length_of, one) for one in sorted(found, key=_rank)}
+
+
+def _rank(declared: Declaration) -> int:
+    return _LATE if declared.is_late else _KEPT if declared.outlives_a_step else _SHORT
+
+
+_KEPT, _SHORT, _LATE = range(3)
+
+
+def lengths_of(owners: Iterable[type], of_floats: bool, counts: Counts) -> tuple[int, int, int]:
+    """Return how far the arrays that outlive a step reach in a heap, those that are not late, and all."""
+    totals = [0, 0, 0]
+    for one in _all(owners):
+        if has_array(one) and one.is_float == of_floats:
+            for rank in range(_rank(one), len(totals)):
+                totals[rank] += length_of(one, counts)
+    return totals[_KEPT], totals[_SHORT], totals[_LATE]
 
 
 def scalars_of(owners: Iterable[type]) -> dict[str, float]:
@@ -66,6 +85,12 @@ COUNTS = tuple(name for name, one in declarations(Model).items() if one.kind is 
 """Counts that size the arrays, and the other integers of a model."""
 CONSTANT_SCALARS = frozenset((*(f"{Model.key}.{name}" for name in COUNTS), *FLOAT_ARRAYS, *INTEGER_ARRAYS))
 """What never changes once the workspace is laid out."""
+
+
+def kept_scalars(own: Iterable[type[Part]]) -> NDArray[np.bool_]:
+    """Return of each entry of the record of scalars whether it outlives a step."""
+    kept = {one.key for one in _all((*OWNERS, *own)) if one.outlives_a_step and not has_array(one)}
+    return np.array([name in kept for name in record_with(own).names or ()])
 
 
 def record_with(own: Iterable[type[Part]]) -> np.dtype[np.void]:

@@ -1,1 +1,1 @@
-"""The two ways to run engine functions, compiled and plain, and the cache of what is compiled."""
+"""The two ways to run the engine, compiled and as plain Python, and the files of compiled code."""

@@ -1,4 +1,4 @@
-"""Names under which Python calls compiled functions: entry points, and steps of an engine of one's own."""
+"""The names under which Python calls compiled functions: entry points, and steps of engines that plug-ins define."""
 
 from __future__ import annotations
 
@@ -8,22 +8,22 @@ from typing import Any, TypeAlias, TypeVar
 from nonsmooth.errors import UnknownName
 
 Fingerprint: TypeAlias = Callable[[Callable[..., Any], str], str]
-"""Returns a digest of a function and of a context, the key of its code on disk; nothing where there is none."""
+"""Digest of a function and of a context, the key of its code on disk; empty if the code cannot be kept."""
 _Entry = TypeVar("_Entry")
 
 
 def own_name(function: Callable[..., Any]) -> str:
-    """Return the name of a step of one's own, which no entry point of the engine has."""
+    """Name of an engine's step. No entry point has such a name."""
     return f"{function.__module__}.{function.__qualname__}"
 
 
 def known(entries: Mapping[str, _Entry], name: str) -> _Entry:
-    """Return what is called under a name.
+    """The entry of a name.
 
     Raises
     ------
     UnknownName
-        If nothing is.
+        If there is none of that name.
     """
     if name not in entries:
         raise UnknownName("entry point", name, entries)

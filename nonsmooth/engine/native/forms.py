@@ -1,4 +1,7 @@
-"""The forms of the functions that the engine calls by address; all that knows how they are called is made from here."""
+"""The forms of the functions that the engine calls by address: their arguments, results and what is recorded of them.
+
+Signatures, C prototypes and shims are all made from here.
+"""
 
 from __future__ import annotations
 
@@ -15,25 +18,25 @@ C_TYPES: Mapping[str, Any] = {
     "F": ctypes.c_void_p,
     "void": None,
 }
-"""Types of arguments and results; ``F`` are floats behind a pointer."""
+"""C types of arguments and results. ``F`` is a pointer to floats."""
 
 
 @final
 @dataclass(frozen=True)
 class Form:
-    """What the engine passes to a function, and what it gets.
+    """The arguments and the result of a function that the engine calls by address.
 
     Attributes
     ----------
     given : mapping of str to str
-        What is passed before the function's own parameters, names with types.
+        Names and types of the arguments before the function's own parameters.
     returns : bool
-        Whether it returns a number; else it writes to ``out``.
+        Whether it returns a number. Otherwise it writes to ``out``.
     recorded : mapping of str to int
-        What is kept for a message, before the parameters, where a law has no finite value: names of arguments, and
-        how many numbers of each.
+        Arguments that are recorded before the parameters if the result is not finite, for a message, and how many
+        numbers of each.
     watched : int
-        How many numbers of ``out`` are to be finite for that.
+        How many numbers of ``out`` must be finite.
     """
 
     given: Mapping[str, str]
@@ -43,22 +46,22 @@ class Form:
 
     @cached_property
     def roles(self) -> tuple[str, ...]:
-        """What a function takes before its own parameters."""
+        """Names of the arguments before the function's own parameters."""
         return (*self.given, *(() if self.returns else ("out",)))
 
     @cached_property
     def arguments(self) -> Mapping[str, str]:
-        """What the engine calls with, in order: ``p`` are the parameters."""
+        """Names and types of the arguments of the C function, in order. ``p`` are the parameters."""
         return {**self.given, "p": "F", **({} if self.returns else {"out": "F"})}
 
     @cached_property
     def signature(self) -> str:
-        """The types, as those of kernels are written."""
+        """The signature, written like that of a kernel."""
         return f"{self._result}({', '.join(self.arguments.values())})"
 
     @cached_property
     def n_recorded(self) -> int:
-        """How many numbers are kept."""
+        """Number of numbers that are recorded."""
         return sum(self.recorded.values())
 
     @property
@@ -66,7 +69,7 @@ class Form:
         return "f8" if self.returns else "void"
 
     def prototype(self, pointer: Any = ctypes.c_void_p) -> Any:
-        """Return the type of the C function for :mod:`ctypes`."""
+        """Type of the C function for :mod:`ctypes`."""
         types = {**C_TYPES, "F": pointer}
         return ctypes.CFUNCTYPE(types[self._result], *[types[kind] for kind in self.arguments.values()])
 

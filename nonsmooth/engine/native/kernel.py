@@ -1,12 +1,21 @@
-"""The one switch between compiled and plain: every engine function comes through here.
+"""The switch between compiled and plain: all functions of the engine get their decorators and calls from here.
 
-Engine functions take the workspace ``ws``, all numbers of one trajectory by owner
-(:mod:`nonsmooth.engine.memory.workspace`). Set the environment variable ``NONSMOOTH_PLAIN=1`` before the first import to
-run the same source as ordinary Python, without numba: for the debugger, for coverage, and to see that both agree.
+Kernels take the workspace ``ws``, all numbers of one trajectory by owner (:mod:`nonsmooth.engine.memory.workspace`).
+Set the environment variable ``NONSMOOTH_PLAIN=1`` before the first import to run the same source as ordinary Python,
+without numba: for the debugger, for coverage, and to check that both agree.
 
-Signatures are written with ``ws``; ``f8``, ``i8``, ``b1`` and ``void``; ``v2`` and ``v3``, tuples of two and three floats;
-the owner of a record, ``Contact``; the name of a result (:data:`result`); and ``F`` and ``I``, the floats and integers of
-the workspace from some place on.
+Names in signatures:
+
+==================  ================================================================================
+``ws``              the workspace
+``f8, i8, b1``      a float, an integer, a boolean
+``v2, v3``          a tuple of two or three floats
+``void``            no result
+``Contact``         a record, by the name of its owner
+``Mode``            a member of an enumeration, by the name of its class
+``Instant``         a named tuple of numbers, by the name of its class (:data:`result`)
+``F, I``            the floats or the integers of the workspace from some place on
+==================  ================================================================================
 """
 
 from __future__ import annotations
@@ -40,41 +49,45 @@ class _Decorator(Protocol):
 _half = importlib.import_module("nonsmooth.engine.native.plain" if PLAIN else "nonsmooth.engine.native.native")
 
 kernel: _Decorator = _half.kernel
-"""An engine function, compiled into its callers."""
+"""Decorator of a function of the engine that is compiled into its callers."""
 result: Callable[[_Class], _Class] = _half.result
-"""A named tuple of numbers that a kernel may return; a signature knows it by the name of its class."""
+"""Decorator of a named tuple of numbers that a kernel may return. Signatures use the name of its class."""
 entry_point: _Decorator = _half.entry_point
-"""An engine function compiled apart, reached by its address, by Python too."""
+"""Decorator of a function of the engine that is compiled apart and called by its address, from Python too."""
 entry_addresses: Callable[[], tuple[int, ...]] = _half.entry_addresses
-"""The addresses of all entry points, which belong at the head of ``k``."""
+"""Addresses of all entry points, which the workspace holds."""
+prototype_of: Callable[[str], Any] = _half.prototype_of
+"""Type of the C function of an entry point, for :mod:`ctypes`."""
 call_entry: Callable[..., Any] = _half.call_entry
-"""``call_entry(name, memory, *numbers)``: call an entry point, or a step of an engine of one's own, from Python."""
+"""``call_entry(name, memory, *numbers)``: call an entry point, or the step of an engine, from Python."""
 own_kernel: Callable[[type[Part], str], Callable[[_Function], _Function]] = _half.own_kernel
-"""A function of an engine with scalars and arrays of its own, compiled into its callers."""
+"""Decorator of a kernel of an engine that adds a part of its own to the workspace."""
 add_step: Callable[[Callable[..., Any], type[Part], str, Fingerprint], str] = _half.add_step
-"""``add_step(function, own, signature, fingerprint)``: let :data:`call_entry` find a step by the name returned."""
+"""``add_step(function, own, signature, fingerprint)``: let :data:`call_entry` find a step by the returned name."""
 
 copy_fields: Callable[[Any, Any], None] = _half.copy_fields
 """Copy the numbers that two records of different owners have in common."""
 frame_at: Callable[[Floats, int], Any] = _half.records["frame"]
-"""``frame_at(w, place)``: a frame that a body writes by name."""
+"""``frame_at(floats, start)``: the frame that a body writes, by name."""
 part_at: Callable[[Floats, int], Any] = _half.records["part"]
-"""``part_at(w, place)``: the numbers of a convex part by name."""
+"""``part_at(floats, start)``: the numbers of a convex part, by name."""
+part_end: Callable[[Floats, int, int], Any] = _half.records["part_end"]
+"""``part_end(floats, start, n)``: end n of the parts of a step, by name."""
 joint_row: Callable[[Floats, int, int], Any] = _half.records["joint_row"]
-"""``joint_row(w, joint.out, r)``: a row that a joint writes by name."""
+"""``joint_row(floats, joint.out, r)``: row r that a joint writes, by name."""
 load_wrench: Callable[[Floats, int], Any] = _half.records["load_wrench"]
-"""``load_wrench(w, load.out)``: what a load writes by name."""
+"""``load_wrench(floats, load.out)``: the force and torque that a load writes, by name."""
 impact_state: Callable[[Floats, int, int], Any] = _half.records["impact_state"]
-"""``impact_state(w, y, a)``: an active contact in the state of an impact, or the slope, at ``y``, by name."""
+"""``impact_state(floats, start, a)``: active contact a in the state of an impact, or in its slope, by name."""
 delassus_block: Callable[[Floats, int, int], Any] = _half.records["delassus_block"]
-"""``delassus_block(w, S.delassus, block)``: a block on the diagonal of the Delassus matrix by name."""
+"""``delassus_block(floats, start, block)``: a block on the diagonal of the Delassus matrix, by name."""
 at: Callable[[Floats, int], Floats] = _half.at
-"""The heap from an offset on."""
+"""``at(floats, offset)``: the floats from an offset on."""
 
 _Filling: TypeAlias = Callable[[int, float, Floats, Floats, Floats, Floats], None]
 
 calls: Mapping[str, Callable[..., Any]] = _half.calls
-"""What calls a function at an address, for each of :data:`nonsmooth.engine.native.forms.FORMS`."""
+"""Calls of a function at an address, for each of :data:`nonsmooth.engine.native.forms.FORMS`."""
 call_scalar: Callable[[int, float, Floats], float] = calls["scalar"]
 """Call ``law(x, parameters)`` at an address."""
 call_compliance: Callable[[int, float, float, float, Floats], float] = calls["compliance"]
@@ -93,30 +106,28 @@ call_pair: Callable[[int, Floats, Floats, Floats, Floats], None] = calls["pair"]
 """Call ``geometry(frame_a, frame_b, parameters, out)`` at an address."""
 call_map: Callable[[int, int, Floats, Floats, Floats, Floats], None] = calls["map"]
 """Call ``impact(n, delassus, rates, parameters, impulses)`` at an address."""
-call_watch: Callable[[int, float], float] = _half.call_watch
-"""Call ``watch(t)`` at an address."""
-watch_address: Callable[[Callable[[float], float]], int] = _half.watch_address
-"""Return the address of a function that :func:`call_watch` may call until :func:`forget_watch`."""
-forget_watch: Callable[[int], None] = _half.forget_watch
-"""Give up an address of :func:`watch_address`."""
 call_support: Callable[[Floats, int, float, float, float], tuple[float, float, float]] = _half.call_support
-"""Call ``support(direction, parameters, point)`` at the address at a place of a heap, the parameters behind it."""
-
-part_end: Callable[[Floats, int, int], Any] = _half.records["part_end"]
-"""``part_end(w, S.part_ends, n)``: an end of a part of a step by name."""
+"""Call ``support(direction, parameters, point)``, whose address stands at a place, followed by the parameters."""
+call_watch: Callable[[int, float], float] = _half.call_watch
+"""Call the interrupt check at an address: ``check(t)`` returns the next work budget."""
+watch_address: Callable[[Callable[[float], float]], int] = _half.watch_address
+"""Address of a Python function for :func:`call_watch`, valid until :func:`forget_watch`."""
+forget_watch: Callable[[int], None] = _half.forget_watch
+"""Release an address of :func:`watch_address`."""
 
 block_at: Callable[[Floats, int], Floats] = _half.block_at
-"""What stands in a block from a place on, for the functions of plug-ins."""
-
+"""The numbers of a block from a place on, for the functions of plug-ins."""
 jit: Callable[[Callable[..., Any]], Any] = _half.jit
 """Compile a plug-in's function on demand."""
 shared: Callable[[Callable[..., Any]], Any] = _half.shared
-"""Let the functions of plug-ins call this one, compiled or not."""
+"""Let the functions of plug-ins call a function, compiled or not."""
 unshared: Callable[[Any], Any] = _half.unshared
-"""The function out of which :func:`shared` has made a value, any other value as it is."""
+"""The function from which :func:`shared` has made a value; any other value as it is."""
 address_of: Callable[[Callable[..., Any], str, str], int] = _half.address_of
-"""Compile a shim of one of :data:`nonsmooth.engine.native.forms.FORMS`, or find it under its key on disk, and
-return its address.  Without a key nothing is kept on disk."""
+"""``address_of(shim, form, key)``: address of a shim of one of :data:`nonsmooth.engine.native.forms.FORMS`.
+
+It is compiled, or found on disk under its key. Without a key nothing is kept on disk.
+"""
 
 __all__ = [
     "PLAIN",

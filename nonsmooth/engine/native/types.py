@@ -1,9 +1,13 @@
-"""The numba types of the record ``S`` and of the two heaps, and what the optimiser may know of them.
+"""The numba types of the record of scalars, of floats and of integers, and what the optimiser may know of them.
 
-They are plain pointers; what stands there is said at each use, as llvmlite is to drop the types of pointers.  Loads
-and stores carry alias metadata: a store into a heap touches neither the other heap nor a scalar, a scalar no other
-scalar, and offsets and counts never change while the engine runs.  Without that, every store would make the compiler
-read every offset again.
+All three are pointers. Each access names the type of the number, because llvmlite is about to drop the types of
+pointers. Loads and stores carry alias metadata:
+
+* a store to floats changes neither integers nor scalars;
+* a store to a scalar changes no other scalar;
+* offsets and counts never change while the engine runs.
+
+Without it, the compiler would load each offset again after each store.
 """
 
 from __future__ import annotations
@@ -13,25 +17,14 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from llvmlite import ir
 from numba import types
-from numba.core.typeconv import Conversion
-from numba.core.typing.templates import AttributeTemplate
-from numba.extending import (
-    infer_getattr,
-    lower_builtin,
-    lower_cast,
-    lower_getattr_generic,
-    lower_setattr_generic,
-    models,
-    register_model,
-    type_callable,
-)
+from numba.extending import lower_builtin, models, register_model, type_callable
 
 from nonsmooth.engine.memory.tables import CONSTANT_SCALARS, N_SCALARS, SCALARS
+from nonsmooth.engine.native.numba_names import ir
 
 
-class Heap(types.Type):  # type: ignore[misc]
+class Pointer(types.Type):
     """A pointer to floats or integers."""
 
     def __init__(self, name: str, dtype: Any) -> None:
@@ -39,10 +32,10 @@ class Heap(types.Type):  # type: ignore[misc]
         super().__init__(name=name)
 
 
-class Table(types.Type):  # type: ignore[misc]
-    """A pointer to the record ``S``, whose fields are all eight bytes long.
+class ScalarRecord(types.Type):
+    """A pointer to the record of scalars, all of which are eight bytes long.
 
-    An engine's own, which has further ones at its end, is taken for that of all engines.
+    The record of an engine with a part of its own has further scalars at its end, by which its type is named.
     """
 
     def __init__(self, record: np.dtype[np.void]) -> None:
@@ -50,42 +43,50 @@ class Table(types.Type):  # type: ignore[misc]
         self.names = record.names or ()
         super().__init__(name=f"Scalars({', '.join(self.names[N_SCALARS:])})")
 
-    def can_convert_to(self, context: Any, other: Any) -> Any:
-        """Let functions of all engines take an engine's own."""
-        return Conversion.safe if other is TABLE else None
+
+FLOATS = Pointer("Floats", types.float64)
+INTEGERS = Pointer("Integers", types.int64)
+SCALAR_RECORD = ScalarRecord(SCALARS)
 
 
-FLOATS = Heap("Floats", types.float64)
-INTEGERS = Heap("Integers", types.int64)
-TABLE = Table(SCALARS)
+@register_model(Pointer)
+class _PointerModel(models.PrimitiveModel):
+    def __init__(self, manager: Any, kind: Pointer) -> None:
+        super().__init__(manager, kind, manager.lookup(kind.dtype).get_data_type().as_pointer())
 
 
-@register_model(Heap)
-class _HeapModel(models.PrimitiveModel):  # type: ignore[misc]
-    def __init__(self, manager: Any, heap: Heap) -> None:
-        super().__init__(manager, heap, manager.lookup(heap.dtype).get_data_type().as_pointer())
+@register_model(ScalarRecord)
+class _ScalarRecordModel(models.PrimitiveModel):
+    def __init__(self, manager: Any, kind: ScalarRecord) -> None:
+        super().__init__(manager, kind, ir.IntType(64).as_pointer())
 
 
-@register_model(Table)
-class _TableModel(models.PrimitiveModel):  # type: ignore[misc]
-    def __init__(self, manager: Any, table: Table) -> None:
-        super().__init__(manager, table, ir.IntType(64).as_pointer())
+def moved(context: Any, builder: Any, kind: Pointer, pointer: Any, offset: Any) -> Any:
+    """The pointer ``offset`` elements further."""
+    return builder.gep(pointer, [offset], source_etype=context.get_value_type(kind.dtype))
 
 
-def moved(context: Any, builder: Any, heap: Heap, pointer: Any, offset: Any) -> Any:
-    """Return a pointer moved by a number of elements."""
-    return builder.gep(pointer, [offset], source_etype=context.get_value_type(heap.dtype))
+def load(context: Any, builder: Any, kind: Pointer, place: Any) -> Any:
+    """Load the number at a pointer."""
+    number = builder.load(place, typ=context.get_value_type(kind.dtype))
+    tag(number, kind.name)
+    return number
+
+
+def store(builder: Any, kind: Pointer, place: Any, number: Any) -> None:
+    """Store a number at a pointer."""
+    tag(builder.store(number, place), kind.name)
 
 
 class Callee:
-    """The address of a C function, as llvmlite calls it: with the type of the function, which a pointer need not know.
+    """A C function with its type, as llvmlite wants it in a call; a pointer need not know the type.
 
     Parameters
     ----------
     pointer : llvmlite value
         The address.
     function_type : llvmlite type
-        Of the function.
+        Type of the function.
     """
 
     def __init__(self, pointer: Any, function_type: Any) -> None:
@@ -95,13 +96,13 @@ class Callee:
 
 
 def call_at(builder: Any, address: Any, result: Any, arguments: Sequence[Any]) -> Any:
-    """Call the C function at an address, a number; ``result`` is the type of what it returns."""
+    """Call the C function at an address, which is an integer. ``result`` is the llvmlite type of its result."""
     function_type = ir.FunctionType(result, [argument.type for argument in arguments])
     return builder.call(Callee(builder.inttoptr(address, function_type.as_pointer()), function_type), arguments)
 
 
 def tag(access: Any, name: str) -> None:
-    """Mark a load or store as one of the memory called ``name``."""
+    """Mark a load or store as one of the memory called ``name``. Memories of different names do not overlap."""
     module = access.function.module
     zero = ir.Constant(ir.IntType(64), 0)
     root = module.add_metadata(["nonsmooth"])
@@ -109,79 +110,62 @@ def tag(access: Any, name: str) -> None:
     access.set_metadata("tbaa", module.add_metadata([kind, kind, zero]))
 
 
-@type_callable(operator.getitem)  # type: ignore[untyped-decorator]
+@type_callable(operator.getitem)
 def _type_getitem(context: Any) -> Any:
-    def typer(heap: Any, index: Any) -> Any:
-        return heap.dtype if isinstance(heap, Heap) and isinstance(index, types.Integer) else None
+    def typer(pointer: Any, index: Any) -> Any:
+        return pointer.dtype if isinstance(pointer, Pointer) and isinstance(index, types.Integer) else None
 
     return typer
 
 
-@type_callable(operator.setitem)  # type: ignore[untyped-decorator]
+@type_callable(operator.setitem)
 def _type_setitem(context: Any) -> Any:
-    def typer(heap: Any, index: Any, value: Any) -> Any:
-        if isinstance(heap, Heap) and isinstance(index, types.Integer):
-            return types.void(heap, types.int64, heap.dtype)
+    def typer(pointer: Any, index: Any, value: Any) -> Any:
+        if isinstance(pointer, Pointer) and isinstance(index, types.Integer):
+            return types.void(pointer, types.int64, pointer.dtype)
         return None
 
     return typer
 
 
-@lower_builtin(operator.getitem, Heap, types.Integer)  # type: ignore[untyped-decorator]
+@lower_builtin(operator.getitem, Pointer, types.Integer)
 def _get_item(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-    heap = signature.args[0]
-    load = builder.load(moved(context, builder, heap, *args), typ=context.get_value_type(heap.dtype))
-    tag(load, heap.name)
-    return load
+    kind = signature.args[0]
+    return load(context, builder, kind, moved(context, builder, kind, *args))
 
 
-@lower_builtin(operator.setitem, Heap, types.Integer, types.Any)  # type: ignore[untyped-decorator]
+@lower_builtin(operator.setitem, Pointer, types.Integer, types.Any)
 def _set_item(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-    heap, _index, value = signature.args
-    place = moved(context, builder, heap, args[0], args[1])
-    store = builder.store(context.cast(builder, args[2], value, heap.dtype), place)
-    tag(store, heap.name)
+    kind, _index, given = signature.args
+    place = moved(context, builder, kind, args[0], args[1])
+    store(builder, kind, place, context.cast(builder, args[2], given, kind.dtype))
     return context.get_dummy_value()
 
 
-@lower_cast(Table, Table)  # type: ignore[untyped-decorator]
-def _as_other(context: Any, builder: Any, table: Table, other: Table, value: Any) -> Any:
-    return value
+def type_of_scalar(scalars: ScalarRecord, name: str) -> Any:
+    """Numba type of a scalar."""
+    return types.float64 if scalars.record[name].kind == "f" else types.int64
 
 
-def field_type(table: Table, name: str) -> Any:
-    """Return the numba type of a scalar."""
-    return types.float64 if table.record[name].kind == "f" else types.int64
-
-
-def _field(context: Any, builder: Any, table: Table, value: Any, name: str) -> Any:
+def _place_of_scalar(context: Any, builder: Any, scalars: ScalarRecord, pointer: Any, name: str) -> Any:
     word = ir.IntType(64)
-    place = builder.gep(value, [ir.Constant(word, table.names.index(name))], source_etype=word)
-    return builder.bitcast(place, context.get_value_type(field_type(table, name)).as_pointer())
+    place = builder.gep(pointer, [ir.Constant(word, scalars.names.index(name))], source_etype=word)
+    return builder.bitcast(place, context.get_value_type(type_of_scalar(scalars, name)).as_pointer())
 
 
-@infer_getattr
-class _TableFields(AttributeTemplate):  # type: ignore[misc]
-    key = Table
-
-    def generic_resolve(self, table: Table, name: str) -> Any:
-        return field_type(table, name) if name in table.names else None
-
-
-@lower_getattr_generic(Table)  # type: ignore[untyped-decorator]
-def get_field(context: Any, builder: Any, table: Table, value: Any, name: str) -> Any:
-    """Load a scalar of the record."""
-    place, kind = _field(context, builder, table, value, name), context.get_value_type(field_type(table, name))
-    load = builder.load(place, typ=kind)
-    tag(load, name)
+def load_scalar(context: Any, builder: Any, scalars: ScalarRecord, pointer: Any, name: str) -> Any:
+    """Load a scalar of the record at a pointer."""
+    place = _place_of_scalar(context, builder, scalars, pointer, name)
+    number = builder.load(place, typ=context.get_value_type(type_of_scalar(scalars, name)))
+    tag(number, name)
     if name in CONSTANT_SCALARS:
-        load.set_metadata("invariant.load", builder.module.add_metadata([]))
-    return load
+        number.set_metadata("invariant.load", builder.module.add_metadata([]))
+    return number
 
 
-@lower_setattr_generic(Table)  # type: ignore[untyped-decorator]
-def set_field(context: Any, builder: Any, signature: Any, args: Any, name: str) -> None:
-    """Store a scalar of the record."""
-    table, given = signature.args
-    value = context.cast(builder, args[1], given, field_type(table, name))
-    tag(builder.store(value, _field(context, builder, table, args[0], name)), name)
+def store_scalar(
+    context: Any, builder: Any, scalars: ScalarRecord, pointer: Any, name: str, value: Any, given: Any
+) -> None:
+    """Store a value of the numba type ``given`` as a scalar of the record at a pointer."""
+    number = context.cast(builder, value, given, type_of_scalar(scalars, name))
+    tag(builder.store(number, _place_of_scalar(context, builder, scalars, pointer, name)), name)

@@ -1,16 +1,16 @@
-"""Whoever waits for the engine is let in now and then, in the middle of an impact or a search, too."""
+"""The interrupt check: long computations call it now and then, so that Ctrl-C and progress do not wait for them."""
 
 from __future__ import annotations
 
 from nonsmooth.engine.native.kernel import Workspace, call_watch, kernel
 
 
-@kernel("i8(ws, i8)")
-def interrupted(ws: Workspace, work: int) -> int:
-    """Count work, about one for every evaluation of a contact or pair in a matrix; return 1 if the run is to stop.
+@kernel("b1(ws, i8)")
+def interrupted(ws: Workspace, work: int) -> bool:
+    """True if the run is to stop. Adds ``work``, about one per evaluation of a contact or pair in a matrix.
 
-    When the work that the watch allows is done, the watch is called: it says how much may follow, nothing for a stop.
-    Long loops then end as if they had failed, so that nothing unfinished is taken over.
+    The check is called when the work budget is used up, and returns the next budget; zero stops the run. Long loops
+    then end as if they had failed, so that no unfinished result is used.
     """
     ws.request.n_work += work
     if ws.request.n_work >= ws.request.work_budget and ws.request.interrupt_check != 0:
@@ -18,4 +18,4 @@ def interrupted(ws: Workspace, work: int) -> int:
         ws.request.work_budget = int(call_watch(ws.request.interrupt_check, ws.island.time))
         if ws.request.work_budget == 0:
             ws.request.is_interrupted = True
-    return int(ws.request.is_interrupted)
+    return ws.request.is_interrupted

@@ -1,1 +1,1 @@
-"""Linear algebra, band matrices and Runge-Kutta steps."""
+"""Numerical methods that know no mechanics: linear systems, band matrices, roots and Runge-Kutta steps."""

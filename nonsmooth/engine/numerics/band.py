@@ -1,8 +1,8 @@
-"""The band of the matrix of the unknown forces, as narrow as the order of the contacts makes it.
+"""The band of the matrix of the unknown forces: its width follows from the order of the contacts.
 
-An unknown acts on those of its own contact and of the contacts coupled with it only, ``half_band`` rows off at most.
-A row holds that far to the left and, as exchanges of rows widen the band, twice that far to the right; where this is
-all of the matrix, and of few contacts it is, it is stored in full.
+An unknown force acts on those of its own contact and of the coupled contacts only. These are at most ``half_band`` rows
+away. A stored row has that length to the left of the diagonal and, because exchanges of rows widen the band, twice that
+length to the right. If this is all of the matrix, as for few contacts, the matrix is stored in full.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from nonsmooth.engine.numerics.linear import band_width
 
 @kernel("i8(ws)")
 def _half_band(ws: Workspace) -> int:
-    """Return how far apart unknowns stand that act on one another; ``first_unknown`` says whose they are."""
+    """Largest distance between unknowns that act on one another. ``first_unknown`` gives those of each contact."""
     half = 0
     unknown = ws.problem.first_unknown.start
     for a in range(ws.problem.n_active):
@@ -27,7 +27,7 @@ def _half_band(ws: Workspace) -> int:
 
 @kernel("b1(ws, i8, i8)")
 def open_band(ws: Workspace, n: int, matrix: int) -> bool:
-    """Find the band of ``n`` unknowns and clear it at ``matrix``; return 1, or 0 where there is no room for it."""
+    """Determine the band of ``n`` unknowns and clear it at ``matrix``. False if it has too many entries."""
     ws.problem.half_band = _half_band(ws)
     size = n * band_width(n, ws.problem.half_band)
     if size > MOST_ENTRIES:

@@ -1,4 +1,7 @@
-"""Symmetric positive definite systems within a band: Cholesky factor, solution, and the band of the inverse."""
+"""Symmetric positive definite systems within a band: Cholesky factor, solution, and the band of the inverse.
+
+Only the lower triangle of the band is read. The factor has the same band, as no rows are exchanged.
+"""
 
 from __future__ import annotations
 
@@ -9,36 +12,38 @@ from nonsmooth.engine.numerics.linear import band_row
 
 
 @kernel("void(F, i8, i8, i8, f8)")
-def factorise_band(w: Floats, a: int, n: int, half: int, least: float) -> None:
-    """Overwrite the lower triangle of the band at ``a`` by its Cholesky factor, pivots being ``least`` at least."""
+def factorise_band(floats: Floats, a: int, n: int, half: int, least: float) -> None:
+    """Overwrite the lower triangle of the band at ``a`` by its Cholesky factor. Pivots are at least ``least``."""
     for i in range(n):
         row = band_row(a, i, n, half)
         for j in range(max(0, i - half), i + 1):
             other = band_row(a, j, n, half)
-            total = w[row + j]
+            total = floats[row + j]
             for c in range(max(0, i - half), j):
-                total -= w[row + c] * w[other + c]
-            w[row + j] = math.sqrt(max(total, least)) if i == j else total / w[other + j]
+                total -= floats[row + c] * floats[other + c]
+            floats[row + j] = math.sqrt(max(total, least)) if i == j else total / floats[other + j]
 
 
 @kernel("void(F, i8, i8, i8, i8)")
-def substitute_band(w: Floats, a: int, n: int, half: int, x: int) -> None:
-    """Solve with the factor at ``a`` in place."""
+def substitute_band(floats: Floats, a: int, n: int, half: int, x: int) -> None:
+    """Overwrite the right-hand side at ``x`` by the solution, with the Cholesky factor at ``a``."""
     for i in range(n):
         row = band_row(a, i, n, half)
         for c in range(max(0, i - half), i):
-            w[x + i] -= w[row + c] * w[x + c]
-        w[x + i] /= w[row + i]
+            floats[x + i] -= floats[row + c] * floats[x + c]
+        floats[x + i] /= floats[row + i]
     for i in range(n - 1, -1, -1):
         row = band_row(a, i, n, half)
-        w[x + i] /= w[row + i]
+        floats[x + i] /= floats[row + i]
         for c in range(max(0, i - half), i):
-            w[x + c] -= w[row + c] * w[x + i]
+            floats[x + c] -= floats[row + c] * floats[x + i]
 
 
 @kernel("void(F, i8, i8, i8, i8)")
-def invert_in_band(w: Floats, a: int, n: int, half: int, out: int) -> None:
-    """Write the entries of the inverse that lie in the band to ``out``, from the factor at ``a``.
+def invert_in_band(floats: Floats, a: int, n: int, half: int, out: int) -> None:
+    """Write the entries of the inverse that lie in the band to ``out``, from the Cholesky factor at ``a``.
+
+    The entries outside of it are not needed for those inside, so that the cost is that of the band.
 
     K. Takahashi, J. Fagan, M.-S. Chin, "Formation of a sparse bus impedance matrix and its application to short circuit
     study", Proc. 8th PICA Conf. (1973) 63-69.
@@ -46,10 +51,10 @@ def invert_in_band(w: Floats, a: int, n: int, half: int, out: int) -> None:
     for i in range(n - 1, -1, -1):
         end = min(n, i + half + 1)
         own = band_row(out, i, n, half)
-        root = w[band_row(a, i, n, half) + i]
+        root = floats[band_row(a, i, n, half) + i]
         for j in range(end - 1, i - 1, -1):
             total = 1.0 / root if j == i else 0.0
             line = band_row(out, j, n, half)
             for c in range(i + 1, end):
-                total -= w[band_row(a, c, n, half) + i] * w[line + c]
-            w[own + j] = w[line + i] = total / root
+                total -= floats[band_row(a, c, n, half) + i] * floats[line + c]
+            floats[own + j] = floats[line + i] = total / root

@@ -1,4 +1,7 @@
-"""Linear systems on the float heap: elimination within a band, and minimum norm where the matrix is singular."""
+"""Linear systems: elimination within a band, small dense systems, and least norm if the matrix is singular.
+
+Matrices and vectors are stored among the floats of the workspace. An integer argument is the place of the first entry.
+"""
 
 from __future__ import annotations
 
@@ -8,92 +11,92 @@ from nonsmooth.engine.native.kernel import Floats, kernel
 from nonsmooth.engine.numerics.vectors import Vector
 
 SINGULAR = 1e-10
-"""A pivot or remaining column below this, relative to the largest, counts as zero."""
+"""Pivots and remaining columns below this, relative to the largest, count as zero."""
 
 
 @kernel("i8(i8, i8)")
 def band_width(n: int, half: int) -> int:
-    """Return the length of a stored row: ``half`` to the left, twice that to the right, all of it if that is less."""
+    """Length of a stored row: ``half`` to the left, twice that to the right, and at most the whole row."""
     return min(n, 3 * half + 1)
 
 
 @kernel("i8(i8, i8, i8, i8)")
 def band_row(a: int, i: int, n: int, half: int) -> int:
-    """Return where row ``i`` of the band at ``a`` would start if it were stored in full: add the column to it."""
+    """Place to which a column is added to give the entry of row ``i`` in the band at ``a``."""
     width = band_width(n, half)
     return a + i * width - min(max(0, i - half), n - width)
 
 
 @kernel("f8(F, f8, i8, i8, i8)")
-def product(w: Floats, total: float, a: int, b: int, n: int) -> float:
-    """Return ``total`` plus the scalar product of two vectors of ``n`` numbers; the six of a free body need no loop."""
+def product(floats: Floats, total: float, a: int, b: int, n: int) -> float:
+    """Scalar product of two vectors of ``n`` numbers, added to ``total``. The six of a free body need no loop."""
     if n == 6:
-        total += w[a] * w[b]
-        total = total + w[a + 1] * w[b + 1] + w[a + 2] * w[b + 2]
-        return total + w[a + 3] * w[b + 3] + w[a + 4] * w[b + 4] + w[a + 5] * w[b + 5]
+        total += floats[a] * floats[b]
+        total = total + floats[a + 1] * floats[b + 1] + floats[a + 2] * floats[b + 2]
+        return total + floats[a + 3] * floats[b + 3] + floats[a + 4] * floats[b + 4] + floats[a + 5] * floats[b + 5]
     for i in range(n):
-        total += w[a + i] * w[b + i]
+        total += floats[a + i] * floats[b + i]
     return total
 
 
 @kernel("void(F, i8, i8, i8, i8)")
-def multiply(w: Floats, a: int, n: int, x: int, out: int) -> None:
-    """Write the symmetric matrix at ``a`` times the vector at ``x`` to ``out``, which is none of them."""
+def multiply(floats: Floats, a: int, n: int, x: int, out: int) -> None:
+    """Write the symmetric matrix at ``a`` times the vector at ``x`` to ``out``, which must not overlap them."""
     if n == 6:
-        x0, x1, x2, x3, x4, x5 = w[x], w[x + 1], w[x + 2], w[x + 3], w[x + 4], w[x + 5]
+        x0, x1, x2, x3, x4, x5 = floats[x], floats[x + 1], floats[x + 2], floats[x + 3], floats[x + 4], floats[x + 5]
         for i in range(a, a + 6):
-            first = w[i] * x0 + w[i + 6] * x1 + w[i + 12] * x2
-            w[out - a + i] = first + w[i + 18] * x3 + w[i + 24] * x4 + w[i + 30] * x5
+            first = floats[i] * x0 + floats[i + 6] * x1 + floats[i + 12] * x2
+            floats[out - a + i] = first + floats[i + 18] * x3 + floats[i + 24] * x4 + floats[i + 30] * x5
         return
     for i in range(n):
-        w[out + i] = product(w, 0.0, a + i * n, x, n)
+        floats[out + i] = product(floats, 0.0, a + i * n, x, n)
 
 
 @kernel("b1(F, i8, i8, i8, i8, f8)")
-def eliminate(w: Floats, a: int, n: int, half: int, x: int, least: float) -> bool:
-    """Solve the banded system at ``a`` with right-hand side at ``x``, both overwritten; return 1, or 0 if singular.
+def eliminate(floats: Floats, a: int, n: int, half: int, x: int, least: float) -> bool:
+    """Solve the banded system at ``a`` for the right-hand side at ``x``; both are overwritten. False if singular.
 
-    Entries farther than ``half`` off the diagonal are zero; exchanges of rows fill some of them.  A pivot below
-    ``least``, relative to the largest entry, counts as zero.
+    Gaussian elimination with exchange of rows. Entries more than ``half`` from the diagonal are zero, and exchanges
+    fill some of them. A pivot below ``least``, relative to the largest entry, counts as zero.
     """
     width = band_width(n, half)
     largest = 0.0
     for i in range(n * width):
-        largest = max(largest, abs(w[a + i]))
+        largest = max(largest, abs(floats[a + i]))
     for j in range(n):
         own = band_row(a, j, n, half)
         below, right = min(n, j + half + 1), min(n, j + 2 * half + 1)
         pivot, best = j, own
         for i in range(j + 1, below):
             row = band_row(a, i, n, half)
-            if abs(w[row + j]) > abs(w[best + j]):
+            if abs(floats[row + j]) > abs(floats[best + j]):
                 pivot, best = i, row
-        if not abs(w[best + j]) > least * largest:
+        if not abs(floats[best + j]) > least * largest:
             return False
         if pivot != j:
             for c in range(j, right):
-                w[own + c], w[best + c] = w[best + c], w[own + c]
-            w[x + j], w[x + pivot] = w[x + pivot], w[x + j]
+                floats[own + c], floats[best + c] = floats[best + c], floats[own + c]
+            floats[x + j], floats[x + pivot] = floats[x + pivot], floats[x + j]
         for i in range(j + 1, below):
             row = band_row(a, i, n, half)
-            factor = w[row + j] / w[own + j]
+            factor = floats[row + j] / floats[own + j]
             if factor != 0.0:
                 for c in range(j + 1, right):
-                    w[row + c] -= factor * w[own + c]
-                w[x + i] -= factor * w[x + j]
+                    floats[row + c] -= factor * floats[own + c]
+                floats[x + i] -= factor * floats[x + j]
     for j in range(n - 1, -1, -1):
         own = band_row(a, j, n, half)
         for c in range(j + 1, min(n, j + 2 * half + 1)):
-            w[x + j] -= w[own + c] * w[x + c]
-        w[x + j] /= w[own + j]
+            floats[x + j] -= floats[own + c] * floats[x + c]
+        floats[x + j] /= floats[own + j]
     return True
 
 
 @kernel("v3(v3, v3, v3, v3, f8)")
 def solve_three(row_0: Vector, row_1: Vector, row_2: Vector, right: Vector, least: float) -> Vector:
-    """Solve a positive definite system of three, of which the lower triangle is read, by L D L^T.
+    """Solution of a positive definite system of three equations, by L D L^T. The lower triangle is read.
 
-    What is returned is no number if a pivot is below ``least``, relative to the largest entry.
+    It is nan if a pivot is below ``least``, relative to the largest entry.
     """
     g00, g10, g11 = row_0[0], row_1[0], row_1[1]
     g20, g21, g22 = row_2
@@ -115,131 +118,135 @@ def solve_three(row_0: Vector, row_1: Vector, row_2: Vector, right: Vector, leas
 
 
 @kernel("i8(F, i8, i8)")
-def rank_of_semidefinite(w: Floats, a: int, n: int) -> int:
-    """Return the rank of the positive semidefinite matrix at ``a``, which is overwritten; largest pivots come first."""
+def rank_of_semidefinite(floats: Floats, a: int, n: int) -> int:
+    """Rank of the positive semidefinite matrix at ``a``, which is overwritten. Pivots are the largest left."""
     largest = 0.0
     for rank in range(n):
         best = rank
         for i in range(rank + 1, n):
-            if w[a + i * n + i] > w[a + best * n + best]:
+            if floats[a + i * n + i] > floats[a + best * n + best]:
                 best = i
-        pivot = w[a + best * n + best]
+        pivot = floats[a + best * n + best]
         largest = max(largest, pivot)
         if not pivot > SINGULAR * largest:
             return rank
         for c in range(n):
-            w[a + rank * n + c], w[a + best * n + c] = w[a + best * n + c], w[a + rank * n + c]
+            floats[a + rank * n + c], floats[a + best * n + c] = floats[a + best * n + c], floats[a + rank * n + c]
         for i in range(n):
-            w[a + i * n + rank], w[a + i * n + best] = w[a + i * n + best], w[a + i * n + rank]
+            floats[a + i * n + rank], floats[a + i * n + best] = floats[a + i * n + best], floats[a + i * n + rank]
         for i in range(rank + 1, n):
-            factor = w[a + i * n + rank] / pivot
+            factor = floats[a + i * n + rank] / pivot
             if factor != 0.0:
                 for c in range(rank + 1, n):
-                    w[a + i * n + c] -= factor * w[a + rank * n + c]
+                    floats[a + i * n + c] -= factor * floats[a + rank * n + c]
     return n
 
 
 @kernel("void(F, i8, i8, i8)")
-def transpose(w: Floats, a: int, n: int, out: int) -> None:
+def transpose(floats: Floats, a: int, n: int, out: int) -> None:
     """Write the transpose of the matrix at ``a`` to ``out``."""
     for i in range(n):
         for j in range(n):
-            w[out + j * n + i] = w[a + i * n + j]
+            floats[out + j * n + i] = floats[a + i * n + j]
 
 
 @kernel("void(F, i8, f8, i8, i8)")
-def subtract_part(w: Floats, out: int, part: float, a: int, n: int) -> None:
-    """Subtract ``part`` of a vector of ``n`` numbers from another one."""
+def subtract_part(floats: Floats, out: int, part: float, a: int, n: int) -> None:
+    """Subtract ``part`` times the vector at ``a`` from that at ``out``, both of ``n`` numbers."""
     for i in range(n):
-        w[out + i] -= part * w[a + i]
+        floats[out + i] -= part * floats[a + i]
 
 
 @kernel("void(F, i8, i8, i8)")
-def complete(w: Floats, v: int, n: int, rank: int) -> None:
-    """Complete the ``rank`` orthonormal rows of ``n`` numbers at ``v`` to a basis of all vectors."""
+def complete(floats: Floats, v: int, n: int, rank: int) -> None:
+    """Complete the ``rank`` orthonormal rows of ``n`` numbers at ``v`` to a basis of all vectors.
+
+    Each new row starts from the unit vector that the rows so far represent least.
+    """
     for done in range(rank, n):
         best, most = 0, -math.inf
         for i in range(n):
             left = 1.0
             for c in range(done):
-                left -= w[v + c * n + i] ** 2
+                left -= floats[v + c * n + i] ** 2
             if left > most:
                 best, most = i, left
         row = v + done * n
         for i in range(n):
-            w[row + i] = 1.0 if i == best else 0.0
-        # twice is enough
-        for _time in range(2):
+            floats[row + i] = 1.0 if i == best else 0.0
+        # two passes of Gram-Schmidt make the row orthogonal to round-off
+        for _ in range(2):
             for c in range(done):
-                subtract_part(w, row, product(w, 0.0, v + c * n, row, n), v + c * n, n)
-        norm = math.sqrt(product(w, 0.0, row, row, n))
+                subtract_part(floats, row, product(floats, 0.0, v + c * n, row, n), v + c * n, n)
+        norm = math.sqrt(product(floats, 0.0, row, row, n))
         for i in range(n):
-            w[row + i] /= norm
+            floats[row + i] /= norm
 
 
 @kernel("i8(F, i8, i8, i8, i8, i8, i8)")
-def _triangulate(w: Floats, a: int, n: int, b: int, r: int, marks: int, most: int) -> int:
-    """Write A = Q R with the largest remaining column first; return the rank, ``most`` at most.
+def _triangulate(floats: Floats, a: int, n: int, b: int, r: int, marks: int, most: int) -> int:
+    """Factorise A = Q R with the largest remaining column first. Returns the rank, at most ``most``.
 
-    The columns of ``a``, of which each stands by itself, lose what the columns chosen so far explain of them, and so
-    does ``b``; rows of R go to ``r``, and behind the n-th entry of ``marks`` the components Q^T b.
+    The matrix at ``a`` is stored by columns. The columns and ``b`` lose their components along the columns chosen so
+    far. Rows of R are written to ``r``. The first n entries of ``marks`` are 1 for chosen columns; Q^T b follows them.
     """
     for j in range(n):
-        w[marks + j] = 0.0
+        floats[marks + j] = 0.0
     largest = 0.0
     for rank in range(most):
         best, size = -1, 0.0
         for j in range(n):
-            if w[marks + j] == 0.0:
-                square = product(w, 0.0, a + j * n, a + j * n, n)
+            if floats[marks + j] == 0.0:
+                square = product(floats, 0.0, a + j * n, a + j * n, n)
                 if square > size:
                     best, size = j, square
         norm = math.sqrt(size)
         largest = max(largest, norm)
         if best < 0 or not norm > SINGULAR * largest:
             return rank
-        w[marks + best] = 1.0
+        floats[marks + best] = 1.0
         chosen = a + best * n
         for i in range(n):
-            w[chosen + i] /= norm
+            floats[chosen + i] /= norm
         for j in range(n):
-            w[r + rank * n + j] = 0.0
-            if w[marks + j] == 0.0:
-                # twice is enough
-                for _time in range(2):
-                    part = product(w, 0.0, chosen, a + j * n, n)
-                    w[r + rank * n + j] += part
-                    subtract_part(w, a + j * n, part, chosen, n)
-        w[r + rank * n + best] = norm
-        total = product(w, 0.0, chosen, b, n)
-        w[marks + n + rank] = total
-        subtract_part(w, b, total, chosen, n)
+            floats[r + rank * n + j] = 0.0
+            if floats[marks + j] == 0.0:
+                # two passes of Gram-Schmidt make the column orthogonal to round-off
+                for _ in range(2):
+                    part = product(floats, 0.0, chosen, a + j * n, n)
+                    floats[r + rank * n + j] += part
+                    subtract_part(floats, a + j * n, part, chosen, n)
+        floats[r + rank * n + best] = norm
+        total = product(floats, 0.0, chosen, b, n)
+        floats[marks + n + rank] = total
+        subtract_part(floats, b, total, chosen, n)
     return most
 
 
 @kernel("i8(F, i8, i8, i8, i8, i8, i8, i8)")
-def minimum_norm(w: Floats, a: int, n: int, b: int, x: int, v: int, work: int, most: int) -> int:
-    """Least-squares solution of least norm, by orthogonal decompositions; return the rank, ``most`` at most.
+def minimum_norm(floats: Floats, a: int, n: int, b: int, x: int, v: int, work: int, most: int) -> int:
+    """Write the least-squares solution of least norm to ``x``. Returns the rank, at most ``most``.
 
-    The matrix at ``a`` is stored by columns; it and ``b`` are overwritten.  ``v`` receives an orthonormal basis of the
-    row space in its first rows, ``x`` the solution; ``work`` holds 2 n floats.
+    A = Q R gives the components Q^T b, and R = L V the solution V^T L^-1 Q^T b. Both are orthogonal decompositions, so
+    that the condition of A is not squared. The matrix at ``a`` is stored by columns; it and ``b`` are overwritten. The
+    first rows at ``v`` become an orthonormal basis of the row space. ``work`` has 2 n floats.
     """
-    rank = _triangulate(w, a, n, b, v, work, most)
+    rank = _triangulate(floats, a, n, b, v, work, most)
     for i in range(n):
-        w[x + i] = 0.0
-    # rows R = L V: forward substitution goes along with the orthogonalisation of the rows
+        floats[x + i] = 0.0
+    # R = L V: the rows are orthogonalised, and the forward substitution is done along with it
     for j in range(rank):
         row = v + j * n
-        rest = w[work + n + j]
-        for _time in range(2):
+        rest = floats[work + n + j]
+        for _ in range(2):
             for c in range(j):
-                part = product(w, 0.0, v + c * n, row, n)
-                rest -= part * w[work + n + c]
-                subtract_part(w, row, part, v + c * n, n)
-        norm = math.sqrt(product(w, 0.0, row, row, n))
+                part = product(floats, 0.0, v + c * n, row, n)
+                rest -= part * floats[work + n + c]
+                subtract_part(floats, row, part, v + c * n, n)
+        norm = math.sqrt(product(floats, 0.0, row, row, n))
         for i in range(n):
-            w[row + i] /= norm
-        w[work + n + j] = rest / norm
+            floats[row + i] /= norm
+        floats[work + n + j] = rest / norm
         for i in range(n):
-            w[x + i] += w[work + n + j] * w[row + i]
+            floats[x + i] += floats[work + n + j] * floats[row + i]
     return rank

@@ -1,11 +1,16 @@
-"""Least norm and null space of a singular banded system, at the cost of the band.
+"""Least-norm solution and null space of a singular banded system G x = r, at the cost of the band.
 
-The null space of G is that of H, which is G itself where it is symmetric, and G^T G where something slides; and
-e (H + e)^-1 tends to the projector on it as e goes to zero.  It is applied twice.  A solution comes from the system
-with a little added to its diagonal, less its part in the null space, and is refined until nothing remains.
+* Null space. H has the null space of G: H = G if G is symmetric, and H = G^T G otherwise, as when a contact slides. The
+  matrix e (H + e)^-1 tends to the projector on the null space as e goes to zero. It is applied twice.
+* Solution. The system with a small shift of its diagonal is regular. Its solution, without the part in the null space,
+  is refined until the residual is round-off.
+
+The orthogonal decomposition of :mod:`nonsmooth.engine.numerics.linear` would fill the matrix.
 """
 
 from __future__ import annotations
+
+import math
 
 from nonsmooth.engine.memory.layout import MOST_ENTRIES
 from nonsmooth.engine.native.kernel import Floats, Workspace, kernel
@@ -13,38 +18,38 @@ from nonsmooth.engine.numerics.band_cholesky import factorise_band, invert_in_ba
 from nonsmooth.engine.numerics.linear import SINGULAR, band_row, band_width, eliminate
 
 _SHIFT = 1e-8
-"""Added to the diagonal of the system, relative to its largest entry: clearly more than counts as zero there."""
+"""Shift of the diagonal of G, relative to its largest entry. It is larger than a pivot that counts as zero."""
 _FAINT = 1e-12
-"""Added to that of H, relative to its largest entry: clearly less than any force that moves something has."""
+"""Shift e of the diagonal of H, relative to its largest entry. It is smaller than any nonzero eigenvalue of H."""
 _REMOVALS = 4
-"""The projector is known to a part of rounding over what was added, and takes off all but that part each time."""
+"""Passes that remove the null space. Each leaves a part of the size of round-off over the shift."""
 _SYMMETRIC = 1e-12
-"""Entries that differ by no more than this part of the largest of the diagonal are the same but for round-off."""
+"""Entries whose difference is below this, relative to the largest of the diagonal, are equal up to round-off."""
 _SETTLED = 1e-15
-"""A residual of this part of the right-hand side is round-off."""
+"""Residual at which the refinement stops, relative to the right-hand side. It is round-off."""
 
 
 @kernel("f8(F, i8, i8, i8)")
-def largest_diagonal(w: Floats, a: int, n: int, half: int) -> float:
-    """Return the largest entry of the diagonal."""
+def largest_diagonal(floats: Floats, a: int, n: int, half: int) -> float:
+    """Largest absolute entry of the diagonal of the band at ``a``."""
     largest = 0.0
     for i in range(n):
-        largest = max(largest, abs(w[band_row(a, i, n, half) + i]))
+        largest = max(largest, abs(floats[band_row(a, i, n, half) + i]))
     return largest
 
 
 @kernel("void(F, i8, i8, i8, i8, f8)")
-def copy_shifted(w: Floats, a: int, n: int, half: int, out: int, shift: float) -> None:
-    """Write the band at ``a`` to ``out``, ``shift`` added to its diagonal."""
+def copy_shifted(floats: Floats, a: int, n: int, half: int, out: int, shift: float) -> None:
+    """Write the band at ``a`` to ``out``, with ``shift`` added to its diagonal."""
     for i in range(n * band_width(n, half)):
-        w[out + i] = w[a + i]
+        floats[out + i] = floats[a + i]
     for i in range(n):
-        w[band_row(out, i, n, half) + i] += shift
+        floats[band_row(out, i, n, half) + i] += shift
 
 
 @kernel("b1(ws, i8)")
 def solve_shifted(ws: Workspace, n: int) -> bool:
-    """Solve ``reduced . x = x`` in place, a little added to the diagonal; return 0 if singular all the same."""
+    """Overwrite the right-hand side ``x`` by the solution of ``reduced`` with a shifted diagonal. False if singular."""
     shift = _SHIFT * largest_diagonal(ws.floats, ws.problem.reduced.start, n, ws.problem.half_band)
     copy_shifted(ws.floats, ws.problem.reduced.start, n, ws.problem.half_band, ws.problem.matrix.start, shift)
     return eliminate(ws.floats, ws.problem.matrix.start, n, ws.problem.half_band, ws.problem.x.start, SINGULAR)
@@ -53,7 +58,7 @@ def solve_shifted(ws: Workspace, n: int) -> bool:
 @kernel("void(ws, i8, i8)")
 def project_on_null(ws: Workspace, n: int, v: int) -> None:
     """Replace the vector at ``v`` by its part in the null space."""
-    for _time in range(2):
+    for _ in range(2):
         substitute_band(ws.floats, ws.problem.null.start, n, ws.problem.null_half_band, v)
         for i in range(n):
             ws.floats[v + i] *= ws.problem.null_shift
@@ -61,8 +66,8 @@ def project_on_null(ws: Workspace, n: int, v: int) -> None:
 
 @kernel("void(ws, i8, i8)")
 def _remove_null(ws: Workspace, n: int, v: int) -> None:
-    """Take its part in the null space off the vector at ``v``; ``matrix`` is overwritten."""
-    for _time in range(_REMOVALS):
+    """Subtract from the vector at ``v`` its part in the null space. ``matrix`` is overwritten."""
+    for _ in range(_REMOVALS):
         for i in range(n):
             ws.problem.matrix[i] = ws.floats[v + i]
         project_on_null(ws, n, ws.problem.matrix.start)
@@ -72,7 +77,7 @@ def _remove_null(ws: Workspace, n: int, v: int) -> None:
 
 @kernel("f8(ws, i8, i8, i8)")
 def _write_residual(ws: Workspace, n: int, x: int, out: int) -> float:
-    """Write what ``x`` leaves of ``right`` to ``out``; return the largest of it."""
+    """Write the residual ``right - reduced . x`` to ``out``. Returns its largest absolute entry."""
     worst = 0.0
     for i in range(n):
         line = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band)
@@ -85,21 +90,20 @@ def _write_residual(ws: Workspace, n: int, x: int, out: int) -> float:
 
 @kernel("b1(ws, i8)")
 def _is_symmetric(ws: Workspace, n: int) -> bool:
+    """True if ``reduced`` is symmetric up to round-off."""
     small = _SYMMETRIC * largest_diagonal(ws.floats, ws.problem.reduced.start, n, ws.problem.half_band)
     for i in range(n):
         line = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band)
         for j in range(max(0, i - ws.problem.half_band), i):
-            if (
-                abs(ws.floats[line + j] - ws.floats[band_row(ws.problem.reduced.start, j, n, ws.problem.half_band) + i])
-                > small
-            ):
+            mirrored = band_row(ws.problem.reduced.start, j, n, ws.problem.half_band) + i
+            if abs(ws.floats[line + j] - ws.floats[mirrored]) > small:
                 return False
     return True
 
 
 @kernel("void(ws, i8)")
 def _write_square(ws: Workspace, n: int) -> None:
-    """Write H, of half band ``null_half``, to ``basis``."""
+    """Write H to ``basis``, and its half band to ``null_half_band``."""
     half = ws.problem.half_band
     if _is_symmetric(ws, n):
         ws.problem.null_half_band = half
@@ -122,7 +126,8 @@ def _write_square(ws: Workspace, n: int) -> None:
 def least_norm_in_band(ws: Workspace, n: int) -> None:
     """Solve ``reduced . x = right`` for least norm.
 
-    Leaves H in ``basis``, its factor in ``null``, and the band of the projector on the null space in ``reduced``.
+    Writes ``x``, H to ``basis``, its factor to ``null``, and the band of the projector on the null space to
+    ``reduced``.
     """
     if n * band_width(n, 2 * ws.problem.half_band) > MOST_ENTRIES:
         ws.run.has_too_many_blocks = True
@@ -134,8 +139,8 @@ def least_norm_in_band(ws: Workspace, n: int) -> None:
         ws.floats, ws.problem.basis.start, n, ws.problem.null_half_band, ws.problem.null.start, ws.problem.null_shift
     )
     factorise_band(ws.floats, ws.problem.null.start, n, ws.problem.null_half_band, 0.1 * ws.problem.null_shift)
-    # the answer so far grows in sigma, the correction in x
-    total, size, before = ws.problem.sigma.start, 0.0, 1e300
+    # sigma holds the sum of all corrections, x the present one
+    total, size, before = ws.problem.sigma.start, 0.0, math.inf
     for i in range(n):
         ws.floats[total + i] = ws.problem.x[i] = 0.0
         size = max(size, abs(ws.problem.right[i]))

@@ -1,4 +1,8 @@
-"""One adaptive Runge-Kutta pair on the float heap, for the flow and for the impact alike."""
+"""Steps of an adaptive Runge-Kutta pair with dense output, for motion and for impacts.
+
+States and slopes are stored among the floats of the workspace, the slopes of all stages one after another. The weights
+are those of :mod:`nonsmooth.engine.memory.tableau`.
+"""
 
 from __future__ import annotations
 
@@ -7,12 +11,14 @@ from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.native.kernel import Floats, Workspace, kernel
 from nonsmooth.engine.numerics.vectors import Vector
 
-SAFETY, SHRINK, GROW = 0.92, 0.2, 8.0
-"""Part taken of the step that would just meet the tolerance, and the least and most by which steps differ at once."""
+SAFETY = 0.92
+"""Step relative to the one whose error would equal the tolerance."""
+SHRINK, GROW = 0.2, 8.0
+"""Smallest and largest ratio of a step to the one before it."""
 _EXPONENT = -0.2
 """The error of a step of fourth order grows with the fifth power of its length."""
 _TINY = (SAFETY / GROW) ** 5
-"""Below this error the step grows by the most it may."""
+"""Error, relative to the tolerance, below which the step grows by the largest ratio."""
 
 
 @kernel("void(ws, i8, i8, i8, i8, i8, f8, i8)")
@@ -25,9 +31,9 @@ def stage_state(ws: Workspace, stages: int, start: int, slopes: int, n: int, sta
 def stage_part(
     ws: Workspace, stages: int, start: int, slopes: int, n: int, stride: int, stage: int, h: float, out: int
 ) -> None:
-    """Write ``n`` components of that state, the slopes of two stages lying ``stride`` apart."""
+    """Write ``n`` components of that state. The slopes of two stages are ``stride`` apart."""
     row = stages + 6 * stage
-    # one pass each: so short vectors would else take most of their time to be loaded and stored again
+    # one pass per stage: vectors are so short that a pass per slope would spend its time on loads and stores
     k0, k1, k2 = slopes, slopes + stride, slopes + 2 * stride
     k3, k4, k5 = k2 + stride, k2 + 2 * stride, k2 + 3 * stride
     a, b, c = h * ws.floats[row], h * ws.floats[row + 1], h * ws.floats[row + 2]
@@ -67,23 +73,24 @@ def stage_part(
 @kernel("void(ws, i8, i8, i8, f8, f8, i8)")
 def dense_state(ws: Workspace, start: int, slopes: int, n: int, h: float, theta: float, out: int) -> None:
     """Write the interpolated state at the fraction ``theta`` of the step."""
-    early, late = dense_weights(ws, h, theta, 0), dense_weights(ws, h, theta, 1)
+    early, late = dense_weights(ws, h, theta, is_late=False), dense_weights(ws, h, theta, is_late=True)
     dense_part(ws.floats, start, slopes, n, n, early, late, out)
 
 
 @kernel("f8(ws, i8, f8)")
 def _dense_weight(ws: Workspace, stage: int, theta: float) -> float:
+    """Weight of the slope of a stage at the fraction ``theta`` of a step, per ``theta``: a polynomial."""
     d = ws.coefficients.dense.start + 4 * stage
-    return ws.floats[d] + theta * (ws.floats[d + 1] + theta * (ws.floats[d + 2] + theta * ws.floats[d + 3]))
+    return float(ws.floats[d] + theta * (ws.floats[d + 1] + theta * (ws.floats[d + 2] + theta * ws.floats[d + 3])))
 
 
-@kernel("v3(ws, f8, f8, i8)")
-def dense_weights(ws: Workspace, h: float, theta: float, late: int) -> Vector:
-    """Return the weights of slopes in the state at the fraction ``theta`` of a step: of the last three (1), or others.
+@kernel("v3(ws, f8, f8, b1)")
+def dense_weights(ws: Workspace, h: float, theta: float, is_late: bool) -> Vector:
+    """Weights of three slopes in the state at the fraction ``theta`` of a step: stages 4 to 6, or 0, 2 and 3 [s].
 
-    That of the second stage has none.
+    The slope of stage 1 has no weight.
     """
-    one, two, three = (4, 5, 6) if late == 1 else (0, 2, 3)
+    one, two, three = (4, 5, 6) if is_late else (0, 2, 3)
     part = h * theta
     return (
         part * _dense_weight(ws, one, theta),
@@ -93,26 +100,28 @@ def dense_weights(ws: Workspace, h: float, theta: float, late: int) -> Vector:
 
 
 @kernel("void(F, i8, i8, i8, i8, v3, v3, i8)")
-def dense_part(w: Floats, start: int, slopes: int, n: int, stride: int, early: Vector, late: Vector, out: int) -> None:
-    """Write ``n`` components of the interpolated state, the slopes of two stages lying ``stride`` apart."""
+def dense_part(
+    floats: Floats, start: int, slopes: int, n: int, stride: int, early: Vector, late: Vector, out: int
+) -> None:
+    """Write ``n`` components of the interpolated state. The slopes of two stages are ``stride`` apart."""
     a, b, c = early
     d, e, f = late
     k2, k3, k4 = slopes + 2 * stride, slopes + 3 * stride, slopes + 4 * stride
     k5, k6 = slopes + 5 * stride, slopes + 6 * stride
     for i in range(n):
-        first = w[start + i] + a * w[slopes + i] + b * w[k2 + i] + c * w[k3 + i]
-        w[out + i] = first + d * w[k4 + i] + e * w[k5 + i] + f * w[k6 + i]
+        first = floats[start + i] + a * floats[slopes + i] + b * floats[k2 + i] + c * floats[k3 + i]
+        floats[out + i] = first + d * floats[k4 + i] + e * floats[k5 + i] + f * floats[k6 + i]
 
 
 @kernel("void(ws, i8, i8, i8, f8, i8)")
 def weigh_slopes(ws: Workspace, weights: int, slopes: int, n: int, h: float, out: int) -> None:
-    """Write ``h`` times the weighted sum of the slopes, by which errors of a step are estimated."""
+    """Write ``h`` times the weighted sum of the slopes, which estimates the error of a step."""
     weigh_part(ws, weights, slopes, n, n, h, out)
 
 
 @kernel("void(ws, i8, i8, i8, i8, f8, i8)")
 def weigh_part(ws: Workspace, weights: int, slopes: int, n: int, stride: int, h: float, out: int) -> None:
-    """Write ``n`` components of that sum, the slopes of two stages lying ``stride`` apart."""
+    """Write ``n`` components of that sum. The slopes of two stages are ``stride`` apart."""
     a, b, c, d = (
         h * ws.floats[weights],
         h * ws.floats[weights + 1],
@@ -129,9 +138,9 @@ def weigh_part(ws: Workspace, weights: int, slopes: int, n: int, stride: int, h:
 
 @kernel("void(ws, i8, i8, i8, i8, f8, i8)")
 def write_implicit_interpolant(ws: Workspace, start: int, end: int, slopes: int, n: int, h: float, bend: int) -> None:
-    """Write slopes from which the dense output of the explicit pair makes the interpolant of an implicit step of ``h``.
+    """Write slopes with which the dense output of the explicit pair gives the interpolant of an implicit step of ``h``.
 
-    The first and the last are those at ``start`` and ``end``, and stay; ``bend`` is overwritten.
+    The first and the last slope belong to the states at ``start`` and ``end``, and are kept. ``bend`` is overwritten.
     """
     weigh_slopes(ws, ws.coefficients.implicit_bend.start, slopes, n, 2.0, bend)
     for stage in range(1, LAST_STAGE):
@@ -147,7 +156,7 @@ def write_implicit_interpolant(ws: Workspace, start: int, end: int, slopes: int,
 
 @kernel("f8(f8)")
 def step_factor(error: float) -> float:
-    """Return by how much the next step may differ, the error being relative to its tolerance."""
+    """Ratio of the next step to this one, from the error relative to the tolerance."""
     if error <= _TINY:
         return GROW
     return float(min(GROW, max(SHRINK, SAFETY * error**_EXPONENT)))
@@ -155,9 +164,9 @@ def step_factor(error: float) -> float:
 
 @kernel("f8(f8, f8, f8)")
 def trend(error: float, error_before: float, growth: float) -> float:
-    """Return by how much the next step may differ if it does as this one, ``growth`` times the one before it, did.
+    """Ratio of the next step to this one from the last two errors. This step is ``growth`` times the one before it.
 
-    Towards a singularity steps shrink by a factor each, and what the last error alone allows is too long every time:
-    the controller of K. Gustafsson, ACM Trans. Math. Softw. 20 (1994) 496-517.
+    Towards a singularity each step must be shorter than the last one. The last error alone always allows too long a
+    step. The controller is that of K. Gustafsson, ACM Trans. Math. Softw. 20 (1994) 496-517.
     """
     return float(max(SHRINK, SAFETY * growth * (error_before / (error * error)) ** -_EXPONENT))

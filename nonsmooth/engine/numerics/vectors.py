@@ -1,4 +1,4 @@
-"""Small vectors, which are tuples."""
+"""Vectors of two and three numbers. They are tuples, which the compiler keeps in registers."""
 
 from __future__ import annotations
 
@@ -15,42 +15,42 @@ Vector: TypeAlias = tuple[float, float, float]
 
 @kernel("f8(v2)")
 def length(v: Pair) -> float:
-    """Return the length of a vector of the plane."""
+    """Length of a vector of the plane."""
     return math.sqrt(v[0] * v[0] + v[1] * v[1])
 
 
 @kernel("v3(v3, v3)")
 def minus(a: Vector, b: Vector) -> Vector:
-    """Return a - b."""
+    """Difference a - b."""
     return a[0] - b[0], a[1] - b[1], a[2] - b[2]
 
 
 @kernel("v3(v3)")
 def opposite(a: Vector) -> Vector:
-    """Return -a."""
+    """Opposite vector -a."""
     return -a[0], -a[1], -a[2]
 
 
 @kernel("v3(f8, v3)")
 def scaled(factor: float, a: Vector) -> Vector:
-    """Return factor a."""
+    """Multiple of a vector."""
     return factor * a[0], factor * a[1], factor * a[2]
 
 
 @kernel("f8(v3, v3)")
 def dot(a: Vector, b: Vector) -> float:
-    """Return a . b."""
+    """Scalar product a . b."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 @kernel("f8(v3, v3)")
 def distance(a: Vector, b: Vector) -> float:
-    """Return the length of a - b."""
-    way = minus(a, b)
-    return math.sqrt(dot(way, way))
+    """Length of a - b."""
+    difference = minus(a, b)
+    return math.sqrt(dot(difference, difference))
 
 
 @kernel("v3(v3, v3)")
 def cross(a: Vector, b: Vector) -> Vector:
-    """Return a x b."""
+    """Vector product a x b."""
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]

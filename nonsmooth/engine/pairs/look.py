@@ -108,7 +108,7 @@ def look_at_pairs(ws: Workspace) -> None:
 
     What these say is asked only of a pair that one search does not find apart.
     """
-    ws.run.passed_pair, asked, most = -1, 0, 0.0
+    ws.run.passed_pair, asked, most = -1, False, 0.0
     _move_carriers(ws)
     for number in range(ws.model.n_pairs):
         pair, way = ws.pairs[number], _way(ws, number)
@@ -122,9 +122,9 @@ def look_at_pairs(ws: Workspace) -> None:
         pair.margin = way + apart + (0.0 if pair.flat == 1 else pair.allowed)
         if inside <= pair.allowed:
             continue
-        if asked == 0:
+        if not asked:
             _ask_contacts(ws)
-            asked = 1
+            asked = True
         group = ws.pairs[pair.group]
         if pair.flat == 1 and group.is_closed:
             continue

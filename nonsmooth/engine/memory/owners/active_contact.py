@@ -60,7 +60,7 @@ class ActiveContact(Record, key="actives", capacity="n_slots", length="problem.n
     end_block: int = whole(
         _SOLUTION, "End of its Delassus blocks.", inside=("island.block_start", 1), behind="problem.first_grouped"
     )
-    diagonal_block: int = whole(Life.REUSED, "Its Delassus block on the diagonal.", behind="problem.first_grouped")
+    diagonal_block: int = whole(Life.DERIVED, "Its Delassus block on the diagonal.", behind="problem.first_grouped")
     n_blocks: int = whole(_SOLUTION, "Number of contacts that it acts on.")
     block_mark: int = whole(_SOLUTION, "Contact that has counted it last.")
     rank: int = whole(_SOLUTION, "Its place in the order with a small band, or -1.")

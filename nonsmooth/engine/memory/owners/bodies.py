@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import final
 
-from nonsmooth.engine.memory.declare import Life, Record, question, real, whole
+from nonsmooth.engine.memory.declare import Life, Record, address, question, real, whole
 
 _PARAMETER, _REUSED = Life.PARAMETER, Life.REUSED
 
@@ -17,16 +17,16 @@ class Body(Record, key="bodies", capacity="n_bodies", length="model.n_bodies"):
     u: int = whole(_PARAMETER, "First of its velocities among all.")
     n_q: int = whole(_PARAMETER, "Number of its coordinates.")
     n_u: int = whole(_PARAMETER, "Number of its velocities, 0 for a driven body.")
-    function: int = whole(_PARAMETER, "Address of the function that writes its frames and its tail.")
+    function: int = address(_PARAMETER, "Address of the function that writes its frames and its tail.")
     parameters: int = whole(_PARAMETER, "Place of the parameters of that function.")
     out: int = whole(_PARAMETER, "Place of its frames.")
     tail: int = whole(_PARAMETER, "Place of its rates of q, forces, inverse mass and energies.")
     quaternion: int = whole(_PARAMETER, "First of its quaternion among its coordinates, or -1.")
     spin: int = whole(_PARAMETER, "First of its spin among its velocities, or -1.")
-    ballistic_function: int = whole(_PARAMETER, "Address of its ballistic motion in closed form, or 0.")
+    ballistic_function: int = address(_PARAMETER, "Address of its ballistic motion in closed form, or 0.")
     ballistic_parameters: int = whole(_PARAMETER, "Place of the parameters of that function.")
     ballistic_out: int = whole(_PARAMETER, "Place where that function writes.")
-    is_ballistic: bool = question(_REUSED, "It is in ballistic motion in closed form.")
+    is_ballistic: bool = question(Life.DERIVED, "It is in ballistic motion in closed form.")
     spins_apart: bool = question(_REUSED, "Its spin is integrated apart, along its own axes.")
     has_own_step: bool = question(Life.STATE, "It takes a step of its own (multirate).")
     own_step_time: float = real(Life.STATE, "s", "Start of its own step.")
@@ -69,7 +69,7 @@ class Articulation(Record, key="articulations", capacity="n_articulations", leng
 class Joint(Record, key="joints", capacity="n_joints", length="model.n_joints"):
     """A joint between two bodies of an articulation."""
 
-    function: int = whole(_PARAMETER, "Address of the function that writes its rows.")
+    function: int = address(_PARAMETER, "Address of the function that writes its rows.")
     parameters: int = whole(_PARAMETER, "Place of the parameters of that function.")
     frame_a: int = whole(_PARAMETER, "Place of the frame on the first body.")
     frame_b: int = whole(_PARAMETER, "Place of the frame on the second body.")
@@ -86,7 +86,7 @@ class Joint(Record, key="joints", capacity="n_joints", length="model.n_joints"):
 class Load(Record, key="loads", capacity="n_loads", length="model.n_loads"):
     """A load on two bodies: a spring, a damper, a force of the user."""
 
-    function: int = whole(_PARAMETER, "Address of the function that writes force, point and moment.")
+    function: int = address(_PARAMETER, "Address of the function that writes force, point and moment.")
     parameters: int = whole(_PARAMETER, "Place of the parameters of that function.")
     frame_a: int = whole(_PARAMETER, "Place of the frame on the first body.")
     frame_b: int = whole(_PARAMETER, "Place of the frame on the second body.")

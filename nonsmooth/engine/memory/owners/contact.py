@@ -18,8 +18,9 @@ from nonsmooth.engine.memory.blocks import (
     TANGENT,
     TURN_MATRIX,
 )
-from nonsmooth.engine.memory.declare import Life, Record, one_of, question, real, row, vector, whole
+from nonsmooth.engine.memory.declare import Life, Record, address, one_of, question, real, row, vector, whole
 from nonsmooth.engine.memory.modes import Cause, Mode, Phase
+from nonsmooth.engine.memory.sizes import per
 from nonsmooth.types import Floats
 
 _PARAMETER, _STATE, _REUSED = Life.PARAMETER, Life.STATE, Life.REUSED
@@ -34,7 +35,7 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     """
 
     # --- what was declared --------------------------------------------------------------------------------------------
-    declared: int = whole(_STATE, "Number of the declared contact.", is_of_slot=True)
+    declared: int = whole(_STATE, "Number of the declared contact.", is_of_slot=True, below=per(1, "n_declared"))
     body_a: int = whole(_PARAMETER, "First body.")
     body_b: int = whole(_PARAMETER, "Second body.")
     articulation_a: int = whole(_PARAMETER, "Articulation of the first body.")
@@ -53,34 +54,34 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     size: float = real(_PARAMETER, "m", "Size of the smaller body.")
     contact_time: float = real(_PARAMETER, "s", "Duration of an impact, below which bounces are not resolved.")
     reach: float = real(_PARAMETER, "m", "Gap up to which a compliant contact acts.")
-    geometry_function: int = whole(_PARAMETER, "Address of the function that writes the geometry.")
+    geometry_function: int = address(_PARAMETER, "Address of the function that writes the geometry.")
     geometry_parameters: int = whole(_PARAMETER, "Place of the parameters of the geometry.")
     is_compliant: bool = question(
         _PARAMETER, "The normal force is a function of gap and rate.", inside=("normal_function", 0)
     )
-    normal_function: int = whole(_PARAMETER, "Address of the normal law of a compliant contact, else 0.")
+    normal_function: int = address(_PARAMETER, "Address of the normal law of a compliant contact, else 0.")
     geometry: Floats = row(_REUSED, GEOMETRY, "", "Block that the kinematics writes; its parts have names below.")
     normal_parameters: int = whole(_PARAMETER, "Place of the parameters of the normal law.")
-    friction_function: int = whole(_PARAMETER, "Address of the friction law.")
+    friction_function: int = address(_PARAMETER, "Address of the friction law.")
     friction_parameters: int = whole(_PARAMETER, "Place of the parameters of the friction law.")
     is_anisotropic: bool = question(_PARAMETER, "Friction depends on the direction.")
     anisotropy: int = whole(_PARAMETER, "Place of axis and ratios of anisotropic friction.")
     has_traction_law: bool = question(
         _PARAMETER, "A law gives friction force and moment.", inside=("traction_function", 0)
     )
-    traction_function: int = whole(_PARAMETER, "Address of the traction law, or 0.")
+    traction_function: int = address(_PARAMETER, "Address of the traction law, or 0.")
     traction_parameters: int = whole(_PARAMETER, "Place of the parameters of the traction law.")
     traction_out: int = whole(_PARAMETER, "Place where the traction law writes.")
-    rates_function: int = whole(_PARAMETER, "Address of the function of the rates of inner states, or 0.")
+    rates_function: int = address(_PARAMETER, "Address of the function of the rates of inner states, or 0.")
     rates_parameters: int = whole(_PARAMETER, "Place of the parameters of the rates.")
     rates_out: int = whole(_PARAMETER, "Place where the rates of inner states are written.")
     inner_states: int = whole(_PARAMETER, "Offset of the law's inner states in the state.")
     n_inner_states: int = whole(_PARAMETER, "Number of inner states of the law.")
     inner_states_at_start: int = whole(_PARAMETER, "Place of the inner states of a new contact.")
     inner_states_copy: int = whole(_PARAMETER, "Place of the inner states that the law reads.")
-    impact_force_function: int = whole(_PARAMETER, "Address of force over deformation in an impact.")
+    impact_force_function: int = address(_PARAMETER, "Address of force over deformation in an impact.")
     impact_force_parameters: int = whole(_PARAMETER, "Place of the parameters of force over deformation.")
-    efficiency_function: int = whole(_PARAMETER, "Address of the efficiency over the gap rate, Eq. (28).")
+    efficiency_function: int = address(_PARAMETER, "Address of the efficiency over the gap rate, Eq. (28).")
     efficiency_parameters: int = whole(_PARAMETER, "Place of the parameters of the efficiency.")
     map_parameters: int = whole(_PARAMETER, "Place of the parameters of an impact law that maps velocities.")
     features: int = whole(_PARAMETER, "Place of the pair of features out of a pool, or 0.")
@@ -135,7 +136,7 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     normal_force: float = real(_REUSED, "N", "Normal contact force.", inside=("force", 0))
     force: Floats = row(_REUSED, 3, "N", "Contact force, n, t1, t2.")
     is_touching: bool = question(_REUSED, "The surfaces touch within the tolerances.")
-    group: int = whole(_REUSED, "Island of the contact.")
+    group: int = whole(Life.DERIVED, "Island of the contact.")
     gap: float = real(
         _REUSED, "m", "Distance of the surfaces along the normal, negative if they overlap.", inside=("geometry", GAP)
     )
@@ -243,7 +244,9 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     direction_agreed: tuple[float, float] = vector(_EVENT, 2, "1", "Slip direction that the contact problem found.")
     takes_over: bool = question(_EVENT, "The contact takes the place of a closed one.")
     has_no_force: bool = question(_EVENT, "Sliding has no contact force (Painleve).")
-    release: Cause = one_of(Cause, _EVENT, "Cause by which a jump of the contact point released it, or `NO_RELEASE`.")
+    release: Cause = one_of(
+        Cause, _STATE, "Cause by which a leap of the contact point released it at this instant, else `NO_RELEASE`."
+    )
     leap_start_a: tuple[float, float, float] = vector(
         _EVENT, 3, "m", "Witness point on the first body before the jump."
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import final
 
-from nonsmooth.engine.memory.declare import Life, Record, question, real, whole
+from nonsmooth.engine.memory.declare import Life, Record, address, question, real, whole
 from nonsmooth.engine.memory.layout import IMPACT_GUARDS
 from nonsmooth.engine.memory.sizes import all_guards, per
 
@@ -28,7 +28,7 @@ class Guard(Record, key="guards", capacity=all_guards, length="model.n_slots"):
 class OwnGuard(Record, key="own_guards", capacity="n_own_guards", length="model.n_own_guards"):
     """A guard that the user declared."""
 
-    function: int = whole(Life.PARAMETER, "Address of the function of time, q and u.")
+    function: int = address(Life.PARAMETER, "Address of the function of time, q and u.")
     parameters: int = whole(Life.PARAMETER, "Place of the parameters of that function.")
     has_just_fired: bool = question(Life.STATE, "It fired at the last event.")
     ends_the_run: bool = question(Life.PARAMETER, "The run ends when it fires.")

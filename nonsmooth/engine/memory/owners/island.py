@@ -17,7 +17,7 @@ from nonsmooth.engine.memory.sizes import (
     step_part_numbers,
 )
 
-_STATE, _REUSED = Life.STATE, Life.REUSED
+_STATE, _REUSED, _DERIVED = Life.STATE, Life.REUSED, Life.DERIVED
 
 
 @final
@@ -29,10 +29,15 @@ class Island(Part, key="island"):
     y: FloatRow = array(
         _STATE, per(1, "n_y"), float, "", "Integrated state: q, u, energy accounts, inner states of laws."
     )
-    n_contacts: int = whole(_STATE, "Number of listed contacts.")
+    n_contacts: int = whole(_STATE, "Number of listed contacts.", below=ends("n_slots"))
     list_margin: float = real(_STATE, "m", "Margin of the neighbour list.")
     sphere_order: IntegerRow = array(
-        _STATE, per(1, "n_spheres"), int, "", "Bounding spheres, sorted along the axis of the sweep."
+        _STATE,
+        per(1, "n_spheres"),
+        int,
+        "",
+        "Bounding spheres, sorted along the axis of the sweep.",
+        below=per(1, "n_spheres"),
     )
     follows_a_step: bool = question(_STATE, "No event has come since the last step.")
     free_step: float = real(_STATE, "s", "Next step while no contact is closed.")
@@ -54,7 +59,7 @@ class Island(Part, key="island"):
     accounted_before: float = real(_STATE, "J", "Energy that was accounted for when the account was opened.")
 
     # --- what the next step starts from -------------------------------------------------------------------------------
-    velocities: int = whole(_REUSED, "Where the velocities of all bodies are, on which kinematics is evaluated.")
+    velocities: int = whole(_DERIVED, "Where the velocities of all bodies are, on which kinematics is evaluated.")
     driven_time: float = real(_REUSED, "s", "Time at which driven bodies were evaluated.", begin=-math.inf)
     free_time: float = real(_REUSED, "s", "Time at which free bodies were evaluated.", begin=math.nan)
     du: FloatRow = array(_REUSED, per(1, "n_u"), float, "", "Accelerations of all bodies.")
@@ -63,31 +68,40 @@ class Island(Part, key="island"):
     y_evaluated: FloatRow = array(
         _REUSED, coordinates_and_velocities, float, "", "q and u at which the bodies were evaluated."
     )
-    n_grouped: int = whole(_REUSED, "Number of contacts in groups.")
-    n_groups: int = whole(_REUSED, "Number of groups of contacts that act on one another.")
-    grouped: IntegerRow = array(_REUSED, per(1, "n_slots"), int, "", "Contacts in groups, group after group.")
-    group_start: IntegerRow = array(_REUSED, ends("n_slots"), int, "", "Where each group begins in `grouped`.")
+    n_grouped: int = whole(_DERIVED, "Number of contacts in groups.")
+    n_groups: int = whole(_DERIVED, "Number of groups of contacts that act on one another.")
+    grouped: IntegerRow = array(_DERIVED, per(1, "n_slots"), int, "", "Contacts in groups, group after group.")
+    group_start: IntegerRow = array(_DERIVED, ends("n_slots"), int, "", "Where each group begins in `grouped`.")
     group_next: IntegerRow = array(Life.STEP, per(1, "n_slots"), int, "", "Where the next contact of each group goes.")
     block_start: IntegerRow = array(
-        _REUSED, ends("n_slots"), int, "", "Where the Delassus blocks of each grouped contact begin."
+        _DERIVED, ends("n_slots"), int, "", "Where the Delassus blocks of each grouped contact begin."
     )
     block_column: IntegerRow = array(
-        _REUSED, delassus_blocks, int, "", "Active contact that each Delassus block couples with.", is_late=True
+        _DERIVED, delassus_blocks, int, "", "Active contact that each Delassus block couples with.", is_late=True
     )
     delassus: FloatRow = array(
         _REUSED, delassus_numbers, float, "1/kg", "Delassus blocks, rows n, t1, t2.", is_late=True
     )
-    n_integrated: int = whole(_REUSED, "Number of bodies that the integrator steps.")
-    integrated: IntegerRow = array(_REUSED, per(1, "n_bodies"), int, "", "Bodies that the integrator steps.")
-    n_ballistic: int = whole(_REUSED, "Number of bodies in ballistic motion.")
-    ballistic: IntegerRow = array(_REUSED, per(1, "n_bodies"), int, "", "Bodies in ballistic motion.")
-    n_spans: int = whole(_REUSED, "Number of spans of the state that the integrator steps.")
-    span_first: IntegerRow = array(_REUSED, spans, int, "", "First entry of each span.")
-    span_length: IntegerRow = array(_REUSED, spans, int, "", "Length of each span.")
-    n_spinning: int = whole(_REUSED, "Number of bodies whose spin is integrated apart.")
-    spinning: IntegerRow = array(_REUSED, per(1, "n_bodies"), int, "", "Bodies whose spin is integrated apart.")
-    singular_contact: int = whole(_REUSED, "Contact whose slip is near the Painleve singularity, or -1.")
-    stray_contact: int = whole(_REUSED, "Contact whose averaged forces differ most from those of the motion.")
+    n_integrated: int = whole(_DERIVED, "Number of bodies that the integrator steps.")
+    integrated: IntegerRow = array(_DERIVED, per(1, "n_bodies"), int, "", "Bodies that the integrator steps.")
+    n_ballistic: int = whole(_DERIVED, "Number of bodies in ballistic motion.")
+    ballistic: IntegerRow = array(_DERIVED, per(1, "n_bodies"), int, "", "Bodies in ballistic motion.")
+    n_spans: int = whole(_DERIVED, "Number of spans of the state that the integrator steps.")
+    span_first: IntegerRow = array(_DERIVED, spans, int, "", "First entry of each span.")
+    span_length: IntegerRow = array(_DERIVED, spans, int, "", "Length of each span.")
+    n_spinning: int = whole(_REUSED, "Number of bodies whose spin is integrated apart.", below=ends("n_bodies"))
+    spinning: IntegerRow = array(
+        _REUSED, per(1, "n_bodies"), int, "", "Bodies whose spin is integrated apart.", below=per(1, "n_bodies")
+    )
+    singular_contact: int = whole(
+        _REUSED, "Contact whose slip is near the Painleve singularity, or -1.", begin=-1, below=per(1, "n_slots")
+    )
+    stray_contact: int = whole(
+        _REUSED,
+        "Contact whose averaged forces differ most from those of the motion.",
+        begin=-1,
+        below=per(1, "n_slots"),
+    )
     strayed: float = real(_REUSED, "1", "That difference, relative to its bound.")
     stage_time: float = real(_REUSED, "s", "Time of an implicit stage, 0 if there is none.")
     fastest_turn: float = real(_REUSED, "1/s", "Largest turning rate of a body.")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import final
 
-from nonsmooth.engine.memory.declare import FloatRow, IntegerRow, Life, Part, array, one_of, real, whole
+from nonsmooth.engine.memory.declare import FloatRow, IntegerRow, Life, Part, address, array, one_of, real, whole
 from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from nonsmooth.engine.memory.layout import N_STAGES
 from nonsmooth.engine.memory.modes import Painleve
@@ -59,7 +59,7 @@ class Model(Part, key="model"):
 class Options(Part, key="options"):
     """Options of the engine, and what the laws of a system need of it."""
 
-    impact_map: int = whole(_PARAMETER, "Address of the impact law that maps velocities, or 0.")
+    impact_map: int = address(_PARAMETER, "Address of the impact law that maps velocities, or 0.")
     painleve_policy: Painleve = one_of(Painleve, _PARAMETER, "What to do if sliding has no contact force.")
     solver: int = whole(_PARAMETER, "Solver of the contact problem.")
     widest_margin: float = real(_PARAMETER, "m", "Largest margin of the neighbour list.")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import final
 
-from nonsmooth.engine.memory.declare import Life, Record, end_of, question, real, row, vector, whole
+from nonsmooth.engine.memory.declare import Life, Record, address, end_of, question, real, row, vector, whole
 from nonsmooth.types import Floats
 
 _PARAMETER, _REUSED = Life.PARAMETER, Life.REUSED
@@ -41,7 +41,7 @@ class HalfSpace(Record, key="half_spaces", capacity="n_half_spaces", length="mod
 class Search(Record, key="searches", capacity="n_searches", length="model.n_searches"):
     """A search for candidate features: those of two shapes that are near each other share a number of contacts."""
 
-    function: int = whole(_PARAMETER, "Address of the function that finds pairs of features.")
+    function: int = address(_PARAMETER, "Address of the function that finds pairs of features.")
     parameters: int = whole(_PARAMETER, "Place of the parameters of that function.")
     out: int = whole(_PARAMETER, "Place where the function writes.")
     first_contact: int = whole(_PARAMETER, "First of the declared contacts that hold the pairs.")

@@ -5,7 +5,18 @@ from __future__ import annotations
 import math
 from typing import final
 
-from nonsmooth.engine.memory.declare import FloatRow, IntegerRow, Life, Part, array, one_of, question, real, whole
+from nonsmooth.engine.memory.declare import (
+    FloatRow,
+    IntegerRow,
+    Life,
+    Part,
+    address,
+    array,
+    one_of,
+    question,
+    real,
+    whole,
+)
 from nonsmooth.engine.memory.limits import LIMITS
 from nonsmooth.engine.memory.modes import Cause, Status
 from nonsmooth.engine.memory.sizes import fixed, per, sample_numbers
@@ -25,7 +36,7 @@ class Request(Part, key="request"):
     is_resumed: bool = question(_REQUEST, "The run continues an earlier one.")
     n_work: int = whole(_REQUEST, "Work since the last interrupt check, in evaluations of a contact.")
     work_budget: int = whole(_REQUEST, "Work until the next interrupt check, in evaluations of a contact.")
-    interrupt_check: int = whole(_REQUEST, "Address of the interrupt check, or 0.")
+    interrupt_check: int = address(_REQUEST, "Address of the interrupt check, or 0.")
     is_interrupted: bool = question(_REQUEST, "The run is to stop.")
 
 
@@ -64,12 +75,12 @@ class Run(Part, key="run"):
     n_past_map: int = whole(_OUTPUT, "Number of contacts of an impact law that wrote past its block.")
     has_too_many_blocks: bool = question(_OUTPUT, "More contacts act on one another than there are blocks for.")
 
-    worst_energy: float = real(_OUTPUT, "J", "Largest unexplained change of energy.")
-    worst_energy_ratio: float = real(_OUTPUT, "1", "That change over the energy that the tolerances allow.")
-    worst_energy_time: float = real(_OUTPUT, "s", "Time of that change.")
-    energy_scale: float = real(_OUTPUT, "J", "Energy that the unexplained change is compared with.")
-    jumped_energy: float = real(_OUTPUT, "J", "Energy that springs gained by beginning inside of a body.")
-    jump_time: float = real(_OUTPUT, "s", "Last time of such a gain.")
+    worst_energy: float = real(_STATE, "J", "Largest unexplained change of energy.")
+    worst_energy_ratio: float = real(_STATE, "1", "That change over the energy that the tolerances allow.")
+    worst_energy_time: float = real(_STATE, "s", "Time of that change.")
+    energy_scale: float = real(_STATE, "J", "Energy that the unexplained change is compared with.")
+    jumped_energy: float = real(_STATE, "J", "Energy that springs gained by beginning inside of a body.")
+    jump_time: float = real(_STATE, "s", "Last time of such a gain.")
 
 
 @final

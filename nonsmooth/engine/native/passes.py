@@ -1,48 +1,61 @@
-"""How numba compiles the engine and the shims of laws; with the cache all that leans on its private parts.
+"""The engine's own compiler passes: numba compiles the engine and the shims of laws in half of the time.
 
-All of it is made of subclasses: what else numba compiles in the process is compiled as ever.
+* Kernels stay intermediate code, which the optimiser sees once, as part of an entry point. Numba would optimise each of
+  them alone, and again within each caller.
+* The engine needs a third of numba's passes: it has no closures, literals, overloads or array expressions.
+* The types of an operation are found once. Numba would find them again at every place.
+* Short loops are not unrolled.
+
+All of it consists of subclasses, so that other functions that numba compiles in the process are not affected.
 """
 
 from __future__ import annotations
 
-import contextlib
-import gc
 import secrets
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any, final
 
-from llvmlite import ir
-from llvmlite.binding import create_pass_builder, create_pipeline_tuning_options
-from numba.core import types
-from numba.core.ccallback import CFunc
-from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import CompilerBase, DefaultPassBuilder
-from numba.core.compiler_machinery import FunctionPass, PassManager, register_pass
-from numba.core.sigutils import normalize_signature
-from numba.core.typed_passes import (
+from numba import types
+
+from nonsmooth.engine.native.cache import Store
+from nonsmooth.engine.native.numba_names import (
+    NO_ALLOCATION,
+    CFunc,
+    CompilerBase,
+    DefaultPassBuilder,
+    FixupArgs,
+    FunctionPass,
     IRLegalization,
+    IRProcessing,
+    JITCodeLibrary,
     NativeLowering,
     NoPythonBackend,
     NopythonTypeInference,
+    PassManager,
     PreLowerStripPhis,
+    ReconstructSSA,
+    TranslateByteCode,
+    create_pass_builder,
+    create_pipeline_tuning_options,
+    ir,
+    normalize_signature,
+    register_pass,
 )
-from numba.core.untyped_passes import FixupArgs, IRProcessing, ReconstructSSA, TranslateByteCode
-
-from nonsmooth.engine.native.cache import Store
 
 
 @register_pass(mutates_CFG=False, analysis_only=False)
 @final
 class Number(FunctionPass):
-    """Give a function a number that no function of another process has.
+    """Give a function a random number in place of numba's count.
 
-    A symbol is made of a function's name, types and number, and cached code of several processes is linked by symbols.
+    Symbols consist of a function's name, types and number. Code that several processes have kept on disk is linked by
+    symbols, so that these must differ.
     """
 
     _name = "number"
 
     def __init__(self) -> None:
-        """Leave all to the state."""
+        """The base class keeps its argument; this pass has none."""
 
     def run_pass(self, state: Any) -> bool:
         """Draw the number."""
@@ -51,7 +64,7 @@ class Number(FunctionPass):
 
 
 class _Typing:
-    """A typing context that finds the types of an operation once: numba tries all candidates at every place."""
+    """A typing context that finds the types of an operation once. Numba tries all candidates at every place."""
 
     def __init__(self, context: Any) -> None:
         self._context = context
@@ -69,12 +82,13 @@ class _Typing:
 
 
 _typed: dict[Any, Any] = {}
+"""Signatures found so far, by function and types of arguments."""
 
 
 @register_pass(mutates_CFG=True, analysis_only=False)
 @final
 class TypeOnce(NopythonTypeInference):
-    """Type inference that remembers; a tenth of the time of compiling."""
+    """Type inference that finds the types of each operation once, which saves a tenth of the time."""
 
     _name = "remembering_type_inference"
 
@@ -89,9 +103,9 @@ class TypeOnce(NopythonTypeInference):
 
 
 class _RolledLibrary(JITCodeLibrary):
-    """Code whose loops stay as they stand: unrolled, such short ones take longer to compile, and to run.
+    """Code whose loops are neither unrolled nor interleaved.
 
-    Nor are several vectors of a loop taken at once: of a dozen numbers most would be left over.
+    Most loops run over a dozen numbers. Unrolled, they take longer to compile and to run.
     """
 
     def _builder(self) -> Any:
@@ -111,7 +125,7 @@ class _RolledLibrary(JITCodeLibrary):
 
 
 class _RawLibrary(_RolledLibrary):
-    """Intermediate code as it was lowered, which is never run: the code of a caller takes it in and is optimised."""
+    """Intermediate code as it was lowered. It is never run: an entry point includes it and is optimised as a whole."""
 
     def _optimize_final_module(self) -> None:
         pass
@@ -121,15 +135,15 @@ class _RawLibrary(_RolledLibrary):
 
     @property
     def codegen(self) -> Any:
-        """What is told of the code's environment."""
+        """The receiver of the code's environment, see :meth:`set_env`."""
         return self
 
     def set_env(self, name: str, environment: Any) -> None:
-        """Leave it: no code, no environment."""
+        """Do nothing: without machine code there is no environment."""
 
 
 def _let_inline(module: Any) -> None:
-    """Let the wrapper that has the address take in what it wraps, which numba forbids."""
+    """Let the wrapper that has the address include the function that it wraps, which numba forbids."""
     for function in module.functions if module.name == "cfunc_wrapper" else ():
         for block in function.blocks:
             for instruction in block.instructions:
@@ -137,43 +151,38 @@ def _let_inline(module: Any) -> None:
                     instruction.attributes.discard("noinline")
 
 
-class _EntryLibrary(_RolledLibrary):
-    """Code of an entry point, in which the function is one with its wrapper: a call of it is one call."""
+class _OneFunction:
+    """Mixin of libraries whose function and wrapper become one, so that a call by address is a single call."""
+
+    _final_module: Any
 
     def add_ir_module(self, module: Any) -> None:
         """Add a module to those that are linked."""
         _let_inline(module)
-        super().add_ir_module(module)
+        super().add_ir_module(module)  # type: ignore[misc]
 
     def _optimize_final_module(self) -> None:
         for function in self._final_module.functions:
             if not function.is_declaration and not function.name.startswith("cfunc."):
                 function.linkage = "internal"
-        super()._optimize_final_module()
+        super()._optimize_final_module()  # type: ignore[misc]
 
 
-class _ShimLibrary(JITCodeLibrary):
-    """Code of a shim, all of which is taken into its one function."""
+class _EntryLibrary(_OneFunction, _RolledLibrary):
+    """Code of an entry point."""
 
-    def add_ir_module(self, module: Any) -> None:
-        """Add a module to those that are linked."""
-        _let_inline(module)
-        super().add_ir_module(module)
 
-    def _optimize_final_module(self) -> None:
-        for function in self._final_module.functions:
-            if not function.is_declaration and not function.name.startswith("cfunc."):
-                function.linkage = "internal"
-        super()._optimize_final_module()
+class _ShimLibrary(_OneFunction, JITCodeLibrary):
+    """Code of a shim."""
 
 
 class _Lower(NativeLowering):
-    """Lowering to intermediate code into a library of one's own."""
+    """Lowering to intermediate code, into a library of the engine's own."""
 
     _library: type[JITCodeLibrary]
 
     def run_pass(self, state: Any) -> bool:
-        """Lower, and keep the machine code where the library makes any of it."""
+        """Lower the function. The library makes machine code of it, or leaves that to its callers."""
         state.library = self._library(state.targetctx.codegen(), state.func_id.func_qualname)
         state.library.enable_object_caching()
         return bool(super().run_pass(state))
@@ -182,7 +191,7 @@ class _Lower(NativeLowering):
 @register_pass(mutates_CFG=True, analysis_only=False)
 @final
 class LowerRaw(_Lower):
-    """Lowering that leaves what it makes to the callers; half of the time of compiling."""
+    """Lowering of kernels and laws, whose machine code is part of their callers. It saves half of the time."""
 
     _name, _library = "raw_native_lowering", _RawLibrary
 
@@ -190,7 +199,7 @@ class LowerRaw(_Lower):
 @register_pass(mutates_CFG=True, analysis_only=False)
 @final
 class LowerEntry(_Lower):
-    """Lowering into code with loops as they stand."""
+    """Lowering of entry points."""
 
     _name, _library = "entry_native_lowering", _EntryLibrary
 
@@ -198,7 +207,7 @@ class LowerEntry(_Lower):
 @register_pass(mutates_CFG=True, analysis_only=False)
 @final
 class LowerShim(_Lower):
-    """Lowering into code of one function."""
+    """Lowering of shims."""
 
     _name, _library = "shim_native_lowering", _ShimLibrary
 
@@ -214,27 +223,25 @@ _ENGINE = (
     NativeLowering,
     NoPythonBackend,
 )
-"""The passes of numba that the engine's plain loops need.
-
-Those left out rewrite closures, literals, overloads and whole arrays, which the engine has none of.
-"""
+"""The passes of numba that the engine's loops over numbers need."""
 
 
 def _engine_passes(state: Any) -> PassManager:
     passes = PassManager("engine")
-    for one in _ENGINE:
-        passes.add_pass(one, one.__name__)
+    for kind in _ENGINE:
+        passes.add_pass(kind, kind.__name__)
     return passes
 
 
 def _compiler(numba_passes: Callable[[Any], PassManager], lowering: type) -> type[CompilerBase]:
+    """Compiler class with numba's passes, in which the engine's own replace two and the numbering is added."""
     own = {NopythonTypeInference: TypeOnce, NativeLowering: lowering}
 
     @final
     class Passes(CompilerBase):
         def define_pipelines(self) -> list[PassManager]:
             passes = numba_passes(self.state)
-            passes.passes = [(own.get(one, one), what) for one, what in passes.passes]
+            passes.passes = [(own.get(kind, kind), name) for kind, name in passes.passes]
             passes.add_pass_after(Number, TranslateByteCode)
             passes.finalize()
             return [passes]
@@ -243,46 +250,43 @@ def _compiler(numba_passes: Callable[[Any], PassManager], lowering: type) -> typ
 
 
 EntryPasses = _compiler(_engine_passes, LowerEntry)
-"""For functions of the engine that are called by address."""
+"""For entry points."""
 KernelPasses = _compiler(_engine_passes, LowerRaw)
-"""For functions of the engine that those take in."""
+"""For kernels, whose code is part of entry points."""
 ShimPasses = _compiler(DefaultPassBuilder.define_nopython_pipeline, LowerShim)
-"""For shims, which are called by address."""
+"""For shims, which have an address and call a plug-in's function."""
 LawPasses = _compiler(DefaultPassBuilder.define_nopython_pipeline, LowerRaw)
-"""For functions of plug-ins, which shims take in."""
+"""For functions of plug-ins, whose code is part of shims."""
 
 
-@contextlib.contextmanager
-def uncollected() -> Iterator[None]:
-    """Look for no garbage inside, a tenth of the time: the compiler makes millions of small objects that live."""
-    collecting = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if collecting:
-            gc.enable()
-
-
+@final
 class CFunction(CFunc):
-    """A C function, compiled when asked for or taken from the disk.
+    """A C function that is compiled or taken from disk by :meth:`compile`.
 
     Parameters
     ----------
     function : callable
-        What is compiled.
+        The Python function.
     signature : numba signature
         Its types.
     store : Store, optional
-        Where it is kept on disk, if it is.
+        Its file, if it is kept on disk.
     passes : type
         The passes of the compiler.
+    may_allocate : bool
+        Whether a function that allocates memory compiles, as laws of impact with arrays do.
     """
 
     def __init__(
-        self, function: Callable[..., Any], signature: Any, store: Store | None, passes: type[CompilerBase]
+        self,
+        function: Callable[..., Any],
+        signature: Any,
+        store: Store | None,
+        passes: type[CompilerBase],
+        *,
+        may_allocate: bool = False,
     ) -> None:
-        options = {"nopython": True, "error_model": "numpy"}
+        options = {"nopython": True, "error_model": "numpy", **({} if may_allocate else NO_ALLOCATION)}
         super().__init__(function, normalize_signature(signature), locals={}, options=options, pipeline_class=passes)
         if store is not None:
             self._cache = store

@@ -1,0 +1,203 @@
+"""Collisions: the impact law gives the impulses of each island, and the velocities jump.
+
+An impact is also what resolves a jam, where sliding contacts hold a body fast, and Painleve's paradox, where a sliding
+contact has no force: both are impacts without an approach.
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.bodies.anisotropy import along_tangents, face_slips
+from nonsmooth.engine.bodies.compliance import push_compliant
+from nonsmooth.engine.bodies.touching import slip_speed, touch
+from nonsmooth.engine.contact.forces import reduced_coefficient
+from nonsmooth.engine.contact.problem import accelerate_touching
+from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
+from nonsmooth.engine.delassus.islands import activate_group, group_touching
+from nonsmooth.engine.events.accumulation import (
+    provisional_mode,
+    slow_speed,
+)
+from nonsmooth.engine.events.record import (
+    DRIVEN_WORK,
+    FRICTION_LOSS,
+    RESTITUTION_LOSS,
+    impact_code,
+    record_event,
+    remember,
+)
+from nonsmooth.engine.impact.end import how_over
+from nonsmooth.engine.impact.instant import jam_slips, map_impact
+from nonsmooth.engine.impact.integration import Outcome, energetic_impact
+from nonsmooth.engine.impact.window import LARGE, windowed_impact
+from nonsmooth.engine.memory.modes import NO_CONTACT, NO_RELEASE, Cause, Mode, Painleve, Status, Truncation
+from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
+
+
+@entry_point("Status(ws, Cause, i8, f8)")
+def collide(ws: Workspace, cause: Cause, which: int, seed: float) -> Status:
+    """Apply the impact law to the touching contacts, island by island, and record the impact. Returns the status.
+
+    An impact without collision starts from rest and needs a speed ``seed`` [m/s] to begin with.
+    """
+    remember(ws)
+    accelerate_touching(ws)
+    push_compliant(ws)
+    group_touching(ws)
+    n_phases, truncation = 0, Truncation.NONE
+    for group in range(ws.island.n_groups):
+        activate_group(ws, group)
+        if not _takes_part(ws, cause, which):
+            continue
+        status = _collide_island(ws, cause, seed)
+        if status != Status.RUNNING:
+            _restore_velocities(ws)
+            return status
+        n_phases += ws.event.n_phases
+        if ws.event.truncation > truncation:
+            truncation = ws.event.truncation
+    ws.event.n_phases, ws.event.truncation = n_phases, truncation
+    _add_to_totals(ws)
+    _set_provisional_modes(ws)
+    record_event(ws, cause, which, ws.event.n_phases)
+    return Status.RUNNING
+
+
+@kernel("b1(ws, Cause, i8)")
+def _takes_part(ws: Workspace, cause: Cause, which: int) -> bool:
+    """True if the active contacts collide: one of them approaches, or it is ``which``, that jams or has no force."""
+    for active in ws.actives:
+        contact = ws.contacts[active.contact]
+        approaches = contact.normal_rate < -ws.tolerance.velocity
+        if contact.index == which or (cause == Cause.IMPACT and approaches):
+            return True
+    return False
+
+
+@kernel("Status(ws, Cause, f8)")
+def _collide_island(ws: Workspace, cause: Cause, seed: float) -> Status:
+    """Apply the impact law to the active contacts, and its impulses to the bodies. Returns the status."""
+    is_large = len(ws.actives) > LARGE and ws.options.impact_map == 0 and cause == Cause.IMPACT
+    if not is_large:
+        assemble_delassus(ws)
+    _write_rates_before(ws, cause == Cause.PAINLEVE and ws.options.painleve_policy == Painleve.COMPLIANT)
+    ws.event.n_phases, ws.event.truncation = 1, Truncation.NONE
+    ws.event.slow_speed = slow_speed(ws)
+    status = _find_impulses(ws, cause, seed, is_large)
+    if status != Status.RUNNING:
+        return status
+    for i in range(3 * len(ws.actives)):
+        if not abs(ws.impact.impulse[i]) < math.inf:
+            return Status.NOT_FINITE
+    add_response(ws, ws.impact.impulse.start, ws.island.y.start + ws.model.n_q)
+    _account_for_impulses(ws)
+    return Status.RUNNING
+
+
+@kernel("void(ws, b1)")
+def _write_rates_before(ws: Workspace, is_lossless: bool) -> None:
+    """Write the rates of the active contacts before the impact.
+
+    An approach within the velocity tolerance is zero: it must not begin a compression of its own.
+    """
+    for active in ws.actives:
+        contact = ws.contacts[active.contact]
+        contact.code_during = impact_code(ws, contact.index)
+        active.is_lossless = is_lossless
+        is_zero = not abs(contact.normal_rate) > ws.tolerance.velocity
+        active.rate_before[0] = 0.0 if is_zero else contact.normal_rate
+        for r in range(1, 3):
+            active.rate_before[r] = contact.rate[r]
+
+
+@kernel("Status(ws, Cause, f8, b1)")
+def _find_impulses(ws: Workspace, cause: Cause, seed: float, is_large: bool) -> Status:
+    """Find the impulses of the active contacts: of a jam, by a map of velocities, or by integration over the impact."""
+    if cause == Cause.JAM:
+        return Status.RUNNING if jam_slips(ws) else Status.NO_CONTACT_SOLUTION
+    if ws.options.impact_map != 0:
+        map_impact(ws)
+        return Status.RUNNING
+    outcome = windowed_impact(ws) if is_large else energetic_impact(ws, seed)
+    if outcome == Outcome.INVALID:
+        return Status.NOT_FINITE
+    if outcome == Outcome.ENDLESS:
+        ws.event.truncation = Truncation.NONE
+        if not is_large and not ws.request.is_interrupted:
+            ws.event.truncation = how_over(ws)
+        if ws.event.truncation == Truncation.NONE:
+            return Status.IMPACT_ENDLESS
+    return Status.RUNNING
+
+
+@kernel()
+def _account_for_impulses(ws: Workspace) -> None:
+    """Store the impulses of the active contacts, and add their losses and the work of driven bodies to the event."""
+    for active in ws.actives:
+        contact = ws.contacts[active.contact]
+        ws.event.head[RESTITUTION_LOSS] += active.energy_stored - active.energy_returned
+        ws.event.head[FRICTION_LOSS] += active.energy_dissipated
+        for r in range(3):
+            impulse = active.impulse[r]
+            contact.event_impulse[r] = impulse
+            ws.event.head[DRIVEN_WORK] -= impulse * contact.prescribed_rate[r]
+        if contact.is_anisotropic:
+            contact.event_friction = along_tangents(ws, contact.index, contact.event_friction)
+
+
+@kernel()
+def _add_to_totals(ws: Workspace) -> None:
+    """Add the energies of the event to the totals of the run."""
+    ws.totals.n_impacts += 1
+    ws.totals.driven_work += ws.event.head[DRIVEN_WORK]
+    ws.totals.restitution_loss += ws.event.head[RESTITUTION_LOSS]
+    ws.totals.friction_loss += ws.event.head[FRICTION_LOSS]
+
+
+@kernel()
+def _restore_velocities(ws: Workspace) -> None:
+    """Restore the velocities before the event. The impulses of other islands are in no account yet."""
+    for i in range(ws.model.n_u):
+        ws.island.y[ws.model.n_q + i] = ws.event.u_before[i]
+
+
+@kernel()
+def _set_provisional_modes(ws: Workspace) -> None:
+    """Give the contacts the modes that their rates after an impact suggest, until the instant is settled."""
+    face_slips(ws)
+    touch(ws)
+    for contact in ws.contacts:
+        if contact.code_during != contact.code_before or contact.mode != Mode.OPEN:
+            provisional_mode(ws, contact.index)
+        contact.release = NO_RELEASE
+
+
+@kernel("Status(ws, i8)")
+def resolve_jam(ws: Workspace, which: int) -> Status:
+    """Stop the slip of contact ``which``, which jams, and its island with it. Returns the status."""
+    return (
+        Status.PARADOX_REFUSED if ws.options.painleve_policy == Painleve.REFUSE else collide(ws, Cause.JAM, which, 0.0)
+    )
+
+
+@kernel("Status(ws)")
+def collide_without_approach(ws: Workspace) -> Status:
+    """Start an impact from rest at the active contacts whose sliding has no force. Returns the status.
+
+    There the friction of a unit of normal force presses the contact together more than the force pushes it apart: the
+    reduced normal coefficient is not positive.
+    """
+    for contact in ws.contacts:
+        contact.has_no_force = False
+    which, seed = NO_CONTACT, 0.0
+    for active in ws.actives:
+        if not active.is_at_rest and reduced_coefficient(ws, active.index) <= 0.0:
+            which = active.contact
+            ws.contacts[which].has_no_force = True
+            seed = max(seed, slip_speed(ws, which))
+    if which == NO_CONTACT:
+        return Status.NO_CONTACT_SOLUTION
+    if ws.options.painleve_policy == Painleve.REFUSE:
+        return Status.PARADOX_REFUSED
+    return collide(ws, Cause.PAINLEVE, which, seed)

@@ -1,0 +1,181 @@
+"""Modes and forces at an instant.
+
+They are guessed from the past and from the event, solved island by island, and adopted by all contacts at once.
+"""
+
+from __future__ import annotations
+
+import math
+from enum import IntEnum
+
+from nonsmooth.engine.bodies.anisotropy import turn_facing
+from nonsmooth.engine.bodies.compliance import begin_contact, push_compliant, rubs_unasked
+from nonsmooth.engine.bodies.courses import has_own_step
+from nonsmooth.engine.bodies.touching import slip_speed
+from nonsmooth.engine.contact.problem import accelerate, accelerate_touching, set_up, solve_contact
+from nonsmooth.engine.contact.trial import slope_of_slip, small_force
+from nonsmooth.engine.delassus.islands import activate_group, group_members
+from nonsmooth.engine.events.averaging import average, keeps_averaging
+from nonsmooth.engine.events.record import (
+    code,
+)
+from nonsmooth.engine.flow.guard_numbers import normal_guard
+from nonsmooth.engine.memory.modes import Cause, Mode
+from nonsmooth.engine.native.kernel import Contact, Workspace, kernel, result
+
+_VANISHED = 1e-9
+"""Normal force that counts as vanished, relative to the largest one at the start of the step."""
+
+
+@result
+class Solution(IntEnum):
+    """Outcome of the contact problem of an instant."""
+
+    NONE = 0
+    """An island has no forces. It stays the active one."""
+    FOUND = 1
+    """Every island has modes and forces."""
+    FACING_TURNED = 2
+    """Anisotropic friction opposes the other direction than was assumed, so its bound is another one."""
+
+
+@kernel("void(ws, Cause, i8)")
+def guess_modes(ws: Workspace, cause: Cause, which: int) -> None:
+    """Collect the contacts that touch and do not separate, and guess their modes from the past and from the event."""
+    for contact in ws.contacts:
+        contact.is_in_problem = False
+        contact.mode_agreed = contact.mode if has_own_step(ws, contact.index) else Mode.OPEN
+        if contact.is_compliant:
+            _guess_compliant_mode(ws, contact, cause, which)
+        elif contact.is_touching and (contact.normal_rate <= ws.tolerance.velocity or contact.is_averaged):
+            contact.is_in_problem = True
+            contact.mode_agreed = _guessed_mode(ws, contact, cause, which)
+    group_members(ws)
+
+
+@kernel("Mode(ws, Contact, Cause, i8)")
+def _guessed_mode(ws: Workspace, contact: Contact, cause: Cause, which: int) -> Mode:
+    """Guess of the mode of a rigid contact that touches and does not separate."""
+    is_cause = contact.index == which
+    if cause == Cause.STICK_TO_SLIP and (is_cause or _share_a_bound(ws, contact, which)):
+        return Mode.SLIDE
+    if cause == Cause.LIFT_OFF and (is_cause or _force_has_vanished(ws, contact)):
+        return Mode.OPEN
+    may_have_closed = (is_cause and cause != Cause.JAM) or cause == Cause.START
+    if contact.mode == Mode.OPEN and not may_have_closed:
+        return Mode.OPEN
+    return Mode.SLIDE if slip_speed(ws, contact.index) > ws.tolerance.velocity else Mode.STICK
+
+
+@kernel("void(ws, Contact, Cause, i8)")
+def _guess_compliant_mode(ws: Workspace, contact: Contact, cause: Cause, which: int) -> None:
+    """Guess the mode of a compliant contact. Its normal force is given; its friction may be part of the problem."""
+    is_cause = contact.index == which
+    if cause == Cause.LIFT_OFF and is_cause:
+        contact.is_touching = False
+    if not contact.is_touching:
+        return
+    speed = slip_speed(ws, contact.index)
+    slips = speed > ws.tolerance.velocity
+    breaks_away = cause == Cause.STICK_TO_SLIP and (is_cause or _share_a_bound(ws, contact, which))
+    slides = slips or contact.has_traction_law or breaks_away
+    contact.mode_agreed = Mode.SLIDE if slides else Mode.STICK
+    contact.is_in_problem = not rubs_unasked(ws, contact.index)
+    contact.direction_agreed = contact.direction
+    if slips:
+        contact.direction_agreed = contact.slip[0] / speed, contact.slip[1] / speed
+
+
+@kernel("b1(ws, Contact)")
+def _force_has_vanished(ws: Workspace, contact: Contact) -> bool:
+    """True if the normal force of a closed rigid contact has vanished together with the one that fired."""
+    largest = 0.0
+    for other in ws.contacts:
+        if other.mode != Mode.OPEN and not other.is_compliant and not has_own_step(ws, other.index):
+            largest = max(largest, ws.guards[normal_guard(other.index)].initial)
+    is_small = ws.guards[normal_guard(contact.index)].value <= _VANISHED * largest
+    return not contact.is_compliant and contact.mode != Mode.OPEN and is_small
+
+
+@kernel("b1(ws, Contact, i8)")
+def _share_a_bound(ws: Workspace, contact: Contact, which: int) -> bool:
+    """True if the forces of two contacts are redundant: they share one bound of friction and break away together."""
+    return contact.has_redundant_force and ws.contacts[which].has_redundant_force
+
+
+@kernel("Solution(ws, b1)")
+def solve_islands(ws: Workspace, averaging_ends: bool) -> Solution:
+    """Find modes and forces of the collected contacts, island by island."""
+    accelerate_touching(ws)
+    push_compliant(ws)
+    ws.island.averaged_until = math.inf
+    has_turned = False
+    for group in range(ws.island.n_groups):
+        activate_group(ws, group)
+        if keeps_averaging(ws, averaging_ends):
+            average(ws, averaging_ends)
+            accelerate(ws)
+            continue
+        _use_guessed_modes(ws)
+        set_up(ws)
+        if not solve_contact(ws):
+            return Solution.NONE
+        accelerate(ws)
+        has_turned = _take_solution(ws) or has_turned
+    return Solution.FACING_TURNED if has_turned else Solution.FOUND
+
+
+@kernel()
+def _use_guessed_modes(ws: Workspace) -> None:
+    """Start the solver of the active contacts from the guessed modes, and end their averaging."""
+    for active in ws.actives:
+        contact = ws.contacts[active.contact]
+        if contact.is_averaged:
+            contact.mean_forces_asked = ws.island.time
+        contact.mode_after_averaging, active.mode_tried = Mode.OPEN, contact.mode_agreed
+
+
+@kernel("b1(ws)")
+def _take_solution(ws: Workspace) -> bool:
+    """Store what the solver found of the active contacts. True if anisotropic friction turned to face the other way."""
+    has_turned = False
+    for active in ws.actives:
+        contact = ws.contacts[active.contact]
+        contact.force_round_off = small_force(ws, active.index)
+        contact.slip_per_force = slope_of_slip(ws, active.index)
+        contact.mode_agreed = active.mode_tried
+        contact.direction_agreed = active.direction
+        if active.is_at_rest and active.mode_tried != Mode.OPEN:
+            has_turned = turn_facing(ws, contact.index, active.force[1]) or has_turned
+    return has_turned
+
+
+@kernel("b1(ws)")
+def coefficients_are_valid(ws: Workspace) -> bool:
+    """True if the friction coefficients of the active contacts are numbers that are not negative."""
+    for active in ws.actives:
+        if not (active.friction_coefficient >= 0.0 and active.static_coefficient >= 0.0):
+            return False
+    return True
+
+
+@kernel()
+def adopt_modes(ws: Workspace) -> None:
+    """Take over the modes and the slip directions that the contact problem found."""
+    for contact in ws.contacts:
+        if contact.mode == Mode.OPEN and contact.mode_agreed != Mode.OPEN:
+            begin_contact(ws, contact.index)
+        contact.mode = contact.mode_agreed
+        if contact.mode == Mode.OPEN:
+            contact.mode_after_averaging = Mode.OPEN
+        if contact.mode == Mode.SLIDE:
+            contact.direction = contact.direction_agreed
+
+
+@kernel("b1(ws)")
+def modes_have_changed(ws: Workspace) -> bool:
+    """True if a contact has another mode than before the event, or has begun or ended averaging its forces."""
+    for contact in ws.contacts:
+        if code(ws, contact.index) != contact.code_before or contact.is_averaged != contact.was_averaged:
+            return True
+    return False

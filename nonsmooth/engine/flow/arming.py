@@ -1,0 +1,146 @@
+"""Arming: a guard fires at zero once it has been positive by more than round-off.
+
+Round-off may turn the sign of a guard that is about zero. A guard is armed when it has been positive by more
+than round-off, and an armed guard fires at zero. A disarmed guard fires only when it is negative beyond the tolerances.
+"""
+
+from __future__ import annotations
+
+from nonsmooth.engine.flow.deflation import start_from_zero
+from nonsmooth.engine.flow.guard_numbers import (
+    contact_at,
+    end_of,
+    first_own_guard,
+    friction_guard,
+    friction_of,
+    is_friction_guard,
+    is_of_open_contact,
+    normal_guard,
+    normal_of,
+    number_of_guards,
+)
+from nonsmooth.engine.flow.self_check import NOUGHT
+from nonsmooth.engine.memory.modes import Mode
+from nonsmooth.engine.native.kernel import Contact, Guard, Workspace, kernel
+
+NO_BOUND = -1.0, 0.0, 0.0
+"""Bounds of a gap's acceleration that were not evaluated. A bound that was evaluated is never negative."""
+
+
+@kernel()
+def keep_end(ws: Workspace) -> None:
+    """Store guards and rates at the end of a step. The next step starts from them."""
+    for contact in ws.contacts:
+        contact.gap_rate_at_end = contact.gap_rate
+        contact.gap_at_end = contact.gap
+        contact.overlap_at_end = contact.overlap
+        contact.past_feature_at_end = contact.past_feature
+        contact.velocity_at_end = contact.velocity
+    for i in range(number_of_guards(ws)):
+        guard = ws.guards[i]
+        guard.at_end = guard.value
+
+
+@kernel()
+def keep_start(ws: Workspace) -> None:
+    """Take the gaps at the end of the last step as those at the start of the next one.
+
+    Bounds of the gap's acceleration are kept only if no event came in between.
+    """
+    for contact in ws.contacts:
+        contact.gap_at_start, contact.gap_rate_at_start = contact.gap_at_end, contact.gap_rate_at_end
+        contact.past_feature_at_start, contact.speed_at_start = contact.past_feature_at_end, contact.speed_at_end
+        bound = contact.acceleration_bound_at_end if ws.island.follows_a_step else NO_BOUND
+        contact.acceleration_bound_at_start = bound
+        contact.offset_at_start = contact.offset_at_end
+
+
+@kernel()
+def arm_guards(ws: Workspace) -> None:
+    """Start the guards of a step from the end of the last one: deflate those about zero, arm the positive ones."""
+    for contact in ws.contacts:
+        _start(normal_of(ws, contact))
+        _start(friction_of(ws, contact))
+        _deflate_normal(ws, contact)
+        _deflate_friction(ws, contact)
+        _arm(ws, contact)
+    for user in ws.own_guards:
+        guard = ws.guards[first_own_guard(ws) + user.index]
+        _start(guard)
+        if user.has_just_fired:
+            # it starts at zero, and grows whichever way
+            guard.is_deflated = True
+            guard.initial = 0.0
+        user.has_just_fired = False
+        guard.is_armed = guard.initial > 0.0
+    for contact in ws.contacts:
+        _start(end_of(ws, contact))
+        end_of(ws, contact).is_armed = end_of(ws, contact).initial > 0.0
+
+
+@kernel("void(Guard)")
+def _start(guard: Guard) -> None:
+    """Start a guard from its value at the end of the last step."""
+    guard.is_deflated = False
+    guard.base = guard.initial = guard.at_end
+
+
+@kernel("void(ws, Contact)")
+def _deflate_normal(ws: Workspace, contact: Contact) -> None:
+    """Deflate the normal guard if the step starts from a closed gap.
+
+    A gap that does not separate gets a slack: it may drift within round-off beside contacts that hold the bodies.
+    """
+    normal, round_off = normal_of(ws, contact), NOUGHT * ws.tolerance.gap
+    starts_closed = normal.initial <= ws.tolerance.gap
+    if not starts_closed:
+        return
+    if contact.mode == Mode.OPEN:
+        separates = not contact.gap_rate_at_end <= ws.tolerance.velocity
+        start_from_zero(normal, 0.0 if separates else round_off, contact.gap_rate_at_end)
+    elif contact.is_compliant:
+        # it has just touched down, and lets go where it comes back to this gap
+        start_from_zero(normal, round_off, -contact.gap_rate_at_end)
+
+
+@kernel("void(ws, Contact)")
+def _deflate_friction(ws: Workspace, contact: Contact) -> None:
+    """Deflate the friction guard if a slip has just begun."""
+    friction = friction_of(ws, contact)
+    if contact.mode == Mode.SLIDE and friction.initial <= ws.tolerance.velocity:
+        start_from_zero(friction, NOUGHT * ws.tolerance.velocity, 0.0)
+
+
+@kernel("void(ws, Contact)")
+def _arm(ws: Workspace, contact: Contact) -> None:
+    """Arm the normal and the friction guard of a contact if they start above their thresholds."""
+    c, normal, friction = contact.index, normal_of(ws, contact), friction_of(ws, contact)
+    rests = contact.mode == Mode.OPEN and normal.is_deflated
+    normal.is_armed = rests or normal.initial > _arming_threshold(ws, normal_guard(c))
+    friction.is_armed = friction.initial > _arming_threshold(ws, friction_guard(ws, c))
+
+
+@kernel("f8(ws, i8)")
+def _arming_threshold(ws: Workspace, i: int) -> float:
+    """Value above which guard ``i`` of a contact is armed. A force within round-off of zero must not arm it.
+
+    Friction that sticks is judged so only where nothing presses, because its bound is then round-off, too.
+    """
+    contact = contact_at(ws, i)
+    if contact.mode == Mode.OPEN or contact.is_compliant:
+        return 0.0
+    presses = normal_of(ws, contact).initial > contact.force_round_off
+    if is_friction_guard(ws, i) and (presses or contact.mode != Mode.STICK):
+        return 0.0
+    return contact.force_round_off
+
+
+@kernel("void(ws, b1)")
+def arm_further(ws: Workspace, forces_are_known: bool) -> None:
+    """Arm the guards that have become positive within the step."""
+    for i in range(number_of_guards(ws)):
+        guard, is_of_contact = ws.guards[i], i < first_own_guard(ws)
+        threshold = _arming_threshold(ws, i) if is_of_contact else 0.0
+        is_known = not is_of_contact or forces_are_known or is_of_open_contact(ws, i)
+        if guard.value > threshold and is_known:
+            guard.is_armed = True

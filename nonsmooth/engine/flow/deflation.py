@@ -1,0 +1,52 @@
+"""Deflation: the root of a guard at the start of a step is divided out, so that the next one is the first.
+
+An event lies in the half-open interval t0 < t* <= t1 of a step. A guard that is zero at t0, such as the gap
+just after an impact, would fire at once. Its known root is divided out: the guard is replaced by its growth since t0,
+divided by the elapsed time. The next root is then the first one. The growth counts from ``guard.base``; of a deflated
+guard ``guard.initial`` is the growth rate at t0, of any other the value at t0.
+"""
+
+from __future__ import annotations
+
+from nonsmooth.engine.flow.guard_numbers import (
+    first_end_guard,
+    first_own_guard,
+    is_of_open_contact,
+)
+from nonsmooth.engine.flow.self_check import NOUGHT
+from nonsmooth.engine.native.kernel import Guard, Workspace, kernel
+
+
+@kernel("f8(ws, i8, f8, f8)")
+def deflated(ws: Workspace, i: int, value: float, elapsed: float) -> float:
+    """Guard ``i`` as the search for roots sees it: ``value``, or its growth over ``elapsed`` [s] if it is deflated.
+
+    The growth of a gap is its rate at the start until the gap exceeds round-off.
+    """
+    guard = ws.guards[i]
+    if not guard.is_deflated:
+        return value
+    rate = guard.initial
+    separates = i < first_own_guard(ws) and is_of_open_contact(ws, i) and rate > ws.tolerance.velocity
+    if separates and rate * elapsed <= NOUGHT * ws.tolerance.gap:
+        return rate
+    return (value - guard.base) / elapsed
+
+
+@kernel("void(ws, f8)")
+def deflate(ws: Workspace, elapsed: float) -> None:
+    """Deflate the guards of contacts and of the user after ``elapsed`` [s] of the step."""
+    for i in range(first_end_guard(ws)):
+        guard = ws.guards[i]
+        guard.value = deflated(ws, i, guard.value, elapsed)
+
+
+@kernel("void(Guard, f8, f8)")
+def start_from_zero(guard: Guard, slack: float, rate: float) -> None:
+    """Deflate a guard that starts about zero, with the growth ``rate``.
+
+    The growth counts from zero, or from the value of the guard if that is negative, in either case less ``slack``.
+    """
+    guard.is_deflated = True
+    guard.base = min(0.0, guard.base) - slack
+    guard.initial = rate

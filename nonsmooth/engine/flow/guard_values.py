@@ -1,0 +1,160 @@
+"""Values of the guards, with and without the contact forces."""
+
+from __future__ import annotations
+
+from nonsmooth.engine.bodies.bodies import evaluate_body, evaluate_driven_bodies, evaluate_free_bodies
+from nonsmooth.engine.bodies.courses import has_own_step
+from nonsmooth.engine.bodies.kinematics import evaluate_kinematics
+from nonsmooth.engine.flow.deflation import deflate
+from nonsmooth.engine.flow.flow import hold_guard, right_hand_side, slip_guard
+from nonsmooth.engine.flow.guard_numbers import (
+    end_of,
+    first_own_guard,
+    friction_of,
+    normal_of,
+)
+from nonsmooth.engine.memory.modes import Mode
+from nonsmooth.engine.native.kernel import Contact, Workspace, at, call_guard, entry_point, kernel
+
+NO_FEATURE = -1
+"""Number of the features of a contact that is not watched for a change of features."""
+_END_DISTANCE = 2.0
+"""Distance past the end of a feature at which a closed contact ends, in gap tolerances. A contact may close up to one
+gap tolerance past the end, and must not end at once."""
+
+
+@kernel("f8(ws, Contact)")
+def feature_guard(ws: Workspace, contact: Contact) -> float:
+    """End guard of a closed contact [m]: the distance to the end of its features, negative if the features changed.
+
+    The distance is 1 for features without an end.
+    """
+    distance = _END_DISTANCE * ws.tolerance.gap - contact.past_feature if contact.past_feature != 0.0 else 1.0
+    is_unchanged = contact.feature == NO_FEATURE or int(contact.feature_now) == contact.feature
+    return distance if distance < 0.0 or is_unchanged else -distance
+
+
+@kernel("b1(ws, Contact)")
+def has_other_features(ws: Workspace, contact: Contact) -> bool:
+    """True if a contact whose end guard fired passed to other features. False if its features ended."""
+    return contact.past_feature <= ws.tolerance.gap
+
+
+@kernel()
+def watch_features(ws: Workspace) -> None:
+    """Store the features of the closed contacts, to find a change of features in the step that begins.
+
+    The step right after a change stores ``NO_FEATURE``: a contact that moves along the border of two features would
+    change them again and again.
+    """
+    is_watched = ws.island.time - ws.island.last_feature_change > ws.tolerance.time
+    for contact in ws.contacts:
+        contact.feature = int(contact.feature_now) if is_watched and contact.mode != Mode.OPEN else NO_FEATURE
+
+
+@entry_point("void(ws, f8, i8, b1)")
+def write_guards(ws: Workspace, t: float, y: int, forces_are_known: bool) -> None:
+    """Write all guards at time ``t`` [s] and state ``y``, where the right-hand side was evaluated.
+
+    Guards of closed contacts keep their values while the contact forces are unknown.
+    """
+    _write_guards_without_gaps(ws, t, y, forces_are_known)
+    for contact in ws.contacts:
+        steps_alone = has_own_step(ws, contact.index)
+        if contact.mode == Mode.OPEN or steps_alone:
+            _write_gap(ws, contact)
+        if steps_alone:
+            # none of its guards fires before the step of its body ends
+            normal_of(ws, contact).value = 1.0
+
+
+@kernel("void(ws, Contact)")
+def _write_gap(ws: Workspace, contact: Contact) -> None:
+    """Evaluate the geometry and the rates of an open contact and write its guards."""
+    evaluate_kinematics(ws, contact.index)
+    normal_of(ws, contact).value = contact.gap
+    friction_of(ws, contact).value = 1.0
+    contact.gap_rate = contact.normal_rate
+
+
+@kernel("void(ws, f8, i8, b1)")
+def _write_guards_without_gaps(ws: Workspace, t: float, y: int, forces_are_known: bool) -> None:
+    """Write the guards of closed contacts, of the user, and of ends of features."""
+    some_are_closed = ws.island.n_grouped > 0
+    if not some_are_closed:
+        evaluate_driven_bodies(ws, t, y)
+    elif forces_are_known:
+        for i in range(ws.island.n_grouped):
+            _write_force_guards(ws, ws.contacts[ws.island.grouped[i]])
+    for user in ws.own_guards:
+        value = call_guard(
+            user.function, t, at(ws.floats, y), at(ws.floats, y + ws.model.n_q), at(ws.floats, user.parameters)
+        )
+        ws.guards[first_own_guard(ws) + user.index].value = value
+    for contact in ws.contacts:
+        is_watched = contact.mode != Mode.OPEN and forces_are_known and some_are_closed
+        if is_watched and not has_own_step(ws, contact.index):
+            end_of(ws, contact).value = feature_guard(ws, contact)
+        else:
+            end_of(ws, contact).value = 1.0
+
+
+@kernel("void(ws, Contact)")
+def _write_force_guards(ws: Workspace, contact: Contact) -> None:
+    """Write the normal and the friction guard of a closed contact, whose force was evaluated."""
+    normal_of(ws, contact).value = hold_guard(ws, contact.index)
+    contact.gap_rate = contact.normal_rate
+    if contact.mode == Mode.STICK:
+        friction_of(ws, contact).value = contact.static_margin
+    else:
+        friction_of(ws, contact).value = slip_guard(ws, contact.index)
+
+
+@kernel("void(ws, f8, i8)")
+def evaluate_motion(ws: Workspace, t: float, y: int) -> None:
+    """Evaluate the bodies at time ``t`` [s] and state ``y``, without forces.
+
+    Bodies in ballistic motion are evaluated only if one of their gaps may close in the step.
+    """
+    evaluate_driven_bodies(ws, t, y)
+    evaluate_free_bodies(ws, t, y, of_all_bodies=False)
+    _evaluate_ballistic_bodies(ws, t, y)
+
+
+@kernel("void(ws, f8, i8)")
+def _evaluate_ballistic_bodies(ws: Workspace, t: float, y: int) -> None:
+    """Evaluate the bodies in ballistic motion of the gaps that may close in the step.
+
+    These gaps stand in two lists: of features that face each other, and of features that do not.
+    """
+    for i in range(ws.step.n_may_close):
+        _evaluate_ballistic_bodies_of(ws, t, y, ws.contacts[ws.step.may_close[i]])
+    for i in range(ws.step.n_not_facing):
+        _evaluate_ballistic_bodies_of(ws, t, y, ws.contacts[ws.step.not_facing[i]])
+
+
+@kernel("void(ws, f8, i8, Contact)")
+def _evaluate_ballistic_bodies_of(ws: Workspace, t: float, y: int, contact: Contact) -> None:
+    if ws.bodies[contact.body_a].is_ballistic:
+        evaluate_body(ws, t, y, contact.body_a)
+    if ws.bodies[contact.body_b].is_ballistic:
+        evaluate_body(ws, t, y, contact.body_b)
+
+
+@kernel("void(ws, f8, i8, f8, b1)")
+def evaluate_guards(ws: Workspace, t: float, y: int, elapsed: float, needs_forces: bool) -> None:
+    """Evaluate the motion at time ``t`` [s] and state ``y``, and write the guards after ``elapsed`` [s] of the step.
+
+    Gaps that cannot close in the step keep their values.
+    """
+    if needs_forces:
+        right_hand_side(ws, t, y, may_choose=False, of_all_bodies=False)
+        _evaluate_ballistic_bodies(ws, t, y)
+    else:
+        evaluate_motion(ws, t, y)
+    _write_guards_without_gaps(ws, t, y, needs_forces)
+    for i in range(ws.step.n_may_close):
+        _write_gap(ws, ws.contacts[ws.step.may_close[i]])
+    for i in range(ws.step.n_not_facing):
+        _write_gap(ws, ws.contacts[ws.step.not_facing[i]])
+    deflate(ws, elapsed)

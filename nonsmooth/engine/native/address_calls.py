@@ -1,0 +1,126 @@
+"""Calls of C functions by their addresses: functions of laws and bodies, shapes, and the interrupt check.
+
+A law is compiled alone, to a C function. The engine reads its address from the workspace, so that a new law never
+recompiles the engine.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable
+from typing import Any
+
+from numba import types
+from numba.extending import intrinsic
+
+from nonsmooth.engine.native.compiler import shim_address
+from nonsmooth.engine.native.forms import FORMS
+from nonsmooth.engine.native.numba_names import cgutils, ir
+from nonsmooth.engine.native.shared import Shared
+from nonsmooth.engine.native.signatures import signature_of
+from nonsmooth.engine.native.types import FLOATS, call_at, moved
+
+
+def by_address(signature: Any) -> Any:
+    """Make an intrinsic ``call(address, *values)`` of the C function of a signature."""
+
+    def call(typingctx: Any, address: Any, *values: Any) -> Any:
+        def lower(context: Any, builder: Any, _: Any, args: Any) -> Any:
+            value = call_at(builder, args[0], context.get_value_type(signature.return_type), args[1:])
+            return context.get_dummy_value() if signature.return_type is types.void else value
+
+        return signature.return_type(types.int64, *signature.args), lower
+
+    # an intrinsic must name its parameters
+    scope: dict[str, Any] = {"call": call}
+    names = ", ".join(f"v{i}" for i in range(len(signature.args)))
+    exec(f"def typed(typingctx, address, {names}): return call(typingctx, address, {names})", scope)
+    return intrinsic(scope["typed"])
+
+
+calls = {name: by_address(signature_of(form.signature)) for name, form in FORMS.items()}
+"""Calls of a function at an address, for each form."""
+call_watch = by_address(types.float64(types.float64))
+"""Call of the interrupt check."""
+
+
+def address_of(shim: Callable[..., Any], form: str, key: str) -> int:
+    """Address of a shim as a C function of a form. It is compiled, or loaded from disk by its key.
+
+    Equal keys must mean equal functions. An empty key keeps nothing on disk.
+    """
+    return shim_address(shim, signature_of(FORMS[form].signature), key)
+
+
+watches: dict[int, Any] = {}
+"""The C functions of interrupt checks by their addresses; they live as long as they are here."""
+
+
+def watch_address(function: Callable[[float], float]) -> int:
+    """Address of a C function that calls a Python function of time [s]."""
+    callback = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double)(function)
+    address = int(ctypes.c_void_p.from_buffer(callback).value or 0)
+    watches[address] = callback
+    return address
+
+
+def forget_watch(address: int) -> None:
+    """Release the C function of an interrupt check."""
+    del watches[address]
+
+
+@intrinsic
+def at(typingctx: Any, floats: Any, offset: Any) -> Any:
+    """The floats from ``offset`` on, as a pointer."""
+
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        return moved(context, builder, floats, *args)
+
+    return floats(floats, types.int64), codegen
+
+
+@intrinsic
+def _support_at(typingctx: Any, floats: Any, place: Any, x: Any, y: Any, z: Any) -> Any:
+    point = types.UniTuple(types.float64, 3)
+
+    def lower(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        number, size = ir.DoubleType(), ir.IntType(64)
+        direction, found = (cgutils.alloca_once(builder, number, 3) for _ in range(2))
+        indices = [size(i) for i in range(3)]
+        for i, value in zip(indices, args[2:], strict=True):
+            builder.store(value, moved(context, builder, FLOATS, direction, i))
+        if floats == FLOATS:
+            address = builder.load(moved(context, builder, floats, args[0], args[1]), typ=number)
+            parameters = moved(context, builder, floats, args[0], builder.add(args[1], size(1)))
+            call_at(builder, builder.fptosi(address, size), ir.VoidType(), [direction, parameters, found])
+        values = [builder.load(moved(context, builder, FLOATS, found, i), typ=number) for i in indices]
+        return context.make_tuple(builder, point, values)
+
+    return point(floats, types.int64, types.float64, types.float64, types.float64), lower
+
+
+def _compiled_support(floats: Any, place: int, x: float, y: float, z: float) -> Any:
+    return _support_at(floats, place, x, y, z)
+
+
+def _support(floats: Any, place: int, x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Call ``support(direction, parameters, point)``. Its address stands at a place, followed by the parameters."""
+    parameters = (ctypes.c_double * (len(floats) - place))(*floats[place + 1 :])
+    direction, found = (ctypes.c_double * 3)(x, y, z), (ctypes.c_double * 3)()
+    FORMS["support"].prototype()(int(floats[place]))(direction, parameters, found)
+    return found[0], found[1], found[2]
+
+
+call_support = Shared(_support, _compiled_support)
+
+
+def _compiled_block(block: Any, place: int) -> Any:
+    return at(block, place)
+
+
+def _block(block: Any, place: int) -> Any:
+    """The numbers of a block from a place on."""
+    return block[place:]
+
+
+block_at = Shared(_block, _compiled_block)

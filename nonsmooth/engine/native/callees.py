@@ -1,0 +1,58 @@
+"""The kernels that a function calls, directly or not, in the order in which they are compiled."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any, final
+
+
+@final
+@dataclass
+class Kernel:
+    """A kernel with the signature that it declares.
+
+    Attributes
+    ----------
+    dispatcher : numba dispatcher
+        The kernel as its callers know it.
+    signature : numba signature
+        Types of its arguments and result.
+    is_compiled : bool
+        Whether :meth:`compile` was called.
+    """
+
+    dispatcher: Any
+    signature: Any
+    is_compiled: bool = False
+
+    def compile(self) -> None:
+        """Compile the kernel for its signature, once.
+
+        A call with other types then converts its arguments. Numba would compile one more copy for each set of types.
+        """
+        if not self.is_compiled:
+            self.dispatcher.compile(self.signature)
+            self.dispatcher.disable_compile()
+            self.is_compiled = True
+
+
+KERNELS: list[Kernel] = []
+"""All kernels, in the order of their definition."""
+
+
+def callees_of(function: Callable[..., Any]) -> list[Kernel]:
+    """List the kernels that a function calls and those that these call, each before its callers.
+
+    A kernel is found by the global name under which it is called: ``module.kernel(ws)`` would not be found.
+    """
+    by_dispatcher = {id(kernel.dispatcher): kernel for kernel in KERNELS}
+
+    def visit(caller: Callable[..., Any]) -> Iterator[Kernel]:
+        for name in caller.__code__.co_names:
+            kernel = by_dispatcher.pop(id(caller.__globals__.get(name)), None)
+            if kernel is not None:
+                yield from visit(kernel.dispatcher.py_func)
+                yield kernel
+
+    return list(visit(function))

@@ -1,0 +1,178 @@
+"""Entry points: functions of the engine that are compiled apart from their callers and called by address.
+
+Numba optimises a kernel again within each of its callers. An entry point ends this: its callers read its address from
+the workspace. Python calls entry points, too. Their machine code is kept on disk.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import functools
+import importlib
+import inspect
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numba
+
+from nonsmooth.engine.memory.declare import Part
+from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
+from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.engine.native.address_calls import by_address
+from nonsmooth.engine.native.callees import callees_of
+from nonsmooth.engine.native.compiler import entry_address, is_stored
+from nonsmooth.engine.native.entries import Fingerprint, known, own_name
+from nonsmooth.engine.native.folders import folders
+from nonsmooth.engine.native.forms import C_TYPES
+from nonsmooth.engine.native.kernels import kernel
+from nonsmooth.engine.native.signatures import signature_of, workspace_with
+from nonsmooth.notices import say
+
+_STUB = "def stub_{name}({names}): return call(ws.model.entry_points[{index}], {names})"
+
+
+class Entry(NamedTuple):
+    """A function that Python may call by name.
+
+    Attributes
+    ----------
+    function : callable
+        The function.
+    signature : str
+        Its signature.
+    address : callable
+        Compiles or loads it, and returns its address.
+    """
+
+    function: Callable[..., Any]
+    signature: str
+    address: Callable[[], int]
+
+
+ENTRIES: dict[str, Entry] = {}
+"""Entry points and steps of engines by name."""
+_callables: dict[str, Callable[..., Any]] = {}
+
+
+def entry_point(signature: str = "void(ws)") -> Callable[[Callable[..., Any]], Any]:
+    """Make an entry point. Kernels call it by a stub of its name, which reads the address from the workspace."""
+
+    def decorate(function: Callable[..., Any]) -> Any:
+        name = function.__name__
+        ENTRIES[name] = Entry(function, signature, functools.partial(_address, name))
+        names = ", ".join(inspect.signature(function).parameters)
+        scope: dict[str, Any] = {"call": by_address(signature_of(signature)), "__name__": __name__}
+        exec(_STUB.format(name=name, names=names, index=ENTRY_POINTS.index(name)), scope)
+        return kernel(signature)(scope[f"stub_{name}"])
+
+    return decorate
+
+
+def add_step(function: Callable[..., Any], own: type[Part], signature: str, fingerprint: Fingerprint) -> str:
+    """Let :func:`call_entry` find the step of an engine by the returned name. It is compiled when first called.
+
+    Its machine code is kept on disk if ``fingerprint`` gives a digest.
+    """
+    name, typed = own_name(function), signature_of(signature, workspace_with(own))
+    ENTRIES[name] = Entry(function, signature, lambda: _step_address(function, typed, fingerprint))
+    # a cell of a notebook that is run again has another function of that name
+    _callables.pop(name, None)
+    return name
+
+
+def _step_address(function: Callable[..., Any], signature: Any, fingerprint: Fingerprint) -> int:
+    callees = [(one.dispatcher.py_func.__qualname__, str(one.signature)) for one in callees_of(function)]
+    digest = fingerprint(function, repr((str(signature), callees)))
+    return entry_address(function, signature, f"step-{digest}" if digest else "")
+
+
+@functools.cache
+def _address(name: str) -> int:
+    entry = ENTRIES[name]
+    return entry_address(entry.function, signature_of(entry.signature), name)
+
+
+@functools.cache
+def entry_addresses() -> tuple[int, ...]:
+    """Addresses of all entry points, in the order of ``ENTRY_POINTS``. Those that are not on disk are compiled."""
+    importlib.import_module("nonsmooth.engine.events.event_loop")
+    if missing := _missing():
+        say("compiling the engine once for this machine (some 20 s, longer where it is busy) ...")
+        _compile_apart(missing)
+        compile_entries(_missing())
+    return tuple(_address(name) for name in ENTRY_POINTS)
+
+
+def _missing() -> tuple[str, ...]:
+    return tuple(name for name in ENTRY_POINTS if not is_stored(name))
+
+
+def _compile_apart(names: tuple[str, ...]) -> None:
+    """Compile entry points into files, in two processes that begin at either end; in one on a single processor.
+
+    Other processes are used because the compiler would leave half a gigabyte in this one. They may fail: this process
+    then compiles what is missing.
+    """
+    if folders()[1] is None:
+        return
+    n = min(2, numba.config.NUMBA_DEFAULT_NUM_THREADS)
+    with contextlib.ExitStack() as stack:
+        for ordered in (names, names[::-1])[:n]:
+            if (helper := _helper(ordered)) is not None:
+                stack.enter_context(helper)
+
+
+def _helper(names: tuple[str, ...]) -> subprocess.Popen[bytes] | None:
+    # an interpreter of our own: multiprocessing would run the user's script again, a frozen program itself
+    if "python" not in Path(sys.executable or "").name:
+        return None
+    task = (
+        f"import sys; sys.path[:] = {sys.path!r}; import nonsmooth.engine.events.event_loop; "
+        f"from {__name__} import compile_entries; compile_entries({names!r})"
+    )
+    try:
+        quiet = subprocess.DEVNULL
+        return subprocess.Popen([sys.executable, "-c", task], stdin=quiet, stdout=quiet, stderr=quiet)
+    except OSError:
+        return None
+
+
+def compile_entries(names: tuple[str, ...]) -> None:
+    """Compile entry points one after another, except those that are on disk by then.
+
+    Two processes that begin at either end meet where both have taken the same time.
+    """
+    for name in names:
+        if not is_stored(name):
+            _address(name)
+
+
+def call_entry(name: str, memory: Memory, *arguments: float) -> Any:
+    """Call an entry point, or a step, on the memory of one trajectory. The interpreter's lock is released.
+
+    Raises
+    ------
+    UnknownName
+        If there is none of that name.
+    """
+    return _callable(name)(*memory.addresses, *arguments)
+
+
+def _callable(name: str) -> Callable[..., Any]:
+    """An entry point, or a step, as a function of the addresses of scalars, floats and integers, and of numbers."""
+    if name not in _callables:
+        entry_addresses()
+        _callables[name] = prototype_of(name)(known(ENTRIES, name).address())
+    return _callables[name]
+
+
+def prototype_of(name: str) -> Any:
+    """Type of the C function of an entry point or a step, for :mod:`ctypes`."""
+    result, _, names = known(ENTRIES, name).signature.partition("(")
+    # a member of an enumeration is an integer
+    returned, *extra = [C_TYPES.get(n.strip(), ctypes.c_int64) for n in [result, *names.rstrip(")").split(",")[1:]]]
+    return ctypes.CFUNCTYPE(returned, *[ctypes.c_void_p] * 3, *extra)

@@ -1,0 +1,100 @@
+"""The folders that keep compiled code: their name changes with the engine, and nobody else can write to them.
+
+To load machine code is to run it. So a folder is used only if it belongs to the user or the administrator, is no link,
+and is closed to all others.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import hashlib
+import os
+import stat
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import numba
+import numpy as np
+
+from nonsmooth.engine.native.numba_names import get_host_cpu_name
+from nonsmooth.notices import say
+from nonsmooth.user_cache import user_cache
+
+_ENGINE = Path(__file__).resolve().parents[1]
+_WRITABLE_BY_OTHERS = stat.S_IWGRP | stat.S_IWOTH
+
+
+@functools.cache
+def build_name() -> str:
+    """Name of what is compiled from the engine's sources: a hash of all of them.
+
+    The versions of numba, numpy and Python and the kind of processor are part of it. So an old file is never found.
+    """
+    # processors that NUMBA_CPU_NAME makes alike have the same name
+    processor = f"{numba.config.CPU_NAME or get_host_cpu_name()}{numba.config.CPU_FEATURES or ''}"
+    digest = hashlib.sha256(f"{numba.__version__}{np.__version__}{sys.version}{processor}".encode())
+    for source in sorted(_ENGINE.rglob("*.py")):
+        digest.update(source.relative_to(_ENGINE).as_posix().encode() + source.read_bytes())
+    return f"engine-{digest.hexdigest()[:16]}"
+
+
+def folders() -> tuple[list[Path], Path | None]:
+    """Folders to read compiled code from, in this order, and the one to write it to, if there is one.
+
+    The first is in the user's cache. A temporary one follows if that cannot be written to.
+    """
+    readable: list[Path] = []
+    for home, permissions in _homes():
+        folder = home / build_name()
+        with contextlib.suppress(OSError):
+            home.parent.mkdir(parents=True, exist_ok=True)
+            for one in (home, folder):
+                one.mkdir(permissions, exist_ok=True)
+                _close(one)
+        if not folder.is_dir():
+            continue
+        if not all(_is_safe_folder(one) for one in (home, folder)):
+            say(
+                f"{folder} is not used for the compiled engine: it, or the folder it is in, is a link, belongs to "
+                "another user or can be written to by one"
+            )
+            continue
+        readable.append(folder)
+        if os.access(folder, os.W_OK):
+            return readable, folder
+    return readable, None
+
+
+def _homes() -> Iterator[tuple[Path, int]]:
+    """Folders that may hold compiled code of all versions, and the permissions that they are created with."""
+    cache = user_cache()
+    if cache is not None:
+        yield cache / "nonsmooth", 0o755
+    with contextlib.suppress(OSError):
+        user = "" if sys.platform == "win32" else f"-{os.geteuid()}"
+        yield Path(tempfile.gettempdir()) / f"nonsmooth{user}", 0o700
+
+
+def _close(folder: Path) -> None:
+    """Withdraw write permission on a folder of the user's from all others."""
+    status = folder.lstat()
+    if sys.platform == "win32" or not stat.S_ISDIR(status.st_mode) or status.st_uid != os.geteuid():
+        return
+    if status.st_mode & _WRITABLE_BY_OTHERS:
+        folder.chmod(stat.S_IMODE(status.st_mode) & ~_WRITABLE_BY_OTHERS)
+        say(f"{folder} could be written to by other users, and no longer is: what is kept there runs as yours")
+
+
+def is_safe(status: os.stat_result) -> bool:
+    """True if only this user and the administrator can have written a file of this status."""
+    if sys.platform == "win32":
+        return True  # a user's folders are closed to others there, and a status does not name the owner
+    return status.st_uid in (os.geteuid(), 0) and not status.st_mode & _WRITABLE_BY_OTHERS
+
+
+def _is_safe_folder(folder: Path) -> bool:
+    status = folder.lstat()
+    return stat.S_ISDIR(status.st_mode) and is_safe(status)

@@ -1,0 +1,88 @@
+"""The engine's own compiler: numba with the passes of :mod:`nonsmooth.engine.native.passes`, and files of machine code.
+
+It is used if numba has all the names that it needs; see :mod:`nonsmooth.engine.native.compiler`.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import gc
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numba
+
+from nonsmooth.engine.native.cache import Store
+from nonsmooth.engine.native.callees import callees_of
+from nonsmooth.engine.native.numba_names import NO_ALLOCATION, NO_WRAPPERS
+from nonsmooth.engine.native.passes import CFunction, EntryPasses, KernelPasses, LawPasses, ShimPasses
+
+_OPTIONS: dict[str, Any] = {
+    "nopython": True,
+    "nogil": True,
+    "error_model": "numpy",
+    **NO_WRAPPERS,
+}
+_alive: list[CFunction] = []
+"""All C functions: their code must outlive the last call."""
+
+
+def kernel_dispatcher(function: Callable[..., Any]) -> Any:
+    """Numba's dispatcher of a kernel, which does not compile if it allocates memory."""
+    return numba.jit(pipeline_class=KernelPasses, **_OPTIONS, **NO_ALLOCATION)(function)
+
+
+def law_dispatcher(function: Callable[..., Any]) -> Any:
+    """Numba's dispatcher of a plug-in's function, whose code is kept with that of the shim that calls it.
+
+    It may allocate memory: impact laws need arrays whose length is the number of contacts.
+    """
+    return numba.jit(pipeline_class=LawPasses, **_OPTIONS)(function)
+
+
+@functools.cache
+def _store(key: str) -> Store:
+    return Store(key)
+
+
+def is_stored(key: str) -> bool:
+    """True if there is machine code on disk under a key."""
+    return _store(key).is_filled()
+
+
+def entry_address(function: Callable[..., Any], signature: Any, key: str) -> int:
+    """Address of the C function of an entry point, which is compiled or loaded from disk."""
+    with uncollected():
+        if not key or not is_stored(key):
+            for kernel in callees_of(function):
+                kernel.compile()
+        return _address(CFunction(function, signature, _store(key) if key else None, EntryPasses))
+
+
+def shim_address(function: Callable[..., Any], signature: Any, key: str) -> int:
+    """Address of the C function of a shim, which is compiled or loaded from disk."""
+    with uncollected():
+        store = Store(f"shim-{key}") if key else None
+        return _address(CFunction(function, signature, store, ShimPasses, may_allocate=True))
+
+
+def _address(function: CFunction) -> int:
+    function.compile()
+    _alive.append(function)
+    return int(function.address or 0)
+
+
+@contextlib.contextmanager
+def uncollected() -> Iterator[None]:
+    """Switch the garbage collector off: the compiler makes millions of small objects, all of which are needed.
+
+    The collector would take a tenth of the time.
+    """
+    is_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if is_enabled:
+            gc.enable()

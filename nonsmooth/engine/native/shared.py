@@ -1,0 +1,62 @@
+"""Functions that the functions of plug-ins call, compiled, and that Python calls as they are."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from typing import Any, final
+
+from numba import types
+from numba.extending import typeof_impl
+
+from nonsmooth.engine.native.compiler import law_dispatcher
+from nonsmooth.engine.native.numba_names import Dispatcher
+
+
+def jit(function: Callable[..., Any]) -> Any:
+    """Compile a plug-in's function on demand. Its code is kept with that of the shim that calls it."""
+    return law_dispatcher(function)
+
+
+@final
+class Shared:
+    """A function that compiled code calls compiled and Python calls as it is.
+
+    Parameters
+    ----------
+    function : callable
+        The function.
+    inner : callable, optional
+        What is compiled in its place.
+    """
+
+    def __init__(self, function: Callable[..., Any], inner: Callable[..., Any] | None = None) -> None:
+        self.function = function
+        self._compiled = inner or function
+        functools.update_wrapper(self, function)
+
+    @functools.cached_property
+    def dispatcher(self) -> Any:
+        """Numba's dispatcher. It is made when first needed, as a run needs few of them."""
+        return jit(self._compiled)
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Call the Python function."""
+        return self.function(*arguments)
+
+
+@typeof_impl.register(Shared)
+def _type_of_shared(value: Shared, context: Any) -> Any:
+    return types.Dispatcher(value.dispatcher)
+
+
+def shared(function: Callable[..., Any]) -> Any:
+    """Let the compiled functions of plug-ins call a function."""
+    return Shared(function)
+
+
+def unshared(value: Any) -> Any:
+    """The Python function of a kernel or of a function made by :func:`shared`; any other value as it is."""
+    if isinstance(value, Dispatcher):
+        return value.py_func
+    return value.function if isinstance(value, Shared) else value

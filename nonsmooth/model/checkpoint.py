@@ -1,0 +1,161 @@
+"""Checkpoints: what a step may find of those before it, taken from a memory and put back.
+
+A checkpoint is what the field table says that outlives a step, and the blocks that plug-ins write. Nothing else is read
+before it is written, so a memory that holds a checkpoint goes on with the same bits. Parameters, sizes and addresses are
+no part of it: what comes from a file cannot change them.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, cast, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.declare import Part
+from nonsmooth.engine.memory.memory import Memory, view_of
+from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, N_SCALARS, SCALARS
+from nonsmooth.errors import InvalidInput
+from nonsmooth.model.listed import copy_parameters, listed_contacts
+from nonsmooth.model.values import check_values
+from nonsmooth.packing import packed, unpacked
+from nonsmooth.types import Array
+
+Integers = NDArray[np.int64]
+Booleans = NDArray[np.bool_]
+_REMEDY = "It is damaged, or of another model: take one that a run left."
+
+
+@final
+@dataclass(frozen=True)
+class Checkpoint:
+    """What a memory holds between two steps.
+
+    Attributes
+    ----------
+    parts : tuple of array
+        Copies of what :attr:`nonsmooth.engine.memory.memory.Memory.kept` shows, as integers of the same bits.
+    first : int
+        Where the blocks begin among all floats of the memory.
+    """
+
+    parts: tuple[Integers, ...]
+    first: int
+
+    @classmethod
+    def of(cls, memory: Memory) -> Checkpoint:
+        """Take what a memory holds."""
+        return cls(tuple([part.copy() for part in memory.kept]), memory.blocks)
+
+    @functools.cached_property
+    def record(self) -> np.void:
+        """The scalars, but for those that an engine has of its own."""
+        return cast(np.void, self.parts[0][:N_SCALARS].view(SCALARS)[0])
+
+    @functools.cached_property
+    def size(self) -> int:
+        """Room that it takes [bytes]."""
+        return sum(part.nbytes for part in self.parts)
+
+    @property
+    def blocks(self) -> Array:
+        """The blocks that the assembly appended."""
+        return self.parts[3].view(np.float64)
+
+    def __getitem__(self, declared: Any) -> Any:
+        """A scalar, or a view of an array that outlives a step, as the memory gives it."""
+        if declared.size is None and issubclass(declared.owner, Part):
+            return self.record[declared.key].item()
+        part = self.parts[1].view(np.float64) if declared.key in FLOAT_ARRAYS else self.parts[2]
+        return view_of(declared, self.record, part)
+
+    def declared(self, declared: Any) -> np.ndarray:
+        """A view of what the declared contacts hold of a state of contacts."""
+        return np.asarray(self[getattr(owners.DeclaredContact, declared.name)])
+
+    def put(self, memory: Memory) -> None:
+        """Give a memory of the same model this content."""
+        listed = listed_contacts(memory).copy()
+        for own, kept in zip(memory.kept, self.parts, strict=True):
+            own[:] = kept
+        if not np.array_equal(listed, listed_contacts(memory)):
+            copy_parameters(memory)
+
+
+@final
+@dataclass(frozen=True)
+class Difference:
+    """What a checkpoint has that another one has not, as a file keeps it.
+
+    Attributes
+    ----------
+    places, bits : tuple of array
+        Where they differ, and what stands there, one array for every part.
+    """
+
+    places: tuple[Integers, ...]
+    bits: tuple[Integers, ...]
+
+    def __reduce__(self) -> tuple[Callable[[bytes], Difference], tuple[bytes]]:
+        """Let a pickle hold what is packed."""
+        return Difference.unpacked, (self.packed(),)
+
+    @classmethod
+    def between(cls, blank: Checkpoint, checkpoint: Checkpoint, changing: tuple[Booleans, ...]) -> Difference:
+        """What a checkpoint has that ``blank`` has not, of those numbers that a run may change."""
+        three = zip(blank.parts, checkpoint.parts, changing, strict=True)
+        places = tuple(np.flatnonzero((new != old) & may_change) for old, new, may_change in three)
+        return cls(places, tuple(part[at] for part, at in zip(checkpoint.parts, places, strict=True)))
+
+    def packed(self) -> bytes:
+        """A few bytes of the same content; places count from the one before, and next to all of them are 1."""
+        sizes = np.array([len(self.places), *map(len, self.places)])
+        steps = [np.diff(places, prepend=0) for places in self.places]
+        return packed(np.concatenate([sizes, *steps, *self.bits]).astype("<i8"))
+
+    @classmethod
+    def unpacked(cls, content: bytes) -> Difference:
+        """The difference that was packed.
+
+        Raises
+        ------
+        ValueError, IndexError
+            If it is none.
+        """
+        numbers = unpacked(content, "<i8").astype(np.int64)
+        n = int(numbers[0])
+        sizes = numbers[1 : n + 1]
+        parts = np.split(numbers[n + 1 :], np.cumsum([*sizes, *sizes])[:-1])
+        return cls(tuple(np.cumsum(steps) for steps in parts[:n]), tuple(parts[n:]))
+
+    def put(self, memory: Memory) -> None:
+        """Give a memory that holds the blank checkpoint what differs from it, which may come from a stranger's file.
+
+        Raises
+        ------
+        InvalidInput
+            If it does not fit the memory, or a number is none that a run can leave.
+        """
+        self._check(memory)
+        for own, places, bits in zip(memory.kept, self.places, self.bits, strict=True):
+            own[places] = bits
+        check_values(memory)
+        copy_parameters(memory)
+
+    def _check(self, memory: Memory) -> None:
+        """Raise InvalidInput unless it has the parts of a memory, and every place is one that a run may change."""
+        found = [(len(places), len(bits)) for places, bits in zip(self.places, self.bits, strict=False)]
+        fits = len(self.places) == len(self.bits) == len(memory.kept) and all(a == b for a, b in found)
+        if not fits:
+            raise InvalidInput("State.continuation", f"must have {len(memory.kept)} parts", found, _REMEDY)
+        for places, may_change in zip(self.places, memory.changing, strict=True):
+            wrong = places[(places < 0) | (places >= len(may_change))]
+            if len(wrong) == 0:
+                wrong = places[~may_change[places]]
+            if len(wrong) > 0:
+                rule = f"must be those of {len(may_change)} numbers that a run may change"
+                raise InvalidInput("State.continuation: places", rule, int(wrong[0]), _REMEDY)
