@@ -73,11 +73,12 @@ def choose_friction(ws: Workspace, probe: float, turns_rate: bool) -> None:
 
 @kernel("void(ws, ActiveContact, b1)")
 def _find_rest(ws: Workspace, active: ActiveContact, turns_rate: bool) -> None:
-    """Write the friction coefficients of an active contact, and whether it is at rest and may stick.
+    """Write direction and coefficients of the friction of an active contact, and whether it is at rest and may stick.
 
     Without friction nothing holds a contact, and nothing can stop a slip, however slow.
     """
     speed = length(active.slip)
+    active.direction = ws.contacts[active.contact].direction
     active.static_coefficient = friction_coefficient(ws, active.contact, 0.0)
     active.friction_coefficient = slip_coefficient(ws, active.contact, speed)
     gets_away = turns_rate and _gets_away(ws, active)

@@ -71,7 +71,7 @@ def start_phases(ws: Workspace, probe: float, seed: float) -> None:
 def _start(ws: Workspace, active: ActiveContact, is_without_collision: bool) -> None:
     """Start an active contact: in compression if it approaches, or if it has no force, which needs an impact."""
     active.energy_stored = active.energy_returned = active.work_accounted = 0.0
-    active.sticks = False
+    active.sticks = active.was_halted = False
     active.phase = Phase.IDLE
     has_no_force = is_without_collision and ws.contacts[active.contact].has_no_force
     if has_no_force:

@@ -201,6 +201,7 @@ def _load_state(ws: Workspace, active: ActiveContact, contact: Contact) -> None:
     state.lost = contact.window_lost
     active.energy_stored = active.energy_returned = active.work_accounted = 0.0
     active.phase, active.sticks = contact.window_phase, contact.window_sticks
+    active.was_halted = False
 
 
 @kernel()
