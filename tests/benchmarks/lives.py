@@ -1,8 +1,8 @@
 """Random systems with poison, and in turns: ``python -m tests.benchmarks.lives poison|turns FIRST COUNT``.
 
 A run must not change a bit if numbers whose life has ended are unusable (:mod:`nonsmooth.testing.poison`), nor if other
-runs take steps in the same memory (:mod:`nonsmooth.testing.turns`). Runs take place in processes of their own: a place that
-is poison may end one.
+runs take steps in the same memory (:mod:`nonsmooth.testing.turns`). Each run has a process of its own, which an index
+that is poison may end.
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ def coordinate_rates(ws: Workspace, body: Body) -> Floats:
 
 @kernel("F(ws, Body)")
 def force_without_contacts(ws: Workspace, body: Body) -> Floats:
-    """h of a body, the force on its velocities without contacts [N or N m], shape [n_u]."""
+    """H of a body, the force on its velocities without contacts [N or N m], shape [n_u]."""
     return at(ws.floats, body.tail + body.n_q)
 
 

@@ -108,7 +108,7 @@ def counts_in(record: np.void) -> Counts:
 
 
 def view_of(declared: Declaration, record: np.void, counts: Counts, numbers: np.ndarray) -> np.ndarray:
-    """View of the numbers of a declaration among all floats or integers, at the place that the record of scalars gives."""
+    """View of the numbers of a declaration among all floats or integers. The record of scalars gives its place."""
     storage, start = storage_of(declared), int(record[declared.key])
     numbers = numbers[start : start + length_of(storage, counts)]
     if issubclass(declared.owner, Part):

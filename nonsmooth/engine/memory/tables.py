@@ -1,9 +1,9 @@
 """Where the numbers of the field table are: scalars in one record, all floats in one array, all integers in another.
 
-Each scalar of a :class:`~nonsmooth.engine.memory.declare.Part` is an entry of the record. So is the offset of each array
-among the floats or integers. Entries are named by owner and field: ``"island.time"``, ``"contacts.gap"``. The sizes are
-functions of the counts of a system: another number of bodies or contacts gives other offsets, and no new compilation.
-The numbers of an engine of another kind come last.
+Each scalar of a :class:`~nonsmooth.engine.memory.declare.Part` is an entry of the record. So is the offset of
+each array among the floats or integers. Entries are named by owner and field: ``"island.time"``, ``"contacts.gap"``.
+The sizes are functions of the counts of a system: another number of bodies or contacts gives other offsets, and no new
+compilation. The numbers of an engine of another kind come last.
 
 Arrays that outlive a step come first, so that a checkpoint is one piece of each array. Late arrays come last.
 """
