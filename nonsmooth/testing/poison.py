@@ -109,7 +109,8 @@ class Poisoned(Engine):
         for _ in range(most_steps):
             before = memory[owners.Totals.n_evaluations], memory[owners.Output.n_events], memory[owners.Island.time]
             status = self.inner.advance(call, memory, 1, wary)
-            poison(memory, *ENDS_WITH_STEP)
+            if status == Status.PAUSED:
+                poison(memory, *ENDS_WITH_STEP)
             after = memory[owners.Totals.n_evaluations], memory[owners.Output.n_events], memory[owners.Island.time]
             if status != Status.PAUSED or after == before:
                 return status
@@ -125,9 +126,11 @@ class Poisoned(Engine):
         inner = prototype(address)
 
         def outer(*arguments: Any) -> Any:
-            found = inner(*arguments)
-            poison(memory, *lives)
-            return found
+            status = inner(*arguments)
+            # a message says in what state an event or impact failed
+            if status == Status.RUNNING:
+                poison(memory, *lives)
+            return status
 
         self.callbacks.append(prototype(outer))
         places[number] = ctypes.cast(self.callbacks[-1], ctypes.c_void_p).value
