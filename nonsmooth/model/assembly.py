@@ -20,8 +20,8 @@ from nonsmooth.model.laid_out import LaidOut, map_width
 from nonsmooth.model.laying import lay_bodies, lay_guards, lay_joints, lay_loads
 from nonsmooth.model.laying_contacts import by_kind, initial_state, lay_contacts
 from nonsmooth.model.part_pairs import carriers_of, find_part_pairs, lay_part_pairs
-from nonsmooth.model.pools import lay_pools
-from nonsmooth.model.units import find_units, lay_units
+from nonsmooth.model.feature_searches import lay_searches
+from nonsmooth.model.broad_phase import find_broad_phase, lay_broad_phase
 from nonsmooth.system.system import System
 
 _EVENTS = 2048
@@ -82,7 +82,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
     n_states = sum(len(numbers) * len(initial_state(contacts[numbers[0]])) for numbers in kinds)
     groups = articulations(system)
     table = ContactTable.of(bodies, contacts)
-    units = find_units(contacts, table, bodies)
+    units = find_broad_phase(contacts, table, bodies)
     pairs = find_part_pairs(contacts, table)
     n_y = n_q + n_u + N_ACCOUNTS + n_states
     head = EVENT_HEAD + n_u + n_y + BOOKED
@@ -122,9 +122,9 @@ def lay(system: System, engine: Engine) -> LaidOut:
     lay_joints(memory, heap, groups, places)
     lay_loads(system, memory, heap, places)
     lay_contacts(memory, heap, contacts, table, kinds, places)
-    lay_units(memory, units, {(p.number, f): at for p in places.values() for f, at in enumerate(p.frames)})
+    lay_broad_phase(memory, units, {(p.number, f): at for p in places.values() for f, at in enumerate(p.frames)})
     lay_part_pairs(memory, heap, pairs, places)
-    lay_pools(memory, heap, units.pools, table, units.frames)
+    lay_searches(memory, heap, units.pools, table, units.frames)
     lay_guards(system, memory, heap)
     model = LaidOut(system, heap.close(), n_q, n_u, n_states)
     for scalar, value in settings.items():

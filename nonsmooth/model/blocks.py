@@ -15,7 +15,7 @@ from nonsmooth.interfaces import ImpactMap, Joint, Load, StatefulFrictionLaw, Tr
 from nonsmooth.model.articulations import articulations
 from nonsmooth.model.block_ends import BlockEnds
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.pools import find_pools
+from nonsmooth.model.feature_searches import find_searches
 from nonsmooth.system.contact import Contact, Tie
 
 
@@ -104,7 +104,7 @@ def _blocks_of_joints_and_laws(model: LaidOut) -> Iterator[Block]:
 
 
 def _blocks_of_searches(model: LaidOut) -> Iterator[Block]:
-    for number, pool in enumerate(find_pools(model.system.contacts)):
+    for number, pool in enumerate(find_searches(model.system.contacts)):
         function = pool.search.function
         label = functools.partial(_words, pool.owner, function)
         yield Block(label, function, _entry(model, owners.Search.out, number), pool.size, 1)
@@ -122,7 +122,7 @@ def _entry(model: LaidOut, declared: Any, i: int) -> int:
     return int(model.memory[declared][i])
 
 
-def written_past(model: LaidOut, ends: BlockEnds) -> str:
+def block_overrun(model: LaidOut, ends: BlockEnds) -> str:
     """Return a sentence that names a function that has written past its block; nothing if none has."""
     memory = model.memory
     if ends.hold(memory) and not int(memory[owners.Run.n_past_map]) > 0:

@@ -21,7 +21,7 @@ from nonsmooth.engine.memory.memory import Memory, counts_in, view_of
 from nonsmooth.engine.memory.sizes import Counts
 from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, N_SCALARS, SCALARS
 from nonsmooth.errors import InvalidInput
-from nonsmooth.model.listed import copy_parameters, listed_contacts
+from nonsmooth.model.active_contacts import copy_parameters, active_contacts
 from nonsmooth.model.values import check_values
 from nonsmooth.packing import packed, unpacked
 from nonsmooth.types import Array
@@ -84,10 +84,10 @@ class Checkpoint:
 
     def put(self, memory: Memory) -> None:
         """Give a memory of the same model this content."""
-        listed = listed_contacts(memory).copy()
+        listed = active_contacts(memory).copy()
         for own, kept in zip(memory.kept, self.parts, strict=True):
             own[:] = kept
-        if not np.array_equal(listed, listed_contacts(memory)):
+        if not np.array_equal(listed, active_contacts(memory)):
             copy_parameters(memory)
 
 

@@ -13,7 +13,7 @@ from nonsmooth.interfaces.body import Vector
 from nonsmooth.interfaces.guard import guard_value
 from nonsmooth.model.articulations import articulations
 from nonsmooth.model.block_ends import BlockEnds
-from nonsmooth.model.blocks import written_past
+from nonsmooth.model.blocks import block_overrun
 from nonsmooth.model.immobile import REMEDY, held_by, immobile_contact
 from nonsmooth.model.laid_out import LaidOut, energies
 from nonsmooth.model.overlaps import check_overlaps, frames_of, overlap_allowed
@@ -35,7 +35,7 @@ def check_start(model: LaidOut, ends: BlockEnds) -> None:
         If a function writes past its block.
     """
     gaps = model.gaps()
-    past = written_past(model, ends)
+    past = block_overrun(model, ends)
     if past:
         raise PluginError(past[0].upper() + past[1:])
     _check_energy(model)

@@ -19,7 +19,7 @@ from nonsmooth.errors import InvalidInput, PluginError
 from nonsmooth.interfaces import Body, ImpactMap
 from nonsmooth.interfaces.distance_backend import Place
 from nonsmooth.model.part_pairs import unwatched
-from nonsmooth.model.pools import failed_search
+from nonsmooth.model.feature_searches import failed_search
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
 from nonsmooth.watch import Watch

@@ -69,7 +69,7 @@ def find_part_pairs(contacts: Sequence[Contact], table: ContactTable) -> list[Pa
         group = len(found)
         choices = [list(enumerate(parts_of[id(shape)])) for shape in contact.shapes]
         for one, two in itertools.product(*choices):
-            if is_looked_at(one[1], two[1], len(numbers)):
+            if needs_overlap_check(one[1], two[1], len(numbers)):
                 both = ((one, sides[0], id(contact.shapes[0])), (two, sides[1], id(contact.shapes[1])))
                 larger = one[1].is_disc and two[1].is_disc and two[1].radius > one[1].radius
                 first, second = both[::-1] if two[1].is_half_space or larger else both
@@ -96,7 +96,7 @@ def carriers_of(pairs: Sequence[PartPair]) -> dict[tuple[int, int], float]:
     return levers
 
 
-def is_looked_at(one: ConvexPart, two: ConvexPart, contacts: int) -> bool:
+def needs_overlap_check(one: ConvexPart, two: ConvexPart, contacts: int) -> bool:
     """Tell whether a pair of parts can overlap and no single contact of theirs says so by itself."""
     if one.is_half_space and two.is_half_space:
         return False

@@ -12,9 +12,9 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.runs.advancing import Advancing
-from nonsmooth.runs.keeper import Keeper
-from nonsmooth.runs.pace import Pace
+from nonsmooth.runs.engine_driver import EngineDriver
+from nonsmooth.runs.output_sink import OutputSink
+from nonsmooth.runs.stall_monitor import StallMonitor
 from nonsmooth.runs.records import Records
 from nonsmooth.runs.so_far import RunSoFar, Until
 from nonsmooth.solution.files import FileError
@@ -59,7 +59,7 @@ def run_engine(
     records: Records,
     begun: Checkpoint,
     progress: Progress | None,
-    keeper: Keeper,
+    keeper: OutputSink,
     until: Until | None = None,
 ) -> Ending:
     """Run to the end time, to a failure, until a condition is met or somebody interrupts.
@@ -78,11 +78,11 @@ def run_engine(
     report = None if progress is None else lambda t: progress(t, t_end)
     status, interrupted, trouble = PAUSED, False, ""
     checkpoint, before = begun, records.n_passed
-    pace: Pace | None = None
+    pace: StallMonitor | None = None
     so_far, looks = None if until is None else RunSoFar(model, records, engine), 0
     try:
         with model.watch.reporting(report) as watch:
-            engine_at = Advancing(engine, model, watch.call)
+            engine_at = EngineDriver(engine, model, watch.call)
             while status == PAUSED:
                 looks, reached = looks + 1, None if so_far is None else so_far.reached
                 # a condition sees the start before any step
@@ -95,13 +95,13 @@ def run_engine(
                 if near:
                     if records.waiting:
                         # with full buffers an engine would do nothing
-                        pace = pace or Pace(model, begun)
+                        pace = pace or StallMonitor(model, begun)
                         pace.look(status)
                         records.drain()
                     most = max(_STEPS_NEAR_END, checkpoint.size // _BYTES_PER_STEP)
                     status = engine_at.get_on(most if until is None else 1, checkpoint)
                 if status != DONE:
-                    pace = pace or Pace(model, begun)
+                    pace = pace or StallMonitor(model, begun)
                     pace.look(status)
                 records.drain()
                 if status == PAUSED and so_far is not None and until is not None and _is_met(until, so_far):

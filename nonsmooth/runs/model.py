@@ -28,15 +28,15 @@ from nonsmooth.queries.undeclared import Undeclared
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.runs.identity import digest
-from nonsmooth.runs.keeper import Keeper, KeepsNothing
-from nonsmooth.runs.left import Left, Standing
+from nonsmooth.runs.output_sink import OutputSink, NoOutput
+from nonsmooth.runs.final_state import FinalState, FixedPlaces
 from nonsmooth.runs.loop import Progress, run_engine
 from nonsmooth.runs.outcome import reason
-from nonsmooth.runs.passed import passed
+from nonsmooth.runs.interpenetration import passed
 from nonsmooth.runs.records import Records
 from nonsmooth.runs.so_far import Until
 from nonsmooth.runs.start import begin, check_arrays, check_closed, check_start_numbers, go_on, restore
-from nonsmooth.runs.writer import Writer
+from nonsmooth.runs.folder_sink import FolderSink
 from nonsmooth.solution.files import FileError
 from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import Floats, State
@@ -190,8 +190,8 @@ class Model:
         return Undeclared.of(self._laid.system)
 
     @functools.cached_property
-    def _standing(self) -> Standing:
-        return Standing.of(self._laid.memory, len(self._laid.system.bodies))
+    def _standing(self) -> FixedPlaces:
+        return FixedPlaces.of(self._laid.memory, len(self._laid.system.bodies))
 
     def _copied(self) -> LaidOut:
         self._seize("copy")
@@ -337,7 +337,7 @@ class Model:
             restore(laid, self._blank, state)
             energy = state.energy.kinetic_start, state.energy.potential_start
             wall = folder.wall_seconds
-            keeper = Writer(folder, records, self._states_from(energy), wall)
+            keeper = FolderSink(folder, records, self._states_from(energy), wall)
             return self._complete(records, Checkpoint.of(laid.memory), energy, progress, keeper, wall, until)
         finally:
             self._runs.release()
@@ -367,12 +367,12 @@ class Model:
         """Return what makes states of checkpoints, for the account of energy that begins with these [J]."""
         return lambda checkpoint: self._left(energy, checkpoint, 0).state()
 
-    def _left(self, energy: tuple[float, float], before: Checkpoint, told: int) -> Left:
+    def _left(self, energy: tuple[float, float], before: Checkpoint, told: int) -> FinalState:
         """Return what has been left by now, so many events after a checkpoint."""
         laid = self._laid
         laid.evaluate()
         now, standing = Checkpoint.of(laid.memory), self._standing
-        return Left(laid.system, self._engine, self._key, energy, self._blank, before, now, told, standing)
+        return FinalState(laid.system, self._engine, self._key, energy, self._blank, before, now, told, standing)
 
     def _goes_on(self, state: State) -> bool:
         """Tell whether a run of this model left a state, which goes on then."""
@@ -409,13 +409,13 @@ class Model:
         floats[_FIRST] = floats[_NEXT] = state.time
         # where a run ends is not to change its steps: all samples by default are fewer than those at once
         floats[_SPAN] = math.inf if is_default else _SAMPLES_AT_ONCE * integers.item(_CAPACITY) * interval
-        keeper: Keeper = KeepsNothing()
+        keeper: OutputSink = NoOutput()
         if begun is None or output is not None:
             # takes milliseconds where there are many contacts
             begun = Checkpoint.of(laid.memory)
         if output is not None:
             folder = SolutionFolder.created(output, laid.system, self._engine, t_end, laid.n_states, until is not None)
-            keeper = Writer(folder, records, self._states_from(energy), 0.0)
+            keeper = FolderSink(folder, records, self._states_from(energy), 0.0)
         before = laid.places() if self._undeclared.any else []
         solution = self._complete(records, begun, energy, progress, keeper, 0.0, until)
         if self._undeclared.any:
@@ -429,7 +429,7 @@ class Model:
         begun: Checkpoint,
         energy: tuple[float, float],
         progress: Progress | None,
-        keeper: Keeper,
+        keeper: OutputSink,
         wall: float,
         until: Until | None = None,
     ) -> Solution:

@@ -6,9 +6,9 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.modes import CONDITION_MET, DONE, PAUSED, REASONS, STOPPED, Status
 from nonsmooth.interfaces import Cause, Engine
 from nonsmooth.model.block_ends import BlockEnds
-from nonsmooth.model.blocks import written_past
+from nonsmooth.model.blocks import block_overrun
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.runs.diagnose import culprit
+from nonsmooth.runs.diagnosis import failing_function
 from nonsmooth.runs.loop import Ending
 
 
@@ -19,7 +19,7 @@ def cause_of(engine: Engine, status: int) -> Cause | None:
 
 def reason(model: LaidOut, ends: BlockEnds, ending: Ending, engine: Engine) -> tuple[str, str]:
     """Return the status of a run that has ended, in a word, and why it did; ``guards`` are those of the model."""
-    past, status = written_past(model, ends), ending.status
+    past, status = block_overrun(model, ends), ending.status
     if ending.trouble:
         return "failed", f"At t = {model.memory[owners.Island.time]:.9g} s {ending.trouble}"
     cause = cause_of(engine, status)
@@ -29,5 +29,5 @@ def reason(model: LaidOut, ends: BlockEnds, ending: Ending, engine: Engine) -> t
     if past or status not in (DONE, STOPPED, CONDITION_MET, PAUSED):
         why = cause.reason if cause else REASONS[Status(status)]
         message = f"At t = {model.memory[owners.Island.time]:.9g} s {why}."
-        return "failed", f"{message} {past or culprit(model, status) or ending.hint}".strip()
+        return "failed", f"{message} {past or failing_function(model, status) or ending.hint}".strip()
     return "interrupted" if ending.interrupted else "done", REASONS[Status(status)]

@@ -23,7 +23,7 @@ from nonsmooth.results.lock import Lock
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.results.state_file import state_bytes, state_from
-from nonsmooth.runs import writer
+from nonsmooth.runs import folder_sink
 from nonsmooth.runs.identity import digest
 from nonsmooth.runs.resuming import OtherVersions
 from nonsmooth.runs.so_far import RunSoFar
@@ -65,7 +65,7 @@ def whole() -> ns.Solution:
 def often(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let a run be written whenever it can be."""
     for name, value in (("_EVERY", 0.0), ("_FIRST_AFTER", 0.0), ("_MOST", 64)):
-        monkeypatch.setattr(writer, name, value)
+        monkeypatch.setattr(folder_sink, name, value)
 
 
 def _cut_off(folder: Path, system: ns.System, at: float) -> None:

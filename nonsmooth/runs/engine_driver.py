@@ -22,7 +22,7 @@ _WATCH = places("request.n_work", "request.work_budget", "run.n_calls")
 
 
 @final
-class Advancing:
+class EngineDriver:
     """Calls an engine on a model.
 
     Parameters

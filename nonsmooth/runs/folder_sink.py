@@ -1,4 +1,4 @@
-"""Writer: the keeper that writes a run to disk about twice a second."""
+"""FolderSink: the keeper that writes a run to disk about twice a second."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import final
 
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.results.solution_folder import SolutionFolder
-from nonsmooth.runs.keeper import Keeper
+from nonsmooth.runs.output_sink import OutputSink
 from nonsmooth.runs.records import Records
 from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
@@ -25,7 +25,7 @@ _FEWEST, _FIRST, _MOST = 4, 64, 2000
 
 @final
 @dataclass
-class Writer(Keeper):
+class FolderSink(OutputSink):
     """Appends events and samples to a folder as they come, with the state from which the run goes on.
 
     Parameters

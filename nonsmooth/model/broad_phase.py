@@ -1,4 +1,4 @@
-"""Units of the broad phase: frames that carry bounded shapes, and which of them have contacts with each other."""
+"""BroadPhase of the broad phase: frames that carry bounded shapes, and which of them have contacts with each other."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.interfaces import Body
 from nonsmooth.model.contact_table import ContactTable
-from nonsmooth.model.pools import Pool, find_pools
+from nonsmooth.model.feature_searches import FeatureSearch, find_searches
 from nonsmooth.system.contact import Contact
 from nonsmooth.types import Array
 
@@ -28,7 +28,7 @@ _MARGIN = 0.5
 
 
 @dataclass(frozen=True)
-class Wall:
+class HalfSpace:
     """An unbounded shape in a contact.
 
     Attributes
@@ -53,7 +53,7 @@ class Wall:
 
 
 @dataclass(frozen=True, eq=False)
-class Units:
+class BroadPhase:
     """The units of a system.
 
     Attributes
@@ -68,9 +68,9 @@ class Units:
         How many contacts each pair has.
     contacts : array
         Numbers of the contacts of pairs, pair by pair.
-    walls : list of Wall
+    walls : list of HalfSpace
         The unbounded shapes, contact by contact.
-    pools : list of Pool
+    pools : list of FeatureSearch
         Contacts whose features are searched for.
     """
 
@@ -79,8 +79,8 @@ class Units:
     pairs: NDArray[np.int64]
     counts: NDArray[np.int64]
     contacts: NDArray[np.int64]
-    walls: list[Wall]
-    pools: list[Pool]
+    walls: list[HalfSpace]
+    pools: list[FeatureSearch]
 
     @property
     def n_slots(self) -> int:
@@ -89,9 +89,9 @@ class Units:
         return len(self.walls) + min(len(self.contacts), each * len(self.frames))
 
 
-def find_units(contacts: Sequence[Contact], table: ContactTable, bodies: Sequence[Body]) -> Units:
+def find_broad_phase(contacts: Sequence[Contact], table: ContactTable, bodies: Sequence[Body]) -> BroadPhase:
     """Return the units of many contacts; none for few, which need no list."""
-    pools = find_pools(contacts)
+    pools = find_searches(contacts)
     bounded = np.all(np.isfinite(table.extents), axis=1)
     if len(contacts) <= SMALL and not pools:
         bounded[:] = False
@@ -107,7 +107,7 @@ def find_units(contacts: Sequence[Contact], table: ContactTable, bodies: Sequenc
     _, first, counts = np.unique(places[order], return_index=True, return_counts=True)
     pairs = np.column_stack([one, two])[order[first]]
     walls = [_wall(contacts[i], i, table, bodies, frames, radii) for i in np.flatnonzero(~bounded).tolist()]
-    return Units(frames, radii, pairs, counts, numbers[order], walls, pools)
+    return BroadPhase(frames, radii, pairs, counts, numbers[order], walls, pools)
 
 
 def _wall(
@@ -117,7 +117,7 @@ def _wall(
     bodies: Sequence[Body],
     frames: Mapping[tuple[int, int], int],
     radii: Array,
-) -> Wall:
+) -> HalfSpace:
     """Return the unbounded shape of a contact; the unit beside it gets a radius that holds the other shape."""
     one, other = (0, 1) if not math.isfinite(contact.extents[0]) else (1, 0)
     sides = [(int(table.bodies[number, i]), int(table.frames[number, i])) for i in (one, other)]
@@ -126,10 +126,10 @@ def _wall(
     steady = unit is not None and math.isfinite(ceiling) and body.n_u == 0 and math.isinf(body.time_scale)
     if unit is not None and math.isfinite(contact.extents[other]):
         radii[unit] = max(radii[unit], contact.extents[other])
-    return Wall(number, sides[0], unit or 0, ceiling if steady else 0.0, steady)
+    return HalfSpace(number, sides[0], unit or 0, ceiling if steady else 0.0, steady)
 
 
-def lay_units(memory: Memory, units: Units, places: dict[tuple[int, int], int]) -> None:
+def lay_broad_phase(memory: Memory, units: BroadPhase, places: dict[tuple[int, int], int]) -> None:
     """Lay the units; ``places`` says where each frame stands on the heap."""
     n = len(units.radii)
     if n == 0:

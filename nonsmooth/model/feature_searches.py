@@ -23,7 +23,7 @@ from nonsmooth.system.contact import Contact
 
 
 @dataclass(frozen=True)
-class Pool:
+class FeatureSearch:
     """Contacts of two frames that one search fills.
 
     Attributes
@@ -46,7 +46,7 @@ class Pool:
         return 1 + CANDIDATE * (len(self.contacts) + 1)
 
 
-def find_pools(contacts: Sequence[Contact]) -> list[Pool]:
+def find_searches(contacts: Sequence[Contact]) -> list[FeatureSearch]:
     """Return the pools, in order.
 
     Raises
@@ -70,12 +70,12 @@ def find_pools(contacts: Sequence[Contact]) -> list[Pool]:
                     "Give the shape a finite `extent`, or return contacts of given features from `between`.",
                 )
         name = f"{type(one.kinematics).__name__} ({one})"
-        found.append(Pool(search, range(first, first + 1 + len(more)), name))
+        found.append(FeatureSearch(search, range(first, first + 1 + len(more)), name))
     return found
 
 
-def lay_pools(
-    memory: Memory, heap: Heap, pools: Sequence[Pool], table: ContactTable, units: Mapping[tuple[int, int], int]
+def lay_searches(
+    memory: Memory, heap: Heap, pools: Sequence[FeatureSearch], table: ContactTable, units: Mapping[tuple[int, int], int]
 ) -> None:
     """Lay the pools; ``units`` says which unit each frame is.  The units of a pool move as their farthest points."""
     for number, pool in enumerate(pools):
@@ -108,7 +108,7 @@ def lay_pools(
 
 def failed_search(memory: Memory, contacts: Sequence[Contact]) -> str:
     """Return a sentence that names the search that gave no number of features; nothing if all did."""
-    for number, pool in enumerate(find_pools(contacts)):
+    for number, pool in enumerate(find_searches(contacts)):
         found = memory.floats[int(memory[owners.Search.out][number])]
         if not found >= 0.0:
             function = pool.search.function

@@ -17,7 +17,7 @@ _NAMED = 4
 """Bodies that are named; the others are counted."""
 
 
-def open_span(solution: Solution) -> str:
+def imbalance_span(solution: Solution) -> str:
     """Return when an energy account went out of balance, and at which bodies, as a sentence.
 
     What the account lacks is a function of time.  The span lies between its least and its greatest value.  Bodies are

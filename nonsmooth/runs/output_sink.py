@@ -1,4 +1,4 @@
-"""Keeper: what a run leaves behind while it goes on."""
+"""OutputSink: what a run leaves behind while it goes on."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from nonsmooth.solution.solution import Solution
 _STEPS_AT_ONCE = 2000
 
 
-class Keeper(ABC):
+class OutputSink(ABC):
     """Looks at a run wherever it could go on in another process.
 
     The contract:
@@ -64,7 +64,7 @@ class Keeper(ABC):
 
 
 @final
-class KeepsNothing(Keeper):
+class NoOutput(OutputSink):
     """A run whose results stay in memory."""
 
     def begin(self, checkpoint: Checkpoint) -> None:

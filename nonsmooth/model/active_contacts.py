@@ -12,7 +12,7 @@ from nonsmooth.engine.memory.declare import Life, declarations
 from nonsmooth.engine.memory.memory import Memory
 
 
-def listed_contacts(memory: Memory) -> NDArray[np.int64]:
+def active_contacts(memory: Memory) -> NDArray[np.int64]:
     """Numbers of the declared contacts that are listed, a view."""
     return cast(NDArray[np.int64], memory[owners.Contact.declared][: memory[owners.Island.n_contacts]])
 
@@ -23,7 +23,7 @@ def copy_parameters(memory: Memory) -> None:
     The engine does so when it lists a contact. A checkpoint holds no parameters: addresses of functions are others in
     every process.
     """
-    declared = listed_contacts(memory)
+    declared = active_contacts(memory)
     n = len(declared)
     for name, one in declarations(owners.DeclaredContact).items():
         if one.life is Life.PARAMETER and not one.inside[0]:

@@ -1,4 +1,4 @@
-"""Left: what a run left in the memory of its model, read when it is asked for."""
+"""FinalState: what a run left in the memory of its model, read when it is asked for."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from nonsmooth.model.checkpoint import Booleans, Checkpoint, Difference, Integer
 from nonsmooth.model.engine_parts import own_of
 from nonsmooth.model.laid_out import energies
 from nonsmooth.queries.near import size_of
-from nonsmooth.runs.open_span import open_span
+from nonsmooth.runs.imbalance import imbalance_span
 from nonsmooth.runs.outcome import cause_of
 from nonsmooth.solution.end import Counters, End
 from nonsmooth.solution.energy import EnergyAccount
@@ -31,7 +31,7 @@ from nonsmooth.solution.suspicion import suspicions
 from nonsmooth.system.system import System
 
 
-class Standing(NamedTuple):
+class FixedPlaces(NamedTuple):
     """What no run changes of a memory, which goes on to other runs.
 
     Attributes
@@ -47,13 +47,13 @@ class Standing(NamedTuple):
     changing: tuple[Booleans, ...]
 
     @classmethod
-    def of(cls, memory: Memory, n_bodies: int) -> Standing:
+    def of(cls, memory: Memory, n_bodies: int) -> FixedPlaces:
         """Take it from a memory."""
         tails, features = memory[owners.Body.tail][:n_bodies], memory.declared(owners.Contact.features)
         return cls(tails - memory.blocks, features.copy(), memory.changing)
 
 
-class Left(NamedTuple):
+class FinalState(NamedTuple):
     """What a run left.
 
     Attributes
@@ -70,7 +70,7 @@ class Left(NamedTuple):
         What the memory held before any run, where nothing yet said when the run would end, and now.
     told : int
         Events since ``before``.
-    standing : Standing
+    standing : FixedPlaces
         What of the memory no run changes.
     """
 
@@ -82,7 +82,7 @@ class Left(NamedTuple):
     before: Checkpoint
     now: Checkpoint
     told: int
-    standing: Standing
+    standing: FixedPlaces
 
     def end(self, said: tuple[str, str], code: int, wall: float, recorded: Recorded) -> End:
         """Return how a run ended that recorded so much.
@@ -137,7 +137,7 @@ class Left(NamedTuple):
                 counters.steps,
                 scale,
                 self._floor(),
-                partial(open_span, known),
+                partial(imbalance_span, known),
             )
             if found:
                 status, message = "suspect", f"{message}, but {found}"

@@ -30,26 +30,26 @@ from nonsmooth.model.blocks import blocks
 from nonsmooth.model.immobile import REMEDY as MOVE_IT
 from nonsmooth.model.immobile import held_by, immobile_contact
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.pools import failed_search
+from nonsmooth.model.feature_searches import failed_search
 from nonsmooth.runs.squeezed import squeezed
-from nonsmooth.runs.unexplained import unexplained
+from nonsmooth.runs.failed_check import unexplained
 
 _CHECKED = (GAP_UNDECIDED, GAP_UNEXPLAINED, JOINTS_APART, MOTION_UNEXPLAINED, PASSED, QUATERNION_UNEXPLAINED)
 """Ends of a run by its own checks."""
 
 
-def culprit(model: LaidOut, status: int) -> str:
+def failing_function(model: LaidOut, status: int) -> str:
     """Return a sentence that names the first function found to raise or to return a non-finite number.
 
     It raises nothing: what was computed matters more than why it ended, and functions that fail are called here.
     """
     try:
-        return _culprit(model, status)
+        return _failing_function(model, status)
     except (Exception, SystemExit, KeyboardInterrupt) as error:
         return f"Looking for the cause came to nothing: {error!r}."
 
 
-def _culprit(model: LaidOut, status: int) -> str:
+def _failing_function(model: LaidOut, status: int) -> str:
     if status in _CHECKED:
         return unexplained(model, status)
     if found := squeezed(model, status):

@@ -53,7 +53,7 @@ class TimeHardlyPasses(NonsmoothWarning):
 
 @final
 @dataclass
-class Pace:
+class StallMonitor:
     """Follows a run from one stop of the engine to the next.
 
     Parameters
