@@ -1,4 +1,9 @@
-"""Contacts that are listed take what never changes from the declared ones."""
+"""Copies of parameters from declared contacts to active ones.
+
+An active contact is a declared contact on the neighbour list. The engine copies its parameters when it lists it. A
+checkpoint holds no parameters, because addresses of functions differ between processes. So they are copied again if
+a checkpoint changes the list.
+"""
 
 from __future__ import annotations
 
@@ -13,18 +18,14 @@ from nonsmooth.engine.memory.memory import Memory
 
 
 def active_contacts(memory: Memory) -> NDArray[np.int64]:
-    """Numbers of the declared contacts that are listed, a view."""
+    """Number of the declared contact of each active contact, a view."""
     return cast(NDArray[np.int64], memory[owners.Contact.declared][: memory[owners.Island.n_contacts]])
 
 
 def copy_parameters(memory: Memory) -> None:
-    """Give every listed contact the parameters of its declared one.
-
-    The engine does so when it lists a contact. A checkpoint holds no parameters: addresses of functions are others in
-    every process.
-    """
-    declared = active_contacts(memory)
-    n = len(declared)
+    """Copy the parameters of its declared contact to each active contact."""
+    numbers = active_contacts(memory)
+    n = len(numbers)
     for name, one in declarations(owners.DeclaredContact).items():
         if one.life is Life.PARAMETER and not one.inside[0]:
-            memory[getattr(owners.Contact, name)][:n] = memory[one][declared]
+            memory[getattr(owners.Contact, name)][:n] = memory[one][numbers]

@@ -1,4 +1,8 @@
-"""Pools of contacts whose features are searched for, laid into the engine's memory."""
+"""FeatureSearch: a search for candidate features of two shapes, which share a number of contacts.
+
+Two surfaces may have millions of pairs of features, of which a few are near each other. A search finds these and
+assigns them to the contacts of the two shapes.
+"""
 
 from __future__ import annotations
 
@@ -24,94 +28,106 @@ from nonsmooth.system.contact import Contact
 
 @dataclass(frozen=True)
 class FeatureSearch:
-    """Contacts of two frames that one search fills.
+    """A search for candidate features of two frames, and the contacts that it fills.
 
     Attributes
     ----------
-    search : CandidateSearch
-        The search.
+    candidates : CandidateSearch
+        The function of the search and its parameters.
     contacts : range
-        Their numbers.
+        Numbers of the contacts.
     owner : str
-        What messages call it.
+        Name of the kinematics and of the first contact, for messages.
     """
 
-    search: CandidateSearch
+    candidates: CandidateSearch
     contacts: range
     owner: str
 
     @property
     def size(self) -> int:
-        """How many numbers the search may write."""
+        """Largest number of floats that the search may write."""
         return 1 + CANDIDATE * (len(self.contacts) + 1)
 
 
 def find_searches(contacts: Sequence[Contact]) -> list[FeatureSearch]:
-    """Return the pools, in order.
+    """The searches, in the order of their contacts.
 
     Raises
     ------
     InvalidInput
-        If a shape is unbounded: nobody could say when its features have to be looked for again.
+        If a shape is unbounded. Its displacement has no bound, so no time for the next search is known.
     """
     found = []
-    searches = list(map(attrgetter("kinematics.candidates"), contacts))
-    numbers = [number for number, search in enumerate(searches) if search is not None]
-    for _, group in itertools.groupby(numbers, lambda number: id(searches[number])):
+    candidates = list(map(attrgetter("kinematics.candidates"), contacts))
+    numbers = [number for number, one in enumerate(candidates) if one is not None]
+    for _, group in itertools.groupby(numbers, lambda number: id(candidates[number])):
         first, *more = group
-        one, search = contacts[first], searches[first]
+        contact, search = contacts[first], candidates[first]
         assert search is not None
-        for shape, extent in zip(one.shapes, one.extents, strict=True):
+        for shape, extent in zip(contact.shapes, contact.extents, strict=True):
             if not math.isfinite(extent):
                 raise InvalidInput(
-                    f"{type(shape).__name__} of the {one}",
-                    "must be bounded where its features are searched for (`candidates`)",
+                    f"{type(shape).__name__} of the {contact}",
+                    "must be bounded if its features are searched for (`candidates`)",
                     extent,
                     "Give the shape a finite `extent`, or return contacts of given features from `between`.",
                 )
-        name = f"{type(one.kinematics).__name__} ({one})"
-        found.append(FeatureSearch(search, range(first, first + 1 + len(more)), name))
+        owner = f"{type(contact.kinematics).__name__} ({contact})"
+        found.append(FeatureSearch(search, range(first, first + 1 + len(more)), owner))
     return found
 
 
 def lay_searches(
-    memory: Memory, heap: Heap, pools: Sequence[FeatureSearch], table: ContactTable, units: Mapping[tuple[int, int], int]
+    memory: Memory,
+    blocks: Heap,
+    searches: Sequence[FeatureSearch],
+    table: ContactTable,
+    spheres: Mapping[tuple[int, int], int],
 ) -> None:
-    """Lay the pools; ``units`` says which unit each frame is.  The units of a pool move as their farthest points."""
-    for number, pool in enumerate(pools):
-        function, values = pool.search.function, pool.search.values
-        tables = {name: value for name, value in values.items() if isinstance(value, Table)}
-        address, numbers = bind(function, "pair", {**values, **dict.fromkeys(tables, ())}, pool.owner)
-        places = {parameter_place(function, "pair", name): shared for name, shared in tables.items()}
-        whole = bind(function, "pair", values, pool.owner)[1] if tables else numbers
-        try_out(function, "pair", values, whole, pool.size, pool.owner)
-        start = heap.store(numbers)
-        for place, shared in places.items():
-            heap.refer(start + place, start, shared)
-        first = pool.contacts.start
+    """Write the searches; ``spheres`` has the number of the bounding sphere of each frame.
+
+    The features of a search may move as far as the farthest points of their spheres.
+    """
+    for number, search in enumerate(searches):
+        parameters = _lay_function(blocks, search)
+        first = search.contacts.start
         sides = zip(table.bodies[first].tolist(), table.frames[first].tolist(), strict=True)
-        one, two = (units[side] for side in sides)
+        sphere_a, sphere_b = (spheres[side] for side in sides)
         row = {
-            "function": address,
-            "parameters": start,
-            "out": heap.output(pool.size),
+            **parameters,
+            "out": blocks.output(search.size),
             "first_contact": first,
-            "n_contacts": len(pool.contacts),
-            "sphere_a": one,
-            "sphere_b": two,
+            "n_contacts": len(search.contacts),
+            "sphere_a": sphere_a,
+            "sphere_b": sphere_b,
         }
         for name, value in row.items():
             memory[getattr(owners.Search, name)][number] = value
-        for unit in (one, two):
-            memory[owners.Sphere.feature_radius][unit] = memory[owners.Sphere.radius][unit]
+        for sphere in (sphere_a, sphere_b):
+            memory[owners.Sphere.feature_radius][sphere] = memory[owners.Sphere.radius][sphere]
+
+
+def _lay_function(blocks: Heap, search: FeatureSearch) -> dict[str, int]:
+    """Compile and try out the function of a search, and store its parameters; the result has its fields."""
+    function, values = search.candidates.function, search.candidates.values
+    tables = {name: value for name, value in values.items() if isinstance(value, Table)}
+    address, numbers = bind(function, "pair", {**values, **dict.fromkeys(tables, ())}, search.owner)
+    # the trial reads the tables behind the other parameters, the engine by their distance
+    all_numbers = bind(function, "pair", values, search.owner)[1] if tables else numbers
+    try_out(function, "pair", values, all_numbers, search.size, search.owner)
+    start = blocks.store(numbers)
+    for name, table in tables.items():
+        blocks.refer(start + parameter_place(function, "pair", name), start, table)
+    return {"function": address, "parameters": start}
 
 
 def failed_search(memory: Memory, contacts: Sequence[Contact]) -> str:
-    """Return a sentence that names the search that gave no number of features; nothing if all did."""
-    for number, pool in enumerate(find_searches(contacts)):
+    """Sentence that names the first search that gave no number of features, or ""."""
+    for number, search in enumerate(find_searches(contacts)):
         found = memory.floats[int(memory[owners.Search.out][number])]
         if not found >= 0.0:
-            function = pool.search.function
-            what = interpreted.noted(function) or f"raises or gives {found:g}"
-            return f"{pool.owner}: {described(function)}, {what} where it must give how many features it has found."
+            function = search.candidates.function
+            fault = interpreted.noted(function) or f"raises or gives {found:g}"
+            return f"{search.owner}: {described(function)}, {fault} as the number of features that it found."
     return ""

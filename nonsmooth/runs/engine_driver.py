@@ -1,4 +1,8 @@
-"""Calls of an engine's ``advance``, which must keep its contract: a status that there is, and a run that gets on."""
+"""EngineDriver: calls of an engine's ``advance``, checked against its contract.
+
+An engine may be a plug-in. One that returns an unknown status would end a run without a reason, and one that does
+nothing would be called for ever. Both are found at the call, and the message names the rule.
+"""
 
 from __future__ import annotations
 
@@ -16,9 +20,9 @@ from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
 
 _STATUSES = tuple(status for status in REASONS if status != CONDITION_MET)
-_WATCH = places("request.n_work", "request.work_budget", "run.n_calls")
-"""What changes although nothing is done."""
-(_CALLS,) = places("run.n_calls").tolist()
+_CALL_COUNTERS = places("request.n_work", "request.work_budget", "run.n_calls")
+"""Scalars that a call changes even if the engine does nothing."""
+(_N_CALLS,) = places("run.n_calls").tolist()
 
 
 @final
@@ -30,59 +34,68 @@ class EngineDriver:
     engine : Engine
         The engine.
     model : LaidOut
-        What runs.
+        The model that runs.
     call : callable
-        What ``advance`` gets to call entry points with.
+        Calls an entry point by its name; ``advance`` gets it.
     """
 
     def __init__(self, engine: Engine, model: LaidOut, call: Callable[..., Any]) -> None:
         self._engine, self._memory, self._call = engine, model.memory, call
+        self._name = f"{type(engine).__name__}.advance"
         self._statuses = {*_STATUSES, *(cause.code for cause in engine.causes)}
 
-    def advance(self, most_steps: int, wary: bool) -> int:
-        """Let the engine go on; return the status.
+    def advance(self, most_steps: int, pauses_before_end: bool) -> int:
+        """Advance the run by at most ``most_steps`` steps; the result is the status.
+
+        With ``pauses_before_end`` the engine pauses before a step whose length depends on the end time.
 
         Raises
         ------
         InvalidInput
-            If it breaks its contract; the message names it and the rule.
+            If the engine breaks its contract.
         """
-        thing = f"{type(self._engine).__name__}.advance"
-        # what is recorded is taken out of the buffers once for each call
-        self._memory.cells[1][_CALLS] += 1
+        # records are filed under the number of the call
+        self._memory.cells[1][_N_CALLS] += 1
         try:
-            status = self._engine.advance(self._call, self._memory, most_steps, wary)
+            status = self._engine.advance(self._call, self._memory, most_steps, pauses_before_end)
         except UnknownName as error:
-            raise InvalidInput(f"{thing}: {error.thing}", error.rule, error.value, error.remedy) from error
+            raise InvalidInput(f"{self._name}: {error.thing}", error.rule, error.value, error.remedy) from error
         if status not in self._statuses:
             names = "DONE, PAUSED, STOPPED, a failure of nonsmooth.engine.memory.modes or a code of its causes"
-            raise InvalidInput(f"{thing}: its status", f"must be {names}", status, "Return PAUSED to be called again.")
-        t, t_end = (self._memory[one] for one in (owners.Island.time, owners.Request.t_end))
+            remedy = "Return PAUSED to be called again."
+            raise InvalidInput(f"{self._name}: its status", f"must be {names}", status, remedy)
+        t, t_end = self._memory[owners.Island.time], self._memory[owners.Request.t_end]
         if status == DONE and t != t_end:
-            rule = f"must be at the end time {t_end:.9g} s where it is DONE"
+            rule = f"must be the end time {t_end:.9g} s if the status is DONE"
             remedy = "Return PAUSED to be called again, or set it to ws.request.t_end."
-            raise InvalidInput(f"{thing}: ws.island.time", rule, t, remedy)
+            raise InvalidInput(f"{self._name}: ws.island.time", rule, t, remedy)
         return int(status)
 
-    def get_on(self, most_steps: int, before: Checkpoint) -> int:
-        """Let the engine go on that need not be wary, with empty buffers, from a checkpoint that the memory has.
+    def advance_past(self, checkpoint: Checkpoint, most_steps: int) -> int:
+        """Advance a run with empty buffers past a checkpoint, which its memory holds now; the result is the status.
 
-        Errors are those of :meth:`advance`.
+        The engine may take steps that the end time shortens, so it must take one.
+
+        Raises
+        ------
+        InvalidInput
+            If the engine breaks its contract.
         """
         status = self.advance(most_steps, False)
-        if status == PAUSED and self._is_as(before):
+        if status == PAUSED and self._holds(checkpoint):
             raise InvalidInput(
-                f"{type(self._engine).__name__}.advance",
-                "must do a step where it need not be wary and the buffers are empty",
+                self._name,
+                "must do a step if it need not pause before the end and the buffers are empty",
                 f"nothing done at t = {self._memory[owners.Island.time]:.9g} s",
-                "Return DONE at ws.request.t_end; where time stops passing, STALLED.",
+                "Return DONE at ws.request.t_end; if time stops passing, STALLED.",
             )
         return status
 
-    def _is_as(self, checkpoint: Checkpoint) -> bool:
+    def _holds(self, checkpoint: Checkpoint) -> bool:
+        """True if the memory holds a checkpoint, apart from the counters of calls."""
         if self._memory[owners.Island.time] != checkpoint[owners.Island.time]:
             return False
-        (now, *others), (then, *kept) = self._memory.kept, checkpoint.parts
-        differ = now != then
-        differ[_WATCH] = False
-        return not differ.any() and all(map(np.array_equal, others, kept))
+        (scalars, *arrays), (old_scalars, *old_arrays) = self._memory.kept, checkpoint.parts
+        differs = scalars != old_scalars
+        differs[_CALL_COUNTERS] = False
+        return not differs.any() and all(map(np.array_equal, arrays, old_arrays))

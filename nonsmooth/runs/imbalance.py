@@ -1,4 +1,9 @@
-"""The span of time in which most of what an energy account lacks came about, and the bodies in contact there."""
+"""When most of the imbalance of an energy account arose, and at which bodies.
+
+The imbalance is a function of time. Most of it arises between its least and its greatest value. The bodies named are
+those of contacts of the time-stepping fallback in that span, because it solves for mean forces only; without such
+contacts they are those of all contacts of the events.
+"""
 
 from __future__ import annotations
 
@@ -7,47 +12,58 @@ import numpy as np
 from nonsmooth.engine.memory.modes import OPEN
 from nonsmooth.errors import InvalidInput
 from nonsmooth.histories.energies import Energies
+from nonsmooth.solution.events import Events
 from nonsmooth.solution.solution import Solution
+from nonsmooth.solution.state import Floats, Integers
 
-_SMALL = 0.1
-"""Part of the largest change of what the account lacks that each end of the span leaves out."""
-_AVERAGED = 4
-"""Column of ``Events.listed_memory`` with the mode in which averaged forces end."""
-_NAMED = 4
-"""Bodies that are named; the others are counted."""
+_NEGLIGIBLE = 0.1
+"""Part of the largest change of the imbalance that may lie outside of the span at each end. It shortens the span."""
+_MODE_AFTER_FALLBACK = 4
+"""Column of ``Events.listed_memory`` with the mode after the time-stepping fallback, open without it."""
+_N_NAMED = 4
+"""Largest number of bodies that the message names."""
 
 
 def imbalance_span(solution: Solution) -> str:
-    """Return when an energy account went out of balance, and at which bodies, as a sentence.
-
-    What the account lacks is a function of time.  The span lies between its least and its greatest value.  Bodies are
-    those of contacts with averaged forces in that span, or else those of all contacts of its events.
-    """
+    """Sentence with the span of time in which most of the imbalance arose, and the bodies in contact, or ""."""
     events = solution.events
     times = np.unique(np.concatenate([solution.t, events.time, [solution.t_end]]))
     try:
-        lacking = Energies.of(solution, times).unexplained
+        imbalance = Energies.of(solution, times).unexplained
     except InvalidInput:
         # contacts were declared since the run
         return ""
-    first, last = sorted((int(np.argmin(lacking)), int(np.argmax(lacking))))
+    first, last = _span(imbalance)
     if first == last:
         return ""
-    within, small = lacking[first : last + 1], _SMALL * float(np.ptp(lacking))
-    last = first + int(np.argmax(np.abs(within - within[-1]) <= small))
-    first += int(np.flatnonzero(np.abs(within - within[0]) <= small)[-1])
     span = f"Most of it came about from t = {times[first]:.9g} s to {times[last]:.9g} s"
-    begin = max(0, int(np.searchsorted(events.time, times[first], side="right")) - 1)
-    end = int(np.searchsorted(events.time, times[last], side="right"))
-    entries = slice(*events.first[[begin, max(begin, end)]].tolist()) if len(events) else slice(0)
-    contacts = events.listed[entries]
-    averaged = contacts[events.listed_memory[entries, _AVERAGED] != OPEN]
-    found = averaged if len(averaged) else contacts
-    if len(found) == 0:
+    contacts, has_fallback = _contacts_within(events, times[first], times[last])
+    if len(contacts) == 0:
         return f"{span}."
-    pairs = [solution.system.contacts[number] for number in np.unique(found).tolist()]
+    pairs = [solution.system.contacts[number] for number in np.unique(contacts).tolist()]
     bodies = {id(body): body for one in pairs for body in (one.first, one.second) if body.n_u > 0}
     names = [repr(solution.system.name_of(body)) for body in bodies.values()]
-    more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
-    why = "with averaged forces" if len(averaged) else "in contacts"
-    return f"{span}, {why} of {', '.join(names[:_NAMED])}{more}."
+    more = f" and {len(names) - _N_NAMED} more" if len(names) > _N_NAMED else ""
+    where = "in the time-stepping fallback" if has_fallback else "in contacts"
+    return f"{span}, {where} of {', '.join(names[:_N_NAMED])}{more}."
+
+
+def _span(imbalance: Floats) -> tuple[int, int]:
+    """First and last index of the largest change, without its negligible ends."""
+    first, last = sorted((int(np.argmin(imbalance)), int(np.argmax(imbalance))))
+    if first == last:
+        return first, last
+    within, negligible = imbalance[first : last + 1], _NEGLIGIBLE * float(np.ptp(imbalance))
+    last = first + int(np.argmax(np.abs(within - within[-1]) <= negligible))
+    first += int(np.flatnonzero(np.abs(within - within[0]) <= negligible)[-1])
+    return first, last
+
+
+def _contacts_within(events: Events, begin: float, end: float) -> tuple[Integers, bool]:
+    """Contacts of the events from ``begin`` to ``end`` [s], and whether they are those of the fallback."""
+    first = max(0, int(np.searchsorted(events.time, begin, side="right")) - 1)
+    last = int(np.searchsorted(events.time, end, side="right"))
+    entries = slice(*events.first[[first, max(first, last)]].tolist()) if len(events) else slice(0)
+    contacts = events.listed[entries]
+    in_fallback = contacts[events.listed_memory[entries, _MODE_AFTER_FALLBACK] != OPEN]
+    return (in_fallback, True) if len(in_fallback) else (contacts, False)

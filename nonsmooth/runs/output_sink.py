@@ -1,4 +1,4 @@
-"""OutputSink: what a run leaves behind while it goes on."""
+"""OutputSink: the destination of a run's results while the run is under way."""
 
 from __future__ import annotations
 
@@ -8,74 +8,74 @@ from typing import final
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.solution.solution import Solution
 
-_STEPS_AT_ONCE = 2000
+_STEPS_PER_CALL = 2000
+"""Steps of the engine per call if nothing is written. So many cost far more than the call itself."""
 
 
 class OutputSink(ABC):
-    """Looks at a run wherever it could go on in another process.
+    """Takes the results of a run at its checkpoints, from which another process could continue it.
 
-    The contract:
+    The order of calls:
 
-    1. ``begin`` takes a checkpoint of the memory as the run begins.
-    2. ``steps`` says how many steps the engine takes before the next look.
-    3. ``keep`` takes a checkpoint of the memory, which the memory has at that moment; it may drain the records.
-    4. ``finish`` gets the solution of the whole run.
-    5. ``close`` comes last, also where the run or its keeping failed.
+    1. ``begin`` with the checkpoint at the start of the run.
+    2. ``write`` with each checkpoint, which the memory holds at that moment. It may drain the records.
+    3. ``finish`` with the solution of the whole run.
+    4. ``close`` at the end, also if the run or a call failed.
     """
-
-    @abstractmethod
-    def begin(self, checkpoint: Checkpoint) -> None:
-        """Keep where the run begins.
-
-        Raises
-        ------
-        FileError
-            If that is not possible.
-        """
 
     @property
     @abstractmethod
     def steps(self) -> int:
-        """Steps of the engine before the next look."""
+        """Largest number of steps of the engine until the next call of ``write``."""
 
     @abstractmethod
-    def keep(self, checkpoint: Checkpoint) -> None:
-        """Keep what the run has done so far.
+    def begin(self, checkpoint: Checkpoint) -> None:
+        """Write the start of the run.
 
         Raises
         ------
         FileError
-            If that is not possible.
+            If it cannot be written.
+        """
+
+    @abstractmethod
+    def write(self, checkpoint: Checkpoint) -> None:
+        """Write the results up to a checkpoint, if it is time.
+
+        Raises
+        ------
+        FileError
+            If they cannot be written.
         """
 
     @abstractmethod
     def finish(self, solution: Solution) -> None:
-        """Keep how the run ended.
+        """Write the remaining results and the end of the run.
 
         Raises
         ------
         FileError
-            If that is not possible.
+            If they cannot be written.
         """
 
     @abstractmethod
     def close(self) -> None:
-        """Leave nothing behind that works on."""
+        """Release files and threads."""
 
 
 @final
 class NoOutput(OutputSink):
-    """A run whose results stay in memory."""
+    """For a run whose results stay in memory."""
+
+    @property
+    def steps(self) -> int:
+        """A number of steps that makes calls cheap."""
+        return _STEPS_PER_CALL
 
     def begin(self, checkpoint: Checkpoint) -> None:
         """Do nothing."""
 
-    @property
-    def steps(self) -> int:
-        """Many: what is done between two looks costs least."""
-        return _STEPS_AT_ONCE
-
-    def keep(self, checkpoint: Checkpoint) -> None:
+    def write(self, checkpoint: Checkpoint) -> None:
         """Do nothing."""
 
     def finish(self, solution: Solution) -> None:

@@ -35,8 +35,8 @@ from nonsmooth.interfaces import Body, Engine
 from nonsmooth.model.assembly import assemble
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.runs.output_sink import NoOutput
 from nonsmooth.runs.loop import run_engine
+from nonsmooth.runs.output_sink import NoOutput
 from nonsmooth.runs.records import Records
 from scenarios.dice_throw.scenario import DiceThrow
 from scenarios.mesh_drop.scenario import MeshDrop

@@ -64,7 +64,7 @@ def whole() -> ns.Solution:
 @pytest.fixture
 def often(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let a run be written whenever it can be."""
-    for name, value in (("_EVERY", 0.0), ("_FIRST_AFTER", 0.0), ("_MOST", 64)):
+    for name, value in (("_COMMIT_INTERVAL", 0.0), ("_FIRST_COMMIT", 0.0), ("_MOST_STEPS", 64)):
         monkeypatch.setattr(folder_sink, name, value)
 
 
