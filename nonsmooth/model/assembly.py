@@ -134,8 +134,6 @@ def _counts(system: System, engine: Engine, parts: _Parts) -> dict[str, int]:
     n_states = sum(len(numbers) * len(initial_state(contacts[numbers[0]])) for numbers in parts.kinds)
     n_y = n_q + n_u + N_ACCOUNTS + n_states
     n_slots = broad_phase.n_slots
-    n_typical = min(n_slots, _CONTACTS_PER_EVENT)
-    head = EVENT_HEAD + n_u + n_y + BOOKED
     counts = {
         "n_bodies": len(system.bodies),
         "n_slots": n_slots,
@@ -156,9 +154,15 @@ def _counts(system: System, engine: Engine, parts: _Parts) -> dict[str, int]:
         "n_y": n_y,
         "n_states": n_states,
         "map_width": map_width([contacts[numbers[0]] for numbers in parts.kinds]),
-        "event_floats": _EVENTS * (head + LISTED * n_typical) + MOST_EVENTS * (head + LISTED * n_slots),
-        "event_integers": _EVENTS * (CODE_HEAD + 2 * n_typical) + MOST_EVENTS * (CODE_HEAD + 2 * n_slots),
+        "event_floats": _length_of_events(EVENT_HEAD + n_u + n_y + BOOKED, LISTED, n_slots),
+        "event_integers": _length_of_events(CODE_HEAD, 2, n_slots),
         "sample_capacity": _SAMPLES,
     }
     free = [name for name in COUNTS if name not in counts]
     return {**dict.fromkeys(COUNTS, 0), **counts, **counts_of(engine, n_slots, free)}
+
+
+def _length_of_events(head: int, per_contact: int, n_slots: int) -> int:
+    """Length of a buffer of events: many of the usual size, and all events of one instant."""
+    usual, largest = head + per_contact * min(n_slots, _CONTACTS_PER_EVENT), head + per_contact * n_slots
+    return _EVENTS * usual + MOST_EVENTS * largest

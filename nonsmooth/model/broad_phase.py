@@ -26,7 +26,7 @@ SMALL = 64
 _CONTACTS_PER_SPHERE = 16
 """Least number of active contacts per sphere that the memory can hold. Contacts need little memory."""
 _NEIGHBOURS = 6
-"""Number of neighbours per sphere whose contacts the memory can hold: the twelve of a dense packing, each shared by two."""
+"""Number of pairs per sphere whose contacts the memory can hold: in a dense packing a sphere has 12 neighbours."""
 _MARGIN = 0.5
 """Margin of the neighbour list, in least radii of spheres. The list lasts while bodies move by about so far."""
 

@@ -64,40 +64,41 @@ def lay_bodies(system: System, memory: Memory, blocks: Heap) -> dict[int, BodyLa
     scale = memory[owners.Step.y_scale][: int(memory[owners.Model.n_y])]
     constrained = {id(body) for tie in (*system.joints, *system.loads) for body in (tie.first, tie.second)}
     layouts = {}
-    i_q = i_u = 0
-    for i, body in enumerate(system.bodies):
-        available, owner = {**body.parameters(), **gravity}, type(body).__name__
-        address, values = bind(body.evaluator, "body", available, owner)
-        frame = FRAME + 6 * body.n_u
-        tail = len(body.frames) * frame
-        size = tail + body.n_q + body.n_u + body.n_u**2 + 2
-        q, u = system.start(body)
-        try_out(body.evaluator, "body", available, values, size, owner, (0.0, tuple(q), tuple(u)))
-        out = blocks.output(size)
-        fields = {
-            "q": i_q,
-            "u": i_u,
-            "n_q": body.n_q,
-            "n_u": body.n_u,
-            "function": address,
-            "parameters": blocks.store(values),
-            "out": out,
-            "tail": out + tail,
-            "quaternion": body.quaternion,
-            "spin": body.spin,
-        }
+    q = u = 0
+    for number, body in enumerate(system.bodies):
+        available, start = {**body.parameters(), **gravity}, system.start(body)
+        fields = {"q": q, "u": u, **_body_fields(body, available, blocks, start)}
         if body.flight is not None and id(body) not in constrained:
-            fields |= _ballistic_motion(body.flight, body, available, blocks, (q, u))
-        _write(memory, owners.Body, i, fields)
-        layouts[id(body)] = BodyLayout(i, body.n_u, i_u, tuple(out + frame * f for f in range(len(body.frames))))
-        q_scale, u_scale = body.scales
-        first = n_q + i_u
-        scale[i_q : i_q + body.n_q], scale[first : first + body.n_u] = q_scale, u_scale
-        i_q, i_u = i_q + body.n_q, i_u + body.n_u
+            fields |= _ballistic_fields(body.flight, body, available, blocks, start)
+        _write(memory, owners.Body, number, fields)
+        frames = tuple(fields["out"] + (FRAME + 6 * body.n_u) * frame for frame in range(len(body.frames)))
+        layouts[id(body)] = BodyLayout(number, body.n_u, u, frames)
+        scale[q : q + body.n_q], scale[n_q + u : n_q + u + body.n_u] = body.scales
+        q, u = q + body.n_q, u + body.n_u
     return layouts
 
 
-def _ballistic_motion(
+def _body_fields(body: Body, available: Mapping[str, Value], blocks: Heap, start: Sequence[Vector]) -> dict[str, int]:
+    """Fields of a body, apart from the numbers of its first coordinate and velocity."""
+    owner = type(body).__name__
+    address, values = bind(body.evaluator, "body", available, owner)
+    tail = len(body.frames) * (FRAME + 6 * body.n_u)
+    size = tail + body.n_q + body.n_u + body.n_u**2 + 2
+    try_out(body.evaluator, "body", available, values, size, owner, (0.0, *map(tuple, start)))
+    out = blocks.output(size)
+    return {
+        "n_q": body.n_q,
+        "n_u": body.n_u,
+        "function": address,
+        "parameters": blocks.store(values),
+        "out": out,
+        "tail": out + tail,
+        "quaternion": body.quaternion,
+        "spin": body.spin,
+    }
+
+
+def _ballistic_fields(
     function: Callable[..., None], body: Body, available: Mapping[str, Value], blocks: Heap, start: Sequence[Vector]
 ) -> Mapping[str, int]:
     """Fields of a body whose ballistic motion has a closed form."""
@@ -117,8 +118,7 @@ def lay_joints(memory: Memory, blocks: Heap, articulations: Sequence[Articulatio
     for number, articulation in enumerate(articulations):
         bodies, ties = articulation.bodies, articulation.joints
         u, n = layouts[id(bodies[0])].u, sum(body.n_u for body in bodies)
-        for body in bodies:
-            layout = layouts[id(body)]
+        for layout in (layouts[id(body)] for body in bodies):
             layout.articulation, layout.column, layout.articulation_n_u = number, layout.u - u, n
         first, rows = joint, 0
         for tie in ties:

@@ -55,7 +55,7 @@ def check_overlaps(model: LaidOut) -> None:
     InvalidInput
         If two overlap.
     """
-    found = deepest_overlap(model, active_contacts(model.memory).tolist())
+    found = first_overlap(model, active_contacts(model.memory).tolist())
     if found is not None:
         kinds = " and ".join(type(shape).__name__ for shape in found.contact.shapes)
         raise InvalidInput(
@@ -67,7 +67,7 @@ def check_overlaps(model: LaidOut) -> None:
         )
 
 
-def deepest_overlap(model: LaidOut, numbers: Sequence[int]) -> Overlap | None:
+def first_overlap(model: LaidOut, numbers: Sequence[int]) -> Overlap | None:
     """The first overlap beyond the tolerance, or None.
 
     Compliant bodies may overlap if a gap of theirs is negative, because the contact force is then positive.

@@ -25,7 +25,7 @@ _ALLOWED = 1e-7
 """Allowed overlap beyond that of closed contacts, relative to the smaller shape: ten times the error of a gap of a body
 that moves by a hundred times its size."""
 _UNBOUNDED = float(np.finfo(np.float64).max)
-"""Distance to the farthest point of a half-space [m]. It is finite, so that its product with a zero rotation is zero."""
+"""Distance to the farthest point of a half-space [m]. It is finite, so that its product with no rotation is zero."""
 
 
 @dataclass(frozen=True, eq=False)

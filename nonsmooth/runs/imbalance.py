@@ -1,8 +1,8 @@
 """When most of the imbalance of an energy account arose, and at which bodies.
 
 The imbalance is a function of time. Most of it arises between its least and its greatest value. The bodies named are
-those of contacts of the time-stepping fallback in that span, because it solves for mean forces only; without such
-contacts they are those of all contacts of the events.
+those of contacts of the time-stepping fallback in that span, because it solves for mean forces only. Without such
+contacts they are the bodies of all contacts of the events.
 """
 
 from __future__ import annotations

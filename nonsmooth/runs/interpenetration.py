@@ -12,7 +12,7 @@ import numpy as np
 from nonsmooth.engine.memory import owners
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.overlaps import Overlap, deepest_overlap
+from nonsmooth.model.overlaps import Overlap, first_overlap
 from nonsmooth.solution.state import Floats
 
 _MOVED = 0.01
@@ -40,7 +40,7 @@ def interpenetration(model: LaidOut, rows: Floats) -> str:
             model.memory[owners.Island.y][: model.n_y] = row[1 : 1 + model.n_y]
             model.list_contacts()
             model.evaluate()
-            if found := deepest_overlap(model, numbers):
+            if found := first_overlap(model, numbers):
                 return _sentences(model, row[0], found)
     finally:
         before.put(model.memory)

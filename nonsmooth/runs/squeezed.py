@@ -1,9 +1,9 @@
 """Diagnosis of a body between driven bodies that approach each other, which no rigid contact can allow.
 
 Take two points of a free body at which driven bodies act. A force along the line between the points is borne if it
-lies in the friction cone of a contact, or along an axis that a joint constrains. If both ends bear it and the driven
-points approach each other along the line, the body can neither stick to both nor slip, and the impulses grow without
-bound.
+lies in the friction cone of a contact, or along an axis that a joint constrains. Let both ends bear it, and
+let the driven points approach each other along the line. Then the body can neither stick to both nor slip, and the
+impulses grow without bound.
 """
 
 from __future__ import annotations
