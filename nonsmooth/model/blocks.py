@@ -73,7 +73,10 @@ def _blocks_of_ballistic_motion(model: LaidOut) -> Iterator[Block]:
     names = model.system.names.bodies
     for i, body in enumerate(model.system.bodies):
         if body.flight is not None and _entry(model, owners.Body.ballistic_function, i) != 0:
-            label, size = functools.partial("body {!r}, {!r} in flight:".format, names[i], body), body.n_q + body.n_u
+            label, size = (
+                functools.partial("body {!r}, {!r} in ballistic motion:".format, names[i], body),
+                body.n_q + body.n_u,
+            )
             yield Block(label, body.flight, _entry(model, owners.Body.ballistic_out, i), size, size)
 
 
