@@ -12,7 +12,7 @@ from nonsmooth.binding.compile import bind
 from nonsmooth.binding.law_failure import first_without_value, law_functions, without_value
 from nonsmooth.checks import check_kind, floats, is_finite
 from nonsmooth.contact import check_friction
-from nonsmooth.engine.impact.problem import FINISHED
+from nonsmooth.engine.impact.integration import Outcome
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Heap, Memory, allocate
 from nonsmooth.engine.memory.tables import COUNTS
@@ -152,11 +152,11 @@ def solve_impact(
     memory = _memory(impact, friction, tolerance)
     write_delassus(memory, delassus)
     memory[owners.Impact.rates_before][: 3 * n] = rates
-    outcome = FINISHED
+    outcome = int(Outcome.FINISHED)
     if np.any(rates[::3] < 0.0):
         with Watch(memory) as watch:
             outcome = int(watch.call("energetic_impact", 0.0))
-    if outcome != FINISHED:
+    if outcome != Outcome.FINISHED:
         raise RunFailed(f"The impact did not end. {_culprit(memory, impact, friction)}")
     impulse = memory[owners.Impact.impulse][: 3 * n].reshape(n, 3).copy()
     return ImpactResult(

@@ -12,6 +12,7 @@ from nonsmooth.parameters import Component
 if TYPE_CHECKING:
     from nonsmooth.engine.memory.declare import Part
     from nonsmooth.engine.memory.memory import Memory
+    from nonsmooth.model.laid_out import LaidOut
     from nonsmooth.system.system import System
 
 
@@ -25,18 +26,21 @@ class Engine(Component, ABC):
     1. ``check`` refuses a system that this engine cannot run, before anything is laid out.
     2. ``own`` declares numbers of its own. All numbers of the workspace exist for every engine.
     3. ``counts`` gives the counts that its options decide, ``settings`` the scalars that it sets.
-    4. ``advance`` continues the run from the state in the memory, with steps of its own
+    4. ``prepare`` evaluates numbers of its own that no run changes. Numbers that it keeps of contacts have the length
+       ``per(..., "n_declared")``, and ``contact.declared`` for their index: the place of a contact among the active ones
+       changes.
+    5. ``advance`` continues the run from the state in the memory, with steps of its own
        (:func:`nonsmooth.steps.step`) and with entry points of :mod:`nonsmooth.engine`. All numbers that it needs later,
        in another process too, are in the memory.
-    5. Samples are due up to the time ``ws.island.time``, the first one at ``ws.output.next_sample``. ``begin_sample``
+    6. Samples are due up to the time ``ws.island.time``, the first one at ``ws.output.next_sample``. ``begin_sample``
        appends a sample and returns the place of its state. ``remember`` begins an event, before velocities change, and
        ``record_event`` appends it. An engine pauses if its buffers are half full; it is called again with empty ones.
-    6. It returns ``STALLED`` if time stops passing. The memory then holds the state at that instant, and
+    7. It returns ``STALLED`` if time stops passing. The memory then holds the state at that instant, and
        ``contact.burst_events`` counts the events of each contact that stalls. This does not yet end the run: an engine
        that is made of two may let the other one continue from there.
-    7. An engine that ``records_contacts`` records an event at the start, and one whenever modes change.  Other engines
+    8. An engine that ``records_contacts`` records an event at the start, and one whenever modes change.  Other engines
        record no event of a system with contacts, because its modes and impulses would be zeros.
-    8. ``verdict`` names numbers that the user reads with the run, ``causes`` the causes for which only this engine ends
+    9. ``verdict`` names numbers that the user reads with the run, ``causes`` the causes for which only this engine ends
        a run.  ``promised_residual`` decides which runs are suspect.
     """
 
@@ -101,6 +105,16 @@ class Engine(Component, ABC):
         ----------
         time_scale : float
             Shortest period of the prescribed motions [s].
+        """
+
+    def prepare(self, model: LaidOut) -> None:
+        """Evaluate numbers of its own that no run changes, once a system is laid out; nothing by default.
+
+        Parameters
+        ----------
+        model : LaidOut
+            The system in its memory, before any body is placed. Functions and parameters of bodies, contacts and laws
+            are there; states are not.
         """
 
     @abstractmethod

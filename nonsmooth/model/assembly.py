@@ -123,6 +123,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
     model = LaidOut(system, blocks.close(), counts["n_q"], counts["n_u"], counts["n_states"])
     for scalar, value in settings.items():
         model.memory[scalar] = value
+    engine.prepare(model)
     return model
 
 

@@ -182,7 +182,12 @@ def lay_loads(system: System, memory: Memory, blocks: Heap, layouts: BodyLayouts
         available, owner = load.parameters(), type(load).__name__
         address, values = bind(load.evaluator, "load", available, owner)
         try_out(load.evaluator, "load", available, values, LOAD, owner, (0.0, *FRAMES))
-        fields = {"function": address, "parameters": blocks.store(values), "out": blocks.output(LOAD)}
+        fields = {
+            "function": address,
+            "parameters": blocks.store(values),
+            "out": blocks.output(LOAD),
+            "depends_on_time": load.depends_on_time,
+        }
         for side, body, frame in (("a", tie.first, tie.frames[0]), ("b", tie.second, tie.frames[1])):
             fields[f"frame_{side}"] = layouts[id(body)].frames[frame]
             fields[f"body_{side}"] = layouts[id(body)].number

@@ -18,7 +18,7 @@ import numpy as np
 from nonsmooth.engine.events.record import CODE_HEAD
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
-from nonsmooth.engine.memory.limits import BY_ERROR, LIMITS
+from nonsmooth.engine.memory.limits import LIMITS, Limit
 from nonsmooth.engine.memory.modes import (
     CAUSES,
     DONE,
@@ -131,7 +131,7 @@ class StallMonitor:
         counts = self._limits - self._limits_before
         ranked = [i for i in np.argsort(-counts, kind="stable").tolist() if counts[i] > 0][:_N_NAMED]
         limits = ", ".join(f"{LIMITS[i]} ({counts[i]})" for i in ranked)
-        error = _largest_error(self.model) if ranked[:1] == [BY_ERROR] else ""
+        error = _largest_error(self.model) if ranked[:1] == [Limit.ERROR] else ""
         return " ".join(f"The steps were limited by: {limits}. {error} {self._counted_events()}".split())
 
     def _counted_events(self) -> str:

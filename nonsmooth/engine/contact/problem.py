@@ -49,27 +49,27 @@ def slip_coefficient(ws: Workspace, c: int, speed: float) -> float:
     return friction_coefficient(ws, c, max(speed, _INCIPIENT))
 
 
-@kernel("v2(ws, i8, v2, f8)")
-def slip_direction(ws: Workspace, c: int, slip: Pair, still: float) -> Pair:
+@kernel("v2(ws, i8, v2, f8, b1)")
+def slip_direction(ws: Workspace, c: int, slip: Pair, still: float, may_reverse: bool) -> Pair:
     """Return the direction of a slip of contact ``c``, continued smoothly through a reversal.
 
-    Within an implicit step of an impact, which stops slips itself, it is that of the slip.  A slip no faster than
-    ``still`` has no direction of its own: that at the start of the step holds.
+    If it ``may_reverse``, as within an implicit step of an impact, which stops slips itself, it is that of the slip. A
+    slip no faster than ``still`` [m/s] has no direction of its own: that at the start of the step holds.
     """
     d1, d2 = ws.contacts[c].direction
     v1, v2 = slip
     speed = length(slip)
     if speed > still:
-        inverse = (1.0 if ws.problem.is_turning or v1 * d1 + v2 * d2 >= 0.0 else -1.0) / speed
+        inverse = (1.0 if may_reverse or v1 * d1 + v2 * d2 >= 0.0 else -1.0) / speed
         d1, d2 = inverse * v1, inverse * v2
     return d1, d2
 
 
-@kernel("void(ws, i8, v2, f8)")
-def follow_slip(ws: Workspace, a: int, slip: Pair, still: float) -> None:
+@kernel("void(ws, i8, v2, f8, b1)")
+def follow_slip(ws: Workspace, a: int, slip: Pair, still: float, may_reverse: bool) -> None:
     """Write the direction of a slip (:func:`slip_direction`) and its coefficient of the active contact ``a``."""
     active = ws.actives[a]
-    active.direction = slip_direction(ws, active.contact, slip, still)
+    active.direction = slip_direction(ws, active.contact, slip, still, may_reverse)
     active.friction_coefficient = slip_coefficient(ws, active.contact, length(slip))
 
 

@@ -242,5 +242,5 @@ def array(life: Life, size: Size, kind: type, unit: str, sentence: str, **option
 
 
 def declarations(owner: type) -> Mapping[str, Declaration]:
-    """Return the declarations of an owner by name."""
+    """Declarations of an owner, by name."""
     return {name: value for name, value in vars(owner).items() if isinstance(value, Declaration)}

@@ -1,4 +1,4 @@
-"""The heaps of one trajectory: views by name, blocks appended behind the fixed arrays."""
+"""The workspace of one trajectory in Python: views by declaration, and blocks behind the arrays of the table."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class Heap:
         return start
 
     def close(self) -> Memory:
-        """Return the memory with all blocks in it, and behind them every table once."""
+        """The memory with all blocks, and each table once behind them."""
         old, tables = self._memory, {id(table): table for _, _, table in self._references}
         first, places = self._first + len(self._values), dict[int, int]()
         end = first
@@ -98,19 +98,19 @@ class Heap:
 
 
 def output_block(size: int) -> list[float]:
-    """Return what stands in a block that a plug-in writes before it does, guards included."""
+    """Content of a block before a plug-in has written it, guards included."""
     return size * [0.0] + GUARD * [UNTOUCHED]
 
 
 def counts_in(record: np.void) -> Counts:
-    """Return the counts that a record of scalars was laid out for."""
+    """Counts that a record of scalars was laid out for."""
     return {name: record[f"{Model.key}.{name}"].item() for name in COUNTS}
 
 
-def view_of(declared: Declaration, record: np.void, counts: Counts, heap: np.ndarray) -> np.ndarray:
-    """Return a view of the numbers of a declaration in a heap; the record of scalars says where they are."""
+def view_of(declared: Declaration, record: np.void, counts: Counts, numbers: np.ndarray) -> np.ndarray:
+    """View of the numbers of a declaration among all floats or integers. The record of scalars gives its place."""
     storage, start = storage_of(declared), int(record[declared.key])
-    numbers = heap[start : start + length_of(storage, counts)]
+    numbers = numbers[start : start + length_of(storage, counts)]
     if issubclass(declared.owner, Part):
         return numbers
     stride, first, n = stride_of(storage), declared.inside[1], declared.owner.capacity(counts)
@@ -122,16 +122,16 @@ def view_of(declared: Declaration, record: np.void, counts: Counts, heap: np.nda
 
 @dataclass(frozen=True)
 class Memory:
-    """Scalars and heaps of one trajectory.
+    """All numbers of one trajectory.
 
     Attributes
     ----------
     scalars : numpy.ndarray
-        The record ``S``, shape [1].
+        The record of scalars, shape [1].
     floats : numpy.ndarray
-        The heap ``w``: the arrays of the table, then the blocks that the assembly appended.
+        The arrays of floats, late ones last, then blocks and tables.
     integers : numpy.ndarray
-        The heap ``k``.
+        The arrays of integers.
     blocks, tables : int
         Where in ``floats`` the blocks that the assembly appended begin, and the tables behind them.
     references : tuple
@@ -156,7 +156,7 @@ class Memory:
     owner: Memory | None = None
 
     def __getitem__(self, declared: Any) -> Any:
-        """Return a scalar, or a view of an array: ``memory[Island.time]``, ``memory[Contact.gap]``.
+        """A scalar, or a view of an array: ``memory[Island.time]``, ``memory[Contact.gap]``.
 
         The first axis of the numbers of a record is the record, the second one, if it has several, the number.
         """
@@ -172,11 +172,11 @@ class Memory:
             self._view(declared)[...] = value
 
     def start(self, declared: Any) -> int:
-        """Return where the array of a declaration begins in its heap."""
+        """Place of the first number of an array among all floats or integers."""
         return int(self.record[declared.key])
 
     def declared(self, declared: Any) -> np.ndarray:
-        """Return a view of what the declared contacts hold of a number of contacts."""
+        """View of a number of all declared contacts, active or not."""
         return self._view(getattr(DeclaredContact, declared.name))
 
     def _view(self, declared: Declaration) -> np.ndarray:
@@ -185,8 +185,8 @@ class Memory:
         return self._views[declared]
 
     def _made_view(self, declared: Declaration) -> np.ndarray:
-        heap = self.floats if storage_of(declared).is_float else self.integers
-        return view_of(declared, self.record, self._counts, heap)
+        numbers = self.floats if storage_of(declared).is_float else self.integers
+        return view_of(declared, self.record, self._counts, numbers)
 
     @functools.cached_property
     def _views(self) -> dict[Declaration, np.ndarray]:
@@ -211,7 +211,7 @@ class Memory:
 
     @functools.cached_property
     def addresses(self) -> tuple[int, int, int]:
-        """Where scalars and heaps stand, for calls of the engine."""
+        """Addresses of scalars, floats and integers, for calls of the engine."""
         return self.scalars.ctypes.data, self.floats.ctypes.data, self.integers.ctypes.data
 
     @functools.cached_property
@@ -264,7 +264,7 @@ def allocate(counts: Mapping[str, int], own: tuple[type[Part], ...] = ()) -> Mem
 def _laid(
     counts: tuple[tuple[str, int], ...], own: tuple[type[Part], ...]
 ) -> tuple[tuple[float, ...], tuple[int, int]]:
-    """Return the numbers of the record of scalars, and the lengths of the heaps of floats and of integers.
+    """Numbers of the record of scalars, and the lengths of floats and integers.
 
     Kept, as systems that differ in their numbers only are laid out alike, and often one after another.
     """

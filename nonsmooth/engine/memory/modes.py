@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from enum import IntEnum
 
+from nonsmooth.engine.memory.limits import Limit
+
 
 class Mode(IntEnum):
     """Mode of a contact between events."""
@@ -82,6 +84,19 @@ NO_CONTACT = -1
 """Number in place of a contact where there is none."""
 NO_RELEASE = Cause.START
 """Cause of the release of a contact that no jump of its contact point released."""
+
+
+class Phase(IntEnum):
+    """Phase of a contact within an impact."""
+
+    IDLE = 0
+    """No force acts."""
+    COMPRESSION = 1
+    """The bodies approach each other, and the contact stores energy."""
+    EXPANSION = 2
+    """The bodies separate, and the contact returns energy."""
+    HELD = 3
+    """The contact stays closed without restitution: a unilateral constraint."""
 
 
 class Truncation(IntEnum):
@@ -175,7 +190,7 @@ REASONS = {
 }
 """Why a run ended, by status."""
 
-ENUMERATIONS = (Mode, Cause, Truncation, Painleve, Status)
+ENUMERATIONS = (Mode, Cause, Phase, Truncation, Painleve, Status, Limit)
 """All of them; signatures of kernels know them by their names."""
 
 
