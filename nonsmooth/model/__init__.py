@@ -1,1 +1,1 @@
-"""Layout of a system in memory, and its assembly."""
+"""Layout of a system in the memory of the engine, and checks of its start."""

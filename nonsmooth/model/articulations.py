@@ -1,4 +1,8 @@
-"""Which bodies stand in one articulation."""
+"""Articulations: groups of bodies that joints tie together.
+
+The constraint forces of a group are found together, with matrices over the velocities of the group. The velocities of a
+group are a range of those of the system, so a group consists of bodies in a row.
+"""
 
 from __future__ import annotations
 
@@ -11,12 +15,12 @@ from nonsmooth.system.system import System
 
 @dataclass(frozen=True)
 class Articulation:
-    """Bodies that joints tie together, and those joints.
+    """Bodies that joints tie together, and these joints.
 
     Attributes
     ----------
     first : int
-        Number of its first body in the system; the others follow.
+        Number of the first body in the system; the others follow.
     bodies : tuple of Body
         The bodies.
     joints : tuple of Tie
@@ -29,10 +33,10 @@ class Articulation:
 
 
 def articulations(system: System) -> list[Articulation]:
-    """Return the articulations in the order of their bodies.
+    """Articulations of a system, in the order of their bodies.
 
-    Bodies that stand between those of an articulation in the order of the system come with it, which costs time and
-    changes nothing.
+    A body between two bodies of an articulation, in the order of the system, belongs to it. That costs time and does
+    not change the motion.
     """
     bodies = system.bodies
     last = list(range(len(bodies)))

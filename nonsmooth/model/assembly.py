@@ -1,6 +1,12 @@
-"""From a System to the engine's memory."""
+"""Assembly: lays a System out in the memory of the engine.
+
+All sizes are known before the memory is allocated: first the parts of the system are counted, then they are written.
+"""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,28 +17,51 @@ from nonsmooth.engine.memory.memory import Heap, allocate
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import entry_addresses
 from nonsmooth.interfaces import Engine
-from nonsmooth.model.articulations import articulations
+from nonsmooth.model.articulations import Articulation, articulations
 from nonsmooth.model.block_ends import BlockEnds
+from nonsmooth.model.broad_phase import BroadPhase, find_broad_phase, lay_broad_phase
 from nonsmooth.model.checks import check_guards, check_start
 from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.engine_parts import check_report, counts_of, laid_own, settings_of
+from nonsmooth.model.feature_searches import lay_searches
 from nonsmooth.model.laid_out import LaidOut, map_width
 from nonsmooth.model.laying import lay_bodies, lay_guards, lay_joints, lay_loads
-from nonsmooth.model.laying_contacts import by_kind, initial_state, lay_contacts
-from nonsmooth.model.part_pairs import carriers_of, find_part_pairs, lay_part_pairs
-from nonsmooth.model.pools import lay_pools
-from nonsmooth.model.units import find_units, lay_units
+from nonsmooth.model.laying_contacts import Kinds, by_kind, initial_state, lay_contacts
+from nonsmooth.model.part_pairs import PartPair, carriers_of, find_part_pairs, lay_part_pairs
 from nonsmooth.system.system import System
 
 _EVENTS = 2048
-"""Events of the usual size that the buffers hold."""
-_TYPICAL = 32
-"""Contacts listed in an event of the usual size."""
-_SAMPLE_ROWS = 4096
+"""Number of events of the usual size that the buffers hold. To empty them costs little per event then."""
+_CONTACTS_PER_EVENT = 32
+"""Number of active contacts in an event of the usual size. A larger event leaves room for fewer events."""
+_SAMPLES = 4096
+"""Number of samples that the buffer holds."""
+
+
+class _Parts(NamedTuple):
+    """The parts of a system, found before the memory is allocated."""
+
+    kinds: Kinds
+    articulations: Sequence[Articulation]
+    table: ContactTable
+    broad_phase: BroadPhase
+    pairs: Sequence[PartPair]
+
+    @classmethod
+    def of(cls, system: System) -> _Parts:
+        bodies, contacts = system.bodies, system.contacts
+        table = ContactTable.of(bodies, contacts)
+        return cls(
+            by_kind(contacts),
+            articulations(system),
+            table,
+            find_broad_phase(contacts, table, bodies),
+            find_part_pairs(contacts, table),
+        )
 
 
 def assemble(system: System, engine: Engine) -> LaidOut:
-    """Lay out a validated system.
+    """Layout of a system at its start, which is checked.
 
     Raises
     ------
@@ -41,93 +70,100 @@ def assemble(system: System, engine: Engine) -> LaidOut:
     """
     model = lay(system, engine)
     ends = BlockEnds.of(model.memory)
-    _stand(model)
+    _place(model)
     check_start(model, ends)
     return model
 
 
 def lay_out(system: System, engine: Engine) -> LaidOut:
-    """Lay out a system, and list the contacts that are near each other at its start; look at nothing else there.
+    """Layout of a system at its start, with the neighbour list there, but without other checks of the start.
 
     Raises
     ------
     InvalidInput
-        If these are too many.
+        If too many contacts are near each other.
     """
     model = lay(system, engine)
-    _stand(model)
+    _place(model)
     return model
 
 
-def _stand(model: LaidOut) -> None:
+def _place(model: LaidOut) -> None:
+    """Write the start of each body, and make the neighbour list."""
     model.memory[owners.Island.y][: model.n_q + model.n_u] = np.concatenate(model.system.starts())
     model.list_contacts()
 
 
 def lay(system: System, engine: Engine) -> LaidOut:
-    """Lay out a system that stands nowhere yet.
+    """Layout of a system without a state.
 
     Raises
     ------
     InvalidInput
-        If the engine cannot run it or names what there is not, or a guard has no value where it was placed.
+        If the engine cannot run the system or declares something wrong, or a guard has no value at the start.
     """
     engine.check(system)
     check_report(engine)
     check_guards(system, 0.0, *system.starts())
-    bodies, contacts = system.bodies, system.contacts
-    n_q = sum(body.n_q for body in bodies)
-    n_u = sum(body.n_u for body in bodies)
-    kinds = by_kind(contacts)
-    n_states = sum(len(numbers) * len(initial_state(contacts[numbers[0]])) for numbers in kinds)
-    groups = articulations(system)
-    table = ContactTable.of(bodies, contacts)
-    units = find_units(contacts, table, bodies)
-    pairs = find_part_pairs(contacts, table)
-    n_y = n_q + n_u + N_ACCOUNTS + n_states
-    head = EVENT_HEAD + n_u + n_y + BOOKED
-    counts = {
-        "n_bodies": len(bodies),
-        "n_slots": units.n_slots,
-        "n_declared": len(contacts),
-        "n_spheres": len(units.radii),
-        "n_partners": len(units.pairs),
-        "n_paired": len(units.contacts),
-        "n_half_spaces": len(units.walls) if len(units.radii) > 0 else 0,
-        "n_searches": len(units.pools),
-        "n_pairs": len(pairs),
-        "n_carriers": len(carriers_of(pairs)),
-        "n_own_guards": len(system.guards),
-        "n_loads": len(system.loads),
-        "n_joints": len(system.joints),
-        "n_articulations": len(groups),
-        "n_q": n_q,
-        "n_u": n_u,
-        "n_y": n_y,
-        "n_states": n_states,
-        "map_width": map_width([contacts[numbers[0]] for numbers in kinds]),
-        "event_floats": _EVENTS * (head + LISTED * min(units.n_slots, _TYPICAL))
-        + MOST_EVENTS * (head + LISTED * units.n_slots),
-        "event_integers": _EVENTS * (CODE_HEAD + 2 * min(units.n_slots, _TYPICAL))
-        + MOST_EVENTS * (CODE_HEAD + 2 * units.n_slots),
-        "sample_capacity": _SAMPLE_ROWS,
-    }
-    free = [name for name in COUNTS if name not in counts]
-    counts = dict.fromkeys(COUNTS, 0) | counts | {**counts_of(engine, units.n_slots, free)}
+    contacts, parts = system.contacts, _Parts.of(system)
+    counts = _counts(system, engine, parts)
     settings = settings_of(engine, system.time_scale)
     memory = allocate(counts, laid_own(engine, counts))
-    heap = Heap(memory)
+    blocks = Heap(memory)
     memory[owners.Model.entry_points][: len(entry_addresses())] = entry_addresses()
-    places = lay_bodies(system, memory, heap)
-    lay_joints(memory, heap, groups, places)
-    lay_loads(system, memory, heap, places)
-    lay_contacts(memory, heap, contacts, table, kinds, places)
-    lay_units(memory, units, {(p.number, f): at for p in places.values() for f, at in enumerate(p.frames)})
-    lay_part_pairs(memory, heap, pairs, places)
-    lay_pools(memory, heap, units.pools, table, units.frames)
-    lay_guards(system, memory, heap)
-    model = LaidOut(system, heap.close(), n_q, n_u, n_states)
+    bodies = lay_bodies(system, memory, blocks)
+    lay_joints(memory, blocks, parts.articulations, bodies)
+    lay_loads(system, memory, blocks, bodies)
+    lay_contacts(memory, blocks, contacts, parts.table, parts.kinds, bodies)
+    frames = {(body.number, frame): at for body in bodies.values() for frame, at in enumerate(body.frames)}
+    lay_broad_phase(memory, parts.broad_phase, frames)
+    lay_part_pairs(memory, blocks, parts.pairs, frames)
+    lay_searches(memory, blocks, parts.broad_phase.searches, parts.table, parts.broad_phase.frames)
+    lay_guards(system, memory, blocks)
+    model = LaidOut(system, blocks.close(), counts["n_q"], counts["n_u"], counts["n_states"])
     for scalar, value in settings.items():
         model.memory[scalar] = value
     engine.prepare(model)
     return model
+
+
+def _counts(system: System, engine: Engine, parts: _Parts) -> dict[str, int]:
+    """All counts that the memory is allocated for."""
+    contacts, broad_phase = system.contacts, parts.broad_phase
+    n_q = sum(body.n_q for body in system.bodies)
+    n_u = sum(body.n_u for body in system.bodies)
+    n_states = sum(len(numbers) * len(initial_state(contacts[numbers[0]])) for numbers in parts.kinds)
+    n_y = n_q + n_u + N_ACCOUNTS + n_states
+    n_slots = broad_phase.n_slots
+    counts = {
+        "n_bodies": len(system.bodies),
+        "n_slots": n_slots,
+        "n_declared": len(contacts),
+        "n_spheres": len(broad_phase.radii),
+        "n_partners": len(broad_phase.pairs),
+        "n_paired": len(broad_phase.contacts),
+        "n_half_spaces": len(broad_phase.half_spaces) if len(broad_phase.radii) > 0 else 0,
+        "n_searches": len(broad_phase.searches),
+        "n_pairs": len(parts.pairs),
+        "n_carriers": len(carriers_of(parts.pairs)),
+        "n_own_guards": len(system.guards),
+        "n_loads": len(system.loads),
+        "n_joints": len(system.joints),
+        "n_articulations": len(parts.articulations),
+        "n_q": n_q,
+        "n_u": n_u,
+        "n_y": n_y,
+        "n_states": n_states,
+        "map_width": map_width([contacts[numbers[0]] for numbers in parts.kinds]),
+        "event_floats": _length_of_events(EVENT_HEAD + n_u + n_y + BOOKED, LISTED, n_slots),
+        "event_integers": _length_of_events(CODE_HEAD, 2, n_slots),
+        "sample_capacity": _SAMPLES,
+    }
+    free = [name for name in COUNTS if name not in counts]
+    return {**dict.fromkeys(COUNTS, 0), **counts, **counts_of(engine, n_slots, free)}
+
+
+def _length_of_events(head: int, per_contact: int, n_slots: int) -> int:
+    """Length of a buffer of events: many of the usual size, and all events of one instant."""
+    usual, largest = head + per_contact * min(n_slots, _CONTACTS_PER_EVENT), head + per_contact * n_slots
+    return _EVENTS * usual + MOST_EVENTS * largest

@@ -1,4 +1,4 @@
-"""The numbers behind blocks that plug-ins write: a plug-in that writes past its block is found by them."""
+"""BlockEnds: the marks behind blocks that plug-ins write. A changed mark shows that a plug-in wrote past its block."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ _UNTOUCHED = int(np.float64(UNTOUCHED).view(np.int64))
 @final
 @dataclass(frozen=True)
 class BlockEnds:
-    """The numbers behind blocks, which nobody may change.
+    """The marks behind the blocks of a memory.
 
     Attributes
     ----------
     places : array
-        Where they stand in the heap of floats.
+        Places of the marks among the floats of the memory.
     content : bytes
-        What stands there.
+        The marks.
     """
 
     places: NDArray[np.int64]
@@ -32,11 +32,11 @@ class BlockEnds:
 
     @classmethod
     def of(cls, memory: Memory) -> BlockEnds:
-        """Find them in a memory on which nothing was called yet."""
+        """Find the marks in a memory on which no plug-in was called yet."""
         _, arrays, _, blocks = (np.flatnonzero(part == _UNTOUCHED) for part in memory.kept)
         places = np.concatenate([arrays, memory.blocks + blocks])
         return cls(places, np.full(len(places), UNTOUCHED).tobytes())
 
-    def hold(self, memory: Memory) -> bool:
-        """True if all of them are as they were."""
+    def are_intact(self, memory: Memory) -> bool:
+        """True if no mark has changed."""
         return memory.floats[self.places].tobytes() == self.content

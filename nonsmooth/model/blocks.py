@@ -1,4 +1,4 @@
-"""The blocks of the engine's memory that plug-ins write, with their names, and who has written past the end of one."""
+"""The blocks that plug-ins write, with their owners, and the plug-in that wrote past the end of its block."""
 
 from __future__ import annotations
 
@@ -14,39 +14,39 @@ from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT, FRAME, GEOMETRY, GU
 from nonsmooth.interfaces import ImpactMap, Joint, Load, StatefulFrictionLaw, TractionLaw
 from nonsmooth.model.articulations import articulations
 from nonsmooth.model.block_ends import BlockEnds
+from nonsmooth.model.feature_searches import find_searches
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.pools import find_pools
 from nonsmooth.system.contact import Contact, Tie
 
 
 class Block(NamedTuple):
-    """A block of the engine's memory.
+    """A block of floats that a function writes.
 
     Attributes
     ----------
     label : callable
-        Returns in words whose it is.
+        Makes the names of the owner and of the function.
     function : callable
-        The function that writes it.
+        The function that writes the block.
     start, size : int
-        Where it begins, and its floats.
-    written : int
-        How many of them a function must write.
+        Place of the block among the floats of the memory, and its length.
+    n_written : int
+        Number of floats that the function must write.
     """
 
     label: Callable[[], str]
     function: Callable[..., None]
     start: int
     size: int
-    written: int
+    n_written: int
 
 
 def blocks(model: LaidOut) -> Iterator[Block]:
-    """Yield the blocks of loads, bodies and listed contacts; bodies feel loads, contacts both."""
+    """The blocks of loads, bodies and active contacts, in the order in which one may spoil the next."""
     yield from _blocks_of_bodies(model)
-    yield from _blocks_of_flights(model)
-    for slot in range(int(model.memory[owners.Island.n_contacts])):
-        yield _block_of_slot(model, slot)
+    yield from _blocks_of_ballistic_motion(model)
+    for index in range(int(model.memory[owners.Island.n_contacts])):
+        yield _block_of_contact(model, index)
 
 
 def _blocks_of_bodies(model: LaidOut) -> Iterator[Block]:
@@ -59,28 +59,31 @@ def _blocks_of_bodies(model: LaidOut) -> Iterator[Block]:
     for i, body in enumerate(system.bodies):
         start = _entry(model, owners.Body.out, i)
         rates = _entry(model, owners.Body.tail, i) - start + body.n_q + body.n_u
-        written = FRAME if body.n_u == 0 else rates
+        n_written = FRAME if body.n_u == 0 else rates
         yield Block(
             functools.partial("body {!r}, {!r}:".format, names[i], body),
             body.evaluator,
             start,
             rates + body.n_u**2 + 2,
-            written,
+            n_written,
         )
 
 
-def _blocks_of_flights(model: LaidOut) -> Iterator[Block]:
+def _blocks_of_ballistic_motion(model: LaidOut) -> Iterator[Block]:
     names = model.system.names.bodies
     for i, body in enumerate(model.system.bodies):
         if body.flight is not None and _entry(model, owners.Body.ballistic_function, i) != 0:
-            label, size = functools.partial("body {!r}, {!r} in flight:".format, names[i], body), body.n_q + body.n_u
+            label, size = (
+                functools.partial("body {!r}, {!r} in ballistic motion:".format, names[i], body),
+                body.n_q + body.n_u,
+            )
             yield Block(label, body.flight, _entry(model, owners.Body.ballistic_out, i), size, size)
 
 
-def _block_of_slot(model: LaidOut, slot: int) -> Block:
-    contact = model.system.contacts[_entry(model, owners.Contact.declared, slot)]
+def _block_of_contact(model: LaidOut, index: int) -> Block:
+    contact = model.system.contacts[_entry(model, owners.Contact.declared, index)]
     function, first = contact.kinematics.evaluator, model.memory.start(owners.Contact.geometry)
-    return Block(_label(contact, function), function, first + GEOMETRY * slot, PAIR, PAIR)
+    return Block(_label(contact, function), function, first + GEOMETRY * index, PAIR, PAIR)
 
 
 def _blocks_of_joints_and_laws(model: LaidOut) -> Iterator[Block]:
@@ -104,17 +107,17 @@ def _blocks_of_joints_and_laws(model: LaidOut) -> Iterator[Block]:
 
 
 def _blocks_of_searches(model: LaidOut) -> Iterator[Block]:
-    for number, pool in enumerate(find_pools(model.system.contacts)):
-        function = pool.search.function
-        label = functools.partial(_words, pool.owner, function)
-        yield Block(label, function, _entry(model, owners.Search.out, number), pool.size, 1)
+    for number, search in enumerate(find_searches(model.system.contacts)):
+        function = search.candidates.function
+        label = functools.partial(_names, search.owner, function)
+        yield Block(label, function, _entry(model, owners.Search.out, number), search.size, 1)
 
 
 def _label(owner: Tie | Contact, function: Callable[..., None]) -> Callable[[], str]:
-    return lambda: _words(str(owner), function)
+    return lambda: _names(str(owner), function)
 
 
-def _words(owner: str, function: Callable[..., None]) -> str:
+def _names(owner: str, function: Callable[..., None]) -> str:
     return f"{owner}: {described(function)},"
 
 
@@ -122,38 +125,36 @@ def _entry(model: LaidOut, declared: Any, i: int) -> int:
     return int(model.memory[declared][i])
 
 
-def written_past(model: LaidOut, ends: BlockEnds) -> str:
-    """Return a sentence that names a function that has written past its block; nothing if none has."""
+def block_overrun(model: LaidOut, ends: BlockEnds) -> str:
+    """Sentences that name a function that wrote past its block, or ""; ``ends`` are the ends of the model's blocks."""
     memory = model.memory
-    if ends.hold(memory) and not int(memory[owners.Run.n_past_map]) > 0:
+    n_past_map = int(memory[owners.Run.n_past_map])
+    if ends.are_intact(memory) and n_past_map <= 0:
         return ""
-    slots, listed = memory[owners.Model.n_slots], memory[owners.Island.n_contacts]
-    behind = memory[owners.Contact.geometry][:slots][:, PAIR:]
-    written = np.flatnonzero(np.any(behind != UNTOUCHED, axis=1))
-    pairs = [_block_of_slot(model, int(slot)) for slot in written if slot < listed]
+    places, n_active = memory[owners.Model.n_slots], memory[owners.Island.n_contacts]
+    overrun = np.flatnonzero(np.any(memory[owners.Contact.geometry][:places][:, PAIR:] != UNTOUCHED, axis=1))
     for block in (
         *_blocks_of_bodies(model),
-        *_blocks_of_flights(model),
-        *pairs,
+        *_blocks_of_ballistic_motion(model),
+        *(_block_of_contact(model, int(index)) for index in overrun if index < n_active),
         *_blocks_of_searches(model),
         *_blocks_of_joints_and_laws(model),
     ):
         end = block.start + block.size
-        touched = memory.floats[end : end + GUARD] != UNTOUCHED
-        if np.any(touched):
-            return _sentence(block.label(), block.size, block.size + int(np.argmax(touched)))
-    n = int(memory[owners.Run.n_past_map])
-    if n > 0:
+        is_changed = memory.floats[end : end + GUARD] != UNTOUCHED
+        if np.any(is_changed):
+            return _sentences(block.label(), block.size, block.size + int(np.argmax(is_changed)))
+    if n_past_map > 0:
         law = model.system.contacts[0].impact
         assert isinstance(law, ImpactMap)
-        return _sentence(f"{type(law).__name__}: {described(law.impulses)},", 3 * n, 3 * n)
-    if len(written):
-        return _sentence("the kinematics of a contact that is not near by now", PAIR, PAIR)
+        return _sentences(f"{type(law).__name__}: {described(law.impulses)},", 3 * n_past_map, 3 * n_past_map)
+    if len(overrun):
+        return _sentences("the kinematics of a contact that is not active any more", PAIR, PAIR)
     return ""
 
 
-def _sentence(name: str, size: int, number: int) -> str:
+def _sentences(name: str, size: int, number: int) -> str:
     return (
-        f"{name} has written past the {size} numbers of its block, to out[{number}] or further on: nothing that was "
-        "computed since can be trusted. `nonsmooth check` shows the line."
+        f"{name} has written past the {size} numbers of its block, to out[{number}] or beyond: all numbers computed "
+        "since may be wrong. `nonsmooth check` shows the line."
     )

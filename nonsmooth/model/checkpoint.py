@@ -1,8 +1,8 @@
-"""Checkpoints: what a step may find of those before it, taken from a memory and put back.
+"""Checkpoints: a copy of all numbers of a memory that a step may read from earlier steps.
 
-A checkpoint is what the field table says that outlives a step, and the blocks that plug-ins write. Nothing else is
-read before it is written, so a memory that holds a checkpoint goes on with the same bits. Parameters, sizes and
-addresses are no part of it: what comes from a file cannot change them.
+These are the numbers that outlive a step by the field table, and the blocks that plug-ins write. Every other number is
+written before it is read, so a run from a checkpoint gives the same bits. Parameters, sizes and addresses are left out,
+so that a file cannot change them.
 """
 
 from __future__ import annotations
@@ -21,27 +21,27 @@ from nonsmooth.engine.memory.memory import Memory, counts_in, view_of
 from nonsmooth.engine.memory.sizes import Counts
 from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, N_SCALARS, SCALARS
 from nonsmooth.errors import InvalidInput
-from nonsmooth.model.listed import copy_parameters, listed_contacts
+from nonsmooth.model.active_contacts import active_contacts, copy_parameters
 from nonsmooth.model.values import check_values
 from nonsmooth.packing import packed, unpacked
 from nonsmooth.types import Array
 
 Integers = NDArray[np.int64]
 Booleans = NDArray[np.bool_]
-_REMEDY = "It is damaged, or of another model: take one that a run left."
+_REMEDY = "It is damaged, or of another model: take the state of a run of this model."
 
 
 @final
 @dataclass(frozen=True)
 class Checkpoint:
-    """What a memory holds between two steps.
+    """Content of a memory between two steps.
 
     Attributes
     ----------
     parts : tuple of array
-        Copies of what :attr:`nonsmooth.engine.memory.memory.Memory.kept` shows, as integers of the same bits.
+        Copies of :attr:`nonsmooth.engine.memory.memory.Memory.kept`, as integers of the same bits.
     first : int
-        Where the blocks begin among all floats of the memory.
+        Place of the first block among the floats of the memory.
     """
 
     parts: tuple[Integers, ...]
@@ -49,12 +49,12 @@ class Checkpoint:
 
     @classmethod
     def of(cls, memory: Memory) -> Checkpoint:
-        """Take what a memory holds."""
+        """Copy the content of a memory."""
         return cls(tuple([part.copy() for part in memory.kept]), memory.blocks)
 
     @functools.cached_property
     def record(self) -> np.void:
-        """The scalars, but for those that an engine has of its own."""
+        """The scalars, without those of an engine's own part."""
         return cast(np.void, self.parts[0][:N_SCALARS].view(SCALARS)[0])
 
     @functools.cached_property
@@ -63,7 +63,7 @@ class Checkpoint:
 
     @functools.cached_property
     def size(self) -> int:
-        """Room that it takes [bytes]."""
+        """Size [bytes]."""
         return sum(part.nbytes for part in self.parts)
 
     @property
@@ -79,57 +79,57 @@ class Checkpoint:
         return view_of(declared, self.record, self._counts, part)
 
     def declared(self, declared: Any) -> np.ndarray:
-        """A view of what the declared contacts hold of a state of contacts."""
+        """A view of a number of the declared contacts that active contacts have, too."""
         return np.asarray(self[getattr(owners.DeclaredContact, declared.name)])
 
     def put(self, memory: Memory) -> None:
-        """Give a memory of the same model this content."""
-        listed = listed_contacts(memory).copy()
+        """Write this content into a memory of the same model."""
+        active = active_contacts(memory).copy()
         for own, kept in zip(memory.kept, self.parts, strict=True):
             own[:] = kept
-        if not np.array_equal(listed, listed_contacts(memory)):
+        if not np.array_equal(active, active_contacts(memory)):
             copy_parameters(memory)
 
 
 @final
 @dataclass(frozen=True)
 class Difference:
-    """What a checkpoint has that another one has not, as a file keeps it.
+    """Difference of a checkpoint from the blank one, in a form for files.
 
     Attributes
     ----------
     places, bits : tuple of array
-        Where they differ, and what stands there, one array for every part.
+        Places of the numbers that differ, and their bits, one array for each part.
     """
 
     places: tuple[Integers, ...]
     bits: tuple[Integers, ...]
 
     def __reduce__(self) -> tuple[Callable[[bytes], Difference], tuple[bytes]]:
-        """Let a pickle hold what is packed."""
+        """Pickle the packed difference."""
         return Difference.unpacked, (self.packed(),)
 
     @classmethod
     def between(cls, blank: Checkpoint, checkpoint: Checkpoint, changing: tuple[Booleans, ...]) -> Difference:
-        """What a checkpoint has that ``blank`` has not, of those numbers that a run may change."""
-        three = zip(blank.parts, checkpoint.parts, changing, strict=True)
-        places = tuple(np.flatnonzero((new != old) & may_change) for old, new, may_change in three)
+        """Difference of a checkpoint from a blank one, of the numbers that a run may change."""
+        triples = zip(blank.parts, checkpoint.parts, changing, strict=True)
+        places = tuple(np.flatnonzero((new != old) & may_change) for old, new, may_change in triples)
         return cls(places, tuple(part[at] for part, at in zip(checkpoint.parts, places, strict=True)))
 
     def packed(self) -> bytes:
-        """A few bytes of the same content; places count from the one before, and next to all of them are 1."""
+        """The difference as compressed bytes. Places are stored as distances, most of which are 1."""
         sizes = np.array([len(self.places), *map(len, self.places)])
         steps = [np.diff(places, prepend=0) for places in self.places]
         return packed(np.concatenate([sizes, *steps, *self.bits]).astype("<i8"))
 
     @classmethod
     def unpacked(cls, content: bytes) -> Difference:
-        """The difference that was packed.
+        """The difference of packed bytes.
 
         Raises
         ------
         ValueError, IndexError
-            If it is none.
+            If they are damaged.
         """
         numbers = unpacked(content, "<i8").astype(np.int64)
         n = int(numbers[0])
@@ -138,12 +138,12 @@ class Difference:
         return cls(tuple(np.cumsum(steps) for steps in parts[:n]), tuple(parts[n:]))
 
     def put(self, memory: Memory) -> None:
-        """Give a memory that holds the blank checkpoint what differs from it, which may come from a stranger's file.
+        """Write the difference into a memory that holds the blank checkpoint. It may come from a foreign file.
 
         Raises
         ------
         InvalidInput
-            If it does not fit the memory, or a number is none that a run can leave.
+            If it does not fit the memory, or a number is outside of its range.
         """
         self._check(memory)
         for own, places, bits in zip(memory.kept, self.places, self.bits, strict=True):
@@ -152,7 +152,13 @@ class Difference:
         copy_parameters(memory)
 
     def _check(self, memory: Memory) -> None:
-        """Raise InvalidInput unless it has the parts of a memory, and every place is one that a run may change."""
+        """Check that it has the parts of a memory, and that a run may change each place.
+
+        Raises
+        ------
+        InvalidInput
+            If that is not so.
+        """
         found = [(len(places), len(bits)) for places, bits in zip(self.places, self.bits, strict=False)]
         fits = len(self.places) == len(self.bits) == len(memory.kept) and all(a == b for a, b in found)
         if not fits:
@@ -162,5 +168,5 @@ class Difference:
             if len(wrong) == 0:
                 wrong = places[~may_change[places]]
             if len(wrong) > 0:
-                rule = f"must be those of {len(may_change)} numbers that a run may change"
+                rule = f"must be places of {len(may_change)} numbers that a run may change"
                 raise InvalidInput("State.continuation: places", rule, int(wrong[0]), _REMEDY)

@@ -1,4 +1,7 @@
-"""What must hold at the start: nothing overlaps, every joint is closed, every guard has a value."""
+"""Checks of a start: no bodies overlap, joints are closed, energies and guards have finite values.
+
+The engine assumes all of this. Without the checks a wrong start would end as a failed run that names no cause.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +16,7 @@ from nonsmooth.interfaces.body import Vector
 from nonsmooth.interfaces.guard import guard_value
 from nonsmooth.model.articulations import articulations
 from nonsmooth.model.block_ends import BlockEnds
-from nonsmooth.model.blocks import written_past
+from nonsmooth.model.blocks import block_overrun
 from nonsmooth.model.immobile import REMEDY, held_by, immobile_contact
 from nonsmooth.model.laid_out import LaidOut, energies
 from nonsmooth.model.overlaps import check_overlaps, frames_of, overlap_allowed
@@ -21,37 +24,26 @@ from nonsmooth.system.contact import Tie
 from nonsmooth.system.system import System
 
 _OPEN = 1e-9
+"""Largest residual or rate of a closed joint, relative to the largest coordinate or velocity: round-off of a start."""
 
 
 def check_start(model: LaidOut, ends: BlockEnds) -> None:
-    """Look at gaps and joints at the start; ``ends`` are those of its blocks.
+    """Check the start that the memory holds; ``ends`` are the ends of the model's blocks.
 
     Raises
     ------
     InvalidInput
-        If bodies overlap, a shape has no farthest point, a joint is open or opening, joints hold a contact along its
-        normal, or a guard has no finite value.
+        If bodies overlap, a joint is open or opens, joints prevent a contact from moving along its normal, or an energy
+        or a guard has no finite value.
     PluginError
         If a function writes past its block.
     """
     gaps = model.gaps()
-    past = written_past(model, ends)
-    if past:
-        raise PluginError(past[0].upper() + past[1:])
+    if overrun := block_overrun(model, ends):
+        raise PluginError(overrun[0].upper() + overrun[1:])
     _check_energy(model)
-    contacts = model.system.contacts
-    for number in np.flatnonzero(~(gaps >= 0.0)).tolist():
-        contact, gap = contacts[number], float(gaps[number])
-        compliant = isinstance(contact.normal, CompliantNormalLaw)
-        if not gap >= (-math.inf if compliant else -overlap_allowed(contact)):
-            _ask_shapes(model, number)
-            raise InvalidInput(
-                f"start of the {contact}",
-                "must not overlap: its gap must be >= 0 [m]",
-                gap,
-                "Place the bodies apart or touching, by System.place.",
-            )
-    # gaps tell of features that face each other, and bodies right through one another may have none
+    _check_gaps(model, gaps)
+    # bodies that overlap deeply may have no features that face each other, and then no gap
     check_overlaps(model)
     _check_joints(model)
     _check_mobility(model)
@@ -59,8 +51,23 @@ def check_start(model: LaidOut, ends: BlockEnds) -> None:
     check_guards(model.system, t, y[: model.n_q], y[model.n_q :])
 
 
+def _check_gaps(model: LaidOut, gaps: Vector) -> None:
+    """Check that no gap of a rigid contact is negative. That of a compliant contact only needs to be a number."""
+    for number in np.flatnonzero(~(gaps >= 0.0)).tolist():
+        contact, gap = model.system.contacts[number], float(gaps[number])
+        is_compliant = isinstance(contact.normal, CompliantNormalLaw)
+        if not gap >= (-math.inf if is_compliant else -overlap_allowed(contact)):
+            _check_shapes(model, number)
+            raise InvalidInput(
+                f"start of the {contact}",
+                "must not overlap: its gap must be >= 0 [m]",
+                gap,
+                "Place the bodies apart or touching, by System.place.",
+            )
+
+
 def _check_energy(model: LaidOut) -> None:
-    """Raise InvalidInput if numbers of a start are so large that an energy has no finite value."""
+    """Check that the energies are finite, which they are not if a number of the start is too large."""
     bodies = model.system.bodies
     found = energies(bodies, model.memory[owners.Body.tail][: len(bodies)], model.memory.floats)
     for what, value in zip(("kinetic", "potential"), found, strict=True):
@@ -69,23 +76,23 @@ def _check_energy(model: LaidOut) -> None:
             raise InvalidInput(thing, rule, value, "Place the bodies nearer to the origin, or let them move slower.")
 
 
-def _ask_shapes(model: LaidOut, number: int) -> None:
-    """Ask the shapes of a contact for points along each other's axes: one whose function is wrong there says so."""
+def _check_shapes(model: LaidOut, number: int) -> None:
+    """Evaluate the support points of the shapes of a contact along each other's axes; a wrong function raises there."""
     (p, a), (q, b) = ((frame[:3], frame[3:].reshape(3, 3)) for frame in frames_of(model, number))
-    ways = np.array([*a.T, *b.T, q - p])
-    ways = ways[np.any(ways, axis=1)]
+    directions = np.array([*a.T, *b.T, q - p])
+    directions = directions[np.any(directions, axis=1)]
     for shape, axes in zip(model.system.contacts[number].shapes, (a, b), strict=True):
         if shape.solid is not None:
-            for way in (*ways, *-ways):
-                shape.solid.support(way @ axes)
+            for direction in (*directions, *-directions):
+                shape.solid.support(direction @ axes)
 
 
 def _check_joints(model: LaidOut) -> None:
-    """Look at residual and rate of every row of every joint."""
+    """Check residual and rate of each row of each joint."""
     if not model.system.joints:
         return
     memory = model.memory
-    # speeds of a joint are judged by those of its bodies
+    # round-off of a rate is relative to the velocities of the bodies
     scale = max(1.0, float(np.max(np.abs(memory[owners.Island.y][: model.n_q + model.n_u]), initial=0.0)))
     number = 0
     for index, articulation in enumerate(articulations(model.system)):
@@ -114,32 +121,29 @@ def _check_joint(model: LaidOut, tie: Tie, number: int, articulation: int, allow
 
 
 def _remedy_of_joint(model: LaidOut, tie: Tie, what: str) -> str:
-    """Return what to do about a joint that is open at the start, or opens there as a driven body moves."""
-    remedy = "Place the bodies where the joint is closed; joints that contradict each other cannot all be."
-    for body in (tie.first, tie.second):
-        if what == "rate" and body.n_u == 0:
-            name = model.system.name_of(body)
-            return (
-                f"If {name!r} moves there, give the other body its velocity or let its motion begin at rest. {remedy}"
-            )
-    return remedy
+    """Remedy for a joint that is open at the start, or that opens because a driven body moves."""
+    remedy = "Place the bodies where the joint is closed; joints that contradict each other cannot all be closed."
+    driven = next((body for body in (tie.first, tie.second) if body.n_u == 0), None)
+    if what != "rate" or driven is None:
+        return remedy
+    name = model.system.name_of(driven)
+    return f"If {name!r} moves there, give the other body its velocity or let its motion begin at rest. {remedy}"
 
 
 def _check_mobility(model: LaidOut) -> None:
-    """Raise InvalidInput if a rigid contact touches whose gap no force can change."""
+    """Check that each touching rigid contact can move along its normal."""
     found = immobile_contact(model)
     if found is not None:
-        contact, joints, mobility = found
         raise InvalidInput(
-            f"start of the {contact}",
-            "must have some mobility along its normal, over that without joints",
-            mobility,
-            f"Its force is not determined, as {held_by(joints)}. {REMEDY}",
+            f"start of the {found.contact}",
+            "must have some effective inverse mass along its normal, relative to that without joints",
+            found.ratio,
+            f"Its force is not determined, as {held_by(found.joints)}. {REMEDY}",
         )
 
 
 def check_guards(system: System, t: float, q: Vector, u: Vector) -> None:
-    """Look at the guards of a system at a time [s], for its coordinates and velocities.
+    """Check that the guards of the user have finite values at a time [s], for coordinates and velocities of a system.
 
     Raises
     ------
@@ -154,5 +158,5 @@ def check_guards(system: System, t: float, q: Vector, u: Vector) -> None:
                 f"{watched}: {type(guard).__name__}.value",
                 "must return a finite number at the start",
                 value,
-                f"Look at {guard.value.__qualname__} with t = {t:g} and the q and u of the start.",
+                f"Call {guard.value.__qualname__} with t = {t:g} and the q and u of the start.",
             )

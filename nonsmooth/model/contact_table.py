@@ -1,4 +1,4 @@
-"""What the contacts of a system have in numbers, read once for all that lay them."""
+"""ContactTable: the numbers of all contacts of a system as arrays. To read thousands of contacts once saves time."""
 
 from __future__ import annotations
 
@@ -17,30 +17,30 @@ from nonsmooth.types import Array
 
 @dataclass(frozen=True, eq=False)
 class ContactTable:
-    """Numbers of the contacts, those of both sides in a row, shape [n, 2] each.
+    """Numbers of the contacts, a row for each contact and a column for each side.
 
     Attributes
     ----------
     bodies, frames : array
-        Number of the body, and of its frame.
-    extents, levers : array
-        Those of the shapes [m].
+        Numbers of the bodies, and of their frames, shape [n, 2].
+    extents, support_radii : array
+        Extents and levers of the shapes (:class:`nonsmooth.interfaces.Shape`) [m], shape [n, 2].
     revolutions : array
-        That of the shape with the smaller lever, shape [n, 3].
+        Axis of revolution of the shape with the smaller lever, or zero, shape [n, 3].
     """
 
     bodies: NDArray[np.int64]
     frames: NDArray[np.int64]
     extents: Array
-    levers: Array
+    support_radii: Array
     revolutions: Array
 
     @classmethod
     def of(cls, bodies: Sequence[Body], contacts: Sequence[Contact]) -> ContactTable:
-        """Read contacts between these bodies."""
+        """The table of contacts between these bodies."""
         number = {id(body): i for i, body in enumerate(bodies)}
         sides = [[number[i] for i in map(id, map(attrgetter(side), contacts))] for side in ("first", "second")]
-        frames, extents, levers = (
+        frames, extents, support_radii = (
             list(itertools.chain.from_iterable(map(attrgetter(name), contacts)))
             for name in ("frames", "extents", "levers")
         )
@@ -50,6 +50,6 @@ class ContactTable:
             np.array(sides, np.int64).T,
             np.array(frames, np.int64).reshape(-1, 2),
             np.array(extents, float).reshape(-1, 2),
-            np.array(levers, float).reshape(-1, 2),
+            np.array(support_radii, float).reshape(-1, 2),
             np.array([revolutions[i] for i in map(id, shapes)], float).reshape(-1, 3),
         )

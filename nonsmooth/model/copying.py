@@ -1,4 +1,4 @@
-"""Another memory of the same system, for another thread."""
+"""Copies of a memory, for another thread: the tables of meshes are shared, as they may be large."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from nonsmooth.engine.native.kernel import PLAIN
 
 
 def copied(memory: Memory) -> Memory:
-    """Return a memory with the same content, but for output and scratch, that reads the same tables.
+    """Memory with the same content, without buffers of output, that reads the same tables.
 
-    The numbers that lead to tables are offsets, and the engine's pointers have no bounds: they may lead into another
-    memory.  In plain mode they have, and the tables are copied.
+    The number that refers to a table is a distance in floats. Pointers of the compiled engine have no bounds, so it may
+    point into the other memory. In plain mode there are arrays instead, and the tables are copied.
     """
     owner = memory if memory.owner is None else memory.owner
     floats = np.zeros(len(owner.floats) if PLAIN else memory.tables)
@@ -28,7 +28,7 @@ def copied(memory: Memory) -> Memory:
     for own, other in zip(made.early, memory.early, strict=True):
         own[:] = other
     floats[memory.tables :] = owner.floats[memory.tables : len(floats)]
-    way = 0 if PLAIN else (owner.floats.ctypes.data - floats.ctypes.data) // floats.itemsize
+    distance = 0 if PLAIN else (owner.floats.ctypes.data - floats.ctypes.data) // floats.itemsize
     for place, start, table in memory.references:
-        floats[place] = table - start + way
+        floats[place] = table - start + distance
     return made

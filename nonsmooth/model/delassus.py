@@ -1,4 +1,4 @@
-"""A Delassus matrix given in full, in and out of the blocks of the engine's memory."""
+"""Writes and reads a full Delassus matrix, which the memory holds as blocks of pairs of contacts."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ Floats = NDArray[np.float64]
 
 
 def write_delassus(memory: Memory, matrix: Floats) -> None:
-    """Lay a matrix of shape [3 n, 3 n] into the memory, for the contacts 0 to n - 1 in this order.
+    """Write a matrix of shape [3 n, 3 n] for the contacts 0 to n - 1, in this order.
 
-    Contacts whose blocks are zero both ways do not act on each other.
+    Two contacts with zero blocks both ways do not act on each other, and get no block.
 
     Raises
     ------
     InvalidInput
-        If there are more blocks than the memory has room for.
+        If there are more blocks than the memory can hold.
     """
     n = len(matrix) // 3
     blocks = np.reshape(matrix, (n, 3, n, 3)).transpose(0, 2, 1, 3)
@@ -29,7 +29,7 @@ def write_delassus(memory: Memory, matrix: Floats) -> None:
     coupled |= coupled.T | np.eye(n, dtype=bool)
     rows, columns = np.nonzero(coupled)
     if len(columns) > MOST_BLOCKS:
-        remedy = "Solve contacts that do not act on each other apart."
+        remedy = "Solve groups of contacts that do not act on each other separately."
         raise InvalidInput("contacts", f"must couple in at most {MOST_BLOCKS} pairs", len(columns), remedy)
     memory[owners.Island.block_start][: n + 1] = np.searchsorted(rows, np.arange(n + 1))
     memory[owners.Island.block_column][: len(columns)] = columns
@@ -38,7 +38,7 @@ def write_delassus(memory: Memory, matrix: Floats) -> None:
 
 
 def read_delassus(memory: Memory, n: int) -> Floats:
-    """Return the matrix of the contacts 0 to n - 1, shape [3 n, 3 n]."""
+    """Matrix of the contacts 0 to n - 1, shape [3 n, 3 n]."""
     starts = memory[owners.Island.block_start][: n + 1]
     columns = memory[owners.Island.block_column][: int(starts[-1])]
     rows = np.repeat(np.arange(n), np.diff(starts))

@@ -1,4 +1,7 @@
-"""What an engine says that it works with, looked through before it is laid out: names, lengths, numbers."""
+"""Checks of what an engine declares: counts, settings, a part of its own, causes and measures.
+
+An engine may be a plug-in. A wrong declaration is found before the memory is laid out, and the message names it.
+"""
 
 from __future__ import annotations
 
@@ -16,28 +19,28 @@ from nonsmooth.interfaces.engine_report import FIRST_CODE
 
 
 def counts_of(engine: Engine, n_slots: int, free: Collection[str]) -> Mapping[str, int]:
-    """Return the counts that it decides out of those that are free.
+    """Counts that the engine decides, by the largest number of active contacts; only ``free`` ones may be among them.
 
     Raises
     ------
     InvalidInput
-        If another one is among them, or one is no length.
+        If another count is among them, or one is no length.
     """
     found = engine.counts(n_slots)
     for name in _known(engine, "counts", found, free):
         if not (isinstance(found[name], int) and found[name] >= 0):
-            rule = "must be a whole number, not negative"
+            rule = "must be an integer, not negative"
             raise InvalidInput(f"{_name(engine)}.counts: {name}", rule, found[name], "It is a length of arrays.")
     return found
 
 
 def settings_of(engine: Engine, time_scale: float) -> Mapping[Any, float]:
-    """Return the scalars that it sets.
+    """Scalars that the engine sets, and their values; ``time_scale`` [s] is that of the prescribed motions.
 
     Raises
     ------
     InvalidInput
-        If a key is no scalar, is one that sizes the workspace, or a value is no number.
+        If a key is no scalar, is the size of an array, or a value is no number.
     """
     found = engine.settings(time_scale)
     for one, value in found.items():
@@ -45,19 +48,19 @@ def settings_of(engine: Engine, time_scale: float) -> Mapping[Any, float]:
         if not (isinstance(one, Declaration) and issubclass(one.owner, Part) and one.size is None):
             raise InvalidInput(thing, rule, one, "Return for example {Tolerance.relative: 1e-9}.")
         if one.key in CONSTANT_SCALARS:
-            raise InvalidInput(f"{thing}: {one.key}", "must be none that sizes the workspace", one.key, "Leave it out.")
+            raise InvalidInput(f"{thing}: {one.key}", "must not be the size of an array", one.key, "Leave it out.")
         if not isinstance(value, Real):
             raise InvalidInput(f"{thing}: {one.key}", "must be a number", value, "Return its value in SI units.")
     return found
 
 
 def own_of(engine: Engine) -> tuple[type[Part], ...]:
-    """Return the numbers that it has of its own.
+    """The engine's own part of the workspace, as a tuple of one or none.
 
     Raises
     ------
     InvalidInput
-        If they are no class of declarations.
+        If it is no class of declarations.
     """
     own = engine.own
     if own is None:
@@ -69,19 +72,19 @@ def own_of(engine: Engine) -> tuple[type[Part], ...]:
 
 
 def laid_own(engine: Engine, counts: Mapping[str, int]) -> tuple[type[Part], ...]:
-    """Return the numbers that it has of its own in a system of these counts.
+    """The engine's own part, checked for a system of these counts.
 
     Raises
     ------
     InvalidInput
-        If its key is taken, or a length is none that the counts give.
+        If another owner has its key, or the counts do not give a length.
     """
     for own in own_of(engine):
         thing = f"{_name(engine)}.own"
         taken = get_type_hints(Workspace)
         if own.key in taken or not own.key.isidentifier():
-            rule = "must have for its key a name in Python that no other owner has"
-            raise InvalidInput(thing, rule, own.key, "Take the name of the engine.")
+            rule = "must be a name in Python that no other owner has"
+            raise InvalidInput(f"{thing}: key", rule, own.key, "Take the name of the engine.")
         for name, one in declarations(own).items():
             _check_length(f"{thing}: {name}", one, counts)
     return own_of(engine)
@@ -95,28 +98,31 @@ def _check_length(thing: str, declared: Declaration, counts: Mapping[str, int]) 
     except KeyError as error:
         raise UnknownName(f"{thing}: count", str(error.args[0]), counts) from error
     if not (isinstance(length, int) and length >= 0):
-        rule = "must have a whole number for its length, not negative"
+        rule = "must have an integer as its length, not negative"
         raise InvalidInput(thing, rule, length, "Take per(...) or fixed(...).")
 
 
 def check_report(engine: Engine) -> None:
-    """Look whether an engine can report what it declares.
+    """Check the measures, the causes and the promised residual of an engine.
 
     Raises
     ------
     InvalidInput
-        If a measure is no scalar of its own, a cause has a code that is taken, or the promised residual is no part.
+        If a measure is no scalar of its own part, two causes have the same code or one has a code of a
+        :class:`~nonsmooth.engine.memory.modes.Status`, or the residual is not positive.
     """
     scalars = [name for own in own_of(engine) for name, one in declarations(own).items() if one.size is None]
     _known(engine, "verdict", [one.name for one in engine.verdict], scalars)
     codes = [cause.code for cause in engine.causes]
     if len({*codes}) < len(codes) or min(codes, default=FIRST_CODE) < FIRST_CODE:
-        rule = f"must have codes of their own, {FIRST_CODE} or more"
-        raise InvalidInput(f"{_name(engine)}.causes", rule, codes, "Number the causes anew.")
+        rule = f"must have different codes, {FIRST_CODE} or more"
+        raise InvalidInput(f"{_name(engine)}.causes", rule, codes, "Number the causes again.")
     promised = engine.promised_residual
     if promised is not None and not (isinstance(promised, Real) and math.isfinite(promised) and promised > 0.0):
         rule = "must be a positive finite number or None"
-        raise InvalidInput(f"{_name(engine)}.promised_residual", rule, promised, "Give a part of the energy exchanged.")
+        raise InvalidInput(
+            f"{_name(engine)}.promised_residual", rule, promised, "Give it relative to the energy exchanged."
+        )
 
 
 def _known(engine: Engine, what: str, names: Iterable[str], known: Collection[str]) -> tuple[str, ...]:

@@ -1,6 +1,13 @@
-"""Contacts whose gap no force changes, as joints hold their points along the normal."""
+"""Contacts that no force can move along their normal, because joints hold their points.
+
+The effective inverse mass of a contact is the acceleration of its gap per normal force [1/kg]: W^T K W, where K is the
+inverse mass that the joints leave. If it is zero relative to W^T M^-1 W, that of the bodies without their joints, the
+joints bear the whole force, and no motion determines it.
+"""
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 
@@ -12,77 +19,85 @@ from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.system.contact import Contact, Tie
 
 REMEDY = "Leave a clearance between its bodies there."
-"""What to do about such a contact."""
+"""Remedy for such a contact."""
 
 
-def immobile_contact(model: LaidOut) -> tuple[Contact, list[Tie], float] | None:
-    """Return the first rigid contact that touches and has no mobility along its normal, None if there is none.
+class ImmobileContact(NamedTuple):
+    """A contact that no force can move along its normal.
 
-    The mobility of a contact is its gap acceleration per normal force [1/kg]: W^T K W, K being the inverse mass that
-    joints leave.  Where it vanishes next to W^T M^-1 W, that of the bodies without their joints, the force is not
-    determined by any motion: the joints take all of it.
-
-    Returns
-    -------
-    tuple or None
-        The contact, the joints of its bodies, and its mobility over that without joints.
+    Attributes
+    ----------
+    contact : Contact
+        The contact.
+    joints : list of Tie
+        The joints of its bodies.
+    ratio : float
+        Its effective inverse mass relative to that without joints.
     """
+
+    contact: Contact
+    joints: list[Tie]
+    ratio: float
+
+
+def immobile_contact(model: LaidOut) -> ImmobileContact | None:
+    """The first touching rigid contact that cannot move along its normal, or None."""
     if not model.system.joints:
         return None
     memory = model.memory
     call_entry("touch", memory)
     n = int(memory[owners.Island.n_contacts])
-    touching, identity = memory[owners.Contact.is_touching][:n], memory[owners.Contact.declared][:n]
-    for slot in np.flatnonzero(touching == 1).tolist():
-        contact = model.system.contacts[int(identity[slot])]
+    touching, active = memory[owners.Contact.is_touching][:n], memory[owners.Contact.declared][:n]
+    for index in np.flatnonzero(touching == 1).tolist():
+        contact = model.system.contacts[int(active[index])]
         if isinstance(contact.normal, CompliantNormalLaw):
             continue
         held = free = 0.0
         for side in ("a", "b"):
-            with_joints, without = _mobilities(model, slot, side)
+            with_joints, without = _inverse_masses(model, index, side)
             held, free = held + with_joints, free + without
-        # between driven bodies there is nothing to move, with or without joints
+        # two driven bodies have none, with or without joints
         if free > 0.0 and held <= SINGULAR * free:
             bodies = contact.first, contact.second
             joints = [tie for tie in model.system.joints if tie.first in bodies or tie.second in bodies]
-            return contact, joints, held / free
+            return ImmobileContact(contact, joints, held / free)
     return None
 
 
 def held_by(joints: list[Tie]) -> str:
-    """Return what holds a contact, in words: the joints of its bodies."""
+    """Clause that names the joints that hold a contact."""
     names = ", ".join(f"the {tie}" for tie in joints)
     return f"{names} {'holds' if len(joints) == 1 else 'hold'} it there"
 
 
-def _mobilities(model: LaidOut, slot: int, side: str) -> tuple[float, float]:
-    """Return the mobility along the normal that one side of a contact gives it, with and without joints [1/kg]."""
+def _inverse_masses(model: LaidOut, index: int, side: str) -> tuple[float, float]:
+    """Effective inverse mass of one side of an active contact along its normal, with and without joints [1/kg]."""
     memory = model.memory
     contact, articulation = owners.Contact, owners.Articulation
     fields = {
         "a": (contact.articulation_a, contact.jacobian_a, contact.response_a),
         "b": (contact.articulation_b, contact.jacobian_b, contact.response_b),
     }
-    number, *places = (int(memory[field][slot]) for field in fields[side])
+    number, *places = (int(memory[field][index]) for field in fields[side])
     n_u, first, count, start = (
         int(memory[field][number])
         for field in (articulation.n_u, articulation.first_body, articulation.n_bodies, articulation.u)
     )
     row, response = (memory.floats[place : place + n_u] for place in places)
-    free = sum(_free_mobility(model, body, row, start) for body in range(first, first + count))
+    free = sum(_free_inverse_mass(model, body, row, start) for body in range(first, first + count))
     return float(row @ response), free
 
 
 def inverse_mass(model: LaidOut, number: int) -> np.ndarray:
-    """Return the inverse mass matrix of a body alone, as it was evaluated last, shape [n_u, n_u]."""
+    """Inverse mass matrix of a body without joints, as it was evaluated last, shape [n_u, n_u]."""
     memory, body = model.memory, model.system.bodies[number]
     tail = int(memory[owners.Body.tail][number])
     start = tail + body.n_q + body.n_u
     return np.asarray(memory.floats[start : start + body.n_u**2].reshape(body.n_u, body.n_u))
 
 
-def _free_mobility(model: LaidOut, number: int, row: np.ndarray, start: int) -> float:
-    """Return the mobility that a body alone gives to a row over the velocities of its articulation [1/kg]."""
+def _free_inverse_mass(model: LaidOut, number: int, row: np.ndarray, start: int) -> float:
+    """Effective inverse mass of a body without joints [1/kg], for a row over the velocities of its articulation."""
     body = model.system.bodies[number]
     if body.n_u == 0:
         return 0.0

@@ -1,4 +1,4 @@
-"""LaidOut: a system laid out in the engine's memory."""
+"""LaidOut: a system in the memory of the engine, and the quantities that are read from there."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from nonsmooth.binding.compile import parameter_names
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.blocks import FRAME
+from nonsmooth.engine.memory.blocks import FRAME, GAP
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import NOT_FINITE, RUNNING
@@ -18,8 +18,8 @@ from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.errors import InvalidInput, PluginError
 from nonsmooth.interfaces import Body, ImpactMap
 from nonsmooth.interfaces.distance_backend import Place
-from nonsmooth.model.part_pairs import unwatched
-from nonsmooth.model.pools import failed_search
+from nonsmooth.model.feature_searches import failed_search
+from nonsmooth.model.part_pairs import contacts_without_parts
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
 from nonsmooth.watch import Watch
@@ -27,16 +27,16 @@ from nonsmooth.watch import Watch
 
 @dataclass(frozen=True)
 class LaidOut:
-    """A system laid out in memory, ready to run.
+    """A system in memory, ready to run.
 
     Attributes
     ----------
     system : System
-        What it was made from.
+        The system.
     memory : Memory
-        Scalars and heaps.
+        The workspace of the engine.
     n_q, n_u, n_states : int
-        Numbers of coordinates and velocities of all bodies, and of the inner states of laws.
+        Numbers of coordinates and velocities of all bodies, and of inner states of laws.
     """
 
     system: System
@@ -47,31 +47,31 @@ class LaidOut:
 
     @property
     def n_y(self) -> int:
-        """Length of the integrated state: q, u, accounts, states of laws."""
+        """Length of the integrated state: q, u, energy accounts, inner states of laws."""
         return self.n_q + self.n_u + N_ACCOUNTS + self.n_states
 
     @functools.cached_property
     def sizes(self) -> tuple[int, int, int, int]:
-        """Numbers of contacts, coordinates, velocities, and of all that is integrated."""
+        """Numbers of contacts, coordinates, velocities and integrated numbers."""
         return len(self.system.contacts), self.n_q, self.n_u, self.n_y
 
     @functools.cached_property
     def watch(self) -> Watch:
-        """What calls of the engine on its memory are made through that may take long."""
+        """Calls of the engine that may take long are made through it: it reports progress, and Ctrl-C stops them."""
         return Watch(self.memory)
 
     @functools.cached_property
-    def unwatched(self) -> list[int]:
-        """Numbers of the contacts at whose pairs of bodies the engine cannot look."""
-        return unwatched(self.system.contacts)
+    def contacts_without_parts(self) -> list[int]:
+        """Numbers of the contacts whose bodies the engine cannot check for overlap."""
+        return contacts_without_parts(self.system.contacts)
 
     def list_contacts(self) -> None:
-        """List the contacts that are near each other at the present state.
+        """Make the neighbour list at the current state: the active contacts.
 
         Raises
         ------
         InvalidInput
-            If there is no room for so many.
+            If there are more than the memory can hold.
         PluginError
             If a search for features fails.
         """
@@ -81,23 +81,23 @@ class LaidOut:
         if status != RUNNING:
             raise InvalidInput(
                 "contacts of the system",
-                f"must not be so many near each other: there is room for {int(self.memory[owners.Model.n_slots])}",
+                f"must have at most {int(self.memory[owners.Model.n_slots])} near each other",
                 "more of them",
                 "Place the bodies farther apart, or take coarser meshes.",
             )
 
     def evaluate(self) -> None:
-        """Evaluate bodies and contacts at the present state."""
+        """Evaluate bodies and contacts at the current state."""
         call_entry("evaluate_at", self.memory)
 
     def energy(self) -> tuple[float, float]:
-        """Return kinetic and potential energy [J] of the present state."""
+        """Kinetic and potential energy [J] at the current state."""
         self.evaluate()
         bodies = self.system.bodies
         return energies(bodies, self.memory[owners.Body.tail][: len(bodies)], self.memory.floats)
 
     def places(self) -> list[list[Place]]:
-        """Return position [m] and rotation matrix of every frame of every body, as they were evaluated last."""
+        """Position [m] and rotation matrix of each frame of each body, as they were evaluated last."""
         found, memory = list[list[Place]](), self.memory
         for body, start in zip(self.system.bodies, memory[owners.Body.out][: len(self.system.bodies)], strict=True):
             width = FRAME + 6 * body.n_u
@@ -106,30 +106,29 @@ class LaidOut:
         return found
 
     def gaps(self) -> np.ndarray:
-        """Return the gaps [m, n_contacts] at the present state; infinite for contacts too far to be listed."""
+        """Gaps [m] at the current state, shape [n_contacts]; infinite for contacts that are not active."""
         self.evaluate()
         n = int(self.memory[owners.Island.n_contacts])
         gaps = np.full(len(self.system.contacts), np.inf)
-        listed = self.memory[owners.Contact.geometry][:n][:, 0]
-        gaps[self.memory[owners.Contact.declared][:n]] = listed
+        gaps[self.memory[owners.Contact.declared][:n]] = self.memory[owners.Contact.geometry][:n][:, GAP]
         return gaps
 
     def rates(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return gaps [m, n_contacts] and relative velocities [m/s, n_contacts x 3] at the present state.
+        """Gaps [m] and relative velocities [m/s] at the current state, shapes [n_contacts] and [n_contacts, 3].
 
-        Those of contacts that are too far to be listed are not a number.
+        They are nan for contacts that are not active.
         """
         self.evaluate()
         total, n = len(self.system.contacts), int(self.memory[owners.Island.n_contacts])
         gaps, rates = np.full(total, np.nan), np.full((total, 3), np.nan)
-        listed = self.memory[owners.Contact.declared][:n]
-        gaps[listed] = self.memory[owners.Contact.geometry][:n][:, 0]
-        rates[listed] = self.memory[owners.Contact.rate][:n]
+        active = self.memory[owners.Contact.declared][:n]
+        gaps[active] = self.memory[owners.Contact.geometry][:n][:, GAP]
+        rates[active] = self.memory[owners.Contact.rate][:n]
         return gaps, rates
 
 
 def energies(bodies: tuple[Body, ...], tails: np.ndarray, numbers: np.ndarray) -> tuple[float, float]:
-    """Return kinetic and potential energy [J] of bodies that were evaluated; their tails stand there in ``numbers``."""
+    """Kinetic and potential energy [J] of bodies, from the tails of their output at these places in ``numbers``."""
     kinetic = potential = 0.0
     for body, tail in zip(bodies, tails.tolist(), strict=True):
         if body.n_u > 0:
@@ -140,7 +139,7 @@ def energies(bodies: tuple[Body, ...], tails: np.ndarray, numbers: np.ndarray) -
 
 
 def map_width(contacts: Sequence[Contact]) -> int:
-    """Return how many numbers a law that maps velocities takes per contact."""
+    """Number of parameters per contact of an impact law that maps velocities, 1 without such a law."""
     for contact in contacts:
         if isinstance(contact.impact, ImpactMap):
             return len(parameter_names(contact.impact.impulses, "map"))

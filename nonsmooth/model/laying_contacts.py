@@ -1,13 +1,17 @@
-"""Contacts and their laws, laid into the engine's memory."""
+"""Writes contacts and their laws into the memory.
+
+Contacts with the same geometry and laws form a kind. Functions are compiled and parameters read once for each kind, and
+each contact of the kind gets a copy of the same block.
+"""
 
 from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from operator import attrgetter, itemgetter
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -29,32 +33,54 @@ from nonsmooth.interfaces import (
     TractionLaw,
 )
 from nonsmooth.model.contact_table import ContactTable
-from nonsmooth.model.laying import Places
+from nonsmooth.model.laying import BodyLayouts
 from nonsmooth.parameters import Table, Value
 from nonsmooth.system.contact import Contact
 
-_Function: TypeAlias = tuple[str, Callable[..., Any], str, Mapping[str, Value]]
-"""Name, function, form, parameters that it may ask for."""
 Kinds: TypeAlias = Sequence[list[int]]
 """The numbers of the contacts of each kind."""
 
 
+class _Function(NamedTuple):
+    """A function of a contact.
+
+    Attributes
+    ----------
+    name : str
+        Begin of the names of its fields.
+    function : callable
+        The function.
+    form : str
+        The form of its arguments.
+    available : mapping
+        Parameters that may be among its arguments.
+    part : object
+        The kinematics or law that has the function.
+    """
+
+    name: str
+    function: Callable[..., Any]
+    form: str
+    available: Mapping[str, Value]
+    part: object
+
+
 @dataclass
 class Kind:
-    """What contacts of the same geometry and laws have in common.
+    """Fields and block of a contact, the same for all contacts with the same geometry and laws.
 
     Attributes
     ----------
     fields : dict
-        Numbers of the declared contacts.
+        Fields of the declared contact.
     offsets : dict
-        Those that lead to a place in the block, from its beginning.
+        Fields that are places in the block, from its start.
     block : list of float
-        What each of them has on the heap.
+        The block.
     written : list of tuple
-        (place in the block, length) of what the engine or a law writes there.
+        (place in the block, length) of numbers that the engine or a law writes.
     tables : list of tuple
-        (place in the block, place from which its number counts, table).
+        (place in the block, place from which its distance counts, table).
     """
 
     fields: dict[str, int] = field(default_factory=lambda: {"mode": OPEN})
@@ -64,49 +90,48 @@ class Kind:
     tables: list[tuple[int, int, Table]] = field(default_factory=list)
 
     def store(self, name: str, values: Sequence[float]) -> int:
-        """Append values, to which an entry leads; return where they begin."""
+        """Append values, whose place is the field ``name``; the result is the place."""
         start = self.offsets[name] = len(self.block)
         self.block += values
         return start
 
     def output(self, name: str, size: int) -> None:
-        """Append numbers that a law writes, to which an entry leads."""
+        """Append numbers that a law writes, whose place is the field ``name``."""
         self.written.append((self.store(name, output_block(size)), size))
 
 
 def lay_contacts(
-    memory: Memory, heap: Heap, contacts: Sequence[Contact], table: ContactTable, kinds: Kinds, places: Places
+    memory: Memory, blocks: Heap, contacts: Sequence[Contact], table: ContactTable, kinds: Kinds, bodies: BodyLayouts
 ) -> None:
-    """Lay the contacts, and reserve the Jacobians of the slots."""
-    tried = set[tuple[Any, ...]]()
+    """Write the declared contacts, and reserve the Jacobians of the active ones."""
+    contact, tried = owners.Contact, set[tuple[Any, ...]]()
     for numbers in kinds:
         kind = kind_of(memory, contacts[numbers[0]], tried)
-        starts = heap.repeat(kind.block, len(numbers)) + len(kind.block) * np.arange(len(numbers))
+        starts = blocks.repeat(kind.block, len(numbers)) + len(kind.block) * np.arange(len(numbers))
         for place, size in kind.written:
-            heap.write(starts + place, size)
+            blocks.write(starts + place, size)
         for name, value in kind.fields.items():
-            memory.declared(getattr(owners.Contact, name))[numbers] = value
+            memory.declared(getattr(contact, name))[numbers] = value
         for name, offset in kind.offsets.items():
-            memory.declared(getattr(owners.Contact, name))[numbers] = offset + starts
+            memory.declared(getattr(contact, name))[numbers] = offset + starts
         for place, start, shared in kind.tables:
             for begin in starts.tolist():
-                heap.refer(begin + place, begin + start, shared)
+                blocks.refer(begin + place, begin + start, shared)
     _lay_states(memory, contacts, kinds)
-    size = 3 * _lay_sides(memory, table, places)
-    memory.declared(owners.Contact.direction)[:, 0] = 1.0
-    memory.declared(owners.Contact.support_radius_a)[:] = table.levers[:, 0]
-    memory.declared(owners.Contact.support_radius_b)[:] = table.levers[:, 1]
-    memory.declared(owners.Contact.size)[:] = table.extents.min(axis=1)
-    memory.declared(owners.Contact.spin_axis)[:] = table.revolutions
+    size = 3 * _lay_sides(memory, table, bodies)
+    memory.declared(contact.direction)[:, 0] = 1.0
+    memory.declared(contact.support_radius_a)[:] = table.support_radii[:, 0]
+    memory.declared(contact.support_radius_b)[:] = table.support_radii[:, 1]
+    memory.declared(contact.size)[:] = table.extents.min(axis=1)
+    memory.declared(contact.spin_axis)[:] = table.revolutions
     lay_law_floats(memory, contacts, kinds)
-    slots = int(memory[owners.Model.n_slots])
-    contact = owners.Contact
+    n_slots = int(memory[owners.Model.n_slots])
     for place in (contact.jacobian_a, contact.jacobian_b, contact.response_a, contact.response_b):
-        memory[place] = heap.block(size * slots) + size * np.arange(slots)
+        memory[place] = blocks.block(size * n_slots) + size * np.arange(n_slots)
 
 
 def by_kind(contacts: Sequence[Contact]) -> Kinds:
-    """Return the numbers of the contacts of each kind: those of the same geometry and laws."""
+    """Numbers of the contacts of each kind."""
     same = defaultdict[tuple[int, ...], list[int]](list)
     parts = [map(id, map(attrgetter(part), contacts)) for part in ("kinematics", "normal", "friction", "impact")]
     for number, key in enumerate(zip(*parts, strict=True)):
@@ -115,7 +140,7 @@ def by_kind(contacts: Sequence[Contact]) -> Kinds:
 
 
 def _lay_states(memory: Memory, contacts: Sequence[Contact], kinds: Kinds) -> None:
-    """Say where the inner states of each contact stand, and how large they usually are."""
+    """Write the number of the first inner state of each contact, and the usual size of the inner states."""
     scales: list[float] = []
     laws = [(numbers, contacts[numbers[0]].friction) for numbers in kinds]
     with_states = [(numbers, law) for numbers, law in laws if isinstance(law, (TractionLaw, StatefulFrictionLaw))]
@@ -126,110 +151,142 @@ def _lay_states(memory: Memory, contacts: Sequence[Contact], kinds: Kinds) -> No
     memory[owners.Step.y_scale][:n_y][n_y - len(scales) :] = scales
 
 
-def _lay_sides(memory: Memory, table: ContactTable, places: Places) -> int:
-    """Say on which bodies and frames the contacts are; return the most velocities of an articulation among these."""
-    stand, most = [*places.values()], 0
-    # a mechanism need not have a frame, nor a contact then
-    first = np.array([next(iter(place.frames), 0) for place in stand], np.int64)
-    sizes = np.array([place.articulation_nu for place in stand], np.int64)
-    said = {
-        "n_u": np.array([place.nu for place in stand]),
-        "column": np.array([place.shift for place in stand]),
-        "articulation": np.array([place.articulation for place in stand]),
+def _lay_sides(memory: Memory, table: ContactTable, bodies: BodyLayouts) -> int:
+    """Write bodies and frames of each contact; the result is the largest number of velocities of an articulation."""
+    layouts, most = [*bodies.values()], 0
+    # a mechanism without contacts may have no frame
+    first_frame = np.array([next(iter(layout.frames), 0) for layout in layouts], np.int64)
+    sizes = np.array([layout.articulation_n_u for layout in layouts], np.int64)
+    of_body = {
+        "n_u": np.array([layout.n_u for layout in layouts]),
+        "column": np.array([layout.column for layout in layouts]),
+        "articulation": np.array([layout.articulation for layout in layouts]),
     }
-    for side, which in (("a", 0), ("b", 1)):
-        body, frame = table.bodies[:, which], table.frames[:, which]
-        found = {"body": body, "frame": first[body] + (FRAME + 6 * said["n_u"][body]) * frame}
-        for name, values in (found | {name: values[body] for name, values in said.items()}).items():
+    for side, column in (("a", 0), ("b", 1)):
+        body, frame = table.bodies[:, column], table.frames[:, column]
+        fields = {"body": body, "frame": first_frame[body] + (FRAME + 6 * of_body["n_u"][body]) * frame}
+        for name, values in (fields | {name: values[body] for name, values in of_body.items()}).items():
             memory.declared(getattr(owners.Contact, f"{name}_{side}"))[:] = values
         most = max(most, int(sizes[body].max(initial=0)))
     return most
 
 
 def lay_law_floats(memory: Memory, contacts: Sequence[Contact], kinds: Kinds) -> None:
-    """Write the floats of each declared contact: those of its laws, and of averaged forces that were never tried."""
+    """Write the numbers of the laws that are fields of a declared contact."""
+    contact = owners.Contact
     for numbers in kinds:
         normal, impact = contacts[numbers[0]].normal, contacts[numbers[0]].impact
-        memory.declared(owners.Contact.contact_time)[numbers] = 0.0 if impact is None else impact.contact_time
-        memory.declared(owners.Contact.mean_forces_asked)[numbers] = -math.inf
-        reach = normal.reach if isinstance(normal, CompliantNormalLaw) else 0.0
-        memory.declared(owners.Contact.reach)[numbers] = reach
+        memory.declared(contact.contact_time)[numbers] = 0.0 if impact is None else impact.contact_time
+        # the time-stepping fallback was not tried yet
+        memory.declared(contact.mean_forces_asked)[numbers] = -math.inf
+        memory.declared(contact.reach)[numbers] = normal.reach if isinstance(normal, CompliantNormalLaw) else 0.0
 
 
 def initial_state(contact: Contact) -> tuple[float, ...]:
-    """Return the inner states from which the friction of a contact starts."""
+    """Inner states of the friction of a contact at the start."""
     law = contact.friction
     return law.initial_state if isinstance(law, (TractionLaw, StatefulFrictionLaw)) else ()
 
 
 def kind_of(memory: Memory, contact: Contact, tried: set[tuple[Any, ...]] | None = None) -> Kind:
-    """Compile what a contact and all of its kind call, and pick the parameters.
+    """Compile the functions of a contact, and collect the fields and the block of its kind.
 
-    ``tried`` keeps which functions with tables were tried out; without it none of them is.
+    ``tried`` holds the functions with tables that were tried out already. Without it no function with tables is tried.
     """
-    impact, made = contact.impact, Kind()
-    functions: list[_Function] = [
-        ("geometry", contact.kinematics.evaluator, "pair", contact.kinematics.parameters()),
-        *_friction_functions(contact.friction),
-    ]
-    if isinstance(contact.normal, CompliantNormalLaw):
-        functions.append(("normal", contact.normal.force, "compliance", contact.normal.parameters()))
-    if isinstance(impact, ImpactProcess):
-        functions.append(("impact_force", impact.force, "scalar", impact.parameters()))
-        functions.append(("efficiency", impact.efficiency, "scalar", impact.parameters()))
-    sources = {"geometry": contact.kinematics, "normal": contact.normal, "impact_force": impact, "efficiency": impact}
+    made, law, impact = Kind(), contact.friction, contact.impact
+    for one in _functions(contact):
+        _add_function(made, contact, one, tried)
     start = initial_state(contact)
-    for name, function, form, available in functions:
-        owner = f"{type(sources.get(name, contact.friction)).__name__} ({contact})"
-        tables = {n: v for n in parameter_names(function, form) if isinstance(v := available.get(n), Table)}
-        address, values = bind(function, form, {**available, **dict.fromkeys(tables, ())}, owner)
-        if form == "pair":
-            kind = function, *map(id, tables.values())
-            if not tables or (tried is not None and kind not in tried):
-                if tried is not None:
-                    tried.add(kind)
-                whole = bind(function, form, available, owner)[1] if tables else values
-                try_out(function, form, available, whole, PAIR, owner)
-        elif form == "traction":
-            given = 1.0, (0.1, 0.2, 0.3, 0.4, 0.5), start
-            try_out(function, form, available, values, FORCE_AND_MOMENT + len(start), owner, given)
-        elif form == "rates":
-            try_out(function, form, available, values, len(start), owner, (0.1, start))
-        made.fields[f"{name}_function"] = address
-        at = made.store(f"{name}_parameters", values)
-        made.tables += [(at + parameter_place(function, form, n), at, table) for n, table in tables.items()]
-        if name == "geometry" and contact.kinematics.candidates is not None:
-            made.offsets["features"] = at + vector_place(function, form, values, "candidate")
-            # the features, and how far apart they may be
-            made.written.append((made.offsets["features"], CANDIDATE + 1))
-        if name == "friction" and isinstance(contact.friction, StatefulFrictionLaw):
-            made.offsets["inner_states_copy"] = at + _place_of_state(contact.friction, values)
-            made.written.append((made.offsets["inner_states_copy"], len(start)))
-    if start or isinstance(contact.friction, TractionLaw):
+    if start or isinstance(law, TractionLaw):
         made.fields["n_inner_states"] = len(start)
         made.store("inner_states_at_start", start)
         made.output("traction_out", FORCE_AND_MOMENT + len(start))
         made.output("rates_out", len(start))
-    if isinstance(contact.friction, AnisotropicFrictionLaw):
-        law, on_second = contact.friction, float(contact.friction.body == "second")
-        made.fields["is_anisotropic"] = 1
+    if isinstance(law, AnisotropicFrictionLaw):
+        on_second = float(law.body == "second")
+        made.fields["is_anisotropic"] = True
         made.store("anisotropy", (on_second, *np.divide(law.axis, math.hypot(*law.axis)).tolist(), *law.ratios))
     if isinstance(impact, ImpactMap):
         made.store("map_parameters", _map_values(memory, impact))
     return made
 
 
-def _friction_functions(law: TangentialLaw) -> list[_Function]:
+def _functions(contact: Contact) -> Iterator[_Function]:
+    """The functions of the kinematics and of the laws, in the order of their parameters in the block."""
+    kinematics, normal, impact = contact.kinematics, contact.normal, contact.impact
+    yield _Function("geometry", kinematics.evaluator, "pair", kinematics.parameters(), kinematics)
+    yield from _friction_functions(contact.friction)
+    if isinstance(normal, CompliantNormalLaw):
+        yield _Function("normal", normal.force, "compliance", normal.parameters(), normal)
+    if isinstance(impact, ImpactProcess):
+        yield _Function("impact_force", impact.force, "scalar", impact.parameters(), impact)
+        yield _Function("efficiency", impact.efficiency, "scalar", impact.parameters(), impact)
+
+
+def _friction_functions(law: TangentialLaw) -> Iterator[_Function]:
     if isinstance(law, TractionLaw):
-        return [("traction", law.traction, "traction", law.parameters())]
-    if isinstance(law, StatefulFrictionLaw):
-        offered = {**law.parameters(), "state": law.initial_state}
-        return [("friction", law.coefficient, "scalar", offered), ("rates", law.rates, "rates", law.parameters())]
-    assert isinstance(law, FrictionLaw)
-    return [("friction", law.coefficient, "scalar", law.parameters())]
+        yield _Function("traction", law.traction, "traction", law.parameters(), law)
+    elif isinstance(law, StatefulFrictionLaw):
+        with_state = {**law.parameters(), "state": law.initial_state}
+        yield _Function("friction", law.coefficient, "scalar", with_state, law)
+        yield _Function("rates", law.rates, "rates", law.parameters(), law)
+    else:
+        assert isinstance(law, FrictionLaw)
+        yield _Function("friction", law.coefficient, "scalar", law.parameters(), law)
+
+
+def _add_function(made: Kind, contact: Contact, one: _Function, tried: set[tuple[Any, ...]] | None) -> None:
+    """Compile a function, try it out, and add its address and its parameters to a kind."""
+    name, function, form, available, part = one
+    owner = f"{type(part).__name__} ({contact})"
+    tables = {n: v for n in parameter_names(function, form) if isinstance(v := available.get(n), Table)}
+    address, values = bind(function, form, {**available, **dict.fromkeys(tables, ())}, owner)
+    _try_function(contact, one, owner, values, tables, tried)
+    made.fields[f"{name}_function"] = address
+    at = made.store(f"{name}_parameters", values)
+    made.tables += [(at + parameter_place(function, form, n), at, table) for n, table in tables.items()]
+    if name == "geometry" and contact.kinematics.candidates is not None:
+        made.offsets["features"] = at + vector_place(function, form, values, "candidate")
+        # two features and their kind, and the distance to which they are valid
+        made.written.append((made.offsets["features"], CANDIDATE + 1))
+    if name == "friction" and isinstance(part, StatefulFrictionLaw):
+        made.offsets["inner_states_copy"] = at + _place_of_state(part, values)
+        made.written.append((made.offsets["inner_states_copy"], len(part.initial_state)))
+
+
+def _try_function(
+    contact: Contact,
+    one: _Function,
+    owner: str,
+    values: Sequence[float],
+    tables: Mapping[str, Table],
+    tried: set[tuple[Any, ...]] | None,
+) -> None:
+    """Call a function that writes to a block once as Python, to find one that writes past it."""
+    _, function, form, available, _ = one
+    start = initial_state(contact)
+    if form == "pair":
+        key = function, *map(id, tables.values())
+        if not tables or (tried is not None and key not in tried):
+            if tried is not None:
+                tried.add(key)
+            all_values = bind(function, form, available, owner)[1] if tables else values
+            try_out(function, form, available, all_values, PAIR, owner)
+    elif form == "traction":
+        arguments = 1.0, (0.1, 0.2, 0.3, 0.4, 0.5), start
+        try_out(function, form, available, values, FORCE_AND_MOMENT + len(start), owner, arguments)
+    elif form == "rates":
+        try_out(function, form, available, values, len(start), owner, (0.1, start))
 
 
 def _place_of_state(law: StatefulFrictionLaw, values: Sequence[float]) -> int:
+    """Place of the inner states among the parameters of a friction coefficient.
+
+    Raises
+    ------
+    InvalidInput
+        If the coefficient is no function of the state.
+    """
     names = parameter_names(law.coefficient, "scalar")
     if "state" not in names:
         raise InvalidInput(
@@ -242,7 +299,13 @@ def _place_of_state(law: StatefulFrictionLaw, values: Sequence[float]) -> int:
 
 
 def _map_values(memory: Memory, impact: ImpactMap) -> tuple[float, ...]:
-    """Compile a law that maps velocities; return its parameters."""
+    """Compile an impact law that maps velocities; the result has its parameters, without the coefficient of friction.
+
+    Raises
+    ------
+    InvalidInput
+        If the coefficient of friction is not its first parameter.
+    """
     names = parameter_names(impact.impulses, "map")
     if names[:1] != ("friction",):
         raise InvalidInput(
@@ -251,9 +314,9 @@ def _map_values(memory: Memory, impact: ImpactMap) -> tuple[float, ...]:
             names,
             "Write impulses(n, delassus, rates, out, friction, ...).",
         )
-    offered: dict[str, Value] = {**impact.parameters(), "friction": 0.0}
-    address, values = bind(impact.impulses, "map", offered, type(impact).__name__)
-    single = 1, tuple(2.0 * np.eye(3).ravel()), (-1.0, 0.2, 0.1)
-    try_out(impact.impulses, "map", offered, values, 3, type(impact).__name__, single)
+    available: dict[str, Value] = {**impact.parameters(), "friction": 0.0}
+    address, values = bind(impact.impulses, "map", available, type(impact).__name__)
+    one_contact = 1, tuple(2.0 * np.eye(3).ravel()), (-1.0, 0.2, 0.1)
+    try_out(impact.impulses, "map", available, values, 3, type(impact).__name__, one_contact)
     memory[owners.Options.impact_map] = address
     return values[1:]

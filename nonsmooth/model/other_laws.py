@@ -1,4 +1,4 @@
-"""Other laws in the contacts of a system that is laid out, without laying it out again."""
+"""Replaces the laws of a laid-out system. Sweeps over parameters of laws need no layout for each value."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ _OF_GEOMETRY = ("geometry_parameters", "features")
 
 
 def lay_laws(model: LaidOut, system: System) -> LaidOut:
-    """Return the model of a system with other laws, in the memory of a model that stands nowhere.
+    """Layout of a system with other laws, in the memory of a model, which is blank.
 
     Raises
     ------
     InvalidInput
-        If it has other bodies or contacts, or laws that need other room.
+        If bodies or contacts differ, or the laws need blocks of other sizes.
     """
     _check_same(model.system, system)
     memory, contacts = model.memory, system.contacts
@@ -31,7 +31,7 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
             _refuse(contacts[numbers[0]], model.system.contacts[numbers[0]])
         for name, value in after.fields.items():
             memory.declared(getattr(owners.Contact, name))[numbers] = value
-        # behind what belongs to the geometry, whose tables stand somewhere
+        # the parameters of the geometry come first, and may refer to tables
         first = min((at for name, at in after.offsets.items() if name not in _OF_GEOMETRY), default=len(after.block))
         starts = memory.declared(owners.Contact.geometry_parameters)[numbers]
         places = starts[:, None] + np.arange(first, len(after.block))
@@ -41,6 +41,7 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
 
 
 def _check_same(one: System, other: System) -> None:
+    """Check that two systems differ in their laws only."""
     remedy = "Make it by nonsmooth.with_laws(model.system, ...), or assemble it."
     if list(map(id, one.bodies)) != list(map(id, other.bodies)) or one.gravity != other.gravity:
         raise InvalidInput("with_laws_of", "needs a system of the same bodies", other, remedy)
@@ -48,8 +49,8 @@ def _check_same(one: System, other: System) -> None:
     if len({tuple(map(id, parts)) for parts in ties}) > 1 or len(one.contacts) != len(other.contacts):
         raise InvalidInput("with_laws_of", "needs the same joints, loads, guards and contacts", other, remedy)
     for first, second in zip(one.contacts, other.contacts, strict=True):
-        same = first.first is second.first and first.second is second.second and first.frames == second.frames
-        if not same or first.kinematics != second.kinematics:
+        has_same_bodies = first.first is second.first and first.second is second.second
+        if not has_same_bodies or first.frames != second.frames or first.kinematics != second.kinematics:
             raise InvalidInput("with_laws_of", "needs the same contacts", second.name, remedy)
 
 
@@ -59,5 +60,5 @@ def _refuse(after: Contact, before: Contact) -> None:
         f"with_laws_of: the laws of the {after}",
         f"must be of the kinds of {laws[0]}",
         laws[1],
-        "Laws of other kinds need other memory: assemble the system.",
+        "Laws of other kinds need blocks of other sizes: assemble the system.",
     )

@@ -1,16 +1,21 @@
-"""The solids of a laid-out system where they stand, and whether some overlap that may not."""
+"""Overlaps of the solids of bodies in the poses that the memory holds.
+
+Gaps belong to features that face each other. Bodies that overlap deeply may have none, so their solids are compared.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.blocks import GAP, NORMAL
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
+from nonsmooth.model.active_contacts import active_contacts
 from nonsmooth.solids.placed import Placed, overlap
 from nonsmooth.system.contact import Contact
 
@@ -18,81 +23,93 @@ if TYPE_CHECKING:
     from nonsmooth.interfaces.solid import Vector
     from nonsmooth.model.laid_out import LaidOut
 
-_ENDS = 12
-"""Numbers of a frame that say where it is."""
+_POSE = 12
+"""Numbers of a frame with its position and its rotation matrix."""
+
+
+class Overlap(NamedTuple):
+    """Two bodies that overlap.
+
+    Attributes
+    ----------
+    contact : Contact
+        A contact of theirs.
+    depth : float
+        Least depth of the overlap [m].
+    """
+
+    contact: Contact
+    depth: float
 
 
 def overlap_allowed(contact: Contact) -> float:
-    """Return by how much bodies that touch may overlap [m]."""
+    """Largest overlap of bodies that touch [m]."""
     return max(1e-9, 1e-6 * contact.size)
 
 
 def check_overlaps(model: LaidOut) -> None:
-    """Look at the solids of all contacts near each other, whose bodies have been evaluated.
+    """Check that the solids of active contacts, whose bodies were evaluated, do not overlap.
 
     Raises
     ------
     InvalidInput
         If two overlap.
     """
-    found = deepest_overlap(
-        model, model.memory[owners.Contact.declared][: int(model.memory[owners.Island.n_contacts])].tolist()
-    )
+    found = first_overlap(model, active_contacts(model.memory).tolist())
     if found is not None:
-        contact, depth = found
-        kinds = " and ".join(type(shape).__name__ for shape in contact.shapes)
+        kinds = " and ".join(type(shape).__name__ for shape in found.contact.shapes)
         raise InvalidInput(
-            f"start of the {contact}",
+            f"start of the {found.contact}",
             "must not overlap: its gap must be >= 0 [m]",
-            -depth,
-            f"The solids of {kinds} reach at least so far into each other. Place the bodies apart or touching, "
-            "or declare no contact between them.",
+            -found.depth,
+            f"The solids of {kinds} overlap at least so far. Place the bodies apart or touching, or declare no contact "
+            "between them.",
         )
 
 
-def deepest_overlap(model: LaidOut, numbers: Sequence[int]) -> tuple[Contact, float] | None:
-    """Return a contact whose solids overlap, and by how much at least [m]; None if no tolerance is exceeded.
+def first_overlap(model: LaidOut, numbers: Sequence[int]) -> Overlap | None:
+    """The first overlap beyond the tolerance, or None.
 
-    Compliant bodies may overlap where that is felt: where they have a gap that is negative.
+    Compliant bodies may overlap if a gap of theirs is negative, because the contact force is then positive.
 
     Parameters
     ----------
     model : LaidOut
-        Laid out, its bodies and the contacts near each other evaluated.
+        The model, whose bodies and active contacts were evaluated.
     numbers : sequence of int
-        Contacts of the system that are looked at.
+        The contacts whose bodies are compared.
     """
     contacts, memory = model.system.contacts, model.memory
-    n = int(memory[owners.Island.n_contacts])
-    blocks = memory[owners.Contact.geometry][:n]
-    slots = {number: slot for slot, number in enumerate(memory[owners.Contact.declared][:n].tolist())}
+    active = active_contacts(memory).tolist()
+    blocks = memory[owners.Contact.geometry][: len(active)]
+    indices = {number: index for index, number in enumerate(active)}
     for same, one, two in solid_pairs(model, numbers, within=0.0):
-        contact, near = contacts[same[0]], [slots[number] for number in same if number in slots]
-        least = min((float(blocks[slot, 0]) for slot in near), default=0.0)
+        contact, near = contacts[same[0]], [indices[number] for number in same if number in indices]
+        least = min((float(blocks[index, GAP]) for index in near), default=0.0)
         if least < 0.0 and isinstance(contact.normal, CompliantNormalLaw):
             continue
         allowed = overlap_allowed(contact) + one.solid.set_back + two.solid.set_back
-        nearest = min(near, key=lambda slot: abs(float(blocks[slot, 0])), default=None)
-        normal = np.array([0.0, 0.0, 1.0]) if nearest is None else blocks[nearest, 1:4]
-        found = overlap(one, two, allowed, normal)
-        if found > 0.0:
-            return contact, found
+        nearest = min(near, key=lambda index: abs(float(blocks[index, GAP])), default=None)
+        normal = np.array([0.0, 0.0, 1.0]) if nearest is None else blocks[nearest, NORMAL : NORMAL + 3]
+        depth = overlap(one, two, allowed, normal)
+        if depth > 0.0:
+            return Overlap(contact, depth)
     return None
 
 
 def solid_pairs(
     model: LaidOut, numbers: Sequence[int], within: float = np.inf
 ) -> Iterator[tuple[list[int], Placed, Placed]]:
-    """Yield, for every two shapes that have solids, their contacts and the solids where they stand.
+    """For each pair of shapes with solids: the numbers of their contacts, and the two solids in their poses.
 
     Parameters
     ----------
     model : LaidOut
-        Laid out, its bodies evaluated.
+        The model, whose bodies were evaluated.
     numbers : sequence of int
         Contacts of the system.
     within : float
-        Shapes whose balls about the origins of their frames are farther apart than this are left out [m].
+        Shapes whose bounding spheres are farther apart than this are left out [m].
     """
     pairs: dict[tuple[int, ...], list[int]] = {}
     contacts = model.system.contacts
@@ -116,7 +133,7 @@ def solid_pairs(
 
 
 def frames_of(model: LaidOut, number: int) -> tuple[Vector, Vector]:
-    """Return position [m] and rotation matrix, row by row, of both frames of a contact, shape [12] each."""
+    """Position [m] and rotation matrix, row by row, of both frames of a contact, shape [12] each."""
     floats, declared = model.memory.floats, model.memory.declared
     first, second = (int(declared(frame)[number]) for frame in (owners.Contact.frame_a, owners.Contact.frame_b))
-    return floats[first : first + _ENDS], floats[second : second + _ENDS]
+    return floats[first : first + _POSE], floats[second : second + _POSE]

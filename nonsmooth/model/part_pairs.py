@@ -1,4 +1,7 @@
-"""Pairs of convex parts of bodies between which contacts are declared, laid into the engine's memory."""
+"""Pairs of convex parts of bodies with contacts, which the engine checks for overlap at the start of each step.
+
+Contacts belong to features. Features that miss each other leave no gap, and the bodies would pass into each other.
+"""
 
 from __future__ import annotations
 
@@ -16,21 +19,18 @@ from nonsmooth.engine.memory.memory import Heap, Memory
 from nonsmooth.engine.pairs.look import NO_PAIR
 from nonsmooth.interfaces import ConvexPart
 from nonsmooth.model.contact_table import ContactTable
-from nonsmooth.model.laying import Places
 from nonsmooth.system.contact import Contact
 
-_PASSED = 1e-7
-"""By this part of the size of the smaller shape parts may overlap more than their closed contacts say.
-
-Ten times what tolerances leave of the gap of a body that moves by a hundred times its size.
-"""
-_ENDLESS = float(np.finfo(np.float64).max)
-"""Distance to the farthest point of a half-space [m]; times no turn at all it is zero."""
+_ALLOWED = 1e-7
+"""Allowed overlap beyond that of closed contacts, relative to the smaller shape: ten times the error of a gap of a body
+that moves by a hundred times its size."""
+_UNBOUNDED = float(np.finfo(np.float64).max)
+"""Distance to the farthest point of a half-space [m]. It is finite, so that its product with no rotation is zero."""
 
 
 @dataclass(frozen=True, eq=False)
 class PartPair:
-    """Two convex parts of shapes between which there are contacts.
+    """Two convex parts of shapes with contacts.
 
     Attributes
     ----------
@@ -39,11 +39,11 @@ class PartPair:
     contacts : tuple of int
         Numbers of the contacts of the shapes.
     sides : tuple
-        Body and frame of either part.
+        Number of the body, and frame, of each part.
     parts : tuple of ConvexPart
-        The parts; a half-space comes first, and the larger one of two discs.
+        The parts. A half-space comes first, and the larger one of two discs.
     shapes : tuple of int
-        Which shapes they are of, and which part of these.
+        Identity of the shape of each part, and number of the part in the shape.
     size : float
         Extent of the smaller shape [m].
     """
@@ -57,7 +57,7 @@ class PartPair:
 
 
 def find_part_pairs(contacts: Sequence[Contact], table: ContactTable) -> list[PartPair]:
-    """Return the pairs of parts to be looked at: of bodies of which one moves by forces, and not in closed form."""
+    """The pairs of parts that need a check for overlap."""
     parts_of: dict[int, tuple[ConvexPart, ...]] = {}
     found: list[PartPair] = []
     for numbers in _groups(contacts):
@@ -69,7 +69,7 @@ def find_part_pairs(contacts: Sequence[Contact], table: ContactTable) -> list[Pa
         group = len(found)
         choices = [list(enumerate(parts_of[id(shape)])) for shape in contact.shapes]
         for one, two in itertools.product(*choices):
-            if is_looked_at(one[1], two[1], len(numbers)):
+            if needs_overlap_check(one[1], two[1], len(numbers)):
                 both = ((one, sides[0], id(contact.shapes[0])), (two, sides[1], id(contact.shapes[1])))
                 larger = one[1].is_disc and two[1].is_disc and two[1].radius > one[1].radius
                 first, second = both[::-1] if two[1].is_half_space or larger else both
@@ -87,17 +87,17 @@ def find_part_pairs(contacts: Sequence[Contact], table: ContactTable) -> list[Pa
 
 
 def carriers_of(pairs: Sequence[PartPair]) -> dict[tuple[int, int], float]:
-    """Return the bodies and frames that carry parts of pairs, each with the distance to its farthest point [m]."""
-    levers: dict[tuple[int, int], float] = {}
+    """Bodies and frames that carry parts, each with the distance to its farthest point [m]."""
+    radii: dict[tuple[int, int], float] = {}
     for pair in pairs:
         for side, part in zip(pair.sides, pair.parts, strict=True):
-            reach = _ENDLESS if part.is_half_space else math.hypot(*part.place) + part.radius
-            levers[side] = max(reach, levers.get(side, 0.0))
-    return levers
+            reach = _UNBOUNDED if part.is_half_space else math.hypot(*part.place) + part.radius
+            radii[side] = max(reach, radii.get(side, 0.0))
+    return radii
 
 
-def is_looked_at(one: ConvexPart, two: ConvexPart, contacts: int) -> bool:
-    """Tell whether a pair of parts can overlap and no single contact of theirs says so by itself."""
+def needs_overlap_check(one: ConvexPart, two: ConvexPart, contacts: int) -> bool:
+    """True if two parts can overlap without a negative gap of a contact."""
     if one.is_half_space and two.is_half_space:
         return False
     simple = all(part.is_ball or part.is_half_space for part in (one, two))
@@ -105,27 +105,24 @@ def is_looked_at(one: ConvexPart, two: ConvexPart, contacts: int) -> bool:
     return not (simple and contacts == 1) and (not flat or (one.is_disc and two.is_disc))
 
 
-def unwatched(contacts: Sequence[Contact]) -> list[int]:
-    """Return the numbers of contacts of shapes without convex parts, at which the engine cannot look."""
+def contacts_without_parts(contacts: Sequence[Contact]) -> list[int]:
+    """Numbers of contacts of a shape without convex parts, whose bodies the engine cannot check for overlap."""
     shapes = {id(shape): shape for contact in contacts for shape in contact.shapes}
-    blind = {key for key, shape in shapes.items() if not shape.parts}
-    if not blind:
+    without_parts = {key for key, shape in shapes.items() if not shape.parts}
+    if not without_parts:
         return []
-    return [i for i, contact in enumerate(contacts) if not blind.isdisjoint(map(id, contact.shapes))]
+    return [i for i, contact in enumerate(contacts) if not without_parts.isdisjoint(map(id, contact.shapes))]
 
 
-def unseen(contacts: Sequence[Contact]) -> list[str]:
-    """Return the names of contacts of which nothing but their own gap tells that their bodies pass into each other.
-
-    Those are contacts of shapes that have neither convex parts nor a solid.
-    """
+def unchecked_contacts(contacts: Sequence[Contact]) -> list[str]:
+    """Names of contacts of a shape without convex parts and without a solid: only their gaps show an overlap."""
     parts = {id(shape): shape.parts for contact in contacts for shape in contact.shapes}
-    blind = {id(shape) for contact in contacts for shape in contact.shapes if not parts[id(shape)] and not shape.solid}
-    return [contact.name for contact in contacts if not blind.isdisjoint(map(id, contact.shapes))]
+    bare = {id(shape) for contact in contacts for shape in contact.shapes if not parts[id(shape)] and not shape.solid}
+    return [contact.name for contact in contacts if not bare.isdisjoint(map(id, contact.shapes))]
 
 
 def _groups(contacts: Sequence[Contact]) -> list[list[int]]:
-    """Return the numbers of the contacts of each pair of shapes."""
+    """Numbers of the contacts of each pair of shapes."""
     groups: dict[tuple[int, ...], list[int]] = {}
     names = "first", "second"
     sides = [list(map(id, map(attrgetter(name), contacts))) for name in names]
@@ -136,38 +133,48 @@ def _groups(contacts: Sequence[Contact]) -> list[list[int]]:
 
 
 def numbers_of(part: ConvexPart) -> list[float]:
-    """Return what the engine reads of a part (:mod:`nonsmooth.engine.memory.blocks`)."""
-    count = -1 if part.is_half_space else len(part.rings)
-    behind = PART_RINGS + RING * len(part.rings) if part.function else 0
-    head = [*part.place, *np.ravel(part.axes), *part.semi, *part.powers, part.ball, part.radius, behind, count]
+    """Numbers of a part as the engine reads them (:mod:`nonsmooth.engine.memory.blocks`)."""
+    n_rings = -1 if part.is_half_space else len(part.rings)
+    function_place = PART_RINGS + RING * len(part.rings) if part.function else 0
+    head = [
+        *part.place,
+        *np.ravel(part.axes),
+        *part.semi,
+        *part.powers,
+        part.ball,
+        part.radius,
+        function_place,
+        n_rings,
+    ]
     return [float(number) for number in (*head, *np.ravel(part.rings), *part.function)]
 
 
-def lay_part_pairs(memory: Memory, heap: Heap, pairs: Sequence[PartPair], places: Places) -> None:
-    """Lay the pairs, and say of each contact whose pair it is."""
+def lay_part_pairs(
+    memory: Memory, blocks: Heap, pairs: Sequence[PartPair], frames: Mapping[tuple[int, int], int]
+) -> None:
+    """Write the pairs, and the first pair of each contact; ``frames`` has the place of each frame in the memory."""
     of_contact = memory.declared(owners.Contact.pair)
     of_contact[:] = NO_PAIR
-    stand = {(place.number, frame): at for place in places.values() for frame, at in enumerate(place.frames)}
     carriers = carriers_of(pairs)
     numbers = {side: number for number, side in enumerate(carriers)}
-    memory[owners.Carrier.frame][: len(carriers)] = [stand[side] for side in carriers]
+    memory[owners.Carrier.frame][: len(carriers)] = [frames[side] for side in carriers]
     memory[owners.Carrier.radius][: len(carriers)] = list(carriers.values())
     starts: dict[tuple[int, int], int] = {}
     for number, pair in enumerate(pairs):
         for key, part in zip(pair.shapes, pair.parts, strict=True):
             if key not in starts:
-                starts[key] = heap.store(numbers_of(part))
+                starts[key] = blocks.store(numbers_of(part))
         fields: Mapping[str, float] = {
             "carrier_a": numbers[pair.sides[0]],
             "carrier_b": numbers[pair.sides[1]],
-            "frame_a": stand[pair.sides[0]],
-            "frame_b": stand[pair.sides[1]],
+            "frame_a": frames[pair.sides[0]],
+            "frame_b": frames[pair.sides[1]],
             "part_a": starts[pair.shapes[0]],
             "part_b": starts[pair.shapes[1]],
             "group": pair.group,
             "contact": pair.contacts[0],
             "flat": all(part.is_flat for part in pair.parts),
-            "allowed": _PASSED * pair.size,
+            "allowed": _ALLOWED * pair.size,
             "size": pair.size,
         }
         for name, value in fields.items():

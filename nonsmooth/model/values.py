@@ -1,4 +1,8 @@
-"""Which integers a run can leave: the field table says of what each is a number."""
+"""Checks of the integers of a checkpoint from a file.
+
+The engine uses them as places and as codes without any check, so a wrong one would read outside of an array. The field
+table declares the range of each.
+"""
 
 from __future__ import annotations
 
@@ -13,23 +17,23 @@ from nonsmooth.engine.memory.sizes import Counts
 from nonsmooth.engine.memory.tables import COUNTS, OWNERS
 from nonsmooth.errors import InvalidInput
 
-_REMEDY = "It is damaged, or of another model: take one that a run left."
+_REMEDY = "It is damaged, or of another model: take the state of a run of this model."
 _CHECKED = tuple(
     one
     for owner in OWNERS
     for one in declarations(owner).values()
     if one.outlives_a_step and not one.inside[0] and (one.below is not None or one.kind not in (int, float))
 )
-"""Numbers by which the engine finds others, and codes."""
+"""Numbers that outlive a step and are places, codes or booleans."""
 
 
 def check_values(memory: Memory) -> None:
-    """Look whether what outlives a step is of a run.
+    """Check that each number is within its range.
 
     Raises
     ------
     InvalidInput
-        If a number is no member of its enumeration, or none of what it counts.
+        If a number is no member of its enumeration, or exceeds the count that it refers to.
     """
     counts: Counts = {name: memory[getattr(owners.Model, name)] for name in COUNTS}
     for one in _CHECKED:
@@ -42,13 +46,13 @@ def check_values(memory: Memory) -> None:
 
 
 def _in_use(memory: Memory, one: Declaration) -> object:
-    """The numbers of a declaration; of contacts those that are listed."""
+    """The numbers of a declaration; of contacts those of active ones."""
     found = memory[one]
     return found[: memory[owners.Island.n_contacts]] if one.owner is owners.Contact else found
 
 
 def _bounds(one: Declaration, counts: Counts) -> tuple[int, int]:
-    """Least value, and the first one that is too large."""
+    """Least value, and the first value that is too large."""
     least = min(int(one.begin), 0)
     if one.below is not None:
         return least, one.below(counts)

@@ -13,6 +13,7 @@ from nonsmooth.files.components import TYPE, Table, table_of
 from nonsmooth.files.writing import text_of_system
 from nonsmooth.interfaces import Engine
 from nonsmooth.results.output import Output, versions
+from nonsmooth.solution.request import RunRequest
 from nonsmooth.solution.state import State
 from nonsmooth.solution.variable import Variable
 from nonsmooth.system.system import System
@@ -23,7 +24,7 @@ MESSAGE = "the run goes on, or it was cut off and `nonsmooth resume` goes on wit
 """What is said of it."""
 
 
-def attributes_of(output: Output, engine: Engine, t_end: float, conditional: bool) -> dict[str, Any]:
+def attributes_of(output: Output, engine: Engine, request: RunRequest) -> dict[str, Any]:
     """Return the attributes of the folder of a run that begins."""
     known = versions()
     return {
@@ -32,8 +33,11 @@ def attributes_of(output: Output, engine: Engine, t_end: float, conditional: boo
         "source": f"nonsmooth {known['nonsmooth']}",
         "status": UNFINISHED,
         "message": MESSAGE,
-        "t_end_asked": t_end,
-        "conditional": int(conditional),
+        "t_end_asked": request.t_end,
+        "sample_start": request.sample_start,
+        "sample_interval": request.sample_interval,
+        "default_samples": int(request.has_default_samples),
+        "conditional": int(request.is_conditional),
         "engine": json.dumps(_table(engine)),
         "records_contacts": int(engine.records_contacts),
         "versions": json.dumps(dict(known)),

@@ -24,6 +24,7 @@ from nonsmooth.results.state_file import state_bytes, state_from
 from nonsmooth.results.zarr_folder import ZarrFolder
 from nonsmooth.solution.events import Events
 from nonsmooth.solution.files import FileError, content_of
+from nonsmooth.solution.request import RunRequest
 from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
 from nonsmooth.solution.variable import Variable
@@ -68,11 +69,9 @@ class SolutionFolder:
 
     @classmethod
     def created(
-        cls, output: Output, system: System, engine: Engine, t_end: float, n_states: int, conditional: bool
+        cls, output: Output, system: System, engine: Engine, request: RunRequest, n_states: int
     ) -> SolutionFolder:
         """Make the folder of a run that begins; what it holds counts from the first :meth:`append` on.
-
-        A conditional run may end before its end time, on a condition that no file holds.
 
         Raises
         ------
@@ -95,12 +94,12 @@ class SolutionFolder:
         except BaseException:
             lock.close()
             raise
-        made = ZarrFolder(path, attributes_of(output, engine, t_end, conditional))
+        made = ZarrFolder(path, attributes_of(output, engine, request))
         found = cls(made, sum(body.n_q for body in system.bodies), sum(body.n_u for body in system.bodies), lock)
         for variable in (
             *of_system(system),
             *of_memory(),
-            system_variable(system, output, engine, t_end, made.attributes),
+            system_variable(system, output, engine, request.t_end, made.attributes),
         ):
             made.add(variable, grows=False)
         n_y = found._n_q + found._n_u + N_ACCOUNTS + n_states
@@ -209,6 +208,25 @@ class SolutionFolder:
         if name not in (*_STATES, _LAST):
             raise InvalidInput(f"{self._arrays.path}: state", "must name a state", name, "It is damaged.")
         return self._state(name)
+
+    @property
+    def request(self) -> RunRequest:
+        """The arguments of the run.
+
+        Raises
+        ------
+        InvalidInput
+            If one is missing, or no number.
+        """
+        found = self.attributes
+        with naming_damage(f"{self._arrays.path}: arguments of the run"):
+            return RunRequest(
+                float(found["t_end_asked"]),
+                float(found["sample_start"]),
+                float(found["sample_interval"]),
+                bool(found["default_samples"]),
+                bool(found["conditional"]),
+            )
 
     @property
     def wall_seconds(self) -> float:

@@ -25,7 +25,7 @@ def state_bytes(state: State) -> bytes:
     if state.continuation is not None:
         arrays["model"] = np.array(state.continuation.model)
         arrays["difference"] = np.frombuffer(state.continuation.difference.packed(), np.uint8)
-        arrays["told"] = np.array(state.continuation.told)
+        arrays["told"] = np.array(state.continuation.n_known_events)
     content = io.BytesIO()
     np.savez_compressed(content, **arrays)
     return content.getvalue()

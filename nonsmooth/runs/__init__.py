@@ -1,1 +1,1 @@
-"""Runs of a model: where they start, the loop that feeds the engine, what comes of them."""
+"""Runs of a model: start, calls of the engine, output under way, and the end with its diagnosis."""

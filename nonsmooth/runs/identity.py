@@ -1,4 +1,4 @@
-"""What tells models apart: whether a run of one may be continued by another, in another process too."""
+"""Digest of a model: it shows whether a run of one model can be continued by another, also in another process."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ _LAYOUT = hashlib.blake2b(repr((SCALARS.names, (*FLOAT_ARRAYS,), (*INTEGER_ARRAY
 
 
 def digest(model: LaidOut, engine: Engine) -> str:
-    """Digest of all parameters of a model, of the kinds of its parts, and of an engine.
+    """Digest of all parameters of a model, of the classes of its parts, and of the options of an engine.
 
-    Models with one digest run alike, in whatever process.
+    Models with the same digest give the same runs, to the last bit.
     """
-    found = hashlib.blake2b(_LAYOUT + _kinds(model) + _said(engine))
+    found = hashlib.blake2b(_LAYOUT + _classes(model) + _options(engine))
     for numbers in _parameters(model.memory):
-        # most of them are zero
+        # most numbers are zero, so places and values of the others are shorter
         bits = np.ascontiguousarray(numbers).view(np.uint8 if numbers.dtype == bool else np.int64).ravel()
-        filled = np.flatnonzero(bits)
-        found.update(filled.data)
-        found.update(bits[filled].data)
+        nonzero = np.flatnonzero(bits)
+        found.update(nonzero.data)
+        found.update(bits[nonzero].data)
     return found.hexdigest()
 
 
@@ -42,23 +42,23 @@ def _parameters(memory: Memory) -> Iterator[np.ndarray]:
                 yield np.atleast_1d(np.asarray(memory[one]))
     blocks = memory.floats[memory.blocks : memory.tables].copy()
     blocks[memory.written] = 0.0
-    # tables stand elsewhere in a copy
+    # a copy of a model has other distances to the tables
     blocks[[place - memory.blocks for place, _, _ in memory.references]] = 0.0
     yield blocks
     yield (memory.owner or memory).floats[memory.tables :]
 
 
 def _is_copied(one: Declaration) -> bool:
-    """True for what a listed contact takes from its declared one."""
+    """True for a number that an active contact copies from its declared contact."""
     return one.owner is owners.Contact and not one.is_of_slot
 
 
-def _said(engine: Engine) -> bytes:
+def _options(engine: Engine) -> bytes:
     return repr((type(engine).__qualname__, {name: getattr(engine, name) for name in rules(type(engine))})).encode()
 
 
-def _kinds(model: LaidOut) -> bytes:
-    """Return the names of the classes of all parts of a system, and which part is of which."""
+def _classes(model: LaidOut) -> bytes:
+    """Names of the classes of all parts of a system, and the number of the class of each part."""
     system = model.system
     parts: list[object] = [*system.bodies, *system.guards, *(tie.component for tie in (*system.joints, *system.loads))]
     known: dict[type, int] = {}

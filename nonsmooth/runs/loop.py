@@ -1,10 +1,16 @@
-"""The loop that feeds the engine, empties its buffers and reports progress."""
+"""The loop that calls the engine, empties its buffers, and evaluates the user's functions.
+
+The last step of a run ends at the end time, so its length depends on it. A run that is continued must not contain such
+a step, or it would differ from one that was not stopped. The engine therefore pauses before it. A checkpoint is taken
+there, and then the engine is called again to take the last steps. A continued run starts from the checkpoint, and
+repeats these.
+"""
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import final
 
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.modes import CONDITION_MET, DONE, PAUSED, STOPPED
@@ -12,134 +18,153 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.runs.advancing import Advancing
-from nonsmooth.runs.keeper import Keeper
-from nonsmooth.runs.pace import Pace
+from nonsmooth.runs.ending import Ending
+from nonsmooth.runs.engine_driver import EngineDriver
+from nonsmooth.runs.output_sink import OutputSink
 from nonsmooth.runs.records import Records
 from nonsmooth.runs.so_far import RunSoFar, Until
+from nonsmooth.runs.stall_monitor import StallMonitor
 from nonsmooth.solution.files import FileError
 
 _STEPS_NEAR_END = 16
-"""So many steps at most a run that goes on repeats, or more where a checkpoint is large:"""
+"""Number of steps between checkpoints near the end time. A continued run repeats at most so many."""
 _BYTES_PER_STEP = 1 << 13
-"""to copy so much of one takes a small part of the time of a step [bytes]."""
+"""Size of a checkpoint per step [bytes], above which there are more steps. To copy this much costs little per step."""
 Progress = Callable[[float, float], None]
-
-
-class Ending(NamedTuple):
-    """How the engine ended.
-
-    Attributes
-    ----------
-    status : int
-        Its status.
-    interrupted : bool
-        Whether that was asked for.
-    checkpoint : Checkpoint
-        What its memory held at last where nothing yet said when the run would end.
-    told : int
-        Events from there on.
-    hint : str
-        What a run that failed was held up by, as far as counters and events tell.
-    trouble : str
-        Why its results could not be kept, "" where they could.
-    """
-
-    status: int
-    interrupted: bool
-    checkpoint: Checkpoint
-    told: int
-    hint: str
-    trouble: str = ""
 
 
 def run_engine(
     engine: Engine,
     model: LaidOut,
     records: Records,
-    begun: Checkpoint,
+    start: Checkpoint,
     progress: Progress | None,
-    keeper: Keeper,
+    sink: OutputSink,
     until: Until | None = None,
 ) -> Ending:
-    """Run to the end time, to a failure, until a condition is met or somebody interrupts.
+    """Run to the end time, to a failure, until a condition is met or the user interrupts.
 
-    ``begun`` is the checkpoint of where it starts.
+    ``start`` is the checkpoint of the start, which the memory holds.
 
     Raises
     ------
     InvalidInput
-        If the engine breaks its contract, or ``until`` returns what is neither true nor false.
+        If the engine breaks its contract, or ``until`` returns neither true nor false.
     BaseException
-        Whatever ``progress`` or ``until`` raises.
+        An exception of ``progress`` or ``until``.
     """
-    memory = model.memory
-    t_end = float(memory[owners.Request.t_end])
-    report = None if progress is None else lambda t: progress(t, t_end)
-    status, interrupted, trouble = PAUSED, False, ""
-    checkpoint, before = begun, records.n_passed
-    pace: Pace | None = None
-    so_far, looks = None if until is None else RunSoFar(model, records, engine), 0
+    loop = _Loop(engine, model, records, start, progress, sink, until)
+    status, is_interrupted, output_error = PAUSED, False, ""
     try:
-        with model.watch.reporting(report) as watch:
-            engine_at = Advancing(engine, model, watch.call)
-            while status == PAUSED:
-                looks, reached = looks + 1, None if so_far is None else so_far.reached
-                # a condition sees the start before any step
-                status = engine_at.advance(keeper.steps if until is None else min(looks - 1, 1), True)
-                # a wary engine that does nothing is next to the end
-                near = status == PAUSED and (so_far is None or reached == so_far.reached)
-                if near or (status == PAUSED and looks % keeper.steps == 0):
-                    checkpoint, before = Checkpoint.of(memory), records.n_passed
-                    keeper.keep(checkpoint)
-                if near:
-                    if records.waiting:
-                        # with full buffers an engine would do nothing
-                        pace = pace or Pace(model, begun)
-                        pace.look(status)
-                        records.drain()
-                    most = max(_STEPS_NEAR_END, checkpoint.size // _BYTES_PER_STEP)
-                    status = engine_at.get_on(most if until is None else 1, checkpoint)
-                if status != DONE:
-                    pace = pace or Pace(model, begun)
-                    pace.look(status)
-                records.drain()
-                if status == PAUSED and so_far is not None and until is not None and _is_met(until, so_far):
-                    status = CONDITION_MET
-                if progress is not None:
-                    progress(float(memory[owners.Island.time]), t_end)
+        status = loop.run()
     except KeyboardInterrupt:
         records.drain()
-        status, interrupted = PAUSED, True
-        # a program goes on behind it as if it had come to its end
-        told = f"interrupted at t = {memory[owners.Island.time]:.9g} s: the run returns what it has"
-        print(f"{told}, with the status 'interrupted'", file=sys.stderr, flush=True)
+        is_interrupted = True
+        # the program continues after this as if the run had ended, so the user must see it
+        text = f"interrupted at t = {model.memory[owners.Island.time]:.9g} s: the run returns what it has"
+        print(f"{text}, with the status 'interrupted'", file=sys.stderr, flush=True)
     except FileError as error:
         records.drain()
-        status, trouble = PAUSED, str(error)
+        output_error = str(error)
     except MemoryError as error:
-        # what was drained before is kept, where there is room to put it together
-        status, trouble = PAUSED, f"the memory ran out: {error}."
+        # the records that were drained before are still there
+        output_error = f"the memory ran out: {error}."
     if status == DONE:
-        records.check_end(engine)
-    records.end()
-    if status in (STOPPED, CONDITION_MET, *(cause.code for cause in engine.causes if not cause.is_failure)):
-        checkpoint, before = Checkpoint.of(memory), records.n_passed
-    hint = "" if pace is None else pace.hint(status)
-    return Ending(status, interrupted, checkpoint, records.n_passed - before, hint, trouble)
+        records.check_complete(engine)
+    records.add_last_sample()
+    return loop.ending(status, is_interrupted, output_error)
 
 
-def _is_met(until: Until, run: RunSoFar) -> bool:
-    """Return whether a condition is met.
+@final
+class _Loop:
+    def __init__(
+        self,
+        engine: Engine,
+        model: LaidOut,
+        records: Records,
+        start: Checkpoint,
+        progress: Progress | None,
+        sink: OutputSink,
+        until: Until | None,
+    ) -> None:
+        self._engine, self._model, self._records, self._sink = engine, model, records, sink
+        self._progress, self._until = progress, until
+        self._run_so_far = None if until is None else RunSoFar(model, records, engine)
+        self._start = self._checkpoint = start
+        self._n_events_before = records.n_events
+        self._monitor: StallMonitor | None = None
+        self._n_calls = 0
 
-    Raises
-    ------
-    InvalidInput
-        If what it returns is neither true nor false, such as an array.
-    """
-    answer = until(run)
-    try:
-        return bool(answer)
-    except ValueError as error:
-        rule = f"must return True or False, at t = {run.time:.9g} s"
-        raise InvalidInput("run: until", rule, answer, "Reduce an array by numpy.any or numpy.all.") from error
+    def run(self) -> int:
+        """Call the engine until the run ends; the result is the status."""
+        memory, progress = self._model.memory, self._progress
+        t_end = float(memory[owners.Request.t_end])
+        report = None if progress is None else lambda t: progress(t, t_end)
+        status: int = PAUSED
+        with self._model.watch.reporting(report) as watch:
+            driver = EngineDriver(self._engine, self._model, watch.call)
+            while status == PAUSED:
+                status = self._advance(driver)
+                if status == PAUSED and self._is_condition_met():
+                    status = CONDITION_MET
+                if report is not None:
+                    report(float(memory[owners.Island.time]))
+        return status
+
+    def ending(self, status: int, is_interrupted: bool, output_error: str) -> Ending:
+        """How the run ended."""
+        # these ends do not depend on the end time
+        if status in (STOPPED, CONDITION_MET, *(cause.code for cause in self._engine.causes if not cause.is_failure)):
+            self._take_checkpoint()
+        n_known_events = self._records.n_events - self._n_events_before
+        hint = "" if self._monitor is None else self._monitor.hint(status)
+        return Ending(status, is_interrupted, self._checkpoint, n_known_events, hint, output_error)
+
+    def _advance(self, driver: EngineDriver) -> int:
+        """Call the engine once, or twice near the end time, and drain its buffers; the result is the status."""
+        run, records = self._run_so_far, self._records
+        self._n_calls += 1
+        before = None if run is None else run.reached
+        # the condition is evaluated at the start, before any step, and after each step
+        status = driver.advance(self._sink.steps if run is None else min(self._n_calls - 1, 1), True)
+        is_near_end = status == PAUSED and (run is None or before == run.reached)
+        if is_near_end or (status == PAUSED and self._n_calls % self._sink.steps == 0):
+            self._take_checkpoint()
+            self._sink.write(self._checkpoint)
+        if is_near_end:
+            if records.has_buffered:
+                # an engine with full buffers takes no step
+                self._stall_monitor().observe(status)
+                records.drain()
+            most_steps = max(_STEPS_NEAR_END, self._checkpoint.size // _BYTES_PER_STEP)
+            status = driver.advance_past(self._checkpoint, most_steps if run is None else 1)
+        if status != DONE:
+            self._stall_monitor().observe(status)
+        records.drain()
+        return status
+
+    def _take_checkpoint(self) -> None:
+        self._checkpoint, self._n_events_before = Checkpoint.of(self._model.memory), self._records.n_events
+
+    def _stall_monitor(self) -> StallMonitor:
+        """The monitor of the run. A short run needs none."""
+        if self._monitor is None:
+            self._monitor = StallMonitor(self._model, self._start)
+        return self._monitor
+
+    def _is_condition_met(self) -> bool:
+        """True if there is a condition and it is met.
+
+        Raises
+        ------
+        InvalidInput
+            If it returns neither true nor false, such as an array.
+        """
+        if self._until is None or self._run_so_far is None:
+            return False
+        answer = self._until(self._run_so_far)
+        try:
+            return bool(answer)
+        except ValueError as error:
+            rule = f"must return True or False, at t = {self._run_so_far.time:.9g} s"
+            raise InvalidInput("run: until", rule, answer, "Reduce an array by numpy.any or numpy.all.") from error

@@ -1,33 +1,51 @@
-"""Why a run ended."""
+"""Outcome: the status and the message of a run, by the status of the engine."""
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.modes import CONDITION_MET, DONE, PAUSED, REASONS, STOPPED, Status
 from nonsmooth.interfaces import Cause, Engine
 from nonsmooth.model.block_ends import BlockEnds
-from nonsmooth.model.blocks import written_past
+from nonsmooth.model.blocks import block_overrun
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.runs.diagnose import culprit
-from nonsmooth.runs.loop import Ending
+from nonsmooth.runs.diagnosis import failing_function
+from nonsmooth.runs.ending import Ending
+
+
+class Outcome(NamedTuple):
+    """How a run ended, for its user.
+
+    Attributes
+    ----------
+    status : str
+        "done", "suspect", "interrupted" or "failed".
+    message : str
+        The reason, as a sentence.
+    """
+
+    status: str
+    message: str
 
 
 def cause_of(engine: Engine, status: int) -> Cause | None:
-    """Return the cause of an engine's own that a status stands for, None if it is no such status."""
+    """The engine's own cause with a status as its code, or None."""
     return next((cause for cause in engine.causes if cause.code == status), None)
 
 
-def reason(model: LaidOut, ends: BlockEnds, ending: Ending, engine: Engine) -> tuple[str, str]:
-    """Return the status of a run that has ended, in a word, and why it did; ``guards`` are those of the model."""
-    past, status = written_past(model, ends), ending.status
-    if ending.trouble:
-        return "failed", f"At t = {model.memory[owners.Island.time]:.9g} s {ending.trouble}"
+def outcome(model: LaidOut, ends: BlockEnds, ending: Ending, engine: Engine) -> Outcome:
+    """Status and message of a run that has ended; ``ends`` are the ends of the model's blocks."""
+    overrun, status = block_overrun(model, ends), ending.status
+    at = f"At t = {model.memory[owners.Island.time]:.9g} s"
+    if ending.output_error:
+        return Outcome("failed", f"{at} {ending.output_error}")
     cause = cause_of(engine, status)
-    if cause and not past:
-        said = f"At t = {model.memory[owners.Island.time]:.9g} s {cause.reason}. {cause.remedy}".strip()
-        return "failed" if cause.is_failure else "done", said
-    if past or status not in (DONE, STOPPED, CONDITION_MET, PAUSED):
-        why = cause.reason if cause else REASONS[Status(status)]
-        message = f"At t = {model.memory[owners.Island.time]:.9g} s {why}."
-        return "failed", f"{message} {past or culprit(model, status) or ending.hint}".strip()
-    return "interrupted" if ending.interrupted else "done", REASONS[Status(status)]
+    if cause and not overrun:
+        message = f"{at} {cause.reason}. {cause.remedy}".strip()
+        return Outcome("failed" if cause.is_failure else "done", message)
+    if overrun or status not in (DONE, STOPPED, CONDITION_MET, PAUSED):
+        reason = cause.reason if cause else REASONS[Status(status)]
+        details = overrun or failing_function(model, status) or ending.hint
+        return Outcome("failed", f"{at} {reason}. {details}".strip())
+    return Outcome("interrupted" if ending.is_interrupted else "done", REASONS[Status(status)])

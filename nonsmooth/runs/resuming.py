@@ -1,4 +1,4 @@
-"""A run that was cut off goes on, in whatever process."""
+"""Resumes a run that was cut off, in any process: system, engine and arguments are read from its folder."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from nonsmooth.system.system import System
 
 
 class OtherVersions(NonsmoothWarning):
-    """A run goes on with other versions than it began with, so that its last bits may differ."""
+    """A run is resumed with other versions than it began with, so that its last bits may differ."""
 
 
 def resume(
@@ -30,40 +30,40 @@ def resume(
     progress: Progress | None = None,
     trust: bool = False,
 ) -> Solution:
-    """Go on with a run that was cut off, to the end that it would have had, to the last bit.
+    """Resume a run that was cut off, to the end that it would have had, to the last bit.
 
     Parameters
     ----------
     output : Output, Path or str
-        The folder of its results, which are appended to.
+        The folder of its results, to which the rest is appended.
     system : System, optional
-        What ran; by default it is built from what the folder says of it.
+        The system that ran; by default it is built from the folder.
     engine : Engine, optional
-        What ran it; by default that which the folder names.
+        The engine that ran it; by default the one that the folder names.
     until : callable, optional
-        The condition that the run was given, which no file holds.
+        The condition of the run, which no file holds.
     progress : callable, optional
         As for :func:`nonsmooth.simulate`.
     trust : bool, optional
-        Whether the folder may name code that is no installed plug-in, as for :func:`nonsmooth.load_system`.
+        True if the folder may name code that is no installed plug-in, as for :func:`nonsmooth.load_system`.
 
     Returns
     -------
     Solution
-        Of the whole run.
+        The solution of the whole run.
 
     Warns
     -----
     OtherVersions
-        If the run began with other versions of what computes it.
+        If the run began with other versions of the programs that compute it.
 
     Raises
     ------
     InvalidInput
-        If there is nothing to go on with, the system is not the one that ran or cannot be built, or a condition is
-        missing.
+        If the folder holds no run that was cut off, the system is not the one that ran or cannot be built, or the
+        condition is missing.
     PluginError
-        If a class that the system needs cannot be loaded.
+        If a class of the system cannot be loaded.
     RunFailed
         As :func:`nonsmooth.simulate`.
     """
@@ -74,7 +74,7 @@ def resume(
 
 
 def check_resumable(where: Output) -> SolutionFolder:
-    """Return the folder of a run that can go on; warnings and errors as :func:`resume`."""
+    """Folder of a run that can be resumed; warnings and errors as :func:`resume`."""
     folder = SolutionFolder.opened(where)
     folder.check_cut_off()
     began, now = folder.said("versions"), versions()

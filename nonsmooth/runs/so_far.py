@@ -1,4 +1,4 @@
-"""RunSoFar: what a run has done until now, for conditions that end it."""
+"""RunSoFar: a run up to now, as a condition that ends it sees it."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ if TYPE_CHECKING:
 @final
 @dataclass(frozen=True)
 class RunSoFar:
-    """Where a run is, and what happened in it; the run makes it."""
+    """State and history of a run that is under way; the run makes it."""
 
     _model: LaidOut
     _records: Records
     _engine: Engine
 
     def __repr__(self) -> str:
-        """Return how far it is."""
+        """Time, and numbers of events and impacts."""
         return f"RunSoFar(t = {self.time:.9g} s; {self.n_events} events, {self.n_impacts} impacts)"
 
     @property
@@ -49,24 +49,24 @@ class RunSoFar:
 
     @property
     def n_events(self) -> int:
-        """Events so far, the start among them."""
-        return self._records.n_passed
+        """Number of events so far. The start is one of them."""
+        return self._records.n_events
 
     @property
     def reached(self) -> tuple[float, int]:
-        """Time [s] and events: they are as they were only if nothing was done."""
+        """Time [s] and number of events. Both are unchanged only if the engine did nothing."""
         return self.time, self.n_events
 
     @property
     def n_impacts(self) -> int:
-        """Impacts so far in this run."""
+        """Number of impacts so far in this run."""
         return int(self._model.memory[owners.Totals.n_impacts])
 
     @property
     def events(self) -> Events:
-        """All events so far; to read them takes longer the more there are."""
+        """All events so far. The time to read them grows with their number."""
         return self._records.joined(self._engine).events
 
 
 Until: TypeAlias = Callable[[RunSoFar], bool]
-"""A condition that ends a run, looked at after each step and each event."""
+"""A condition that ends a run; it is evaluated after each step and each event."""

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from nonsmooth.engine.memory.modes import GUARD, IMPACT, JAM, PAINLEVE
 from nonsmooth.histories.cones import beyond_cones
 from nonsmooth.interfaces import Body
-from nonsmooth.model.part_pairs import unseen
+from nonsmooth.model.part_pairs import unchecked_contacts
 from nonsmooth.notices import say
 from nonsmooth.solution.end import Counters, End
 from nonsmooth.solution.energy import EnergyAccount
@@ -158,7 +158,7 @@ class Solution:
 
         All other pairs of bodies between which contacts are declared are looked at as wholes, too.
         """
-        return tuple(unseen(self.system.contacts))
+        return tuple(unchecked_contacts(self.system.contacts))
 
     @functools.cached_property
     def impulses_beyond_cone(self) -> int:

@@ -28,21 +28,21 @@ _ARRAYS = ("q", "u", "modes", "slip_directions", "closing_rates", "features", "l
 @final
 @dataclass(frozen=True)
 class Continuation:
-    """What a run needs besides its state to go on as if it had not stopped.
+    """What continues a run as if it had not stopped, in addition to its state.
 
     Attributes
     ----------
     model : str
         Digest of the model that ran.
     difference : Difference
-        What its memory held a few steps before, where nothing said when the run would end.
-    told : int
-        Events from there on that the run has told.
+        Content of the memory at a checkpoint a few steps before the end, which does not depend on the end time.
+    n_known_events : int
+        Number of events after the checkpoint. The continued run repeats them, and they are recorded already.
     """
 
     model: str
     difference: Difference
-    told: int
+    n_known_events: int
 
 
 @final

@@ -266,7 +266,9 @@ def _rod_beside_a_wall(clearance: float, friction: float) -> ns.System:
 @pytest.mark.parametrize("overlap", [0.0, 1e-7])
 def test_a_contact_at_a_pivot_is_refused_by_name(friction: float, overlap: float) -> None:
     """The joint takes any force along the normal, so that nothing determines the force of the contact."""
-    with pytest.raises(ns.InvalidInput, match=r"the contact 'wall - rod \(1\)' must have some mobility") as caught:
+    with pytest.raises(
+        ns.InvalidInput, match=r"the contact 'wall - rod \(1\)' must have some effective inverse mass"
+    ) as caught:
         ns.assemble(_rod_beside_a_wall(-overlap, friction))
     assert "the joint 'hinge driven body - rod' holds it there" in str(caught.value)
 

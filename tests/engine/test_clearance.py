@@ -133,13 +133,13 @@ def test_a_body_that_tumbles_past_a_ball_is_missed_by_no_step(body: EllipsoidBod
 
 def test_events_are_kept_however_often_the_engine_is_called(monkeypatch: pytest.MonkeyPatch) -> None:
     """Events that take neither a step nor an impact are not lost between two calls."""
-    keeper = importlib.import_module("nonsmooth.runs.keeper")
+    output_sink = importlib.import_module("nonsmooth.runs.output_sink")
     plate, box = Plate(), BoxBody(0.01, 0.01, 0.01, 2700.0)
     system = ns.System([plate, box])
     system.contact(plate, box, **LAWS)
     system.place(box, position=(0.0, 0.0, 0.012), angular_velocity=(3.0, 2.0, 0.0))
     whole = ns.simulate(system, 0.1)
-    monkeypatch.setattr(keeper, "_STEPS_AT_ONCE", 1)
+    monkeypatch.setattr(output_sink, "_STEPS_PER_CALL", 1)
     parts = ns.simulate(system, 0.1)
     assert parts.events.causes() == whole.events.causes()
     np.testing.assert_array_equal(parts.events.time, whole.events.time)

@@ -12,7 +12,7 @@ import nonsmooth as ns
 from bodies import Ball, DrivenBody, Harmonic, Plate, TriangleMesh, Triangles
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.interfaces import FrictionLaw
-from nonsmooth.runs import writer
+from nonsmooth.runs import folder_sink
 from tests.bodies.meshes.parts import hills
 
 _COULOMB = Coulomb(0.2)
@@ -40,8 +40,8 @@ def on_hills() -> ns.System:
 
 def main() -> None:
     """Run it slowly, and write whatever there is as often as possible."""
-    writer._EVERY = writer._FIRST_AFTER = 0.0
-    writer._MOST = writer._FIRST
+    folder_sink._COMMIT_INTERVAL = folder_sink._FIRST_COMMIT = 0.0
+    folder_sink._MOST_STEPS = folder_sink._FIRST_STEPS
     ns.simulate(balls(), float(sys.argv[2]), output=sys.argv[1], progress=lambda t, t_end: time.sleep(0.03))
 
 

@@ -65,7 +65,7 @@ def test_a_parameter_is_no_part_of_a_checkpoint(model: ns.Model, value: float) -
     """No run changes one."""
     place = int(_starts(model._laid.memory, owners.Contact.friction_parameters)[1]) + 1
     state = _with(model.run(T_END - 1e-3).state, place, value)
-    with pytest.raises(ns.InvalidInput, match=rf"places must be those of \d+ numbers that a run may change.* {place}"):
+    with pytest.raises(ns.InvalidInput, match=rf"places must be places of \d+ numbers that a run may change.* {place}"):
         model.run(T_END, start=state)
 
 
@@ -77,7 +77,7 @@ def test_features_that_there_are_not_are_named(hilly: ns.Model, which: int, valu
     state = hilly.run(T_END).state
     memory = hilly._laid.memory
     held = [start for start in _starts(memory, owners.Contact.features) if memory.floats[memory.blocks + start] != 0.0]
-    said = r"the features of the contact '.*' must be those of \(1, below \d+, below 1\)"
+    said = r"the features of the contact '.*' must be one of \(1, below \d+, below 1\)"
     with pytest.raises(ns.InvalidInput, match=said):
         hilly.run(2.0 * T_END, start=_with(state, int(held[0]) + which, value))
     assert hilly.run(2.0 * T_END, start=state).status == "done"

@@ -23,7 +23,7 @@ from nonsmooth.results.lock import Lock
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.results.state_file import state_bytes, state_from
-from nonsmooth.runs import writer
+from nonsmooth.runs import folder_sink
 from nonsmooth.runs.identity import digest
 from nonsmooth.runs.resuming import OtherVersions
 from nonsmooth.runs.so_far import RunSoFar
@@ -64,11 +64,11 @@ def whole() -> ns.Solution:
 @pytest.fixture
 def often(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let a run be written whenever it can be."""
-    for name, value in (("_EVERY", 0.0), ("_FIRST_AFTER", 0.0), ("_MOST", 64)):
-        monkeypatch.setattr(writer, name, value)
+    for name, value in (("_COMMIT_INTERVAL", 0.0), ("_FIRST_COMMIT", 0.0), ("_MOST_STEPS", 64)):
+        monkeypatch.setattr(folder_sink, name, value)
 
 
-def _cut_off(folder: Path, system: ns.System, at: float) -> None:
+def _cut_off(folder: Path, system: ns.System, at: float, sample_interval: float | None = None) -> None:
     """Run a system, and leave what a process would that dies at a time [s]."""
 
     class Dies(Exception):
@@ -79,7 +79,7 @@ def _cut_off(folder: Path, system: ns.System, at: float) -> None:
             raise Dies
 
     with pytest.raises(Dies):
-        ns.simulate(system, T_END, output=folder, progress=die)
+        ns.simulate(system, T_END, output=folder, progress=die, sample_interval=sample_interval)
 
 
 def _reached(folder: Path) -> float:
@@ -137,6 +137,21 @@ def test_a_full_disk_ends_the_run_and_it_goes_on_when_there_is_room(
     n = len(kept.events)
     np.testing.assert_array_equal(kept.events.time, whole.events.time[:n])
     assert 0.0 < ns.open_solution(tmp_path).t_end <= kept.t_end
+    assert differences(whole, ns.resume(tmp_path)) == []
+
+
+@pytest.mark.usefixtures("often")
+def test_samples_of_a_resumed_run_have_the_interval_that_was_given(tmp_path: Path) -> None:
+    """The folder keeps the arguments of the run; one that is missing is named."""
+    system = balls()
+    whole = ns.simulate(system, T_END, sample_interval=0.01)
+    _cut_off(tmp_path, system, 0.5, 0.01)
+    attributes = tmp_path / "solution.zarr" / ".zmetadata"
+    content = attributes.read_text(encoding="utf-8")
+    attributes.write_text(content.replace('"sample_interval"', '"interval"'), encoding="utf-8")
+    with pytest.raises(ns.InvalidInput, match=r"arguments of the run must be as a run has written it.*sample_interval"):
+        ns.resume(tmp_path)
+    attributes.write_text(content, encoding="utf-8")
     assert differences(whole, ns.resume(tmp_path)) == []
 
 

@@ -49,7 +49,7 @@ def test_a_quaternion_off_unit_length(model: ns.Model) -> None:
 def test_a_mode_that_is_none_or_does_not_hold(model: ns.Model) -> None:
     _refused(model, "State.modes", "0 (open), 1 (stick) or 2 (slide)", "[3]", modes=np.array([3]))
     q = np.array([0.0, 0.0, 0.02, 1.0, 0.0, 0.0, 0.0])
-    _refused(model, "State.modes[0]", "must be 0, open", "gap of 0.01 m", "State.at", q=q)
+    _refused(model, "State.modes[0]", "must be 0, open", "gap is 0.01 m", "State.at", q=q)
 
 
 def test_bodies_in_one_another(model: ns.Model) -> None:

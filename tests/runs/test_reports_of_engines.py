@@ -193,8 +193,8 @@ class Boastful(Judged):
     ("engine", "message"),
     [
         (NoScalar(), "NoScalar.verdict must be a known one, but it is 'deepest'.*Known: fastest_fall"),
-        (TakenCode(), r"TakenCode.causes must have codes of their own, 100 or more, but it is \[99\]"),
-        (OneCode(), r"OneCode.causes must have codes of their own.*\[100, 100\]"),
+        (TakenCode(), r"TakenCode.causes must have different codes, 100 or more, but it is \[99\]"),
+        (OneCode(), r"OneCode.causes must have different codes.*\[100, 100\]"),
         (Boastful(), "Boastful.promised_residual must be a positive finite number or None, but it is -1.0"),
     ],
     ids=lambda value: type(value).__name__ if isinstance(value, Engine) else "",

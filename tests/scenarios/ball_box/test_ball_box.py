@@ -11,7 +11,7 @@ import pytest
 import nonsmooth as ns
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.native.kernel import call_entry
-from nonsmooth.model import units
+from nonsmooth.model import broad_phase
 from nonsmooth.model.assembly import assemble
 from nonsmooth.model.contact_table import ContactTable
 from scenarios.ball_box.scenario import BallBox
@@ -90,14 +90,14 @@ def test_a_pile_of_two_at_rest() -> None:
 
 
 def test_near_pairs_give_what_all_pairs_give(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Ten balls by the list of near pairs and with all contacts in slots, over the first collisions."""
+    """Ten balls by the list of near pairs and with all contacts active, over the first collisions."""
     scenario = BallBox(t_end=0.25)
     ends = []
     for small in (64, 200):
-        monkeypatch.setattr(units, "SMALL", small)
+        monkeypatch.setattr(broad_phase, "SMALL", small)
         system = scenario.build()
         table = ContactTable.of(system.bodies, system.contacts)
-        assert (len(units.find_units(system.contacts, table, system.bodies).radii) == 0) == (small == 200)
+        assert (len(broad_phase.find_broad_phase(system.contacts, table, system.bodies).radii) == 0) == (small == 200)
         ends.append(ns.simulate(system, scenario.t_end))
     listed, every = ends
     assert listed.counters.impacts == every.counters.impacts > 30

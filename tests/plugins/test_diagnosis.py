@@ -11,7 +11,7 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, Plate
 from laws import Frictionless, Unilateral
-from nonsmooth.runs import diagnose
+from nonsmooth.runs import diagnosis
 from tests.plugins.failing_laws import Map
 
 
@@ -44,7 +44,7 @@ def test_a_diagnosis_that_fails_keeps_the_solution(error: BaseException, monkeyp
     def fails(*_: object) -> str:
         raise error
 
-    monkeypatch.setattr(diagnose, "_in_the_map", fails)
+    monkeypatch.setattr(diagnosis, "_failing_map", fails)
     with pytest.raises(ns.RunFailed, match=type(error).__name__) as caught:
         _second_ball_lands()
     solution = caught.value.solution

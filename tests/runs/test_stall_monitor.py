@@ -10,7 +10,7 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, FunctionLoad, Plate
 from laws import Coulomb, EnergeticImpact, Frictionless, NewtonImpact, Unilateral
-from nonsmooth.runs.pace import TimeHardlyPasses
+from nonsmooth.runs.stall_monitor import TimeHardlyPasses
 from nonsmooth.types import Floats
 
 ELASTIC = NewtonImpact(1.0, duration=1e-12)

@@ -1,0 +1,157 @@
+"""BroadPhase: bounding spheres of frames, and the pairs of spheres that have contacts with each other.
+
+Of many declared contacts few belong to bodies near each other. The engine compares bounding spheres and half-spaces,
+and evaluates the contacts of near pairs only.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.interfaces import Body
+from nonsmooth.model.contact_table import ContactTable
+from nonsmooth.model.feature_searches import FeatureSearch, find_searches
+from nonsmooth.system.contact import Contact
+from nonsmooth.types import Array
+
+SMALL = 64
+"""Largest number of declared contacts that are all active. To evaluate so many costs less than the broad phase."""
+_CONTACTS_PER_SPHERE = 16
+"""Least number of active contacts per sphere that the memory can hold. Contacts need little memory."""
+_NEIGHBOURS = 6
+"""Number of pairs per sphere whose contacts the memory can hold: in a dense packing a sphere has 12 neighbours."""
+_MARGIN = 0.5
+"""Margin of the neighbour list, in least radii of spheres. The list lasts while bodies move by about so far."""
+
+
+@dataclass(frozen=True)
+class HalfSpace:
+    """An unbounded shape in a contact.
+
+    Attributes
+    ----------
+    contact : int
+        Number of the contact.
+    side : tuple of int
+        Number of the body that carries it, and its frame.
+    sphere : int
+        Number of the sphere that it may touch, 0 if there is none.
+    ceiling : float
+        Height over the frame's origin above which it has no point [m].
+    is_steady : bool
+        True if its body does not change its motion, so that the height of the sphere shows when it is far away.
+    """
+
+    contact: int
+    side: tuple[int, int]
+    sphere: int
+    ceiling: float
+    is_steady: bool
+
+
+@dataclass(frozen=True, eq=False)
+class BroadPhase:
+    """The bounding spheres and half-spaces of a system, and their contacts.
+
+    Attributes
+    ----------
+    frames : dict
+        Number of the sphere of a frame, by number of the body and frame.
+    radii : array
+        Radius of each sphere about the origin of its frame [m].
+    pairs : array
+        The pairs of spheres with contacts, in order, with the lower number first, shape [n, 2].
+    counts : array
+        Number of contacts of each pair.
+    contacts : array
+        Numbers of the contacts of pairs, pair by pair.
+    half_spaces : list of HalfSpace
+        The unbounded shapes, contact by contact.
+    searches : list of FeatureSearch
+        Searches for candidate features.
+    """
+
+    frames: dict[tuple[int, int], int]
+    radii: Array
+    pairs: NDArray[np.int64]
+    counts: NDArray[np.int64]
+    contacts: NDArray[np.int64]
+    half_spaces: list[HalfSpace]
+    searches: list[FeatureSearch]
+
+    @property
+    def n_slots(self) -> int:
+        """Largest number of active contacts."""
+        per_sphere = max(_CONTACTS_PER_SPHERE, _NEIGHBOURS * int(self.counts.max(initial=0)))
+        return len(self.half_spaces) + min(len(self.contacts), per_sphere * len(self.frames))
+
+
+def find_broad_phase(contacts: Sequence[Contact], table: ContactTable, bodies: Sequence[Body]) -> BroadPhase:
+    """Spheres and half-spaces of contacts. Few contacts without searches have no sphere, and are all active."""
+    searches = find_searches(contacts)
+    is_bounded = np.all(np.isfinite(table.extents), axis=1)
+    if len(contacts) <= SMALL and not searches:
+        is_bounded[:] = False
+    numbers = np.flatnonzero(is_bounded)
+    n_frames = int(table.frames.max(initial=0)) + 1
+    known, sides = np.unique(n_frames * table.bodies[numbers] + table.frames[numbers], return_inverse=True)
+    frames = {divmod(key, n_frames): sphere for sphere, key in enumerate(known.tolist())}
+    radii = np.zeros(len(frames))
+    np.maximum.at(radii, sides.ravel(), table.extents[numbers].ravel())
+    one, two = np.sort(sides.reshape(-1, 2), axis=1).T
+    keys = one * len(frames) + two
+    order = np.argsort(keys, kind="stable")
+    _, first, counts = np.unique(keys[order], return_index=True, return_counts=True)
+    pairs = np.column_stack([one, two])[order[first]]
+    unbounded = np.flatnonzero(~is_bounded).tolist()
+    half_spaces = [_half_space(contacts[i], i, table, bodies, frames, radii) for i in unbounded]
+    return BroadPhase(frames, radii, pairs, counts, numbers[order], half_spaces, searches)
+
+
+def _half_space(
+    contact: Contact,
+    number: int,
+    table: ContactTable,
+    bodies: Sequence[Body],
+    frames: Mapping[tuple[int, int], int],
+    radii: Array,
+) -> HalfSpace:
+    """The unbounded shape of a contact. The sphere of the other shape grows in ``radii``, to hold this shape."""
+    own, other = (0, 1) if not math.isfinite(contact.extents[0]) else (1, 0)
+    sides = [(int(table.bodies[number, i]), int(table.frames[number, i])) for i in (own, other)]
+    sphere, ceiling = frames.get(sides[1]), contact.shapes[own].ceiling
+    body = bodies[sides[0][0]]
+    is_steady = sphere is not None and math.isfinite(ceiling) and body.n_u == 0 and math.isinf(body.time_scale)
+    if sphere is not None and math.isfinite(contact.extents[other]):
+        radii[sphere] = max(radii[sphere], contact.extents[other])
+    return HalfSpace(number, sides[0], sphere or 0, ceiling if is_steady else 0.0, is_steady)
+
+
+def lay_broad_phase(memory: Memory, broad_phase: BroadPhase, frames: dict[tuple[int, int], int]) -> None:
+    """Write spheres and half-spaces, unless there are none; ``frames`` has the place of each frame in the memory."""
+    n = len(broad_phase.radii)
+    if n == 0:
+        return
+    for side, sphere in broad_phase.frames.items():
+        memory[owners.Sphere.frame][:n][sphere] = frames[side]
+    memory[owners.Sphere.radius][:n] = broad_phase.radii
+    memory[owners.Island.sphere_order][:n] = range(n)
+    memory[owners.Island.list_margin] = memory[owners.Options.widest_margin] = _MARGIN * float(broad_phase.radii.min())
+    one, two = broad_phase.pairs.T
+    memory[owners.Sphere.first_partner][: n + 1][1:] = np.cumsum(np.bincount(one, minlength=n))
+    memory[owners.Model.partner][: len(two)] = two
+    memory[owners.Model.partner_contact][: len(two) + 1][1:] = np.cumsum(broad_phase.counts)
+    memory[owners.Model.paired_contact][: len(broad_phase.contacts)] = broad_phase.contacts
+    for i, half_space in enumerate(broad_phase.half_spaces):
+        memory[owners.HalfSpace.contact][i] = half_space.contact
+        memory[owners.HalfSpace.sphere][i] = half_space.sphere
+        memory[owners.HalfSpace.frame][i] = frames[half_space.side]
+        memory[owners.HalfSpace.ceiling][i] = half_space.ceiling
+        memory[owners.HalfSpace.is_steady][i] = half_space.is_steady

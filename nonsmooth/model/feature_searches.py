@@ -1,0 +1,133 @@
+"""FeatureSearch: a search for candidate features of two shapes, which share a number of contacts.
+
+Two surfaces may have millions of pairs of features, of which a few are near each other. A search finds these and
+assigns them to the contacts of the two shapes.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from operator import attrgetter
+
+from nonsmooth.binding import interpreted
+from nonsmooth.binding.bounds import try_out
+from nonsmooth.binding.compile import bind, parameter_place
+from nonsmooth.binding.source import described
+from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.blocks import CANDIDATE
+from nonsmooth.engine.memory.memory import Heap, Memory
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import CandidateSearch
+from nonsmooth.model.contact_table import ContactTable
+from nonsmooth.parameters import Table
+from nonsmooth.system.contact import Contact
+
+
+@dataclass(frozen=True)
+class FeatureSearch:
+    """A search for candidate features of two frames, and the contacts that it fills.
+
+    Attributes
+    ----------
+    candidates : CandidateSearch
+        The function of the search and its parameters.
+    contacts : range
+        Numbers of the contacts.
+    owner : str
+        Name of the kinematics and of the first contact, for messages.
+    """
+
+    candidates: CandidateSearch
+    contacts: range
+    owner: str
+
+    @property
+    def size(self) -> int:
+        """Largest number of floats that the search may write."""
+        return 1 + CANDIDATE * (len(self.contacts) + 1)
+
+
+def find_searches(contacts: Sequence[Contact]) -> list[FeatureSearch]:
+    """The searches, in the order of their contacts.
+
+    Raises
+    ------
+    InvalidInput
+        If a shape is unbounded. Its displacement has no bound, so no time for the next search is known.
+    """
+    found = []
+    candidates = list(map(attrgetter("kinematics.candidates"), contacts))
+    numbers = [number for number, one in enumerate(candidates) if one is not None]
+    for _, group in itertools.groupby(numbers, lambda number: id(candidates[number])):
+        first, *more = group
+        contact, search = contacts[first], candidates[first]
+        assert search is not None
+        for shape, extent in zip(contact.shapes, contact.extents, strict=True):
+            if not math.isfinite(extent):
+                raise InvalidInput(
+                    f"{type(shape).__name__} of the {contact}",
+                    "must be bounded if its features are searched for (`candidates`)",
+                    extent,
+                    "Give the shape a finite `extent`, or return contacts of given features from `between`.",
+                )
+        owner = f"{type(contact.kinematics).__name__} ({contact})"
+        found.append(FeatureSearch(search, range(first, first + 1 + len(more)), owner))
+    return found
+
+
+def lay_searches(
+    memory: Memory,
+    blocks: Heap,
+    searches: Sequence[FeatureSearch],
+    table: ContactTable,
+    spheres: Mapping[tuple[int, int], int],
+) -> None:
+    """Write the searches; ``spheres`` has the number of the bounding sphere of each frame.
+
+    The features of a search may move as far as the farthest points of their spheres.
+    """
+    for number, search in enumerate(searches):
+        parameters = _lay_function(blocks, search)
+        first = search.contacts.start
+        sides = zip(table.bodies[first].tolist(), table.frames[first].tolist(), strict=True)
+        sphere_a, sphere_b = (spheres[side] for side in sides)
+        row = {
+            **parameters,
+            "out": blocks.output(search.size),
+            "first_contact": first,
+            "n_contacts": len(search.contacts),
+            "sphere_a": sphere_a,
+            "sphere_b": sphere_b,
+        }
+        for name, value in row.items():
+            memory[getattr(owners.Search, name)][number] = value
+        for sphere in (sphere_a, sphere_b):
+            memory[owners.Sphere.feature_radius][sphere] = memory[owners.Sphere.radius][sphere]
+
+
+def _lay_function(blocks: Heap, search: FeatureSearch) -> dict[str, int]:
+    """Compile and try out the function of a search, and store its parameters; the result has its fields."""
+    function, values = search.candidates.function, search.candidates.values
+    tables = {name: value for name, value in values.items() if isinstance(value, Table)}
+    address, numbers = bind(function, "pair", {**values, **dict.fromkeys(tables, ())}, search.owner)
+    # the trial reads the tables behind the other parameters, the engine by their distance
+    all_numbers = bind(function, "pair", values, search.owner)[1] if tables else numbers
+    try_out(function, "pair", values, all_numbers, search.size, search.owner)
+    start = blocks.store(numbers)
+    for name, table in tables.items():
+        blocks.refer(start + parameter_place(function, "pair", name), start, table)
+    return {"function": address, "parameters": start}
+
+
+def failed_search(memory: Memory, contacts: Sequence[Contact]) -> str:
+    """Sentence that names the first search that gave no number of features, or ""."""
+    for number, search in enumerate(find_searches(contacts)):
+        found = memory.floats[int(memory[owners.Search.out][number])]
+        if not found >= 0.0:
+            function = search.candidates.function
+            fault = interpreted.noted(function) or f"raises or gives {found:g}"
+            return f"{search.owner}: {described(function)}, {fault} as the number of features that it found."
+    return ""

@@ -1,0 +1,150 @@
+"""Diagnosis of a failed run: the law, load or body that raised or gave a number that is not finite.
+
+The engine only finds that some number is not finite. Here the functions of the model are called again, one by one, at
+the last state, until one fails: first the checks of the run and the impact map, then bodies, loads and contacts, then
+laws and guards.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from nonsmooth.binding import interpreted
+from nonsmooth.binding.compile import parameter_names
+from nonsmooth.binding.law_failure import REMEDY, Finding, first_without_value, law_functions, without_value
+from nonsmooth.binding.source import described, raised
+from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.layout import N_ACCOUNTS
+from nonsmooth.engine.memory.modes import (
+    GAP_UNDECIDED,
+    GAP_UNEXPLAINED,
+    JOINTS_APART,
+    MOTION_UNEXPLAINED,
+    NOT_FINITE,
+    PASSED,
+    QUATERNION_UNEXPLAINED,
+    STEP_TOO_SMALL,
+)
+from nonsmooth.engine.native.kernel import call_entry
+from nonsmooth.interfaces import ImpactMap
+from nonsmooth.interfaces.guard import guard_value
+from nonsmooth.model.blocks import blocks
+from nonsmooth.model.feature_searches import failed_search
+from nonsmooth.model.immobile import REMEDY as IMMOBILE_REMEDY
+from nonsmooth.model.immobile import held_by, immobile_contact
+from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.runs.failed_check import failed_check
+from nonsmooth.runs.squeezed import squeezed_body
+
+_FAILED_CHECKS = (GAP_UNDECIDED, GAP_UNEXPLAINED, JOINTS_APART, MOTION_UNEXPLAINED, PASSED, QUATERNION_UNEXPLAINED)
+"""Statuses of runs that failed their own checks."""
+
+
+def failing_function(model: LaidOut, status: int) -> str:
+    """Sentence that names the first function found to fail after a run ended with a status, or "".
+
+    It raises nothing: the results of the run matter more than the reason of its end, and failing functions are called.
+    """
+    try:
+        return _failing_function(model, status)
+    except (Exception, SystemExit, KeyboardInterrupt) as error:
+        return f"The search for the failing function failed: {error!r}."
+
+
+def _failing_function(model: LaidOut, status: int) -> str:
+    if status in _FAILED_CHECKS:
+        return failed_check(model, status)
+    if found := squeezed_body(model, status):
+        return found
+    found = _immobile(model) or _failing_map(model) if status == NOT_FINITE else ""
+    found = found or failed_search(model.memory, model.system.contacts) or _failing_block(model)
+    if found or status not in (NOT_FINITE, STEP_TOO_SMALL):
+        return found
+    found = first_without_value(_law_findings(model)) or _failing_guard(model)
+    if found:
+        return found
+    if not np.all(np.isfinite(model.memory[owners.Island.y][: model.n_y])):
+        return "The state itself is not finite: check the motions and the bodies."
+    return ""
+
+
+def _immobile(model: LaidOut) -> str:
+    """Sentence that names a contact whose force is not determined, or ""."""
+    found = immobile_contact(model)
+    if found is None:
+        return ""
+    return (
+        f"The {found.contact} cannot move along its normal, as {held_by(found.joints)}: its force is not determined. "
+        f"{IMMOBILE_REMEDY}"
+    )
+
+
+def _law_findings(model: LaidOut) -> Iterator[Finding | None]:
+    memory, contact = model.memory, owners.Contact
+    states = memory[owners.Island.y][: model.n_y][model.n_q + model.n_u + N_ACCOUNTS :]
+    for number, declared in enumerate(model.system.contacts):
+        start, n = (int(memory.declared(one)[number]) for one in (contact.inner_states, contact.n_inner_states))
+        for part in law_functions(declared.friction, declared.impact, declared.normal):
+            parameters = int(memory.declared(getattr(contact, f"{part.name}_parameters"))[number])
+            yield without_value(memory.floats[parameters:], part, states[start:][:n], str(declared))
+
+
+def _failing_block(model: LaidOut) -> str:
+    """Sentence that names a body, load or contact without finite numbers, or "".
+
+    They are evaluated at the last state, at its time, at the end of the failed step and shortly after: functions of
+    time may fail between two steps.
+    """
+    memory = model.memory
+    t = memory[owners.Island.time]
+    for time in (t, t + memory[owners.Step.h], t + 10.0 * memory[owners.Tolerance.time]):
+        memory[owners.Island.time] = time
+        call_entry("evaluate_at", memory)
+        memory[owners.Island.time] = t
+        for block in blocks(model):
+            if not np.all(np.isfinite(memory.floats[block.start : block.start + block.n_written])):
+                fault = interpreted.noted(block.function) or "raises or gives a number that is not finite"
+                return f"{block.label()} {fault} at t = {time:.9g} s. {REMEDY}"
+    return ""
+
+
+def _failing_map(model: LaidOut) -> str:
+    """Sentence about the impact map of the last impact, called again as plain Python, or ""."""
+    memory = model.memory
+    n = int(memory[owners.Problem.n_active])
+    law = model.system.contacts[0].impact if model.system.contacts else None
+    if n == 0 or not isinstance(law, ImpactMap) or np.all(np.isfinite(memory[owners.Impact.impulse][: 3 * n])):
+        return ""
+    names = parameter_names(law.impulses, "map")
+    parameters = memory[owners.Impact.map_block][: n * len(names)].reshape(-1, n)
+    delassus = memory[owners.Problem.matrix][: 9 * n * n].copy()
+    rates = memory[owners.Impact.rates_before][: 3 * n]
+    impulses = np.zeros(3 * n)
+    try:
+        law.impulses(n, delassus, rates.copy(), impulses, **dict(zip(names, parameters.copy(), strict=True)))
+        fault = "gives impulses that are not finite"
+    except Exception as error:
+        fault = raised(law.impulses, error)
+    active = memory[owners.Contact.declared][: int(memory[owners.Island.n_contacts])]
+    contacts = [str(model.system.contacts[int(i)]) for i in active[memory[owners.Problem.active][:n]]]
+    before = " ".join(np.array2string(rates.reshape(n, 3), precision=6, threshold=30, separator=", ").split())
+    return (
+        f"{type(law).__name__}: {described(law.impulses)}, {fault} for the rates {before} m/s "
+        f"({n} in contact: {'; '.join(contacts)})."
+    )
+
+
+def _failing_guard(model: LaidOut) -> str:
+    """Sentence that names a guard of the user without a finite value at the end of the failed step, or ""."""
+    memory, state = model.memory, model.memory[owners.Step.y_new]
+    q, u = state[: model.n_q], state[model.n_q : model.n_q + model.n_u]
+    for watched in model.system.watched:
+        guard = watched.guard
+        value = guard_value(guard, memory[owners.Island.time] + memory[owners.Step.h], q, u)
+        if not isinstance(value, float) or not math.isfinite(value):
+            fault = raised(guard.value, value) if isinstance(value, Exception) else f"gives {value!r}"
+            return f"{watched}: {described(guard.value)}, {fault} within {memory[owners.Step.h]:g} s."
+    return ""

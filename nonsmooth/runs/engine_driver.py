@@ -1,0 +1,101 @@
+"""EngineDriver: calls of an engine's ``advance``, checked against its contract.
+
+An engine may be a plug-in. One that returns an unknown status would end a run without a reason, and one that does
+nothing would be called for ever. Both are found at the call, and the message names the rule.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, final
+
+import numpy as np
+
+from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.modes import CONDITION_MET, DONE, PAUSED, REASONS
+from nonsmooth.engine.memory.tables import places
+from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.interfaces import Engine
+from nonsmooth.model.checkpoint import Checkpoint
+from nonsmooth.model.laid_out import LaidOut
+
+_STATUSES = tuple(status for status in REASONS if status != CONDITION_MET)
+_CALL_COUNTERS = places("request.n_work", "request.work_budget", "run.n_calls")
+"""Scalars that a call changes even if the engine does nothing."""
+(_N_CALLS,) = places("run.n_calls").tolist()
+
+
+@final
+class EngineDriver:
+    """Calls an engine on a model.
+
+    Parameters
+    ----------
+    engine : Engine
+        The engine.
+    model : LaidOut
+        The model that runs.
+    call : callable
+        Calls an entry point by its name; ``advance`` gets it.
+    """
+
+    def __init__(self, engine: Engine, model: LaidOut, call: Callable[..., Any]) -> None:
+        self._engine, self._memory, self._call = engine, model.memory, call
+        self._name = f"{type(engine).__name__}.advance"
+        self._statuses = {*_STATUSES, *(cause.code for cause in engine.causes)}
+
+    def advance(self, most_steps: int, pauses_before_end: bool) -> int:
+        """Advance the run by at most ``most_steps`` steps; the result is the status.
+
+        With ``pauses_before_end`` the engine pauses before a step whose length depends on the end time.
+
+        Raises
+        ------
+        InvalidInput
+            If the engine breaks its contract.
+        """
+        # records are filed under the number of the call
+        self._memory.cells[1][_N_CALLS] += 1
+        try:
+            status = self._engine.advance(self._call, self._memory, most_steps, pauses_before_end)
+        except UnknownName as error:
+            raise InvalidInput(f"{self._name}: {error.thing}", error.rule, error.value, error.remedy) from error
+        if status not in self._statuses:
+            names = "DONE, PAUSED, STOPPED, a failure of nonsmooth.engine.memory.modes or a code of its causes"
+            remedy = "Return PAUSED to be called again."
+            raise InvalidInput(f"{self._name}: its status", f"must be {names}", status, remedy)
+        t, t_end = self._memory[owners.Island.time], self._memory[owners.Request.t_end]
+        if status == DONE and t != t_end:
+            rule = f"must be the end time {t_end:.9g} s if the status is DONE"
+            remedy = "Return PAUSED to be called again, or set it to ws.request.t_end."
+            raise InvalidInput(f"{self._name}: ws.island.time", rule, t, remedy)
+        return int(status)
+
+    def advance_past(self, checkpoint: Checkpoint, most_steps: int) -> int:
+        """Advance a run with empty buffers past a checkpoint, which its memory holds now; the result is the status.
+
+        The engine may take steps that the end time shortens, so it must take one.
+
+        Raises
+        ------
+        InvalidInput
+            If the engine breaks its contract.
+        """
+        status = self.advance(most_steps, False)
+        if status == PAUSED and self._holds(checkpoint):
+            raise InvalidInput(
+                self._name,
+                "must do a step if it need not pause before the end and the buffers are empty",
+                f"nothing done at t = {self._memory[owners.Island.time]:.9g} s",
+                "Return DONE at ws.request.t_end; if time stops passing, STALLED.",
+            )
+        return status
+
+    def _holds(self, checkpoint: Checkpoint) -> bool:
+        """True if the memory holds a checkpoint, apart from the counters of calls."""
+        if self._memory[owners.Island.time] != checkpoint[owners.Island.time]:
+            return False
+        (scalars, *arrays), (old_scalars, *old_arrays) = self._memory.kept, checkpoint.parts
+        differs = scalars != old_scalars
+        differs[_CALL_COUNTERS] = False
+        return not differs.any() and all(map(np.array_equal, arrays, old_arrays))

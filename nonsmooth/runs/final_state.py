@@ -1,0 +1,198 @@
+"""FinalState: the memory of a model after a run, from which state and end of the run are read when they are needed.
+
+Many runs of a study need the samples only. To read the state takes longer than a short run, so it is read at the first
+use of ``Solution.end``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.blocks import CANDIDATE
+from nonsmooth.engine.memory.layout import N_ACCOUNTS
+from nonsmooth.engine.memory.limits import LIMITS
+from nonsmooth.engine.memory.tables import record_with
+from nonsmooth.interfaces import Engine, Measure, StatefulFrictionLaw, TractionLaw
+from nonsmooth.model.checkpoint import Checkpoint, Difference
+from nonsmooth.model.engine_parts import own_of
+from nonsmooth.model.laid_out import energies
+from nonsmooth.queries.near import size_of
+from nonsmooth.runs.fixed_places import FixedPlaces
+from nonsmooth.runs.imbalance import imbalance_span
+from nonsmooth.runs.outcome import Outcome, cause_of
+from nonsmooth.solution.end import Counters, End
+from nonsmooth.solution.energy import EnergyAccount
+from nonsmooth.solution.recorded import Recorded
+from nonsmooth.solution.solution import Solution
+from nonsmooth.solution.state import Continuation, Floats, State
+from nonsmooth.solution.suspicion import suspicions
+from nonsmooth.system.system import System
+
+
+class FinalState(NamedTuple):
+    """The memory of a model after a run, and what it is read with.
+
+    Attributes
+    ----------
+    system : System
+        The system that ran.
+    engine : Engine
+        The engine that integrated it.
+    key : callable
+        Computes the digest of the model.
+    start_energy : tuple
+        Kinetic and potential energy at the start of the energy account [J].
+    blank : Checkpoint
+        Content of the memory before any run.
+    resumable : Checkpoint
+        The last content that does not depend on the end time.
+    now : Checkpoint
+        Content at the end of the run.
+    n_known_events : int
+        Number of events after ``resumable``.
+    places : FixedPlaces
+        Places in the memory.
+    """
+
+    system: System
+    engine: Engine
+    key: Callable[[], str]
+    start_energy: tuple[float, float]
+    blank: Checkpoint
+    resumable: Checkpoint
+    now: Checkpoint
+    n_known_events: int
+    places: FixedPlaces
+
+    def end(self, outcome: Outcome, code: int, wall: float, recorded: Recorded) -> End:
+        """End of the run.
+
+        Parameters
+        ----------
+        outcome : Outcome
+            Status and message, before the checks of the energy account.
+        code : int
+            Last status of the engine.
+        wall : float
+            Wall time of the run [s].
+        recorded : Recorded
+            Events and samples of the run.
+        """
+        state, counters = self.state(), self._counters(wall)
+        status, message = outcome
+        if status == "done" and (found := self._suspicions(End(state, counters, status, message), recorded)):
+            status, message = "suspect", f"{message}, but {found}"
+        cause = cause_of(self.engine, code)
+        return End(state, counters, status, message, cause.name if cause else "", self._verdict())
+
+    def state(self) -> State:
+        """State of the model now."""
+        now, contact = self.now, owners.Contact
+        n_q, n_u, n = now[owners.Model.n_q], now[owners.Model.n_u], now[owners.Model.n_declared]
+        y = now[owners.Island.y][: now[owners.Model.n_y]]
+        modes, rates, directions = (
+            now.declared(one).copy() for one in (contact.mode, contact.closing_rate, contact.direction)
+        )
+        # an active contact is newer than the record of its declared contact
+        n_active = now[owners.Island.n_contacts]
+        active = now[contact.declared][:n_active]
+        modes[active] = now[contact.mode][:n_active]
+        directions[active] = now[contact.direction][:n_active]
+        rates[active] = now[contact.closing_rate][:n_active]
+        features, places = np.zeros((n, CANDIDATE)), self.places.features
+        for number in np.flatnonzero(places > 0).tolist():
+            features[number] = now.blocks[places[number] - now.first :][:CANDIDATE]
+        state = State(
+            now[owners.Island.time],
+            y[:n_q],
+            y[n_q : n_q + n_u],
+            modes,
+            directions,
+            rates,
+            features,
+            y[n_q + n_u + N_ACCOUNTS :],
+            now[owners.OwnGuard.has_just_fired][: now[owners.Model.n_own_guards]],
+            self._account(y[n_q + n_u :]),
+        )
+        difference = Difference.between(self.blank, self.resumable, self.places.changing)
+        return state.with_continuation(Continuation(self.key(), difference, self.n_known_events))
+
+    def _counters(self, wall: float) -> Counters:
+        now, totals = self.now, owners.Totals
+        limits = now[totals.n_steps_limited][: len(LIMITS)]
+        return Counters(
+            steps=now[totals.n_steps],
+            rejected=now[totals.n_rejected],
+            impacts=now[totals.n_impacts],
+            impact_steps=now[totals.n_impact_steps],
+            limits={name: int(n) for name, n in zip(LIMITS, limits, strict=True) if n},
+            gap_looks=now[totals.n_gap_evaluations],
+            listings=now[totals.n_listings],
+            wall_seconds=wall,
+        )
+
+    def _suspicions(self, end: End, recorded: Recorded) -> str:
+        """Sentences about a run that reached its end but fails a check of its energy or of its quaternions, or ""."""
+        now, run = self.now, owners.Run
+        solution = Solution.known(self.system, recorded, end)
+        return suspicions(
+            self.engine,
+            (now[run.worst_energy_time], now[run.worst_energy], now[run.worst_energy_ratio]),
+            (now[run.jump_time], now[run.jumped_energy]),
+            0.0 if self._friction_stores_energy() else solution.friction_gain,
+            end.state.energy,
+            dict(zip(self.system.names.bodies, self.system.bodies, strict=True)),
+            (recorded.rows[:, 0], recorded.rows[:, 1 : 1 + now[owners.Model.n_q]]),
+            (now[owners.Tolerance.relative], now[owners.Tolerance.impact]),
+            end.counters.steps,
+            now[run.energy_scale],
+            self._least_scale(),
+            partial(imbalance_span, solution),
+        )
+
+    def _verdict(self) -> dict[Measure, float]:
+        """The numbers by which the engine judges a run."""
+        own = self.now.parts[0].view(record_with(own_of(self.engine)))[0]
+        return {
+            measure: float(own[f"{part.key}.{measure.name}"])
+            for part in own_of(self.engine)
+            for measure in self.engine.verdict
+        }
+
+    def _friction_stores_energy(self) -> bool:
+        """True if a friction law has inner states, which may store energy."""
+        return any(isinstance(one.friction, (StatefulFrictionLaw, TractionLaw)) for one in self.system.contacts)
+
+    def _least_scale(self) -> float:
+        """Work of the forces on all bodies over a distance of the size of each [J].
+
+        It is the scale of the energy account of bodies that hardly move.
+        """
+        now, total = self.now, 0.0
+        for body, tail in zip(self.system.bodies, self.places.tails.tolist(), strict=True):
+            size = size_of(body)
+            if body.n_u > 0 and math.isfinite(size):
+                force = now.blocks[tail + body.n_q : tail + body.n_q + body.n_u]
+                total += float(np.linalg.norm(force)) * size
+        return total
+
+    def _account(self, integrated: Floats) -> EnergyAccount:
+        """Energy account, with the energies that the engine integrated."""
+        now, totals = self.now, owners.Totals
+        driven, dissipated, exchanged, loads = integrated[:N_ACCOUNTS].tolist()
+        return EnergyAccount(
+            *self.start_energy,
+            *energies(self.system.bodies, self.places.tails, now.blocks),
+            driven_work=now[totals.driven_work] + driven,
+            restitution_loss=now[totals.restitution_loss],
+            friction_loss=now[totals.friction_loss] + dissipated,
+            closing_loss=now[totals.closing_loss],
+            exchanged_in_flow=exchanged,
+            load_work=loads,
+        )

@@ -1,0 +1,101 @@
+"""FolderSink: writes a run to disk about twice a second, so that a process that dies loses at most the last second."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass, field
+from typing import final
+
+from nonsmooth.model.checkpoint import Checkpoint
+from nonsmooth.results.solution_folder import SolutionFolder
+from nonsmooth.runs.output_sink import OutputSink
+from nonsmooth.runs.records import Records
+from nonsmooth.solution.solution import Solution
+from nonsmooth.solution.state import State
+
+_COMMIT_INTERVAL = 0.5
+"""Time from one commit to the next [s]. The cost of a commit is then small beside the run."""
+_FIRST_COMMIT = 0.25
+"""Time from the start to the first commit [s]. A run shorter than this is written once, at its end."""
+_CALL_TIME = 0.15
+"""Time that a call of the engine should take [s]: a fraction of the commit interval."""
+_FEWEST_STEPS = 4
+"""Least number of steps per call. Near the end time the engine pauses after fewer anyway."""
+_FIRST_STEPS = 64
+"""Number of steps of the first call, before the time of a step is known."""
+_MOST_STEPS = 2000
+"""Largest number of steps per call. More gain no time."""
+
+
+@final
+@dataclass
+class FolderSink(OutputSink):
+    """Appends events and samples to a folder, with the state from which the run can be continued.
+
+    Parameters
+    ----------
+    folder : SolutionFolder
+        The folder.
+    records : Records
+        What the engine has recorded.
+    state_at : callable
+        Makes the state of a checkpoint.
+    wall : float
+        Wall time of the run before this process [s].
+    """
+
+    folder: SolutionFolder
+    records: Records
+    state_at: Callable[[Checkpoint], State]
+    wall: float
+    _steps: int = _FIRST_STEPS
+    _start: float = field(default_factory=time.perf_counter)
+    _last_call: float = field(default_factory=time.perf_counter)
+    _next_commit: float = field(default_factory=lambda: time.perf_counter() + _FIRST_COMMIT)
+    # the engine continues during a commit
+    _thread: ThreadPoolExecutor = field(default_factory=lambda: ThreadPoolExecutor(1))
+    _commit: Future[None] | None = None
+
+    @property
+    def steps(self) -> int:
+        """Number of steps that take about 0.15 s."""
+        return self._steps
+
+    def begin(self, checkpoint: Checkpoint) -> None:
+        """Write the start of the run."""
+        self.folder.begin(*self.records.unwritten(), self.state_at(checkpoint), self.wall)
+        self.records.n_written = self.records.n_parts
+        self._last_call = time.perf_counter()
+
+    def write(self, checkpoint: Checkpoint) -> None:
+        """Start a commit of the new results, if it is time and the last commit has ended."""
+        now = time.perf_counter()
+        wanted = self._steps * _CALL_TIME / max(now - self._last_call, 1e-6)
+        self._steps = int(min(_MOST_STEPS, 4 * self._steps, max(_FEWEST_STEPS, wanted)))
+        if now >= self._next_commit and (self._commit is None or self._commit.done()):
+            self._wait()
+            self._next_commit = now + _COMMIT_INTERVAL
+            self.records.drain()
+            n, (events, rows) = self.records.n_parts, self.records.unwritten()
+            wall = self.wall + now - self._start
+            self._commit = self._thread.submit(self.folder.append, events, rows, self.state_at(checkpoint), wall)
+            self.records.n_written = n
+        self._last_call = time.perf_counter()
+
+    def finish(self, solution: Solution) -> None:
+        """Write the remaining results and the end of the run."""
+        self._wait()
+        events, rows = self.records.unwritten()
+        self.folder.finish(events, rows, solution)
+
+    def close(self) -> None:
+        """Wait for the last commit, and release the folder."""
+        self._thread.shutdown()
+        self.folder.close()
+
+    def _wait(self) -> None:
+        """Wait for the last commit, and raise the error that it ended with."""
+        if self._commit is not None:
+            self._commit.result()

@@ -1,0 +1,67 @@
+"""Check after a run that no bodies passed into each other, for shapes that the engine cannot compare.
+
+The engine compares convex parts of shapes at the start of each step. Shapes without convex parts, such as meshes that
+are not convex, have solids. These are compared here, at the samples. A sample is left out if nothing moved by a
+hundredth of its size since the last one.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nonsmooth.engine.memory import owners
+from nonsmooth.model.checkpoint import Checkpoint
+from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.model.overlaps import Overlap, first_overlap
+from nonsmooth.solution.state import Floats
+
+_MOVED = 0.01
+"""Displacement between two compared samples, relative to the smallest body. A deeper overlap is not missed."""
+
+
+def interpenetration(model: LaidOut, rows: Floats) -> str:
+    """Sentences about the first sample at which bodies overlap that must not, or "".
+
+    Parameters
+    ----------
+    model : LaidOut
+        The model that ran.
+    rows : Floats
+        Its samples, t and y first, shape [n, m].
+    """
+    contacts, numbers = model.system.contacts, model.contacts_without_parts
+    if not numbers:
+        return ""
+    before = Checkpoint.of(model.memory)
+    least_move = _MOVED * min(contacts[i].size for i in numbers)
+    try:
+        for row in rows[_moved_samples(rows[:, 1 : 1 + model.n_q], least_move)]:
+            model.memory[owners.Island.time] = row[0]
+            model.memory[owners.Island.y][: model.n_y] = row[1 : 1 + model.n_y]
+            model.list_contacts()
+            model.evaluate()
+            if found := first_overlap(model, numbers):
+                return _sentences(model, row[0], found)
+    finally:
+        before.put(model.memory)
+        model.evaluate()
+    return ""
+
+
+def _sentences(model: LaidOut, t: float, overlap: Overlap) -> str:
+    contact = overlap.contact
+    first, second = (model.system.name_of(body) for body in (contact.first, contact.second))
+    return (
+        f"bodies passed into each other. At t = {t:.9g} s {first!r} and {second!r} of the "
+        f"{contact} overlap by at least {overlap.depth:.3g} m. Turn or shift one of them by a thousandth of its "
+        "size, or give its body convex pieces: MeshBody(..., decomposition=Decomposition())."
+    )
+
+
+def _moved_samples(q: Floats, least_move: float) -> list[int]:
+    """Numbers of samples of which each moved by ``least_move`` since the one before, and of the last one."""
+    chosen = [0]
+    for i in range(1, len(q)):
+        if np.max(np.abs(q[i] - q[chosen[-1]]), initial=0.0) > least_move:
+            chosen.append(i)
+    return sorted({*chosen, len(q) - 1})

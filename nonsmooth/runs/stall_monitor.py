@@ -1,0 +1,178 @@
+"""StallMonitor: finds a run whose time hardly passes, and what limits its steps.
+
+Time hardly passes if each step is shorter than 1e-10 of the run. After ten thousand such steps in a row there is a
+warning, because the run would take days. Steps and events are counted since time passed last: the counts of limits of
+the steps, and the last events, name the option or the contact that makes the steps so short.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections import Counter, deque
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import final
+
+import numpy as np
+
+from nonsmooth.engine.events.record import CODE_HEAD
+from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.layout import N_ACCOUNTS
+from nonsmooth.engine.memory.limits import LIMITS, Limit
+from nonsmooth.engine.memory.modes import (
+    CAUSES,
+    DONE,
+    GUARD,
+    IMPACT_ENDLESS,
+    NO_CONTACT_SOLUTION,
+    PAUSED,
+    STALLED,
+    START,
+    STEP_TOO_SMALL,
+    STOPPED,
+    UPDATE_ENDLESS,
+)
+from nonsmooth.errors import NonsmoothWarning
+from nonsmooth.model.checkpoint import Checkpoint
+from nonsmooth.model.laid_out import LaidOut
+
+_SHORT_STEP = 1e-10
+"""Length of a step relative to the run, below which time hardly passes. Such a run would take more than a day."""
+_MANY_STEPS = 10_000
+"""Number of short steps in a row that cause the warning. A few may follow an event."""
+_N_LAST_EVENTS = 200
+"""Number of last events that are counted. They show which contacts recur."""
+_N_NAMED = 3
+"""Largest number of contacts, events or limits that a message names."""
+_REMEDY = "Try a lower restitution, a compliant law or more room between these bodies."
+_STATUSES_AT_AN_INSTANT = (IMPACT_ENDLESS, NO_CONTACT_SOLUTION, UPDATE_ENDLESS)
+
+_Event = tuple[int, int]
+"""Cause, and contact or guard."""
+
+
+class TimeHardlyPasses(NonsmoothWarning):
+    """The steps of a run have become so short that it would take days. The message names what limits them."""
+
+
+@final
+@dataclass
+class StallMonitor:
+    """Compares the progress of a run in time with its number of steps, after each call of the engine.
+
+    Parameters
+    ----------
+    model : LaidOut
+        The model that runs.
+    start : Checkpoint
+        The checkpoint of the start.
+    """
+
+    model: LaidOut
+    start: Checkpoint
+    _last_events: deque[_Event] = field(default_factory=lambda: deque(maxlen=_N_LAST_EVENTS))
+    _n_short: int = 0
+    _short_time: float = 0.0
+    _has_warned: bool = False
+
+    def __post_init__(self) -> None:
+        self._t = self._t_start = float(self.start[owners.Island.time])
+        self._limits = self._limits_before = self.start[owners.Totals.n_steps_limited][: len(LIMITS)]
+
+    def observe(self, status: int) -> None:
+        """Evaluate the last call of the engine, which ended with a status. Its buffers must not be drained yet.
+
+        Warns
+        -----
+        TimeHardlyPasses
+            If time hardly passes, once in a run.
+        """
+        memory, t_before = self.model.memory, self._t
+        t, limits = float(memory[owners.Island.time]), memory[owners.Totals.n_steps_limited][: len(LIMITS)].copy()
+        n_steps = int(np.sum(limits - self._limits))
+        self._t, self._limits = t, limits
+        passes = t - t_before > _SHORT_STEP * n_steps * (float(memory[owners.Request.t_end]) - self._t_start)
+        if passes:
+            self._n_short, self._short_time, self._limits_before = 0, 0.0, limits
+            self._last_events.clear()
+        if not passes or status not in (PAUSED, DONE, STOPPED):
+            self._last_events.extend(self._new_events())
+            self._n_short, self._short_time = self._n_short + n_steps, self._short_time + t - t_before
+        if self._n_short >= _MANY_STEPS and not self._has_warned:
+            self._has_warned = True
+            text = f"At t = {t:.9g} s time hardly passes: {self._remaining(t)} {self._limited_by()}"
+            # the frame of Model.run
+            warnings.warn(text, TimeHardlyPasses, stacklevel=7)
+
+    def hint(self, status: int) -> str:
+        """Sentences about where a run failed that ended with a status, or ""."""
+        if status == STALLED:
+            return f"{self._counted_events()} {_REMEDY}"
+        if status == STEP_TOO_SMALL:
+            return f"{_largest_error(self.model)} {self._counted_events()}".strip()
+        return _last_contacts(self.model) if status in _STATUSES_AT_AN_INSTANT else ""
+
+    def _new_events(self) -> Iterable[_Event]:
+        memory = self.model.memory
+        codes = memory[owners.Output.event_codes][: int(memory[owners.Output.integers_used])].tolist()
+        at = 0
+        while at < len(codes):
+            yield codes[at], codes[at + 1]
+            at += CODE_HEAD + 2 * codes[at + CODE_HEAD - 1]
+
+    def _remaining(self, t: float) -> str:
+        """Sentence with the mean length of the short steps and the number of them that remain from ``t`` [s]."""
+        t_end, step = float(self.model.memory[owners.Request.t_end]), self._short_time / self._n_short
+        far = f"would take {(t_end - t) / step:.1g} of them, that is days" if step > 0.0 else "is out of reach"
+        return f"the steps are {step:.2g} s long (mean of the last {self._n_short}); t_end = {t_end:.9g} s {far}."
+
+    def _limited_by(self) -> str:
+        """Sentences with the limits of the short steps, most frequent first, and the last events."""
+        counts = self._limits - self._limits_before
+        ranked = [i for i in np.argsort(-counts, kind="stable").tolist() if counts[i] > 0][:_N_NAMED]
+        limits = ", ".join(f"{LIMITS[i]} ({counts[i]})" for i in ranked)
+        error = _largest_error(self.model) if ranked[:1] == [Limit.ERROR] else ""
+        return " ".join(f"The steps were limited by: {limits}. {error} {self._counted_events()}".split())
+
+    def _counted_events(self) -> str:
+        names = self.model.system.names
+        counted = Counter(event for event in self._last_events if event[0] != START)
+        if not counted:
+            return ""
+        named = [
+            f"{CAUSES[cause]} of {(names.guards if cause == GUARD else names.contacts)[i]!r} ({n})"
+            for (cause, i), n in counted.most_common(_N_NAMED)
+        ]
+        return f"The last {counted.total()} events are: {_enumeration(named, len(counted))}."
+
+
+def _largest_error(model: LaidOut) -> str:
+    """Sentence that names the coordinate, velocity or inner state with the largest relative error of the last step."""
+    memory, n = model.memory, model.n_y
+    error, scale, y = (memory[one] for one in (owners.Step.y_stage, owners.Step.y_scale, owners.Island.y))
+    size = scale + np.abs(y)
+    relative = np.divide(np.abs(error), size, out=np.zeros(n), where=size > 0.0)
+    relative[model.n_q + model.n_u :][:N_ACCOUNTS] = 0.0
+    worst = int(np.argmax(np.nan_to_num(relative, nan=np.inf)))
+    for letter, count in (("q", "n_q"), ("u", "n_u")):
+        for name, body in zip(model.system.names.bodies, model.system.bodies, strict=True):
+            if worst < getattr(body, count):
+                return f"The error is largest in {letter}[{worst}] of the body {name!r}."
+            worst -= getattr(body, count)
+    return "The error is largest in an inner state of a friction law."
+
+
+def _last_contacts(model: LaidOut) -> str:
+    """Sentence that names the contacts of the last contact problem, or ""."""
+    memory = model.memory
+    in_problem = memory[owners.Problem.active][: int(memory[owners.Problem.n_active])]
+    numbers = memory[owners.Contact.declared][: int(memory[owners.Island.n_contacts])][in_problem].tolist()
+    if not numbers:
+        return ""
+    names = model.system.names.contacts
+    return f"In contact are {_enumeration([repr(names[i]) for i in numbers[:_N_NAMED]], len(numbers))}."
+
+
+def _enumeration(words: list[str], total: int) -> str:
+    more = [f"{total - len(words)} others"] if total > len(words) else []
+    return ", ".join([*words, *more])

@@ -1,0 +1,102 @@
+"""Checks of a state with which a run begins: its arrays, its numbers, and its closed contacts.
+
+A user may write any arrays into a state, and a state may come from a file.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nonsmooth.checks import is_finite
+from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.blocks import CANDIDATE
+from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
+from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import CompliantNormalLaw
+from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.solution.state import State
+from nonsmooth.system.given import check_quaternion
+
+_INTEGERS = ("modes", "guards_spent")
+_REALS = ("q", "u", "slip_directions", "closing_rates", "features", "law_states")
+_REMEDY = "Take a state of this system: solution.state of a run of it, or State.at(system, ...)."
+_LARGEST_GAP = 1e3
+"""Largest gap of a closed contact, in gap tolerances. Numbers that a user rounds give smaller ones."""
+
+
+def check_arrays(model: LaidOut, state: State) -> None:
+    """Check kind and shape of the arrays of a state, and the values of its modes and marks of guards.
+
+    Raises
+    ------
+    InvalidInput
+        If the state does not fit the model.
+    """
+    n = len(model.system.contacts)
+    shapes = {
+        "q": (model.n_q,),
+        "u": (model.n_u,),
+        "modes": (n,),
+        "slip_directions": (n, 2),
+        "closing_rates": (n,),
+        "features": (n, CANDIDATE),
+        "law_states": (model.n_states,),
+        "guards_spent": (len(model.system.guards),),
+    }
+    if not is_finite(state.time):
+        raise InvalidInput("State.time", "must be finite", state.time, "Give it in [s].")
+    for name, shape in shapes.items():
+        value, kinds = getattr(state, name), "biu" if name in _INTEGERS else "biuf"
+        if value.dtype.kind not in kinds:
+            rule = f"must be {'integers' if name in _INTEGERS else 'numbers'}"
+            raise InvalidInput(f"State.{name}", rule, f"an array of {value.dtype}", _REMEDY)
+        if value.shape != shape:
+            raise InvalidInput(f"State.{name}", f"must have the shape {shape} of this model", value.shape, _REMEDY)
+    if not {*state.modes.tolist()} <= {OPEN, STICK, SLIDE}:
+        raise InvalidInput("State.modes", "must be 0 (open), 1 (stick) or 2 (slide)", state.modes.tolist(), _REMEDY)
+    if not {*state.guards_spent.tolist()} <= {0, 1}:
+        raise InvalidInput("State.guards_spent", "must be 0 or 1", state.guards_spent.tolist(), _REMEDY)
+
+
+def check_numbers(model: LaidOut, state: State) -> None:
+    """Check that the numbers of a state are finite and its quaternions have unit length.
+
+    Raises
+    ------
+    InvalidInput
+        If a number is not finite, or a quaternion has another length.
+    """
+    values = [getattr(state, name).ravel() for name in _REALS]
+    if not np.isfinite(np.concatenate(values)).all():
+        name, value = next((n, v) for n, v in zip(_REALS, values, strict=True) if not np.isfinite(v).all())
+        number = int(np.flatnonzero(~np.isfinite(value))[0])
+        remedy = f"Correct entry {number}. A failed run may leave such a state."
+        raise InvalidInput(f"State.{name}", "must be finite numbers", float(value[number]), remedy)
+    first = 0
+    for body in model.system.bodies:
+        check_quaternion(f"State.q of {model.system.name_of(body)!r}", body, state.q[first : first + body.n_q])
+        first += body.n_q
+
+
+def check_closed(model: LaidOut, state: State) -> None:
+    """Check that the closed contacts of a state, which the memory holds, have no gap.
+
+    Raises
+    ------
+    InvalidInput
+        If one has a gap.
+    """
+    if not np.any(state.modes):
+        return
+    gaps = model.gaps()
+    allowed = _LARGEST_GAP * float(model.memory[owners.Tolerance.gap])
+    for number in np.flatnonzero(state.modes).tolist():
+        normal = model.system.contacts[number].normal
+        reach = normal.reach if isinstance(normal, CompliantNormalLaw) else 0.0
+        if not gaps[number] <= reach + allowed:
+            raise InvalidInput(
+                f"State.modes[{number}], the {model.system.contacts[number]},",
+                f"must be 0, open, because its gap is {gaps[number]:.3g} m",
+                int(state.modes[number]),
+                "If you changed q, begin with State.at(system, time, q, u).",
+            )
