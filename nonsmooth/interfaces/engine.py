@@ -27,8 +27,8 @@ class Engine(Component, ABC):
     2. ``own`` declares numbers of its own. All numbers of the workspace exist for every engine.
     3. ``counts`` gives the counts that its options decide, ``settings`` the scalars that it sets.
     4. ``prepare`` evaluates numbers of its own that no run changes. Numbers that it keeps of contacts have the length
-       ``per(..., "n_declared")``, and ``contact.declared`` for their index: the place of a contact among the active ones
-       changes.
+       ``per(..., "n_declared")``, and ``contact.declared`` for their index: the place of a contact among the active
+       ones changes.
     5. ``advance`` continues the run from the state in the memory, with steps of its own
        (:func:`nonsmooth.steps.step`) and with entry points of :mod:`nonsmooth.engine`. All numbers that it needs later,
        in another process too, are in the memory.

@@ -37,6 +37,7 @@ from nonsmooth.model.laying import BodyLayouts
 from nonsmooth.parameters import Table, Value
 from nonsmooth.system.contact import Contact
 
+_CONTACT = owners.Contact
 Kinds: TypeAlias = Sequence[list[int]]
 """The numbers of the contacts of each kind."""
 
@@ -46,8 +47,8 @@ class _Function(NamedTuple):
 
     Attributes
     ----------
-    name : str
-        Begin of the names of its fields.
+    address, parameters : declaration
+        Fields of a contact for the address of the function, and for the place of its parameters.
     function : callable
         The function.
     form : str
@@ -58,7 +59,8 @@ class _Function(NamedTuple):
         The kinematics or law that has the function.
     """
 
-    name: str
+    address: Any
+    parameters: Any
     function: Callable[..., Any]
     form: str
     available: Mapping[str, Value]
@@ -72,9 +74,9 @@ class Kind:
     Attributes
     ----------
     fields : dict
-        Fields of the declared contact.
+        Fields of the declared contact, by their declarations.
     offsets : dict
-        Fields that are places in the block, from its start.
+        Fields that are places in the block, from its start, by their declarations.
     block : list of float
         The block.
     written : list of tuple
@@ -83,21 +85,21 @@ class Kind:
         (place in the block, place from which its distance counts, table).
     """
 
-    fields: dict[str, int] = field(default_factory=lambda: {"mode": OPEN})
-    offsets: dict[str, int] = field(default_factory=dict)
+    fields: dict[Any, int] = field(default_factory=lambda: {_CONTACT.mode: OPEN})
+    offsets: dict[Any, int] = field(default_factory=dict)
     block: list[float] = field(default_factory=list)
     written: list[tuple[int, int]] = field(default_factory=list)
     tables: list[tuple[int, int, Table]] = field(default_factory=list)
 
-    def store(self, name: str, values: Sequence[float]) -> int:
-        """Append values, whose place is the field ``name``; the result is the place."""
-        start = self.offsets[name] = len(self.block)
+    def store(self, declared: Any, values: Sequence[float]) -> int:
+        """Append values, whose place is a field of the contact; the result is the place."""
+        start = self.offsets[declared] = len(self.block)
         self.block += values
         return start
 
-    def output(self, name: str, size: int) -> None:
-        """Append numbers that a law writes, whose place is the field ``name``."""
-        self.written.append((self.store(name, output_block(size)), size))
+    def output(self, declared: Any, size: int) -> None:
+        """Append numbers that a law writes, whose place is a field of the contact."""
+        self.written.append((self.store(declared, output_block(size)), size))
 
 
 def lay_contacts(
@@ -110,10 +112,10 @@ def lay_contacts(
         starts = blocks.repeat(kind.block, len(numbers)) + len(kind.block) * np.arange(len(numbers))
         for place, size in kind.written:
             blocks.write(starts + place, size)
-        for name, value in kind.fields.items():
-            memory.declared(getattr(contact, name))[numbers] = value
-        for name, offset in kind.offsets.items():
-            memory.declared(getattr(contact, name))[numbers] = offset + starts
+        for declared, value in kind.fields.items():
+            memory.declared(declared)[numbers] = value
+        for declared, offset in kind.offsets.items():
+            memory.declared(declared)[numbers] = offset + starts
         for place, start, shared in kind.tables:
             for begin in starts.tolist():
                 blocks.refer(begin + place, begin + start, shared)
@@ -198,60 +200,94 @@ def kind_of(memory: Memory, contact: Contact, tried: set[tuple[Any, ...]] | None
         _add_function(made, contact, one, tried)
     start = initial_state(contact)
     if start or isinstance(law, TractionLaw):
-        made.fields["n_inner_states"] = len(start)
-        made.store("inner_states_at_start", start)
-        made.output("traction_out", FORCE_AND_MOMENT + len(start))
-        made.output("rates_out", len(start))
+        made.fields[_CONTACT.n_inner_states] = len(start)
+        made.store(_CONTACT.inner_states_at_start, start)
+        made.output(_CONTACT.traction_out, FORCE_AND_MOMENT + len(start))
+        made.output(_CONTACT.rates_out, len(start))
     if isinstance(law, AnisotropicFrictionLaw):
         on_second = float(law.body == "second")
-        made.fields["is_anisotropic"] = True
-        made.store("anisotropy", (on_second, *np.divide(law.axis, math.hypot(*law.axis)).tolist(), *law.ratios))
+        made.fields[_CONTACT.is_anisotropic] = True
+        made.store(_CONTACT.anisotropy, (on_second, *np.divide(law.axis, math.hypot(*law.axis)).tolist(), *law.ratios))
     if isinstance(impact, ImpactMap):
-        made.store("map_parameters", _map_values(memory, impact))
+        made.store(_CONTACT.map_parameters, _map_values(memory, impact))
     return made
 
 
 def _functions(contact: Contact) -> Iterator[_Function]:
     """The functions of the kinematics and of the laws, in the order of their parameters in the block."""
     kinematics, normal, impact = contact.kinematics, contact.normal, contact.impact
-    yield _Function("geometry", kinematics.evaluator, "pair", kinematics.parameters(), kinematics)
+    yield _Function(
+        _CONTACT.geometry_function,
+        _CONTACT.geometry_parameters,
+        kinematics.evaluator,
+        "pair",
+        kinematics.parameters(),
+        kinematics,
+    )
     yield from _friction_functions(contact.friction)
     if isinstance(normal, CompliantNormalLaw):
-        yield _Function("normal", normal.force, "compliance", normal.parameters(), normal)
+        yield _Function(
+            _CONTACT.normal_function,
+            _CONTACT.normal_parameters,
+            normal.force,
+            "compliance",
+            normal.parameters(),
+            normal,
+        )
     if isinstance(impact, ImpactProcess):
-        yield _Function("impact_force", impact.force, "scalar", impact.parameters(), impact)
-        yield _Function("efficiency", impact.efficiency, "scalar", impact.parameters(), impact)
+        yield _Function(
+            _CONTACT.impact_force_function,
+            _CONTACT.impact_force_parameters,
+            impact.force,
+            "scalar",
+            impact.parameters(),
+            impact,
+        )
+        yield _Function(
+            _CONTACT.efficiency_function,
+            _CONTACT.efficiency_parameters,
+            impact.efficiency,
+            "scalar",
+            impact.parameters(),
+            impact,
+        )
 
 
 def _friction_functions(law: TangentialLaw) -> Iterator[_Function]:
     if isinstance(law, TractionLaw):
-        yield _Function("traction", law.traction, "traction", law.parameters(), law)
+        yield _Function(
+            _CONTACT.traction_function, _CONTACT.traction_parameters, law.traction, "traction", law.parameters(), law
+        )
     elif isinstance(law, StatefulFrictionLaw):
         with_state = {**law.parameters(), "state": law.initial_state}
-        yield _Function("friction", law.coefficient, "scalar", with_state, law)
-        yield _Function("rates", law.rates, "rates", law.parameters(), law)
+        yield _Function(
+            _CONTACT.friction_function, _CONTACT.friction_parameters, law.coefficient, "scalar", with_state, law
+        )
+        yield _Function(_CONTACT.rates_function, _CONTACT.rates_parameters, law.rates, "rates", law.parameters(), law)
     else:
         assert isinstance(law, FrictionLaw)
-        yield _Function("friction", law.coefficient, "scalar", law.parameters(), law)
+        yield _Function(
+            _CONTACT.friction_function, _CONTACT.friction_parameters, law.coefficient, "scalar", law.parameters(), law
+        )
 
 
 def _add_function(made: Kind, contact: Contact, one: _Function, tried: set[tuple[Any, ...]] | None) -> None:
     """Compile a function, try it out, and add its address and its parameters to a kind."""
-    name, function, form, available, part = one
+    function, form, available, part = one.function, one.form, one.available, one.part
     owner = f"{type(part).__name__} ({contact})"
     tables = {n: v for n in parameter_names(function, form) if isinstance(v := available.get(n), Table)}
     address, values = bind(function, form, {**available, **dict.fromkeys(tables, ())}, owner)
     _try_function(contact, one, owner, values, tables, tried)
-    made.fields[f"{name}_function"] = address
-    at = made.store(f"{name}_parameters", values)
+    made.fields[one.address] = address
+    at = made.store(one.parameters, values)
     made.tables += [(at + parameter_place(function, form, n), at, table) for n, table in tables.items()]
-    if name == "geometry" and contact.kinematics.candidates is not None:
-        made.offsets["features"] = at + vector_place(function, form, values, "candidate")
+    if one.parameters is _CONTACT.geometry_parameters and contact.kinematics.candidates is not None:
+        made.offsets[_CONTACT.features] = at + vector_place(function, form, values, "candidate")
         # two features and their kind, and the distance to which they are valid
-        made.written.append((made.offsets["features"], CANDIDATE + 1))
-    if name == "friction" and isinstance(part, StatefulFrictionLaw):
-        made.offsets["inner_states_copy"] = at + _place_of_state(part, values)
-        made.written.append((made.offsets["inner_states_copy"], len(part.initial_state)))
+        made.written.append((made.offsets[_CONTACT.features], CANDIDATE + 1))
+    if one.parameters is _CONTACT.friction_parameters and isinstance(part, StatefulFrictionLaw):
+        made.offsets[_CONTACT.inner_states_copy] = at + _place_of_state(part, values)
+        made.written.append((made.offsets[_CONTACT.inner_states_copy], len(part.initial_state)))
 
 
 def _try_function(
@@ -263,7 +299,7 @@ def _try_function(
     tried: set[tuple[Any, ...]] | None,
 ) -> None:
     """Call a function that writes to a block once as Python, to find one that writes past it."""
-    _, function, form, available, _ = one
+    function, form, available = one.function, one.form, one.available
     start = initial_state(contact)
     if form == "pair":
         key = function, *map(id, tables.values())

@@ -11,7 +11,7 @@ from nonsmooth.model.laying_contacts import by_kind, kind_of, lay_law_floats
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
 
-_OF_GEOMETRY = ("geometry_parameters", "features")
+_OF_GEOMETRY = (owners.Contact.geometry_parameters, owners.Contact.features)
 
 
 def lay_laws(model: LaidOut, system: System) -> LaidOut:
@@ -29,10 +29,12 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
         before, after = (kind_of(memory, one.contacts[numbers[0]]) for one in (model.system, system))
         if (before.offsets, len(before.block)) != (after.offsets, len(after.block)):
             _refuse(contacts[numbers[0]], model.system.contacts[numbers[0]])
-        for name, value in after.fields.items():
-            memory.declared(getattr(owners.Contact, name))[numbers] = value
+        for declared, value in after.fields.items():
+            memory.declared(declared)[numbers] = value
         # the parameters of the geometry come first, and may refer to tables
-        first = min((at for name, at in after.offsets.items() if name not in _OF_GEOMETRY), default=len(after.block))
+        first = min(
+            (at for declared, at in after.offsets.items() if declared not in _OF_GEOMETRY), default=len(after.block)
+        )
         starts = memory.declared(owners.Contact.geometry_parameters)[numbers]
         places = starts[:, None] + np.arange(first, len(after.block))
         memory.floats[places] = after.block[first:]

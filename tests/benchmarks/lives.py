@@ -33,7 +33,7 @@ def digest(system: ns.System, t_end: float, engine: Engine) -> str:
     try:
         solution, end = ns.assemble(system, engine).run(t_end), "done"
     except ns.RunFailed as failed:
-        if failed.solution is None:
+        if not isinstance(failed.solution, ns.Solution):
             return str(failed)
         solution, end = failed.solution, str(failed)
     found = hashlib.sha256(end.encode())
