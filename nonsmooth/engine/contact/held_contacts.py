@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.compliance import write_wrench
 from nonsmooth.engine.bodies.kinematics import evaluate_row, evaluate_row_response, push_response, row
-from nonsmooth.engine.contact.forces import DOUBTFUL, friction_of_slip, solve_doubtful, solve_unknowns
+from nonsmooth.engine.contact.forces import ILL_CONDITIONED, friction_of_slip, solve_ill_conditioned, solve_unknowns
 from nonsmooth.engine.contact.null_space_forces import add_null_space_force, choose_null_space_force
-from nonsmooth.engine.contact.unknowns import list_unknown
+from nonsmooth.engine.contact.unknowns import set_unknown
 from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import (
@@ -76,7 +76,7 @@ def _list_rows(ws: Workspace) -> int:
         active.has_redundant_force = False
         active.first_unknown = n
         for r in range(1 - active.is_normal_force_unknown, 1 + 2 * active.sticks):
-            list_unknown(ws, n, a, r, turn=False)
+            set_unknown(ws, n, active, r, is_turn=False)
             n += 1
     ws.problem.first_unknown[ws.problem.n_active] = n
     return n
@@ -147,7 +147,7 @@ def _solve_held(ws: Workspace) -> bool:
             active = ws.actives[a]
             for i in range(active.first_unknown, active.end_unknown):
                 _write_held_row(ws, a, i, n)
-        solve_doubtful(ws, n)
+        solve_ill_conditioned(ws, n)
     return True
 
 
@@ -170,7 +170,7 @@ def _stick_alone(ws: Workspace) -> bool:
         -bias[1] - row(ws, c, FIRST_ROW, du),
         -bias[2] - row(ws, c, SECOND_ROW, du),
     )
-    forces = solve_three(row_0, row_1, row_2, right, DOUBTFUL)
+    forces = solve_three(row_0, row_1, row_2, right, ILL_CONDITIONED)
     if forces[0] != forces[0]:
         return False
     ws.problem.n_unknown, ws.problem.is_deficient, ws.problem.is_null_space_banded, active.has_redundant_force = (

@@ -13,7 +13,7 @@ import math
 from nonsmooth.engine.bodies.compliance import decouple_normals
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.contact.inelastic import inelastic_impulses
-from nonsmooth.engine.contact.trial import slope_of_slip
+from nonsmooth.engine.contact.trial import tangential_inverse_mass
 from nonsmooth.engine.delassus.delassus import add_product, assemble_delassus
 from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
 from nonsmooth.engine.memory.modes import Mode
@@ -113,7 +113,7 @@ def _solve(ws: Workspace, time: float) -> bool:
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
         contact = ws.contacts[active.contact]
-        contact.slip_per_force = slope_of_slip(ws, a)
+        contact.slip_per_force = tangential_inverse_mass(ws, active)
         for r in range(3):
             active.free[r] = contact.bias[r] + row(ws, active.contact, r, ws.island.du.start)
             active.force[r] = time * contact.mean_force[r] if contact.is_averaged else 0.0

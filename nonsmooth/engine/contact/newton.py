@@ -12,7 +12,7 @@ They hold iff Eqs. (16) and (17) do.  Sweeps of Gauss-Seidel bring the start nea
 from __future__ import annotations
 
 from nonsmooth.engine.contact.gauss_seidel import sweep
-from nonsmooth.engine.contact.trial import slope_of_slip
+from nonsmooth.engine.contact.trial import tangential_inverse_mass
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.memory.layout import NORMAL_ROW
@@ -41,7 +41,7 @@ _SETTLED = 1e-11
 @kernel("v2(ws, i8)")
 def _aim(ws: Workspace, a: int) -> tuple[float, float]:
     """Return where the friction of the active contact ``a`` would go if nothing cut it."""
-    active, slope = ws.actives[a], slope_of_slip(ws, a)
+    active, slope = ws.actives[a], tangential_inverse_mass(ws, ws.actives[a])
     y1 = active.friction[0] - active.slip_acceleration[0] / slope
     return y1, active.friction[1] - active.slip_acceleration[1] / slope
 
@@ -88,7 +88,7 @@ def _add_row(ws: Workspace, a: int, r: int, slope: float) -> None:
 def _add_cut(ws: Workspace, a: int, cut: float, c1: float, c2: float) -> None:
     """Add the derivative of the friction that is cut to the disc, along (c1, c2), to its two rows of ``matrix``."""
     active = ws.actives[a]
-    own, slope = diagonal_block(ws, a).nn, slope_of_slip(ws, a)
+    own, slope = diagonal_block(ws, a).nn, tangential_inverse_mass(ws, active)
     n = 3 * ws.problem.n_active
     first, second = (
         band_row(ws.problem.matrix.start, 3 * a + 1, n, ws.problem.half_band),
@@ -132,7 +132,7 @@ def _write_jacobian(ws: Workspace) -> bool:
                 ws.floats[row + line] = active.friction_coefficient * active.direction[r - 1]
         if not active.is_at_rest:
             continue
-        slope = slope_of_slip(ws, a)
+        slope = tangential_inverse_mass(ws, active)
         y1, y2 = _aim(ws, a)
         size, radius = length((y1, y2)), active.friction_coefficient * max(0.0, y)
         if size <= radius:

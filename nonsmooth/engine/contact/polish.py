@@ -6,7 +6,7 @@ import math
 
 from nonsmooth.engine.contact.forces import eliminate_reduced
 from nonsmooth.engine.contact.trial import hold_tried
-from nonsmooth.engine.contact.unknowns import list_unknown
+from nonsmooth.engine.contact.unknowns import set_unknown
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
@@ -119,10 +119,10 @@ def _list_unknowns(ws: Workspace) -> int:
         active.first_unknown = n
         for r in range(3):
             if active.is_normal_force_unknown if r == 0 else active.sticks:
-                list_unknown(ws, n, a, r, turn=False)
+                set_unknown(ws, n, active, r, is_turn=False)
                 n += 1
         if _starts(ws, a):
-            list_unknown(ws, n, a, NORMAL_ROW, turn=True)
+            set_unknown(ws, n, active, NORMAL_ROW, is_turn=True)
             n += 1
     ws.problem.first_unknown[ws.problem.n_active] = n
     return n

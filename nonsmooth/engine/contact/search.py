@@ -14,7 +14,7 @@ from nonsmooth.engine.contact.gauss_seidel import search_by_sweeps
 from nonsmooth.engine.contact.lemke import search_by_pivots
 from nonsmooth.engine.contact.newton import search_by_newton
 from nonsmooth.engine.contact.polish import polish
-from nonsmooth.engine.contact.trial import EQUAL, identify, judge, set_scales, verify
+from nonsmooth.engine.contact.trial import EQUAL, fulfils_laws, guess_modes_from_forces, set_scales, verify
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.memory.solvers import ENUMERATION, GAUSS_SEIDEL, LEMKE
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
@@ -194,7 +194,7 @@ def _accept_raw(ws: Workspace) -> bool:
         active = ws.actives[a]
         active.has_redundant_force = False
     ws.problem.is_deficient = False
-    return judge(ws, is_lenient=False) and _rubs(ws)
+    return fulfils_laws(ws, is_lenient=False) and _rubs(ws)
 
 
 @kernel("b1(ws, i8)")
@@ -216,7 +216,7 @@ def _search_round(ws: Workspace, solver: int) -> bool:
         settled = _improve(ws, solver, stage)
         for i in range(3 * ws.problem.n_active):
             ws.problem.forces_at_start[i] = ws.problem.forces[i]
-        identify(ws)
+        guess_modes_from_forces(ws)
         _restore_cones(ws)
         if not settled and stage < stages - 1 and _hasty(ws):
             continue

@@ -26,7 +26,7 @@ ENTRY_POINTS = (
     "locate_switch",
     "gauss_seidel",
     "inelastic_impulses",
-    "solve_doubtful",
+    "solve_ill_conditioned",
     "choose_friction",
     "slope",
     "collide",
