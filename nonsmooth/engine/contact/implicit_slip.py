@@ -12,7 +12,7 @@ from nonsmooth.engine.bodies.kinematics import evaluate_contact, row
 from nonsmooth.engine.contact.distribution import distribute
 from nonsmooth.engine.contact.forces import friction_of_slip, reduced_coefficient
 from nonsmooth.engine.contact.null_space_forces import shift_forces
-from nonsmooth.engine.contact.polish import EXACT, polish
+from nonsmooth.engine.contact.polish import EXACT, has_slip_that_begins, polish
 from nonsmooth.engine.contact.problem import friction_coefficient, slip_coefficient
 from nonsmooth.engine.contact.trial import hold_tried
 from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus, diagonal_block
@@ -110,14 +110,14 @@ def oppose_slips(ws: Workspace) -> bool:
     held = False
     for _round in range(2 * (2 + ws.problem.n_active)):
         polished = polish(ws)
-        if polished == 0:
+        if not polished:
             if held:
                 return False
             held = True
             for a in range(ws.problem.n_active):
                 active = ws.actives[a]
                 active.mode_tried = Mode.STICK if active.is_at_rest else active.mode_past
-        if polished != 1 or ws.problem.is_deficient:
+        if not polished or not has_slip_that_begins(ws) or ws.problem.is_deficient:
             hold_tried(ws)
         if _stop_and_go(ws) == 0:
             return True

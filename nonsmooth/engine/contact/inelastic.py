@@ -124,7 +124,7 @@ def inelastic_impulses(ws: Workspace, moment: float) -> int:
     for a in range(ws.problem.n_active):
         active = ws.actives[a]
         contact = ws.contacts[active.contact]
-        write_friction(ws, a)
+        write_friction(ws, active)
         active.static_coefficient = active.friction_coefficient = (
             active.friction_coefficient if not active.is_at_rest else active.static_coefficient
         )

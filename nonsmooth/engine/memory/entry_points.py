@@ -41,7 +41,7 @@ ENTRY_POINTS = (
     "project_closed",
     "list_contacts",
     "look_at_pairs",
-    "set_up",
+    "write_contact_problem",
     "find_doubtful",
     "first_closing",
     "first_crossing",
