@@ -41,8 +41,8 @@ _WEIGHT = 1e-7
 
 
 @entry_point("b1(ws, f8, f8)")
-def distribute(ws: Workspace, inset: float, arrived: float) -> bool:
-    """Move the forces along the null space into the cones. True if none is outside by more than ``arrived`` [N].
+def distribute(ws: Workspace, inset: float, allowed: float) -> bool:
+    """Move the forces along the null space into the cones. True if none is outside by more than ``allowed`` [N].
 
     Before: the forces are those of least norm, and ``null`` holds the null space. The cones of redundant forces are
     moved inwards by ``inset`` [N].
@@ -50,7 +50,7 @@ def distribute(ws: Workspace, inset: float, arrived: float) -> bool:
     n = ws.problem.n_unknown
     phi = _write_excess(ws, n, inset)
     for _ in range(_STEPS):
-        if _largest_excess(ws, n) <= arrived:
+        if _largest_excess(ws, n) <= allowed:
             return True
         if not (_find_step_in_band(ws, n, inset) if ws.problem.is_null_space_banded else _find_step(ws, n, inset)):
             return False

@@ -59,6 +59,7 @@ def resolve(ws: Workspace) -> None:
     Where forces are redundant, those of least norm are found and the contacts get ``has_redundant_force``.
     """
     n = _list_unknown_forces(ws)
+    # an interrupt is counted here and noticed by the callers, because forces are needed in any case
     interrupted(ws, n * ws.problem.n_active)
     if ws.problem.n_active == 1 and n == 3 and _solve_lone_sticking(ws):
         return
@@ -234,7 +235,7 @@ def null_entry(ws: Workspace, i: int, j: int) -> float:
         return ws.problem.null[i * ws.problem.n_unknown + j]
     if abs(i - j) > ws.problem.null_half_band:
         return 0.0
-    return ws.floats[band_row(ws.problem.reduced.start, i, ws.problem.n_unknown, ws.problem.null_half_band) + j]
+    return float(ws.floats[band_row(ws.problem.reduced.start, i, ws.problem.n_unknown, ws.problem.null_half_band) + j])
 
 
 # --- friction ---------------------------------------------------------------------------------------------------------
@@ -292,6 +293,7 @@ def _margin_of_group(ws: Workspace, active: ActiveContact, first: int) -> float:
     begin, end = 0, ws.problem.n_unknown - 1
     if ws.problem.is_null_space_banded:
         begin, end = max(0, first - ws.problem.null_half_band), min(end, first + ws.problem.null_half_band)
+    # TODO: contacts outside the band, and those coupled by others only, are left out of the sum
     bound = sum_1 = sum_2 = 0.0
     for i in range(begin, end):
         unknown = ws.unknowns[i]

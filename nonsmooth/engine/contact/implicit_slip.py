@@ -32,7 +32,7 @@ _ROUND_OFF = 1e-13
 _DISTRIBUTED = 1e-10
 """Distance of redundant forces to their cones, relative to the largest force, that counts as zero."""
 _NEWTON_STEPS = 8
-"""Maximum number of Newton steps for a slip that is alone. From the direction of the last step, three or four suffice."""
+"""Maximum number of Newton steps for a slip that is alone. From the last direction, three or four suffice."""
 
 
 @kernel()
@@ -226,7 +226,7 @@ def _turn_facings(ws: Workspace) -> bool:
 
 @kernel()
 def _add_forces(ws: Workspace) -> None:
-    """Add the responses to the forces to ``du`` and their power to that of driven bodies, and note which contacts stick."""
+    """Add the responses to the forces to ``du`` and their power to that of driven bodies. Write which contacts stick."""
     add_response(ws, ws.problem.forces.start, ws.island.du.start)
     for active in ws.actives:
         c = active.contact

@@ -8,9 +8,12 @@ after it are z + G p, and
     p_t on Coulomb's disc of radius mu p_n, opposite to the slip z_t + (G p)_t, or inside it if that is zero.
 
 If contacts wedge, or are redundant, Gauss-Seidel needs very many sweeps, and Newton's method diverges from a bad start.
-Compliance of the contacts, which is a positive number added to the diagonal of G, cures both. So the compliance is made
-large at first, and then reduced in steps down to a negligible one. Each solution starts the search for the next. With
-known impulses of a similar impact, as from the step before, the negligible compliance is tried at once.
+Compliance of the contacts, which is a positive number added to the diagonal of G, cures both. So there are three
+attempts, the cheapest first:
+
+1. with a negligible compliance, from the given impulses, such as those of the step before;
+2. with rigid contacts, from sweeps of Gauss-Seidel;
+3. with a large compliance, which is reduced in steps to a negligible one. Each solution starts the search for the next.
 """
 
 from __future__ import annotations

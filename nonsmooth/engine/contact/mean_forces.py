@@ -8,7 +8,8 @@ at its start, and their accelerations b without contact forces, the rates at its
 
 and friction on Coulomb's cone opposes the slip z1_t, or keeps it at zero. This problem always has a solution, while
 that of an instant need not. Events within T are not resolved. Nothing is lost by that as long as T is at most a contact
-time, because rigid contact is a model of what takes longer. In code, these forces are called mean forces.
+time, because a rigid contact law does not describe what is faster than that. In code, these forces are called mean
+forces.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ from nonsmooth.engine.numerics.vectors import length
 _LONGEST = 50.0
 """Maximum time of a step, in contact times, if the steps before were accurate."""
 _LEAST_RATE = 0.25
-"""Smallest gap rate that an estimate of accuracy uses, in velocity tolerances. It limits the growth of a step to two."""
+"""Smallest gap rate in the estimate of accuracy, in velocity tolerances. It limits the growth of a step to two."""
 
 
 # --- the time of a step -----------------------------------------------------------------------------------------------
@@ -58,7 +59,7 @@ def averaging_time(ws: Workspace) -> float:
 
 
 @kernel("b1(ws)")
-def is_settled(ws: Workspace) -> bool:
+def has_no_stopping_slip(ws: Workspace) -> bool:
     """True if no slip of the active contacts is so slow that friction stops it within a contact time."""
     for active in ws.actives:
         contact = ws.contacts[active.contact]
@@ -88,7 +89,7 @@ def averaging_span(ws: Workspace, follows: bool) -> float:
 
 
 @kernel()
-def measure_spans(ws: Workspace) -> None:
+def set_spans(ws: Workspace) -> None:
     """Write the time that the next step of each contact may take [s], from the gap rates that the last step has left.
 
     The rates grow with the square of the time. Up to a contact time, a step may in any case be twice as long as the
@@ -120,9 +121,10 @@ def _store_span(ws: Workspace, span: float) -> None:
 
 @kernel("f8(ws, f8)")
 def find_mean_impulses(ws: Workspace, time: float) -> float:
-    """Find the impulses of the active contacts over a ``time`` [N s]. Returns that time, or a contact time if shorter.
+    """Find the impulses of the active contacts over a ``time`` [N s]. Returns the time that was used.
 
-    Before: the rates of the contacts, and in ``du`` the accelerations without contact forces.
+    If a step longer than a contact time has no solution, one of a contact time is tried. Before: the rates of the
+    contacts, and in ``du`` the accelerations without contact forces.
     """
     if not _solve(ws, time) and time > averaging_time(ws):
         time = averaging_time(ws)
@@ -158,7 +160,7 @@ def gap_after(ws: Workspace, a: int, time: float) -> float:
 
 
 @kernel("void(ws, f8)")
-def take_mean_forces(ws: Workspace, time: float) -> None:
+def set_mean_forces(ws: Workspace, time: float) -> None:
     """Spread the impulses of the active contacts over a ``time`` [s] from now on, as mean forces [N].
 
     Modes and slip directions under trial become those at the end of that time.

@@ -169,6 +169,7 @@ def solve_contact(ws: Workspace) -> bool:
         if not active.is_at_rest and active.mode_tried == Mode.STICK:
             active.mode_tried = Mode.SLIDE
         active.mode_past = active.mode_tried
+        # TODO: an unknown past mode is -1, which should be a member of Mode
         if active.mode_tried < 0:
             has_past = False
     if has_past and verify(ws, is_lenient=False):

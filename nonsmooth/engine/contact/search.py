@@ -249,6 +249,7 @@ def _verify_or_open(ws: Workspace) -> bool:
         return True
     if not ws.problem.is_deficient:
         return False
+    # TODO: a single contact that must open is found only if it is the most tensile one at some step
     while ws.problem.effort < _MOST_EFFORT and _open_most_tensile(ws):
         polish(ws)
         if verify(ws, is_lenient=False):

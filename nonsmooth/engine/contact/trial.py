@@ -215,6 +215,7 @@ def guess_modes_from_forces(ws: Workspace) -> None:
             norm = length((y1, y2))
             if norm > 0.0:
                 active.direction = -y1 / norm, -y2 / norm
+            # TODO: a projection would have the radius mu y_n of the projected normal force, not mu f_n
             if not active.was_freed and norm <= g * active.friction_coefficient * active.normal_force:
                 active.mode_tried = Mode.STICK
         if compression <= 0.0:
@@ -227,6 +228,7 @@ def tangential_inverse_mass(ws: Workspace, active: ActiveContact) -> float:
 
     It is only a scale. If the contact cannot slip, its normal inverse mass takes the place.
     """
+    # TODO: the larger diagonal entry depends on the choice of the tangents; the larger eigenvalue would not
     own = diagonal_block(ws, active.index)
     largest = max(own.t11, own.t22)
     return float(largest if largest > 0.0 else own.nn)
