@@ -226,7 +226,7 @@ def _turn_facings(ws: Workspace) -> bool:
 
 @kernel()
 def _add_forces(ws: Workspace) -> None:
-    """Add the responses to the forces to ``du`` and their power to that of driven bodies. Write which contacts stick."""
+    """Add the responses to the forces to ``du`` and the power of driven bodies. Write which contacts stick."""
     add_response(ws, ws.problem.forces.start, ws.island.du.start)
     for active in ws.actives:
         c = active.contact
