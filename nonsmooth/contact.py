@@ -13,6 +13,7 @@ from nonsmooth.checks import check_kind, floats
 from nonsmooth.contact_result import MODES, ContactResult
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Heap, Memory, allocate
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.memory.solvers import ENUMERATION, MOST_ENUMERATED, solver_number
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import entry_addresses
@@ -116,7 +117,7 @@ def solve_contact(
     free = np.linalg.solve(m, h)
     memory = _memory(friction, number)
     write_delassus(memory, scaled.T @ scaled)
-    memory[owners.Problem.free_accelerations][: 3 * n][:] = s.ravel() + columns.T @ free
+    memory[owners.Problem.free_accelerations][: 3 * n] = s.ravel() + columns.T @ free
     memory[owners.Problem.acceleration_scale] = max(np.max(np.abs(s)), np.max(np.abs(columns.T @ free)))
     memory[owners.Contact.rate][:n][:, 1:] = v
     with Watch(memory) as watch:
@@ -161,11 +162,11 @@ def _memory(friction: Sequence[FrictionLaw], solver: int) -> Memory:
     n = len(friction)
     bound = [bind(law.coefficient, "scalar", law.parameters(), type(law).__name__) for law in friction]
     memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_pivoted": n})
-    memory[owners.Model.entry_points][: len(entry_addresses())][:] = entry_addresses()
+    memory[owners.Model.entry_points][: len(entry_addresses())] = entry_addresses()
     memory[owners.Problem.n_active], memory[owners.Options.solver] = n, solver
-    memory[owners.Problem.active][:n][:] = np.arange(n)
+    memory[owners.Problem.active][:n] = np.arange(n)
     memory[owners.Contact.direction][:, 0] = 1.0
-    memory[owners.ActiveContact.mode_tried][:n][:] = -1
+    memory[owners.ActiveContact.mode_tried][:n] = Mode.UNKNOWN
     heap = Heap(memory)
     for i, (address, values) in enumerate(bound):
         memory[owners.Contact.friction_function][:n][i] = address

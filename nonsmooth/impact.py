@@ -12,7 +12,7 @@ from nonsmooth.binding.compile import bind
 from nonsmooth.binding.law_failure import first_without_value, law_functions, without_value
 from nonsmooth.checks import check_kind, floats, is_finite
 from nonsmooth.contact import check_friction
-from nonsmooth.engine.impact.problem import FINISHED
+from nonsmooth.engine.impact.integration import Outcome
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Heap, Memory, allocate
 from nonsmooth.engine.memory.tables import COUNTS
@@ -151,12 +151,12 @@ def solve_impact(
     rates = columns.T @ u + z_driven.ravel()
     memory = _memory(impact, friction, tolerance)
     write_delassus(memory, delassus)
-    memory[owners.Impact.rates_before][: 3 * n][:] = rates
-    outcome = FINISHED
+    memory[owners.Impact.rates_before][: 3 * n] = rates
+    outcome = int(Outcome.FINISHED)
     if np.any(rates[::3] < 0.0):
         with Watch(memory) as watch:
             outcome = int(watch.call("energetic_impact", 0.0))
-    if outcome != FINISHED:
+    if outcome != Outcome.FINISHED:
         raise RunFailed(f"The impact did not end. {_culprit(memory, impact, friction)}")
     impulse = memory[owners.Impact.impulse][: 3 * n].reshape(n, 3).copy()
     return ImpactResult(
@@ -197,10 +197,10 @@ def _memory(impact: Sequence[ImpactProcess], friction: Sequence[FrictionLaw], to
         ):
             blocks.append((i, name, *bind(function, "scalar", law.parameters(), type(law).__name__)))
     memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_articulations": 0})
-    memory[owners.Model.entry_points][: len(entry_addresses())][:] = entry_addresses()
+    memory[owners.Model.entry_points][: len(entry_addresses())] = entry_addresses()
     memory[owners.Problem.n_active] = n
     memory[owners.Tolerance.impact] = tolerance
-    memory[owners.Problem.active][:n][:] = np.arange(n)
+    memory[owners.Problem.active][:n] = np.arange(n)
     memory[owners.Contact.direction][:, 0] = 1.0
     heap = Heap(memory)
     for i, name, address, values in blocks:

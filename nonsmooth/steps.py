@@ -39,19 +39,19 @@ def step(own: type[Part], signature: str = "void(ws)") -> Callable[[Callable[...
     own : type of Part
         Numbers of the engine's own, :attr:`Engine.own`: ``ws.NAME`` with the key of the class for its name.
     signature : str
-        Types of the result and of the arguments: ``ws``, ``F`` (floats), ``I`` (integers), ``f8``, ``i8``, ``void``.
+        Types of the result and of the arguments: ``ws``, ``f8``, ``i8``, ``b1``, ``void``.
     """
     return lambda function: add_step(function, own, signature, fingerprint)
 
 
 def kernel(own: type[Part], signature: str = "void(ws)") -> Callable[[_Function], _Function]:
-    """Compile a function into the steps that call it; parameters as those of :func:`step`, and tuples of floats.
+    """Compile a function into the steps that call it; parameters as those of :func:`step`.
 
     Parameters
     ----------
     own : type of Part
         As of :func:`step`.
     signature : str
-        Likewise; ``v2`` and ``v3`` are tuples of two and three floats.
+        Likewise; also ``v2`` and ``v3``, tuples of two and three floats, and owners of records, as ``Contact``.
     """
     return own_kernel(own, signature)

@@ -63,6 +63,11 @@ class Bushing(Load):
         }
 
     @property
+    def depends_on_time(self) -> bool:
+        """No."""
+        return False
+
+    @property
     def evaluator(self) -> Callable[..., None]:
         """Force, point and moment."""
         return _evaluate

@@ -69,6 +69,11 @@ class TorsionSpring(Load):
         return {**self.numbers(), "axis": axis, "side": side, "other_side": other_side}
 
     @property
+    def depends_on_time(self) -> bool:
+        """No."""
+        return False
+
+    @property
     def evaluator(self) -> Callable[..., None]:
         """Force, point and moment."""
         return _evaluate

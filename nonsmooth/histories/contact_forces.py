@@ -150,7 +150,7 @@ class _Closed:
         memory, n = laid.memory, int(laid.memory[owners.Model.n_slots])
         self._memory, contact = memory, owners.Contact
         self._blocks = memory[owners.Contact.geometry][:n]
-        self._axes = memory[owners.Contact.axes][:n]
+        self._axes = memory[owners.Contact.axes][:n].reshape(n, 3, 3)
         self._forces, self._rates = memory[owners.Contact.force], memory[owners.Contact.rate]
         self._slips = memory[owners.Contact.slip_of_tangents][:n]
         self._grouped, self._identity, self._mode, self._oriented, self._function, self._out = (

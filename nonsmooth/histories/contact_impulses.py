@@ -82,7 +82,7 @@ class ContactImpulses:
         def look(i: int) -> None:
             slots = int(memory[owners.Island.n_contacts])
             blocks = memory[owners.Contact.geometry][:slots]
-            directions = memory[owners.Contact.axes][:slots]
+            directions = memory[owners.Contact.axes][:slots].reshape(slots, 3, 3)
             slot = np.full(events.n_contacts, -1)
             slot[memory[owners.Contact.declared][:slots]] = np.arange(slots)
             entries = np.arange(events.first[begins[i]], events.first[ends[i]])

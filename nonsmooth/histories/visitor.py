@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, final
 import numpy as np
 
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.modes import AFTER, CODE, OPEN, REASONS, RUNNING, SLIDE, STICK
+from nonsmooth.engine.memory.modes import AFTER, CODE, OPEN, REASONS, RUNNING, SLIDE, STICK, Status
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.histories.arrays import Floats, Integers
@@ -137,7 +137,7 @@ class Visitor:
                     self._put(here)
                 status = int(watch.call("follow", float(times[i])))
                 if status != RUNNING:
-                    raise RunFailed(f"What led to t = {times[i]:.9g} s is not found again: {REASONS[status]}.")
+                    raise RunFailed(f"What led to t = {times[i]:.9g} s is not found again: {REASONS[Status(status)]}.")
                 if forces:
                     watch.call("evaluate_forces", 0)
                 look(i)
@@ -204,7 +204,7 @@ class Visitor:
         memory[owners.Island.time] = self._time[row]
         for total, value in zip(_ACCOUNTED, self._booked[row].tolist(), strict=True):
             memory[total] = value
-        self.laid.memory[owners.Island.y][: self.laid.n_y][:] = self._y[row]
+        self.laid.memory[owners.Island.y][:] = self._y[row]
 
     def _put_modes(self, event: int) -> None:
         """Close the contacts that an event left closed, and put them into slots with what they go on with."""
@@ -229,4 +229,4 @@ class Visitor:
         slots = int(memory[owners.Island.n_contacts])
         facing = np.ones(n)
         facing[numbers] = kept[:, 3]
-        memory[owners.Contact.facing][:slots][:] = facing[memory[owners.Contact.declared][:slots]]
+        memory[owners.Contact.facing][:slots] = facing[memory[owners.Contact.declared][:slots]]

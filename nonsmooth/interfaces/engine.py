@@ -12,37 +12,41 @@ from nonsmooth.parameters import Component
 if TYPE_CHECKING:
     from nonsmooth.engine.memory.declare import Part
     from nonsmooth.engine.memory.memory import Memory
+    from nonsmooth.model.laid_out import LaidOut
     from nonsmooth.system.system import System
 
 
 class Engine(Component, ABC):
     """An integrator; its parameters are its options.
 
-    All engines share the model: bodies, geometry, contacts, laws, laid out in one memory
-    (:mod:`nonsmooth.engine.memory.workspace`), and what comes out of it: samples, events, energies, the state in which a
-    run ends.  The contract:
+    All engines share the model: bodies, geometry, contacts and laws, in one workspace
+    (:mod:`nonsmooth.engine.memory.workspace`). They share its results: samples, events, energies, and the state at the
+    end of a run. The contract:
 
     1. ``check`` refuses a system that this engine cannot run, before anything is laid out.
-    2. ``own`` declares numbers of its own. All numbers of the workspace are there for every engine.
+    2. ``own`` declares numbers of its own. All numbers of the workspace exist for every engine.
     3. ``counts`` gives the counts that its options decide, ``settings`` the scalars that it sets.
-    4. ``advance`` goes on, from wherever the memory stands, with steps of its own (:func:`nonsmooth.steps.step`) and
-       with entry points of :mod:`nonsmooth.engine`.  All that it needs to go on later, in another process too, it
-       leaves in the memory, outside of what comes later in the tables of arrays.
-    5. Samples are due up to the time ``ws.island.time``, the first at ``ws.output.next_sample``: ``begin_sample`` appends one and returns
-       where its state belongs.  An event is appended by ``remember`` before velocities change, and ``record_event``
-       after that.  A run is called again with empty buffers where they are half full and it has paused.
-    6. Where time stops passing it returns ``STALLED`` and leaves in the memory the state at that instant, and in
-       ``contact.burst_events`` which contacts hold it up.  That does not yet end the run: an engine that is put together of two
-       may let the other one go on from there.
-    7. An engine that ``records_contacts`` records an event at the start, and one whenever modes change.  Other engines
+    4. ``prepare`` evaluates numbers of its own that no run changes. Numbers that it keeps of contacts have the length
+       ``per(..., "n_declared")``, and ``contact.declared`` for their index: the place of a contact among the active ones
+       changes.
+    5. ``advance`` continues the run from the state in the memory, with steps of its own
+       (:func:`nonsmooth.steps.step`) and with entry points of :mod:`nonsmooth.engine`. All numbers that it needs later,
+       in another process too, are in the memory.
+    6. Samples are due up to the time ``ws.island.time``, the first one at ``ws.output.next_sample``. ``begin_sample``
+       appends a sample and returns the place of its state. ``remember`` begins an event, before velocities change, and
+       ``record_event`` appends it. An engine pauses if its buffers are half full; it is called again with empty ones.
+    7. It returns ``STALLED`` if time stops passing. The memory then holds the state at that instant, and
+       ``contact.burst_events`` counts the events of each contact that stalls. This does not yet end the run: an engine
+       that is made of two may let the other one continue from there.
+    8. An engine that ``records_contacts`` records an event at the start, and one whenever modes change.  Other engines
        record no event of a system with contacts, because its modes and impulses would be zeros.
-    8. ``verdict`` names numbers that the user reads with the run, ``causes`` the causes for which only this engine ends
+    9. ``verdict`` names numbers that the user reads with the run, ``causes`` the causes for which only this engine ends
        a run.  ``promised_residual`` decides which runs are suspect.
     """
 
     @property
     def own(self) -> type[Part] | None:
-        """Numbers of its own: a class of declarations."""
+        """Class of the declarations of its own numbers, None if it has none."""
         return None
 
     @property
@@ -69,7 +73,7 @@ class Engine(Component, ABC):
     def promised_residual(self) -> float | None:
         """Largest part of the exchanged energy that its account may lack in a good run.
 
-        Without a promise the tolerances ``rtol`` and ``impact_rtol`` decide, as for the event-driven engine.
+        Without a promise ``ws.tolerance.relative`` and ``ws.tolerance.impact`` decide.
         """
         return None
 
@@ -103,9 +107,19 @@ class Engine(Component, ABC):
             Shortest period of the prescribed motions [s].
         """
 
+    def prepare(self, model: LaidOut) -> None:
+        """Evaluate numbers of its own that no run changes, once a system is laid out; nothing by default.
+
+        Parameters
+        ----------
+        model : LaidOut
+            The system in its memory, before any body is placed. Functions and parameters of bodies, contacts and laws
+            are there; states are not.
+        """
+
     @abstractmethod
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
-        """Go on to the end time ``ws.request.t_end``, a failure, full buffers or ``most_steps``; return the status.
+        """Continue to the end time ``ws.request.t_end``, a failure, full buffers or ``most_steps``.
 
         Parameters
         ----------
@@ -122,6 +136,7 @@ class Engine(Component, ABC):
         Returns
         -------
         int
-            ``DONE`` at the end time, to which ``ws.island.time`` is set, ``PAUSED`` to be called again, ``STOPPED`` where a guard
-            ends the run, a failure of :data:`nonsmooth.engine.memory.modes.REASONS`, or the code of one of its causes.
+            ``DONE`` at the end time, to which ``ws.island.time`` is set, ``PAUSED`` to be called again, ``STOPPED`` if
+            a guard ends the run, a failure of :data:`nonsmooth.engine.memory.modes.REASONS`, or the code of one of its
+            causes.
         """

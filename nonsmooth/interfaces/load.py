@@ -20,12 +20,19 @@ class Load(Component, ABC):
        bodies that writes force, point and moment (:mod:`nonsmooth.engine.memory.blocks`); its further arguments are
        parameters of the load.
     2. It is smooth in its arguments; the first body gets the opposite.
+    3. ``depends_on_time`` is false only if the function does not use the time: force and moment then follow from the
+       motion of the two bodies alone, and are constant while both bodies rest.
     """
 
     @property
     @abstractmethod
     def evaluator(self) -> Callable[..., None]:
         """The function of point 1."""
+
+    @property
+    def depends_on_time(self) -> bool:
+        """Whether force and moment depend on time other than through the motion of the bodies; yes by default."""
+        return True
 
     @property
     def ends(self) -> Vector:

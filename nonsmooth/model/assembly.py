@@ -60,7 +60,7 @@ def lay_out(system: System, engine: Engine) -> LaidOut:
 
 
 def _stand(model: LaidOut) -> None:
-    model.memory[owners.Island.y][: model.n_q + model.n_u][:] = np.concatenate(model.system.starts())
+    model.memory[owners.Island.y][: model.n_q + model.n_u] = np.concatenate(model.system.starts())
     model.list_contacts()
 
 
@@ -117,7 +117,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
     settings = settings_of(engine, system.time_scale)
     memory = allocate(counts, laid_own(engine, counts))
     heap = Heap(memory)
-    memory[owners.Model.entry_points][: len(entry_addresses())][:] = entry_addresses()
+    memory[owners.Model.entry_points][: len(entry_addresses())] = entry_addresses()
     places = lay_bodies(system, memory, heap)
     lay_joints(memory, heap, groups, places)
     lay_loads(system, memory, heap, places)
@@ -129,4 +129,5 @@ def lay(system: System, engine: Engine) -> LaidOut:
     model = LaidOut(system, heap.close(), n_q, n_u, n_states)
     for scalar, value in settings.items():
         model.memory[scalar] = value
+    engine.prepare(model)
     return model

@@ -1,8 +1,8 @@
 """Checkpoints: what a step may find of those before it, taken from a memory and put back.
 
-A checkpoint is what the field table says that outlives a step, and the blocks that plug-ins write. Nothing else is read
-before it is written, so a memory that holds a checkpoint goes on with the same bits. Parameters, sizes and addresses are
-no part of it: what comes from a file cannot change them.
+A checkpoint is what the field table says that outlives a step, and the blocks that plug-ins write. Nothing else is
+read before it is written, so a memory that holds a checkpoint goes on with the same bits. Parameters, sizes and
+addresses are no part of it: what comes from a file cannot change them.
 """
 
 from __future__ import annotations
@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.declare import Part
-from nonsmooth.engine.memory.memory import Memory, view_of
+from nonsmooth.engine.memory.memory import Memory, counts_in, view_of
+from nonsmooth.engine.memory.sizes import Counts
 from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, N_SCALARS, SCALARS
 from nonsmooth.errors import InvalidInput
 from nonsmooth.model.listed import copy_parameters, listed_contacts
@@ -57,6 +58,10 @@ class Checkpoint:
         return cast(np.void, self.parts[0][:N_SCALARS].view(SCALARS)[0])
 
     @functools.cached_property
+    def _counts(self) -> Counts:
+        return counts_in(self.record)
+
+    @functools.cached_property
     def size(self) -> int:
         """Room that it takes [bytes]."""
         return sum(part.nbytes for part in self.parts)
@@ -71,7 +76,7 @@ class Checkpoint:
         if declared.size is None and issubclass(declared.owner, Part):
             return self.record[declared.key].item()
         part = self.parts[1].view(np.float64) if declared.key in FLOAT_ARRAYS else self.parts[2]
-        return view_of(declared, self.record, part)
+        return view_of(declared, self.record, self._counts, part)
 
     def declared(self, declared: Any) -> np.ndarray:
         """A view of what the declared contacts hold of a state of contacts."""

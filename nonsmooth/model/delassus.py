@@ -31,10 +31,10 @@ def write_delassus(memory: Memory, matrix: Floats) -> None:
     if len(columns) > MOST_BLOCKS:
         remedy = "Solve contacts that do not act on each other apart."
         raise InvalidInput("contacts", f"must couple in at most {MOST_BLOCKS} pairs", len(columns), remedy)
-    memory[owners.Island.block_start][: n + 1][:] = np.searchsorted(rows, np.arange(n + 1))
-    memory[owners.Island.block_column][: len(columns)][:] = columns
-    memory[owners.ActiveContact.diagonal_block][:n][:] = np.flatnonzero(rows == columns)
-    memory[owners.Island.delassus][: 9 * len(columns)][:] = blocks[coupled].ravel()
+    memory[owners.Island.block_start][: n + 1] = np.searchsorted(rows, np.arange(n + 1))
+    memory[owners.Island.block_column][: len(columns)] = columns
+    memory[owners.ActiveContact.diagonal_block][:n] = np.flatnonzero(rows == columns)
+    memory[owners.Island.delassus][: 9 * len(columns)] = blocks[coupled].ravel()
 
 
 def read_delassus(memory: Memory, n: int) -> Floats:

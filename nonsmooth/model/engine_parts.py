@@ -52,8 +52,20 @@ def settings_of(engine: Engine, time_scale: float) -> Mapping[Any, float]:
 
 
 def own_of(engine: Engine) -> tuple[type[Part], ...]:
-    """Return the numbers that it has of its own."""
-    return () if engine.own is None else (engine.own,)
+    """Return the numbers that it has of its own.
+
+    Raises
+    ------
+    InvalidInput
+        If they are no class of declarations.
+    """
+    own = engine.own
+    if own is None:
+        return ()
+    if not (isinstance(own, type) and issubclass(own, Part)):
+        rule = "must be a class of declarations, a Part"
+        raise InvalidInput(f"{_name(engine)}.own", rule, own, "Write class Own(Part, key=...).")
+    return (own,)
 
 
 def laid_own(engine: Engine, counts: Mapping[str, int]) -> tuple[type[Part], ...]:
@@ -62,12 +74,10 @@ def laid_own(engine: Engine, counts: Mapping[str, int]) -> tuple[type[Part], ...
     Raises
     ------
     InvalidInput
-        If it is no class of declarations, its key is taken, or a length is none that the counts give.
+        If its key is taken, or a length is none that the counts give.
     """
     for own in own_of(engine):
         thing = f"{_name(engine)}.own"
-        if not (isinstance(own, type) and issubclass(own, Part)):
-            raise InvalidInput(thing, "must be a class of declarations, a Part", own, "Write class Own(Part, key=...).")
         taken = get_type_hints(Workspace)
         if own.key in taken or not own.key.isidentifier():
             rule = "must have for its key a name in Python that no other owner has"

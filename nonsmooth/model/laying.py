@@ -163,7 +163,12 @@ def lay_loads(system: System, memory: Memory, heap: Heap, places: Places) -> Non
         offered, owner = load.parameters(), type(load).__name__
         address, values = bind(load.evaluator, "load", offered, owner)
         try_out(load.evaluator, "load", offered, values, LOAD, owner, (0.0, *FRAMES))
-        fields = {"function": address, "parameters": heap.store(values), "out": heap.output(LOAD)}
+        fields = {
+            "function": address,
+            "parameters": heap.store(values),
+            "out": heap.output(LOAD),
+            "depends_on_time": load.depends_on_time,
+        }
         for side, body, frame in (("a", tie.first, tie.frames[0]), ("b", tie.second, tie.frames[1])):
             fields[f"frame_{side}"] = places[id(body)].frames[frame]
             fields[f"body_{side}"] = places[id(body)].number

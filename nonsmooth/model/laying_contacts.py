@@ -147,7 +147,7 @@ def _lay_sides(memory: Memory, table: ContactTable, places: Places) -> int:
 
 
 def lay_law_floats(memory: Memory, contacts: Sequence[Contact], kinds: Kinds) -> None:
-    """Lay what the catalogue holds of each contact in floats, of its laws and of forces that nobody has asked for."""
+    """Write the floats of each declared contact: those of its laws, and of averaged forces that were never tried."""
     for numbers in kinds:
         normal, impact = contacts[numbers[0]].normal, contacts[numbers[0]].impact
         memory.declared(owners.Contact.contact_time)[numbers] = 0.0 if impact is None else impact.contact_time

@@ -150,8 +150,8 @@ def lay_part_pairs(memory: Memory, heap: Heap, pairs: Sequence[PartPair], places
     stand = {(place.number, frame): at for place in places.values() for frame, at in enumerate(place.frames)}
     carriers = carriers_of(pairs)
     numbers = {side: number for number, side in enumerate(carriers)}
-    memory[owners.Carrier.frame][: len(carriers)][:] = [stand[side] for side in carriers]
-    memory[owners.Carrier.radius][: len(carriers)][:] = list(carriers.values())
+    memory[owners.Carrier.frame][: len(carriers)] = [stand[side] for side in carriers]
+    memory[owners.Carrier.radius][: len(carriers)] = list(carriers.values())
     starts: dict[tuple[int, int], int] = {}
     for number, pair in enumerate(pairs):
         for key, part in zip(pair.shapes, pair.parts, strict=True):

@@ -136,14 +136,14 @@ def lay_units(memory: Memory, units: Units, places: dict[tuple[int, int], int]) 
         return
     for side, unit in units.frames.items():
         memory[owners.Sphere.frame][:n][unit] = places[side]
-    memory[owners.Sphere.radius][:n][:] = units.radii
-    memory[owners.Island.sphere_order][:n][:] = range(n)
+    memory[owners.Sphere.radius][:n] = units.radii
+    memory[owners.Island.sphere_order][:n] = range(n)
     memory[owners.Island.list_margin] = memory[owners.Options.widest_margin] = _MARGIN * float(units.radii.min())
     one, two = units.pairs.T
     memory[owners.Sphere.first_partner][: n + 1][1:] = np.cumsum(np.bincount(one, minlength=n))
-    memory[owners.Model.partner][: len(two)][:] = two
+    memory[owners.Model.partner][: len(two)] = two
     memory[owners.Model.partner_contact][: len(two) + 1][1:] = np.cumsum(units.counts)
-    memory[owners.Model.paired_contact][: len(units.contacts)][:] = units.contacts
+    memory[owners.Model.paired_contact][: len(units.contacts)] = units.contacts
     for i, wall in enumerate(units.walls):
         memory[owners.HalfSpace.contact][i] = wall.contact
         memory[owners.HalfSpace.sphere][i] = wall.unit

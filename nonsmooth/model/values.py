@@ -49,8 +49,7 @@ def _in_use(memory: Memory, one: Declaration) -> object:
 
 def _bounds(one: Declaration, counts: Counts) -> tuple[int, int]:
     """Least value, and the first one that is too large."""
+    least = min(int(one.begin), 0)
     if one.below is not None:
-        return min(int(one.begin), 0), one.below(counts)
-    if issubclass(one.kind, IntEnum):
-        return min(one.kind), max(one.kind) + 1
-    return 0, 2
+        return least, one.below(counts)
+    return least, max(one.kind) + 1 if issubclass(one.kind, IntEnum) else 2

@@ -61,7 +61,8 @@ class Probe:
 
     def _state(self, offset: int, name: str, size: int) -> Vector:
         start = offset + int(self.model.memory[getattr(owners.Body, name)][self.number])
-        return self.model.memory[owners.Island.y][: self.model.n_y][start : start + size]
+        y: Vector = self.model.memory[owners.Island.y]
+        return y[start : start + size]
 
     @property
     def q(self) -> Vector:

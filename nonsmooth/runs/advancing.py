@@ -60,7 +60,8 @@ class Advancing:
         t, t_end = (self._memory[one] for one in (owners.Island.time, owners.Request.t_end))
         if status == DONE and t != t_end:
             rule = f"must be at the end time {t_end:.9g} s where it is DONE"
-            raise InvalidInput(f"{thing}: S.t", rule, t, "Return PAUSED to be called again, or set S.t to S.t_end.")
+            remedy = "Return PAUSED to be called again, or set it to ws.request.t_end."
+            raise InvalidInput(f"{thing}: ws.island.time", rule, t, remedy)
         return int(status)
 
     def get_on(self, most_steps: int, before: Checkpoint) -> int:
@@ -74,7 +75,7 @@ class Advancing:
                 f"{type(self._engine).__name__}.advance",
                 "must do a step where it need not be wary and the buffers are empty",
                 f"nothing done at t = {self._memory[owners.Island.time]:.9g} s",
-                "Return DONE at S.t_end; where time stops passing, STALLED.",
+                "Return DONE at ws.request.t_end; where time stops passing, STALLED.",
             )
         return status
 

@@ -171,7 +171,7 @@ class Left(NamedTuple):
         contact = owners.Contact
         modes, rates = now.declared(contact.mode).copy(), now.declared(contact.closing_rate).copy()
         directions = now.declared(contact.direction).copy()
-        # what stands in a slot is newer than what the catalogue keeps of it
+        # an active slot is newer than the record of its declared contact
         listed = now[owners.Contact.declared][:slots]
         modes[listed] = now[owners.Contact.mode][:slots]
         directions[listed] = now[owners.Contact.direction][:slots]

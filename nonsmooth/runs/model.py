@@ -181,8 +181,10 @@ class Model:
             If anything else differs, or the start is not valid, or the model runs.
         """
         check_kind("with_laws_of: system", system, System, "Make it by nonsmooth.with_laws(model.system, ...).")
-        made = Model(lay_laws(self._copied(), system), self._engine, State.at(system))
-        check_start(made._laid, made._guards)
+        laid = lay_laws(self._copied(), system)
+        self._engine.prepare(laid)
+        made = Model(laid, self._engine, State.at(system))
+        check_start(made._laid, made._ends)
         return made
 
     @functools.cached_property

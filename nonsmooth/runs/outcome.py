@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.modes import CONDITION_MET, DONE, PAUSED, REASONS, STOPPED
+from nonsmooth.engine.memory.modes import CONDITION_MET, DONE, PAUSED, REASONS, STOPPED, Status
 from nonsmooth.interfaces import Cause, Engine
 from nonsmooth.model.block_ends import BlockEnds
 from nonsmooth.model.blocks import written_past
@@ -22,10 +22,12 @@ def reason(model: LaidOut, ends: BlockEnds, ending: Ending, engine: Engine) -> t
     past, status = written_past(model, ends), ending.status
     if ending.trouble:
         return "failed", f"At t = {model.memory[owners.Island.time]:.9g} s {ending.trouble}"
-    if (cause := cause_of(engine, status)) and not past:
+    cause = cause_of(engine, status)
+    if cause and not past:
         said = f"At t = {model.memory[owners.Island.time]:.9g} s {cause.reason}. {cause.remedy}".strip()
         return "failed" if cause.is_failure else "done", said
     if past or status not in (DONE, STOPPED, CONDITION_MET, PAUSED):
-        message = f"At t = {model.memory[owners.Island.time]:.9g} s {REASONS[status]}."
+        why = cause.reason if cause else REASONS[Status(status)]
+        message = f"At t = {model.memory[owners.Island.time]:.9g} s {why}."
         return "failed", f"{message} {past or culprit(model, status) or ending.hint}".strip()
-    return "interrupted" if ending.interrupted else "done", REASONS[status]
+    return "interrupted" if ending.interrupted else "done", REASONS[Status(status)]

@@ -13,7 +13,7 @@ import numpy as np
 from nonsmooth.engine.events.record import CODE_HEAD
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
-from nonsmooth.engine.memory.limits import BY_ERROR, LIMITS
+from nonsmooth.engine.memory.limits import LIMITS, Limit
 from nonsmooth.engine.memory.modes import (
     CAUSES,
     DONE,
@@ -128,7 +128,7 @@ class Pace:
         counts = self._limits - self._since
         ranked = [i for i in np.argsort(-counts, kind="stable").tolist() if counts[i] > 0][:_NAMED]
         limits = ", ".join(f"{LIMITS[i]} ({counts[i]})" for i in ranked)
-        error = _of_error(self.model) if ranked[:1] == [BY_ERROR] else ""
+        error = _of_error(self.model) if ranked[:1] == [Limit.ERROR] else ""
         text = f"They were limited by: {limits}. {error} {self._of_events()}"
         return " ".join(text.split())
 

@@ -38,7 +38,7 @@ def passed(model: LaidOut, rows: Floats) -> str:
     try:
         for row in rows[_apart(rows[:, 1 : 1 + model.n_q], _MOVED * size)]:
             model.memory[owners.Island.time] = row[0]
-            model.memory[owners.Island.y][: model.n_y][:] = row[1 : 1 + model.n_y]
+            model.memory[owners.Island.y][: model.n_y] = row[1 : 1 + model.n_y]
             model.list_contacts()
             model.evaluate()
             found = deepest_overlap(model, numbers)

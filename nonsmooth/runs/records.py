@@ -134,7 +134,7 @@ class Records:
                 f"{type(engine).__name__}.advance",
                 "must append all samples up to the time reached",
                 f"none for t = {due:.9g} s",
-                "Call begin_sample while S.next_sample is not past the time reached.",
+                "Call begin_sample while ws.output.next_sample is not past the time reached.",
             )
 
     def _check_events(self, engine: Engine) -> None:

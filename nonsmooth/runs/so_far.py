@@ -6,6 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias, final
 
+import numpy as np
+
 from nonsmooth.engine.memory import owners
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.laid_out import LaidOut
@@ -37,13 +39,13 @@ class RunSoFar:
     @property
     def q(self) -> Floats:
         """Coordinates of all bodies, shape [n_q]."""
-        return self._model.memory[owners.Island.y][: self._model.n_q].copy()
+        return np.array(self._model.memory[owners.Island.y][: self._model.n_q])
 
     @property
     def u(self) -> Floats:
         """Velocities of all bodies, shape [n_u]."""
         n_q, n_u = self._model.n_q, self._model.n_u
-        return self._model.memory[owners.Island.y][: n_q + n_u][n_q:].copy()
+        return np.array(self._model.memory[owners.Island.y][n_q : n_q + n_u])
 
     @property
     def n_events(self) -> int:

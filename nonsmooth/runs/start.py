@@ -29,7 +29,6 @@ _COUNTERS = (
 _WHOLE = ("modes", "guards_spent")
 _NUMBERS = ("q", "u", "slip_directions", "closing_rates", "features", "law_states")
 _REMEDY = "Take a state of this system: solution.state of a run of it, or State.at(system, ...)."
-"""By how much a quaternion may be off unit length."""
 _NOT_CLOSED = 1e3
 """A contact that is closed may have a gap of so many gap tolerances."""
 
@@ -130,7 +129,7 @@ def _place(model: LaidOut, blank: Checkpoint, state: State, modes: Integers) -> 
     places = memory.declared(owners.Contact.features)
     for number in np.flatnonzero((places > 0) & (state.features[:, 0] != 0.0)).tolist():
         memory.floats[places[number] :][:CANDIDATE] = state.features[number]
-    memory[owners.OwnGuard.has_just_fired][: len(model.system.guards)][:] = state.guards_spent
+    memory[owners.OwnGuard.has_just_fired][: len(model.system.guards)] = state.guards_spent
     model.list_contacts()
 
 

@@ -57,8 +57,9 @@ def unexplained(model: LaidOut, status: int) -> str:
         n = model.memory[owners.Island.n_contacts]
         contact = model.system.contacts[int(model.memory[owners.Contact.declared][:n][number])]
         return (
-            f"The {contact}: its gap is {found:.3g} m and hardly changes within a step of {model.memory[owners.Step.h]:.3g} s. "
-            "Place the bodies farther apart or in contact, or take a smaller tolerance: EventDriven(tolerance=...)."
+            f"The {contact}: its gap is {found:.3g} m and hardly changes within a step of "
+            f"{model.memory[owners.Step.h]:.3g} s. Place the bodies farther apart or in contact, or "
+            "take a smaller tolerance: EventDriven(tolerance=...)."
         )
     if status == JOINTS_APART:
         return f"They are apart by {found:.3g} m or rad, of which tolerances explain {allowed:.3g}.{_light(model)}"

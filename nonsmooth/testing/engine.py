@@ -40,7 +40,7 @@ def check_engine(engine: Engine) -> list[Property]:
     """
     look = _Look(engine)
     rows = [
-        ("names", "`layers`, `own`, `counts` and `settings` name what the memory has, and is to have", look.names),
+        ("names", "`own`, `counts` and `settings` name what the workspace has, or is to have", look.names),
         ("free fall", "a free body moves as gravity has it", look.falls),
         ("samples", "the samples are at the times asked for, from the start to the end", look.samples),
         ("many samples", "no sample is lost where they fill the buffers many times", look.many_samples),

@@ -48,6 +48,7 @@ def check_load(load: Load, *, tied_to_space: bool = False) -> list[Property]:
         row("writes its block", "it writes every number that can be non-zero, and nothing beyond the block", _writes),
         row("no jumps", "force and moment are continuous where the bodies move", _jumps),
     ]
+    rows.append(row("time", "a load that says so does not depend on time", _constant))
     rows.append(("ends", "it can be drawn where it acts", lambda: check_ends(load.ends)))
     if not tied_to_space:
         rows += [
@@ -55,6 +56,13 @@ def check_load(load: Load, *, tied_to_space: bool = False) -> list[Property]:
             row("relative motion", "it does not feel a motion that both bodies share", _shared),
         ]
     return properties(load, [*component_rows(load), *functions.rows(), *functions.guarded(rows)])
+
+
+def _constant(load: Load, case: Case) -> str:
+    at, later = moving.frames(case), case["t"] + 0.37
+    if load.depends_on_time or np.array_equal(_look(load, case["t"], at), _look(load, later, at)):
+        return ""
+    return f"it differs at t = {later:.3g}: `depends_on_time` must be True"
 
 
 def _space() -> list[Variable]:

@@ -1,9 +1,10 @@
 """Poison: numbers become unusable as soon as their life has ended, which must not change a bit of a run.
 
-The field table says of every number how long it has a meaning (:class:`nonsmooth.engine.memory.declare.Life`). The engine
-:class:`Poisoned` overwrites what is dead: at the end of each step, each event and each impact. A kernel that reads a number
-that nobody has written since then gets a number that changes the run. Events and impacts are entry points, which the engine
-calls by address: their addresses lead to callbacks that call them and poison what they leave.
+The field table says of every number how long it has a meaning (:class:`nonsmooth.engine.memory.declare.Life`). The
+engine :class:`Poisoned` overwrites what is dead: at the end of each step, each event and each impact. A kernel that
+reads a number that nobody has written since then gets a number that changes the run. Events and impacts are entry
+points, which the engine calls by address: their addresses lead to callbacks that call them and poison what they
+leave.
 """
 
 from __future__ import annotations

@@ -99,7 +99,7 @@ class Rig:
     def put(self, poses: Sequence[Pose], u: Array) -> None:
         """Put the bodies somewhere, with velocities and angular velocities in world axes, shape [12]."""
         q = np.concatenate([np.concatenate(pose) for pose in poses])
-        self._model.memory[owners.Island.y][:26][:] = np.concatenate([q, u])
+        self._model.memory[owners.Island.y][:26] = np.concatenate([q, u])
         call_entry("evaluate_at", self._model.memory)
 
     def _row(self, declared: Any) -> Array:

@@ -18,6 +18,14 @@ from nonsmooth.interfaces.engine import Engine
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.testing.poison import ENDS_WITH_STEP, poison
 
+_BUFFERS = (
+    owners.Output.n_events,
+    owners.Output.floats_used,
+    owners.Output.integers_used,
+    owners.Output.n_samples,
+)
+"""How far the buffers of the output are filled."""
+
 if TYPE_CHECKING:
     from nonsmooth.system.system import System
 
@@ -86,6 +94,9 @@ class Turns(Engine):
             self.others.append(own)
         for number, other in enumerate(self.others):
             _enter(memory, other)
+            # what the own run has recorded and nobody has read stays in the buffers
+            for one in _BUFFERS:
+                memory[one] = own[one]
             self.inner.advance(call, memory, 1, False)
             self.others[number] = Checkpoint.of(memory)
         if self.others:

@@ -30,11 +30,10 @@ from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.binding.compile import bind
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
-from nonsmooth.engine.memory.layout import CATALOGUE
 from nonsmooth.engine.native.kernel import address_of, call_pair, entry_addresses
 from nonsmooth.interfaces import Body, Engine
 from nonsmooth.model.assembly import assemble
-from nonsmooth.model.image import Image
+from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.runs.keeper import KeepsNothing
 from nonsmooth.runs.loop import run_engine
@@ -149,11 +148,8 @@ def _instrument(model: LaidOut, accounts: dict[str, np.ndarray], searches: list[
         inner = bind(contact.kinematics.evaluator, "pair", contact.kinematics.parameters(), kind)[0]
         if inner not in shims:
             shims[inner] = _timed(inner, accounts.setdefault(kind, np.zeros(2, np.int64)))
-    n_slots, n_declared = (int(memory.scalars[name][0]) for name in ("n_slots", "n_declared"))
-    column = CATALOGUE.index("geometry_function")
-    catalogue = memory.array("catalogue", len(CATALOGUE) * n_declared).reshape(n_declared, -1)[:, column]
-    in_slots = memory[owners.Contact.geometry_function][:n_slots][: int(memory[owners.Island.n_contacts])]
-    for functions in (catalogue, in_slots):
+    function = owners.Contact.geometry_function
+    for functions in (memory.declared(function), memory[function][: memory[owners.Island.n_contacts]]):
         functions[:] = [shims[int(one)] for one in functions]
     prototype = ctypes.CFUNCTYPE(ctypes.c_int64, *[ctypes.c_void_p] * 3)
     search = prototype(entry_addresses()[_SEARCH])
@@ -165,7 +161,7 @@ def _instrument(model: LaidOut, accounts: dict[str, np.ndarray], searches: list[
         return status
 
     kept = prototype(timed_search)
-    memory[owners.Model.entry_points][: len(ENTRY_POINTS)][_SEARCH] = ctypes.cast(kept, ctypes.c_void_p).value
+    memory[owners.Model.entry_points][_SEARCH] = ctypes.cast(kept, ctypes.c_void_p).value
     return kept
 
 
@@ -180,7 +176,7 @@ def profile(build: Callable[[], ns.System], t_end: float, engine: Engine | None 
         model.memory[owners.Request.t_end], model.memory[owners.Request.sample_interval] = t_end, t_end / 10.0
         kept = _instrument(model, accounts, searches) if instrumented else None
         began = time.perf_counter()
-        run_engine(integrator, model, Records(model), Image.of(model.memory), None, KeepsNothing())
+        run_engine(integrator, model, Records(model), Checkpoint.of(model.memory), None, KeepsNothing())
         wall = time.perf_counter() - began
         del kept
         return wall, searches, accounts

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory, allocate
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.memory.solvers import ENUMERATION, MOST_ENUMERATED, SOLVERS
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import call_entry, entry_addresses
@@ -65,16 +66,17 @@ def feet(n: int, random: np.random.Generator) -> Problem:
 def lay_out(problem: Problem, solver: int) -> Memory:
     """Return the engine's memory with the problem in it."""
     n = len(problem.bias) // 3
-    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_pivoted": n}, ("delassus", "contact"))
-    memory[owners.Model.entry_points][: len(entry_addresses())][:] = entry_addresses()
+    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_pivoted": n})
+    memory[owners.Model.entry_points][: len(entry_addresses())] = entry_addresses()
     memory[owners.Problem.n_active], memory[owners.Options.solver] = n, solver
     memory[owners.Problem.acceleration_scale] = np.max(np.abs(problem.bias))
-    memory[owners.Problem.active][:n][:] = np.arange(n)
+    memory[owners.Problem.active][:n] = np.arange(n)
     write_delassus(memory, problem.delassus)
-    memory[owners.Problem.free_accelerations][: 3 * n][:] = problem.bias
-    memory[owners.ActiveContact.friction_coefficient][:n][:] = memory[owners.ActiveContact.static_coefficient][:n][:] = FRICTION
-    memory[owners.ActiveContact.is_at_rest][:n][:] = 1
-    __FLAT(memory[owners.ActiveContact.direction], 2 * n)[::2] = 1.0
+    memory[owners.Problem.free_accelerations][: 3 * n] = problem.bias
+    memory[owners.ActiveContact.friction_coefficient][:n] = FRICTION
+    memory[owners.ActiveContact.static_coefficient][:n] = FRICTION
+    memory[owners.ActiveContact.is_at_rest][:n] = 1
+    memory[owners.ActiveContact.direction][:n, 0] = 1.0
     return memory
 
 
@@ -84,8 +86,8 @@ def measure(problem: Problem, solver: int, repetitions: int) -> tuple[float, boo
     n = len(problem.bias) // 3
     least, solved = np.inf, False
     for _ in range(repetitions):
-        memory[owners.ActiveContact.mode_tried][:n][:] = -1
-        memory[owners.ActiveContact.direction][:n][:] = (1.0, 0.0)
+        memory[owners.ActiveContact.mode_tried][:n] = Mode.UNKNOWN
+        memory[owners.ActiveContact.direction][:n] = (1.0, 0.0)
         began = time.perf_counter()
         solved = call_entry("solve_contact", memory) == 1
         least = min(least, time.perf_counter() - began)

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 import nonsmooth as ns
 from bodies import FreeBody, Rest
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.blocks import GEOMETRY
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Body, Shape
@@ -125,29 +124,29 @@ class Rig:
     def put(self, poses: Any, u: Any) -> None:
         """Put the bodies at (position, quaternion) each, with velocities u [12]."""
         q = np.concatenate([np.concatenate(pose) for pose in poses])
-        self._model.memory[owners.Island.y][:26][:] = np.concatenate([q, u])
+        self._model.memory[owners.Island.y][:26] = np.concatenate([q, u])
         call_entry("evaluate_at", self._model.memory)
 
-    def _rows(self, name: str, width: int) -> Array:
-        n = int(self._model.memory[owners.Island.n_contacts])
-        return self._model.memory.array(name, width * n).reshape(n, width).copy()
+    def _rows(self, declared: Any) -> Array:
+        memory = self._model.memory
+        return np.array(memory[declared][: memory[owners.Island.n_contacts]])
 
     @property
     def geometry(self) -> Array:
         """Geometry blocks, shape [n_contacts, 30]."""
-        return self._rows("geometry", GEOMETRY)
+        return self._rows(owners.Contact.geometry)
 
     @property
     def axes(self) -> Array:
         """Normal and tangents, shape [n_contacts, 3, 3]."""
-        return self._rows("axes", 9).reshape(-1, 3, 3)
+        return self._rows(owners.Contact.axes).reshape(-1, 3, 3)
 
     @property
     def rate(self) -> Array:
         """Gap rate and slip velocity, shape [n_contacts, 3]."""
-        return self._rows("rate", 3)
+        return self._rows(owners.Contact.rate)
 
     @property
     def bias(self) -> Array:
         """Their derivatives while u' = 0, shape [n_contacts, 3]."""
-        return self._rows("bias", 3)
+        return self._rows(owners.Contact.bias)

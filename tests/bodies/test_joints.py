@@ -72,9 +72,10 @@ def test_rates_and_biases_are_derivatives(joint: Any, places: Any, turns: Any, u
             np.concatenate([p + dt * velocities[6 * i : 6 * i + 3], _turn(o, velocities[6 * i + 3 : 6 * i + 6], dt)])
             for i, (p, o) in enumerate(starts)
         ]
-        memory[owners.Island.y][:26][:] = np.concatenate([*q, velocities])
+        memory[owners.Island.y][:26] = np.concatenate([*q, velocities])
         call_entry("evaluate_at", memory)
-        offsets = [int(memory.array(f"articulation_{name}", 1)[0]) for name in ("residual", "rate", "bias", "jacobian")]
+        tied = owners.Articulation
+        offsets = [int(memory[one][0]) for one in (tied.residual, tied.rate, tied.bias, tied.jacobian)]
         return [memory.floats[o : o + size].copy() for o, size in zip(offsets, (n, n, n, 12 * n), strict=True)]
 
     h = 1e-3

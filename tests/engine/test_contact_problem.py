@@ -23,25 +23,26 @@ from tests.benchmarks.solvers import FRICTION, bodies, lay_out
 def _memory(delassus: Any, bias: Any, mu: Any, static: Any, slip: Any) -> Memory:
     """Lay out one contact problem; ``slip`` holds unit vectors of sliding contacts, zeros at rest."""
     n = len(mu)
-    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n}, ("delassus", "contact"))
-    memory[owners.Model.entry_points][: len(entry_addresses())][:] = entry_addresses()
+    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n})
+    memory[owners.Model.entry_points][: len(entry_addresses())] = entry_addresses()
     memory[owners.Problem.n_active] = n
-    memory[owners.Problem.active][:n][:] = np.arange(n)
+    memory[owners.Problem.active][:n] = np.arange(n)
     write_delassus(memory, np.asarray(delassus))
-    memory[owners.Problem.free_accelerations][: 3 * n][:] = np.ravel(bias)
-    memory[owners.ActiveContact.friction_coefficient][:n][:], memory[owners.ActiveContact.static_coefficient][:n][:] = mu, static
+    memory[owners.Problem.free_accelerations][: 3 * n] = np.ravel(bias)
+    memory[owners.ActiveContact.friction_coefficient][:n] = mu
+    memory[owners.ActiveContact.static_coefficient][:n] = static
     rest = np.all(np.asarray(slip) == 0.0, axis=1)
-    memory[owners.ActiveContact.is_at_rest][:n][:] = rest
-    __FLAT(memory[owners.ActiveContact.direction], 2 * n)[:] = np.where(rest[:, None], [1.0, 0.0], slip).ravel()
-    __FLAT(memory[owners.Contact.direction], 2 * n)[:] = __FLAT(memory[owners.ActiveContact.direction], 2 * n)
-    memory[owners.ActiveContact.mode_tried][:n][:] = np.where(rest, STICK, SLIDE)
+    memory[owners.ActiveContact.is_at_rest][:n] = rest
+    for owner in (owners.ActiveContact, owners.Contact):
+        memory[owner.direction][:n] = np.where(rest[:, None], [1.0, 0.0], slip)
+    memory[owners.ActiveContact.mode_tried][:n] = np.where(rest, STICK, SLIDE)
     return memory
 
 
 def _solve(memory: Memory, n: int) -> tuple[bool, Any, Any]:
     """Return whether it was solved, forces and modes."""
     found = call_entry("solve_contact", memory) == 1
-    return found, memory[owners.Problem.forces][: 3 * n].reshape(n, 3).copy(), memory[owners.ActiveContact.mode_tried][:n].copy()
+    return found, memory[owners.ActiveContact.force][:n].copy(), memory[owners.ActiveContact.mode_tried][:n].copy()
 
 
 def _delassus(seed: int, n: int, freedoms: int) -> tuple[Any, Any]:
@@ -208,7 +209,7 @@ def test_painleve_with_two_solutions_takes_the_stable_one(past: int) -> None:
     On a spring, however stiff, a little more force would give more approach and still more force.
     """
     memory = _memory(PAINLEVE, [[1.0, 0.0, 0.0]], [0.8], [0.8], SLIDING)
-    memory[owners.ActiveContact.mode_tried][:1][0] = past
+    memory[owners.ActiveContact.mode_tried][0] = past
     found, forces, modes = _solve(memory, 1)
     assert found
     assert modes[0] == OPEN
@@ -224,13 +225,13 @@ def test_directions_are_found_beside_contacts_with_next_to_no_force(decades: int
         problem = bodies(n, random)
         normal = np.append(1.0, 10.0 ** random.uniform(-decades, 0.0, n - 1))
         memory = lay_out(problem, 0)
-        memory[owners.ActiveContact.has_given_force][:n][:] = 1
-        memory[owners.ActiveContact.mode_tried][:n][:] = SLIDE
-        forces = memory[owners.Problem.forces][: 3 * n].reshape(n, 3)
+        memory[owners.ActiveContact.has_given_force][:n] = 1
+        memory[owners.ActiveContact.mode_tried][:n] = SLIDE
+        forces = memory[owners.ActiveContact.force][:n]
         forces[:, 0] = normal
         slip = (problem.delassus @ forces.ravel() + problem.bias).reshape(n, 3)[:, 1:]
         directions = slip / np.hypot(slip[:, 0], slip[:, 1])[:, None]
-        memory[owners.ActiveContact.direction][:n][:] = directions
+        memory[owners.ActiveContact.direction][:n] = directions
         assert call_entry("polish", memory) == 1
         assert memory[owners.Totals.n_evaluations] <= 10
         slip = (problem.delassus @ forces.ravel() + problem.bias).reshape(n, 3)[:, 1:]

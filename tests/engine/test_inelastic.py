@@ -50,8 +50,8 @@ def impact(delassus: Floats, rates: Floats, at_hand: Floats | float = 0.0) -> tu
     memory = _memory([Coulomb(FRICTION)] * n, 0)
     write_delassus(memory, delassus)
     memory[owners.Tolerance.velocity] = REST
-    memory[owners.Problem.free_accelerations][: 3 * n][:] = rates
-    memory[owners.Problem.forces][: 3 * n][:] = at_hand
+    memory[owners.Problem.free_accelerations][: 3 * n] = rates
+    memory[owners.Problem.forces][: 3 * n] = at_hand
     found = call_entry("inelastic_impulses", memory, 1.0) == 1
     return found, memory[owners.Problem.forces][: 3 * n].reshape(n, 3).copy()
 

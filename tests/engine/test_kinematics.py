@@ -98,10 +98,10 @@ def test_rates_and_bias_are_derivatives(
 
     def at(dt: float, u: Any) -> Any:
         state = np.concatenate([np.asarray(position) + dt * np.asarray(u[:3]), _turn(q0, u[3:], dt), u])
-        memory[owners.Island.y][:13][:] = state
+        memory[owners.Island.y][:13] = state
         memory[owners.Island.time] = time + dt
         call_entry("evaluate_at", memory)
-        return model.gaps(), __FLAT(memory[owners.Contact.rate], 3 * n).copy()
+        return model.gaps(), memory[owners.Contact.rate][:n].flatten()
 
     u = np.concatenate([velocity, spin])
     h = 1e-3
@@ -110,13 +110,14 @@ def test_rates_and_bias_are_derivatives(
     gap_rate = sum(w * gap for w, (gap, _) in parts)
     rate_change = sum(w * rate for w, (_, rate) in parts)
     _, rate = at(0.0, u)
-    bias = __FLAT(memory[owners.Contact.bias], 3 * n).copy()
+    bias = memory[owners.Contact.bias][:n].flatten()
     scale = 1.0 + float(np.max(np.abs(bias)))
     np.testing.assert_allclose(rate[::3], gap_rate, rtol=0, atol=1e-7 * scale)
     np.testing.assert_allclose(bias, rate_change, rtol=0, atol=3e-7 * scale)
-    side = "jacobian_b" if not flip else ("jacobian_b" if system.contacts[0].second is body else "jacobian_a")
-    jacobian = np.stack([memory.floats[int(j) : int(j) + 18].reshape(3, 6) for j in memory.array(side, n)])
-    prescribed = __FLAT(memory[owners.Contact.prescribed_rate], 3 * n).copy()
+    is_second = not flip or system.contacts[0].second is body
+    starts = memory[owners.Contact.jacobian_b if is_second else owners.Contact.jacobian_a][:n]
+    jacobian = np.stack([memory.floats[int(j) : int(j) + 18].reshape(3, 6) for j in starts])
+    prescribed = memory[owners.Contact.prescribed_rate][:n].flatten()
     np.testing.assert_allclose(jacobian.reshape(3 * n, 6) @ u + prescribed, rate, rtol=0, atol=1e-12 * scale)
     gradient = np.stack([at(0.0, u + e)[1] - rate for e in np.eye(6)], axis=1)
     np.testing.assert_allclose(jacobian.reshape(3 * n, 6), gradient, rtol=0, atol=1e-11 * scale)

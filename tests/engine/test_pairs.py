@@ -274,7 +274,7 @@ def test_an_overlap_is_told_where_there_is_one_and_nowhere_else(kinds: tuple[str
         for depth in (-1e-3, -1e-9, 1e-9, 1e-6, 1e-4, 3e-3, 1e-2):
             found = penetration(*at(high - depth, pose), 1e-12)
             lower, upper = (0.0, 0.0) if found is None else (found.lower, found.upper)
-            __FLAT(memory[owners.Pair.direction], 3 * n)[:] = 0.0
+            memory[owners.Pair.direction][:n] = 0.0
             memory[owners.Run.passed_depth] = 0.0
             call_entry("look_at_pairs", memory)
             allowed = memory[owners.Pair.allowed][:n][0]

@@ -51,9 +51,8 @@ def _started(system: System) -> Memory:
 
 def _sizes(memory: Memory) -> tuple[int, int, int]:
     """Return the numbers of closed contacts, of stored blocks, and the half band of the last forces."""
-    scalars = memory.scalars[0]
-    m = int(scalars["island.n_grouped"])
-    return m, int(memory[owners.Island.block_start][m]), int(scalars["problem.half_band"])
+    m = memory[owners.Island.n_grouped]
+    return m, int(memory[owners.Island.block_start][m]), memory[owners.Problem.half_band]
 
 
 @pytest.mark.parametrize("shuffled", [False, True])
@@ -68,7 +67,7 @@ def test_chain_costs_what_it_is_long(shuffled: bool) -> None:
     for n in (16, 64):
         memory = _started(_row(n, random.permutation(n) if shuffled else np.arange(n), False))
         call_entry("project_closed", memory, 1, 0)
-        call_entry("right_hand_side", memory, 0.0, int(memory[owners.Island.y]), 0, 1)
+        call_entry("right_hand_side", memory, 0.0, memory.start(owners.Island.y), 0, 1)
         narrow[n] = _sizes(memory)[2]
     assert narrow == {16: 1, 64: 1}
 
@@ -78,7 +77,7 @@ def test_row_on_a_plate_costs_what_it_is_long() -> None:
     bands = []
     for n in (10, 20, 40):
         memory = _started(_row(n, np.random.default_rng(n).permutation(n), True))
-        call_entry("right_hand_side", memory, 0.0, int(memory[owners.Island.y]), 0, 1)
+        call_entry("right_hand_side", memory, 0.0, memory.start(owners.Island.y), 0, 1)
         m, blocks, half = _sizes(memory)
         assert memory[owners.Problem.is_null_space_banded] == 1
         # a contact with the plate meets up to two of the row, one of the row two with the plate and two of its own
@@ -89,19 +88,20 @@ def test_row_on_a_plate_costs_what_it_is_long() -> None:
 
 def _memory(matrix: Any, bias: Any, mu: float, sliding: Any) -> Memory:
     n = len(bias) // 3
-    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n}, ("delassus", "contact"))
-    memory[owners.Model.entry_points][: len(entry_addresses())][:] = entry_addresses()
+    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n})
+    memory[owners.Model.entry_points][: len(entry_addresses())] = entry_addresses()
     memory[owners.Problem.n_active] = n
     memory[owners.Problem.acceleration_scale] = np.max(np.abs(bias))
-    memory[owners.Problem.active][:n][:] = np.arange(n)
+    memory[owners.Problem.active][:n] = np.arange(n)
     write_delassus(memory, matrix)
-    memory[owners.Problem.free_accelerations][: 3 * n][:] = bias
-    memory[owners.ActiveContact.friction_coefficient][:n][:] = memory[owners.ActiveContact.static_coefficient][:n][:] = mu
-    __FLAT(memory[owners.ActiveContact.direction], 2 * n)[::2] = 1.0
-    __FLAT(memory[owners.Contact.direction], 2 * n)[::2] = 1.0
-    memory[owners.ActiveContact.is_normal_force_unknown][:n][:] = 1
-    memory[owners.ActiveContact.sticks][:n][:] = memory[owners.ActiveContact.is_at_rest][:n][:] = ~np.asarray(sliding)
-    memory[owners.ActiveContact.mode_tried][:n][:] = STICK
+    memory[owners.Problem.free_accelerations][: 3 * n] = bias
+    memory[owners.ActiveContact.friction_coefficient][:n] = mu
+    memory[owners.ActiveContact.static_coefficient][:n] = mu
+    for owner in (owners.ActiveContact, owners.Contact):
+        memory[owner.direction][:n, 0] = 1.0
+    memory[owners.ActiveContact.is_normal_force_unknown][:n] = 1
+    memory[owners.ActiveContact.sticks][:n] = memory[owners.ActiveContact.is_at_rest][:n] = ~np.asarray(sliding)
+    memory[owners.ActiveContact.mode_tried][:n] = STICK
     return memory
 
 
@@ -197,9 +197,10 @@ def test_contact_problem_in_a_band_has_the_dense_motion(push: float) -> None:
 def test_too_many_blocks_end_the_run() -> None:
     """Without room for the blocks of an island the run ends with that reason, and nothing is written beyond them."""
     memory = assemble(_row(6, np.arange(6), False), EventDriven()).memory
+    starts = memory[owners.Island.block_start][:6]
     memory[owners.Model.n_slots] = 2
     assert call_entry("advance", memory, 0, 0) == NO_SLOT
-    assert memory[owners.Island.block_start][:6].tolist() == [0, 1, 2, 3, 4, 5]
+    assert starts.tolist() == [0, 1, 2, 3, 4, 5]
 
 
 def test_a_matrix_goes_in_and_out() -> None:

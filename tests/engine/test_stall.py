@@ -14,7 +14,7 @@ from bodies import Ball, Plate, Rest
 from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory
-from nonsmooth.engine.memory.modes import PAUSED, STALLED
+from nonsmooth.engine.memory.modes import Status
 from nonsmooth.interfaces import Engine
 
 RADIUS, SPEED, CONTACT_TIME = 0.01, 1.0, 1e-3
@@ -64,8 +64,8 @@ class Relay(Engine):
     first: ns.EventDriven = field(default_factory=ns.EventDriven)
 
     @property
-    def layers(self) -> tuple[str, ...]:
-        return self.first.layers
+    def uses_flow(self) -> bool:
+        return self.first.uses_flow
 
     @property
     def records_contacts(self) -> bool:
@@ -77,19 +77,19 @@ class Relay(Engine):
     def counts(self, n_slots: int) -> Mapping[str, int]:
         return self.first.counts(n_slots)
 
-    def settings(self, time_scale: float) -> Mapping[str, float]:
+    def settings(self, time_scale: float) -> Mapping[Any, float]:
         return self.first.settings(time_scale)
 
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
         status = self.first.advance(call, memory, most_steps, wary)
-        if status != STALLED:
+        if status != Status.STALLED:
             return status
-        n_q, n_u, n = (int(memory.record[name]) for name in ("n_q", "n_u", "n_contacts"))
+        n_q, n_u, n = (memory[one] for one in (owners.Model.n_q, owners.Model.n_u, owners.Island.n_contacts))
         assert np.max(memory[owners.Contact.burst_events][:n]) > 100
-        memory[owners.Contact.burst_events][:n][:] = 0
-        memory[owners.Island.y][: n_q + n_u][n_q:] = 0.0
+        memory[owners.Contact.burst_events][:n] = 0
+        memory[owners.Island.y][n_q : n_q + n_u] = 0.0
         memory[owners.Run.has_started] = 0
-        return PAUSED
+        return Status.PAUSED
 
 
 def test_another_engine_may_go_on_where_the_first_one_stalls() -> None:

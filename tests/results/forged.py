@@ -13,7 +13,7 @@ import numpy as np
 
 import nonsmooth as ns
 from nonsmooth.errors import NonsmoothError
-from nonsmooth.model.image import Difference
+from nonsmooth.model.checkpoint import Difference
 from nonsmooth.results.state_file import state_bytes, state_from
 from tests.results.runs import balls, on_hills
 
@@ -56,7 +56,7 @@ def _other_difference(packed: bytes, draw: np.random.Generator) -> np.ndarray:
         if draw.random() < 0.1:
             # what stands next to what has changed
             places[part][i] += int(draw.integers(-3, 4))
-        whole = part == 3 or not abs(value) < 2**62 or draw.random() < 0.5
+        whole = part == 2 or not abs(value) < 2**62 or draw.random() < 0.5
         bits[part][i] = int(np.nan_to_num(value)) % 2**62 if whole else int(np.float64(value).view(np.int64))
     if draw.random() < 0.05:
         del bits[-1]

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import nonsmooth as ns
-from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory
-from nonsmooth.engine.memory.modes import DONE, PAUSED
+from nonsmooth.engine.memory.modes import Status
+from nonsmooth.engine.memory.owners import Contact, Island, Model, Request, Tolerance
 from nonsmooth.interfaces import Engine
 from nonsmooth.parameters import parameter
-from nonsmooth.steps import Arrays, per
+from nonsmooth.steps import FloatRow, Life, Part, array, per
 from tests.runs.own_engine import Midpoint
 
 
@@ -22,42 +22,42 @@ class Blind(Engine):
 
     step: float = parameter(1e-3, doc="step", unit="s", above=0.0)
 
-    @property
-    def layers(self) -> tuple[str, ...]:
-        return ()
-
     def check(self, system: ns.System) -> None:
         pass
 
     def counts(self, n_slots: int) -> Mapping[str, int]:
         return {}
 
-    def settings(self, time_scale: float) -> Mapping[str, float]:
-        return {"rtol": 1e-5, "impact_rtol": 1e-5}
+    def settings(self, time_scale: float) -> Mapping[Any, float]:
+        return {Tolerance.relative: 1e-5, Tolerance.impact: 1e-5}
 
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
         return Midpoint(self.step).advance(call, memory, most_steps, wary)
 
 
-class WrongLayer(Blind):
-    @property
-    def layers(self) -> tuple[str, ...]:
-        return ("nonsense",)
-
-
 class WrongSetting(Blind):
-    def settings(self, time_scale: float) -> Mapping[str, float]:
+    def settings(self, time_scale: float) -> Mapping[Any, float]:
         return {"nonsense": 1.0}
 
 
-class SetsOffset(Blind):
-    def settings(self, time_scale: float) -> Mapping[str, float]:
-        return {"y": 1.0}
+class SetsArray(Blind):
+    def settings(self, time_scale: float) -> Mapping[Any, float]:
+        return {Island.y: 1.0}
+
+
+class SetsContact(Blind):
+    def settings(self, time_scale: float) -> Mapping[Any, float]:
+        return {Contact.gap: 1.0}
+
+
+class SetsCount(Blind):
+    def settings(self, time_scale: float) -> Mapping[Any, float]:
+        return {Model.n_bodies: 1.0}
 
 
 class SetsWord(Blind):
-    def settings(self, time_scale: float) -> Mapping[str, Any]:
-        return {"rtol": "small"}
+    def settings(self, time_scale: float) -> Mapping[Any, Any]:
+        return {Tolerance.relative: "small"}
 
 
 class WrongCount(Blind):
@@ -75,16 +75,40 @@ class NegativeCount(Blind):
         return {"n_pivoted": -1}
 
 
+class _Taken(Part, key="island"):
+    room: FloatRow = array(Life.STEP, per(1, "n_y"), float, "", "Room.")
+
+
+class _Endless(Part, key="endless"):
+    room: FloatRow = array(Life.STEP, per(1, "nonsense"), float, "", "Room.")
+
+
+class _Negative(Part, key="negative"):
+    room: FloatRow = array(Life.STEP, lambda counts: -1, float, "", "Room.")
+
+
+class NoPart(Blind):
+    @property
+    def own(self) -> Any:
+        return {"room": 1}
+
+
 class TakenName(Blind):
     @property
-    def own(self) -> Arrays:
-        return Arrays(floats={"y": per(1, "n_y")})
+    def own(self) -> type[Part]:
+        return _Taken
 
 
 class WrongLength(Blind):
     @property
-    def own(self) -> Arrays:
-        return Arrays(floats={"room": per(1, "nonsense")})
+    def own(self) -> type[Part]:
+        return _Endless
+
+
+class NegativeLength(Blind):
+    @property
+    def own(self) -> type[Part]:
+        return _Negative
 
 
 class WrongStatus(Blind):
@@ -104,35 +128,38 @@ class WrongEntry(Blind):
 
 class DoneAtOnce(Blind):
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
-        return DONE
+        return Status.DONE
 
 
 class WithoutSamples(Blind):
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
-        memory[owners.Island.time] = memory[owners.Request.t_end]
-        return DONE
+        memory[Island.time] = memory[Request.t_end]
+        return Status.DONE
 
 
 class Idle(Blind):
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
         call("evaluate_at")
-        return PAUSED
+        return Status.PAUSED
 
 
 FAULTS: tuple[tuple[type[Engine], str], ...] = (
-    (WrongLayer, "layers must be a known one, but it is 'nonsense'.*Known: .*flow"),
-    (WrongSetting, "settings must be a known one, but it is 'nonsense'.*Known: acceleration_scale"),
-    (SetsOffset, "settings must be a known one, but it is 'y'"),
-    (SetsWord, "settings: rtol must be a number, but it is 'small'"),
+    (WrongSetting, "settings must have scalars of the workspace for its keys, but it is 'nonsense'"),
+    (SetsArray, "settings must have scalars of the workspace for its keys, but it is .*'y'"),
+    (SetsContact, "settings must have scalars of the workspace for its keys, but it is .*'gap'"),
+    (SetsCount, r"settings: model\.n_bodies must be none that sizes the workspace"),
+    (SetsWord, r"settings: tolerance\.relative must be a number, but it is 'small'"),
     (WrongCount, "counts must be a known one, but it is 'nonsense'.*Known: n_pivoted"),
     (TakenCount, "counts must be a known one, but it is 'n_bodies'"),
     (NegativeCount, "counts: n_pivoted must be a whole number, not negative, but it is -1"),
-    (TakenName, "own must be names in Python that no scalar.* has, but it is 'y'"),
+    (NoPart, "own must be a class of declarations, a Part, but it is {'room': 1}"),
+    (TakenName, "own must have for its key a name in Python that no other owner has, but it is 'island'"),
     (WrongLength, "own: room: count must be a known one, but it is 'nonsense'"),
+    (NegativeLength, "own: room must have a whole number for its length, not negative, but it is -1"),
     (WrongStatus, "advance: its status must be DONE.*but it is 77"),
     (NoStatus, "advance: its status must be DONE.*but it is None"),
     (WrongEntry, "advance: entry point must be a known one, but it is 'nonsense'"),
-    (DoneAtOnce, "advance: S.t must be at the end time 0.1 s where it is DONE, but it is 0"),
+    (DoneAtOnce, r"advance: ws\.island\.time must be at the end time 0.1 s where it is DONE, but it is 0"),
     (WithoutSamples, "advance must append all samples.*but it is 'none for t = 0 s'"),
     (Idle, "advance must do a step.*but it is 'nothing done at t = 0 s'"),
 )

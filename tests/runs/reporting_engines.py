@@ -6,18 +6,24 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory
-from nonsmooth.engine.memory.modes import DONE, PAUSED, START, STEP, STICK
+from nonsmooth.engine.memory.modes import START, STEP, STICK, Status
+from nonsmooth.engine.memory.owners import Contact, Island, Model, Output, Request, Tolerance, Totals
 from nonsmooth.interfaces import Cause, Measure
 from nonsmooth.parameters import parameter
-from nonsmooth.steps import Arrays, real
+from nonsmooth.steps import Life, Part, real
 from tests.runs.faulty_engines import Blind
 from tests.runs.own_engine import Midpoint
 
 IMPULSE = 0.25
 """Normal impulse that :class:`Resting` records at each sample [N s]."""
 TOO_FAST, SLOW = 100, 101
+
+
+class Falling(Part, key="falling"):
+    """What :class:`Judged` measures."""
+
+    fastest_fall: float = real(Life.STATE, "m/s", "Largest speed downwards at the end of a step.")
 
 
 @dataclass(frozen=True)
@@ -40,22 +46,21 @@ class Resting(Blind):
         return self.tells
 
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
-        record = memory.record
-        n, y = int(record["island.n_contacts"]), memory[owners.Island.y][: int(record["model.n_y"])]
-        while record["output.next_sample"] <= record["request.t_end"]:
-            if 2 * record["output.n_samples"] > record["model.sample_capacity"]:
-                return PAUSED
-            index, record["island.time"] = int(record["output.sample_index"]), record["output.next_sample"]
+        n, y, t_end = memory[Island.n_contacts], memory[Island.y], memory[Request.t_end]
+        while memory[Output.next_sample] <= t_end:
+            if 2 * memory[Output.n_samples] > memory[Model.sample_capacity]:
+                return Status.PAUSED
+            index, memory[Island.time] = memory[Output.sample_index], memory[Output.next_sample]
             if index == 0:
-                record["island.time"] += self.first * record["request.sample_interval"]
+                memory[Island.time] += self.first * memory[Request.sample_interval]
             call("remember")
-            memory[owners.Contact.mode][:n][:] = STICK
-            __FLAT(memory[owners.Contact.event_impulse], 3 * n)[::3] = IMPULSE
+            memory[Contact.mode][:n] = STICK
+            memory[Contact.event_impulse][:n, 0] = IMPULSE
             call("record_event", STEP if index else START, -1, 0)
             place = call("begin_sample")
             memory.floats[place : place + len(y)] = y
-        record["island.time"] = record["request.t_end"]
-        return DONE
+        memory[Island.time] = t_end
+        return Status.DONE
 
 
 @dataclass(frozen=True)
@@ -80,8 +85,8 @@ class Judged(Blind):
     gain: float = parameter(0.0, doc="work that is none", unit="J")
 
     @property
-    def own(self) -> Arrays:
-        return Arrays(scalars=real("fastest_fall"))
+    def own(self) -> type[Part]:
+        return Falling
 
     @property
     def verdict(self) -> tuple[Measure, ...]:
@@ -98,22 +103,21 @@ class Judged(Blind):
     def promised_residual(self) -> float | None:
         return self.promise or None
 
-    def settings(self, time_scale: float) -> Mapping[str, float]:
-        return {"rtol": 1e-9, "impact_rtol": 1e-8}
+    def settings(self, time_scale: float) -> Mapping[Any, float]:
+        return {Tolerance.relative: 1e-9, Tolerance.impact: 1e-8}
 
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
-        record = memory.record
-        n_q, n_u = int(record["model.n_q"]), int(record["model.n_u"])
+        n_q, n_u = memory[Model.n_q], memory[Model.n_u]
         for _ in range(most_steps):
-            before = float(record["island.time"])
+            before = memory[Island.time]
             status = Midpoint(self.step).advance(call, memory, 1, wary)
-            fall = -float(memory[owners.Island.y][: n_q + n_u][-4])
-            record["fastest_fall"] = max(float(record["fastest_fall"]), fall)
-            if record["island.time"] > max(before, 0.0505):
-                record["totals.driven_work"] += self.gain
+            fall = -float(memory[Island.y][n_q + n_u - 4])
+            memory[Falling.fastest_fall] = max(memory[Falling.fastest_fall], fall)
+            if memory[Island.time] > max(before, 0.0505):
+                memory[Totals.driven_work] += self.gain
             for speed, code in ((self.most, TOO_FAST), (self.enough, SLOW)):
                 if fall >= speed:
                     return code
-            if status == DONE or record["island.time"] == before:
+            if status == Status.DONE or memory[Island.time] == before:
                 return status
-        return PAUSED
+        return Status.PAUSED

@@ -103,13 +103,3 @@ def test_what_is_no_engine_is_refused(given: Any) -> None:
     """A name, and a class without its options."""
     with pytest.raises(ns.InvalidInput, match=r"must be of the kind Engine, .*Give nonsmooth\.EventDriven"):
         ns.assemble(_tumbling()[0], given)
-
-
-def test_arrays_of_layers_that_an_engine_does_not_name_have_no_length() -> None:
-    """Scratch has an owner: another engine's costs nothing."""
-    system, _ = _tumbling()
-    sizes = [
-        sum(part.nbytes for part in ns.assemble(system, engine)._laid.memory.kept)
-        for engine in (ns.EventDriven(), Midpoint())
-    ]
-    assert sizes[1] < 0.5 * sizes[0]

@@ -46,7 +46,7 @@ def test_modes_and_impulses_are_those_that_the_engine_recorded() -> None:
     impulses = run.contact_impulses()
     assert impulses.normal_impulse.tolist() == 6 * [IMPULSE]
     np.testing.assert_allclose(impulses.normal, np.tile([0.0, 0.0, 1.0], (6, 1)), atol=1e-15)
-    with pytest.raises(ns.InvalidInput, match=r"known with its forces only where .* layers .* but it is Resting"):
+    with pytest.raises(ns.InvalidInput, match=r"with its forces only where .* uses the flow .* but it is Resting"):
         run.contact_forces()
 
 

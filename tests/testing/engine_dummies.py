@@ -11,6 +11,7 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Engine
+from nonsmooth.steps import FloatRow, Life, Part, array, per
 from nonsmooth.system.system import System
 
 Fault = Callable[[Memory, int], None]
@@ -22,7 +23,7 @@ def _none(memory: Memory, call: int) -> None:
 
 def _push(memory: Memory, call: int) -> None:
     if memory[owners.Island.time] == 0.0 and memory[owners.Model.n_bodies] == 1:
-        memory[owners.Island.y][:4][3] += 0.1
+        memory[owners.Island.y][3] += 0.1
 
 
 def _late(memory: Memory, call: int) -> None:
@@ -42,25 +43,25 @@ def _gain(memory: Memory, call: int) -> None:
 
 
 def _age(memory: Memory, call: int) -> None:
-    memory[owners.Island.y][:1][0] += 1e-12 * call
+    memory[owners.Island.y][0] += 1e-12 * call
 
 
 def _forget(memory: Memory, call: int) -> None:
     if memory[owners.Request.is_resumed] == 1:
-        memory[owners.Island.y][:1][0] += 1e-12
+        memory[owners.Island.y][0] += 1e-12
 
 
 def _turn(memory: Memory, call: int) -> None:
     """Turn the box that tumbles a little, at constant length of its quaternion."""
     if memory[owners.Model.n_q] == 14:
-        four = memory[owners.Island.y][:14][10:]
+        four = memory[owners.Island.y][10:14]
         four[:2] = 0.8 * four[0] - 0.6 * four[1], 0.6 * four[0] + 0.8 * four[1]
 
 
 def _throw(memory: Memory, call: int) -> None:
     """Throw the ball over the driven plate up."""
     if memory[owners.Model.n_bodies] == 2 and memory[owners.Model.n_q] == 7 and memory[owners.Island.time] == 0.0:
-        memory[owners.Island.y][:10][9] += 0.5
+        memory[owners.Island.y][9] += 0.5
 
 
 def _sink(memory: Memory, call: int) -> None:
@@ -72,11 +73,17 @@ def _sink(memory: Memory, call: int) -> None:
 def _open(memory: Memory, call: int) -> None:
     """Record the contact of the first event as open."""
     if memory[owners.Output.integers_used] > CODE_HEAD:
-        memory[owners.Output.event_codes][: CODE_HEAD + 2][CODE_HEAD + 1] = 0
+        memory[owners.Output.event_codes][CODE_HEAD + 1] = 0
 
 
 def _overlook(memory: Memory, call: int) -> None:
     memory[owners.Island.n_contacts] = memory[owners.Model.n_spheres] = 0
+
+
+class _Attic(Part, key="attic"):
+    """An array for each of something that no system counts."""
+
+    room: FloatRow = array(Life.STEP, per(1, "n_attics"), float, "", "Room.")
 
 
 @dataclass(frozen=True)
@@ -85,15 +92,19 @@ class Dummy(Engine):
 
     fault: Fault = _none
     later: Fault = _none
-    attic: tuple[str, ...] = ()
+    room: type[Part] | None = None
     calls: list[int] = field(default_factory=list, compare=False)
 
     def parameters(self) -> Mapping[str, Any]:
         return {}
 
     @property
-    def layers(self) -> tuple[str, ...]:
-        return (*EventDriven().layers, *self.attic)
+    def own(self) -> type[Part] | None:
+        return self.room
+
+    @property
+    def uses_flow(self) -> bool:
+        return True
 
     @property
     def records_contacts(self) -> bool:
@@ -105,7 +116,7 @@ class Dummy(Engine):
     def counts(self, n_slots: int) -> Mapping[str, int]:
         return EventDriven().counts(n_slots)
 
-    def settings(self, time_scale: float) -> Mapping[str, float]:
+    def settings(self, time_scale: float) -> Mapping[Any, float]:
         return EventDriven().settings(time_scale)
 
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
@@ -117,7 +128,7 @@ class Dummy(Engine):
 
 
 DUMMIES: list[tuple[str, Engine]] = [
-    ("names", Dummy(attic=("attic",))),
+    ("names", Dummy(room=_Attic)),
     ("free fall", Dummy(_push)),
     ("samples", Dummy(_late)),
     ("many samples", Dummy(_skip)),

@@ -42,6 +42,9 @@ def evaluate(t: float, a: Floats, b: Floats, out: Floats, fault: float) -> None:
     if fault == 4.0:
         for i in range(3):
             out[6 + i] = -0.1 * b[15 + i]
+    if fault == 5.0:
+        for i in range(3):
+            out[i] *= 1.0 + t
     if fault == 20.0:
         out[9] = 0.0
 
@@ -77,8 +80,20 @@ class Endless(Pull):
         return np.full((2, 3), math.nan)
 
 
+@dataclass(frozen=True)
+class Timeless(Pull):
+    """One that says that it does not depend on time, and does."""
+
+    fault: float = 5.0
+
+    @property
+    def depends_on_time(self) -> bool:
+        return False
+
+
 DUMMIES: list[tuple[str, Load]] = [
     *((name, Pull(fault)) for name, fault in FAULTS.items()),
     ("writes its block", Pull(BEYOND)),
     ("ends", Endless()),
+    ("time", Timeless()),
 ]

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from nonsmooth.cli.telling.table import lines
-from nonsmooth.engine.memory.limits import LIMITS, NO_STEP
+from nonsmooth.engine.memory.limits import LIMITS, Limit
 from nonsmooth.solution.solution import Solution
 
 Report = dict[str, Any]
@@ -129,7 +129,7 @@ def _modes(shares: dict[str, float] | None, names: list[str]) -> list[str]:
 def _limits(counts: dict[str, int]) -> str:
     """Return what limited the steps, the commonest first."""
     ranked = sorted(counts.items(), key=lambda item: -item[1])
-    return ", ".join(f"{limit} {n}" for limit, n in ranked if limit != LIMITS[NO_STEP]) or "none"
+    return ", ".join(f"{limit} {n}" for limit, n in ranked if limit != LIMITS[Limit.NO_STEP]) or "none"
 
 
 def _contacts(names: list[str]) -> str:

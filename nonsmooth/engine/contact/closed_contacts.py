@@ -28,7 +28,7 @@ from nonsmooth.engine.bodies.compliance import write_wrench
 from nonsmooth.engine.bodies.kinematics import evaluate_row, evaluate_row_response, push_response, row
 from nonsmooth.engine.contact.forces import ILL_CONDITIONED, friction_of_slip, solve_ill_conditioned, solve_unknowns
 from nonsmooth.engine.contact.null_space_forces import add_null_space_force, choose_null_space_force
-from nonsmooth.engine.contact.unknowns import set_unknown
+from nonsmooth.engine.contact.unknowns import list_force
 from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel
@@ -157,7 +157,7 @@ def _list_unknown_forces(ws: Workspace) -> int:
         active.first_unknown = n
         first = NORMAL_ROW if active.is_normal_force_unknown else FIRST_ROW
         for r in range(first, 3 if active.sticks else FIRST_ROW):
-            set_unknown(ws, n, active, r, is_turn=False)
+            list_force(ws, n, active, r)
             n += 1
     ws.problem.first_unknown[ws.problem.n_active] = n
     return n

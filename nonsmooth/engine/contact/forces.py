@@ -20,7 +20,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.contact.unknowns import set_force, set_unknown
+from nonsmooth.engine.contact.unknowns import list_force, set_force
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
@@ -88,13 +88,13 @@ def _list_unknown_forces(ws: Workspace) -> int:
         active.has_redundant_force = False
         active.first_unknown = n
         if active.is_normal_force_unknown:
-            set_unknown(ws, n, active, NORMAL_ROW, is_turn=False)
+            list_force(ws, n, active, NORMAL_ROW)
             n += 1
             active.normal_force = 0.0
         active.friction = 0.0, 0.0
         if active.sticks:
-            set_unknown(ws, n, active, FIRST_ROW, is_turn=False)
-            set_unknown(ws, n + 1, active, SECOND_ROW, is_turn=False)
+            list_force(ws, n, active, FIRST_ROW)
+            list_force(ws, n + 1, active, SECOND_ROW)
             n += 2
         else:
             friction_of_slip(ws, active.index)

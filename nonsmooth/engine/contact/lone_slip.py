@@ -78,7 +78,7 @@ def add_lone_slip_force(ws: Workspace, c: int) -> bool:
     evaluate_rates(ws, c)
     evaluate_bias(ws, c, rows=1)
     n, t1, t2, slip = contact.axis_n, contact.axis_1, contact.axis_2, contact.slip
-    d1, d2 = slip_direction(ws, c, slip, ws.tolerance.velocity)
+    d1, d2 = slip_direction(ws, c, slip, ws.tolerance.velocity, may_reverse=False)
     mu = slip_coefficient(ws, c, length(slip))
     m1, m2 = mu * d1, mu * d2
     # direction of the contact force, per unit of normal force

@@ -17,7 +17,7 @@ import math
 
 from nonsmooth.engine.contact.forces import eliminate_reduced
 from nonsmooth.engine.contact.trial import hold_tried
-from nonsmooth.engine.contact.unknowns import set_unknown
+from nonsmooth.engine.contact.unknowns import list_force, list_turn
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
@@ -90,10 +90,10 @@ def _list_unknowns(ws: Workspace) -> int:
         active.first_unknown = n
         for r in range(3):
             if active.is_normal_force_unknown if r == NORMAL_ROW else active.sticks:
-                set_unknown(ws, n, active, r, is_turn=False)
+                list_force(ws, n, active, r)
                 n += 1
         if _starts_to_slide(active):
-            set_unknown(ws, n, active, NORMAL_ROW, is_turn=True)
+            list_turn(ws, n, active)
             n += 1
     ws.problem.first_unknown[ws.problem.n_active] = n
     return n

@@ -48,28 +48,28 @@ def slip_coefficient(ws: Workspace, c: int, speed: float) -> float:
     return friction_coefficient(ws, c, max(speed, _LEAST_SLIP_SPEED))
 
 
-@kernel("v2(ws, i8, v2, f8)")
-def slip_direction(ws: Workspace, c: int, slip: Pair, rest_speed: float) -> Pair:
+@kernel("v2(ws, i8, v2, f8, b1)")
+def slip_direction(ws: Workspace, c: int, slip: Pair, rest_speed: float, may_reverse: bool) -> Pair:
     """Unit direction of the ``slip`` of contact ``c``, with the sign of the direction at the start of the step.
 
-    So the friction stays smooth if a slip reverses within a step, and the event of the reversal can be located. In an
-    implicit step, which stops slips itself, the sign is that of the slip. A slip up to ``rest_speed`` [m/s] has no
-    direction of its own, and the one at the start of the step is returned.
+    So the friction stays smooth if a slip reverses within a step, and the event of the reversal can be located. If it
+    ``may_reverse``, as in an implicit step, which stops slips itself, the sign is that of the slip. A slip up to
+    ``rest_speed`` [m/s] has no direction of its own, and the one at the start of the step is returned.
     """
     d1, d2 = ws.contacts[c].direction
     v1, v2 = slip
     speed = length(slip)
     if speed > rest_speed:
-        inverse = (1.0 if ws.problem.is_turning or v1 * d1 + v2 * d2 >= 0.0 else -1.0) / speed
+        inverse = (1.0 if may_reverse or v1 * d1 + v2 * d2 >= 0.0 else -1.0) / speed
         d1, d2 = inverse * v1, inverse * v2
     return d1, d2
 
 
-@kernel("void(ws, i8, v2, f8)")
-def follow_slip(ws: Workspace, a: int, slip: Pair, rest_speed: float) -> None:
+@kernel("void(ws, i8, v2, f8, b1)")
+def follow_slip(ws: Workspace, a: int, slip: Pair, rest_speed: float, may_reverse: bool) -> None:
     """Set slip direction (:func:`slip_direction`) and friction coefficient of active contact ``a`` for its ``slip``."""
     active = ws.actives[a]
-    active.direction = slip_direction(ws, active.contact, slip, rest_speed)
+    active.direction = slip_direction(ws, active.contact, slip, rest_speed, may_reverse)
     active.friction_coefficient = slip_coefficient(ws, active.contact, length(slip))
 
 
@@ -160,8 +160,8 @@ def write_contact_problem(ws: Workspace) -> None:
 def solve_contact(ws: Workspace) -> bool:
     """Find modes and forces of the active contacts. True if they are found.
 
-    Before: :func:`write_contact_problem` has been called, and ``mode_tried`` holds the past modes, -1 if unknown.
-    After: ``mode_tried``, ``force`` and ``direction`` describe the solution.
+    Before: :func:`write_contact_problem` has been called, and ``mode_tried`` holds the past modes, which may be
+    unknown. After: ``mode_tried``, ``force`` and ``direction`` describe the solution.
     """
     ws.problem.effort = 0.0
     has_past = True
@@ -169,8 +169,7 @@ def solve_contact(ws: Workspace) -> bool:
         if not active.is_at_rest and active.mode_tried == Mode.STICK:
             active.mode_tried = Mode.SLIDE
         active.mode_past = active.mode_tried
-        # TODO: an unknown past mode is -1, which should be a member of Mode
-        if active.mode_tried < 0:
+        if active.mode_tried == Mode.UNKNOWN:
             has_past = False
     if has_past and verify(ws, is_lenient=False):
         return True

@@ -6,14 +6,22 @@ because contacts that stick, slide or have a given normal force have different n
 
 from __future__ import annotations
 
+from nonsmooth.engine.memory.layout import NORMAL_ROW
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel
 
 
-@kernel("void(ws, i8, ActiveContact, i8, b1)")
-def set_unknown(ws: Workspace, i: int, active: ActiveContact, r: int, is_turn: bool) -> None:
-    """Let unknown ``i`` be the force of a contact along direction ``r`` (n, t1, t2), or the turn of its slip."""
+@kernel("void(ws, i8, ActiveContact, i8)")
+def list_force(ws: Workspace, i: int, active: ActiveContact, r: int) -> None:
+    """Let unknown ``i`` be the force of a contact along direction ``r`` (n, t1, t2)."""
     unknown = ws.unknowns[i]
-    unknown.contact, unknown.direction, unknown.is_turn = active.index, r, is_turn
+    unknown.contact, unknown.direction, unknown.is_turn = active.index, r, False
+
+
+@kernel("void(ws, i8, ActiveContact)")
+def list_turn(ws: Workspace, i: int, active: ActiveContact) -> None:
+    """Let unknown ``i`` be the turn of the slip direction of a contact."""
+    unknown = ws.unknowns[i]
+    unknown.contact, unknown.direction, unknown.is_turn = active.index, NORMAL_ROW, True
 
 
 @kernel("f8(ws, i8)")

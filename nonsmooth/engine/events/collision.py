@@ -29,7 +29,7 @@ from nonsmooth.engine.events.record import (
 )
 from nonsmooth.engine.impact.end import how_over
 from nonsmooth.engine.impact.instant import jam_slips, map_impact
-from nonsmooth.engine.impact.problem import ENDLESS, INVALID, energetic_impact
+from nonsmooth.engine.impact.integration import Outcome, energetic_impact
 from nonsmooth.engine.impact.window import LARGE, windowed_impact
 from nonsmooth.engine.memory.modes import NO_CONTACT, NO_RELEASE, Cause, Mode, Painleve, Status, Truncation
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
@@ -120,9 +120,9 @@ def _find_impulses(ws: Workspace, cause: Cause, seed: float, is_large: bool) -> 
         map_impact(ws)
         return Status.RUNNING
     outcome = windowed_impact(ws) if is_large else energetic_impact(ws, seed)
-    if outcome == INVALID:
+    if outcome == Outcome.INVALID:
         return Status.NOT_FINITE
-    if outcome == ENDLESS:
+    if outcome == Outcome.ENDLESS:
         ws.event.truncation = Truncation.NONE
         if not is_large and not ws.request.is_interrupted:
             ws.event.truncation = how_over(ws)

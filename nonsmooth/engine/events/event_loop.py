@@ -50,7 +50,7 @@ from nonsmooth.engine.flow.projection import (
 from nonsmooth.engine.flow.self_check import NOUGHT, check_end, check_gaps, close_account
 from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.layout import BOOKED, LAST_STAGE
-from nonsmooth.engine.memory.limits import BY_CROWD, BY_END, BY_EVENT, NO_STEP
+from nonsmooth.engine.memory.limits import Limit
 from nonsmooth.engine.memory.modes import NO_RELEASE, Cause, Mode, Status
 from nonsmooth.engine.native.kernel import (
     Workspace,
@@ -219,7 +219,7 @@ def _due_at_start(ws: Workspace) -> int:
 @kernel("Status(ws, Status)")
 def _without_step(ws: Workspace, status: Status) -> Status:
     """Say what follows where no step was accepted, for the reason ``status``; return the status."""
-    ws.step.limit = NO_STEP
+    ws.step.limit = Limit.NO_STEP
     if status == Status.STEP_TOO_SMALL and leap(ws, ws.tolerance.time):
         return _after_leap(ws)
     if status == Status.STEP_TOO_SMALL:
@@ -261,7 +261,7 @@ def _after_leap(ws: Workspace) -> Status:
 def _whole_step(ws: Workspace) -> Status:
     """Take over a step without an event, unless a slip has come to rest in it; return the status."""
     if ws.step.h > ws.request.t_end - ws.island.time:
-        ws.step.limit = BY_END
+        ws.step.limit = Limit.END
         return _end_within(ws)
     which = passed_flat(ws)
     if which >= 0 and ws.step.h > ws.tolerance.time:
@@ -276,7 +276,7 @@ def _whole_step(ws: Workspace) -> Status:
         return _carry_out(ws, Cause.SLIP_TO_STICK, which)
     ws.island.follows_a_step = ended == 0
     if (
-        ws.step.limit == BY_EVENT
+        ws.step.limit == Limit.EVENT
         and ws.island.follows_a_step
         and ws.run.failure == Status.RUNNING
         and ws.request.t_end - ws.island.time > ws.tolerance.time
@@ -291,14 +291,14 @@ def _whole_step(ws: Workspace) -> Status:
 @kernel("Status(ws, f8)")
 def _step_to_event(ws: Workspace, high: float) -> Status:
     """Locate the first event before the fraction ``high`` of the step and carry it out; return the status."""
-    ws.island.follows_a_step, ws.step.limit = False, BY_EVENT
+    ws.island.follows_a_step, ws.step.limit = False, Limit.EVENT
     if choices_bend(ws, high):
         return _in_part(ws)
     h = locate(ws, ws.step.h, high)
     if h < 0.0:
         return _in_part(ws)
     if h > ws.request.t_end - ws.island.time:
-        ws.step.limit = BY_END
+        ws.step.limit = Limit.END
         return _end_within(ws)
     return _event(ws, h, ws.step.guard)
 
@@ -306,7 +306,7 @@ def _step_to_event(ws: Workspace, high: float) -> Status:
 @kernel("Status(ws)")
 def _in_part(ws: Workspace) -> Status:
     """Ask for a quarter of the step, which leads past what it should end at; return the status."""
-    ws.island.follows_a_step, ws.step.limit = False, BY_CROWD
+    ws.island.follows_a_step, ws.step.limit = False, Limit.CROWDED_EVENTS
     # crowded guards, an error that grows, or a flat place
     if ws.step.h < NOUGHT * ws.tolerance.time:
         return _without_step(ws, Status.STEP_TOO_SMALL)
@@ -417,9 +417,9 @@ def advance(ws: Workspace, most_steps: int, is_wary: bool) -> Status:
             return Status.PAUSED
         if 2 * ws.output.n_samples > ws.model.sample_capacity:
             return Status.PAUSED
-        ws.step.limit = NO_STEP
+        ws.step.limit = Limit.NO_STEP
         status = _step(ws)
-        ws.totals.n_steps_limited[ws.step.limit] += 1
+        ws.totals.n_steps_limited[ws.step.limit.value] += 1
         if status == Status.RUNNING:
             status = ws.run.failure
         if ws.run.has_too_many_blocks:

@@ -13,20 +13,7 @@ from nonsmooth.engine.flow.location import NEGLIGIBLE
 from nonsmooth.engine.flow.mean_motion import astray
 from nonsmooth.engine.flow.self_check import NEAR
 from nonsmooth.engine.flow.step import relaxation, try_length
-from nonsmooth.engine.memory.limits import (
-    BY_AVERAGING,
-    BY_CLOSING,
-    BY_END,
-    BY_ERROR,
-    BY_EVENT,
-    BY_FIRST,
-    BY_LARGEST,
-    BY_LIST,
-    BY_SAMPLES,
-    BY_SINGULARITY,
-    BY_STOP,
-    BY_TURN,
-)
+from nonsmooth.engine.memory.limits import Limit
 from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.engine.memory.tableau import ORDER
 from nonsmooth.engine.native.kernel import Workspace, kernel
@@ -123,24 +110,24 @@ def _first_attempt(ws: Workspace, wanted: float) -> float:
     return float(ws.step.closing_step if ws.step.closing_step < NEGLIGIBLE ** (1.0 / ORDER) * h else h)
 
 
-@kernel("i8(ws, f8, f8)")
-def _limit(ws: Workspace, wanted: float, h: float) -> int:
+@kernel("Limit(ws, f8, f8)")
+def _limit(ws: Workspace, wanted: float, h: float) -> Limit:
     """Return what limits the step of ``h`` that is tried first, where ``wanted`` is how long it may be."""
     if h == wanted or h == ws.island.own_steps_end - ws.island.time:
-        return BY_LARGEST if h == ws.tolerance.largest_step else BY_ERROR
+        return Limit.LARGEST_STEP if h == ws.tolerance.largest_step else Limit.ERROR
     if h == ws.step.listed_step:
-        return BY_LIST
+        return Limit.NEIGHBOUR_LIST
     if h == ws.island.averaged_until - ws.island.time:
-        return BY_AVERAGING
+        return Limit.AVERAGING
     if h == ws.request.sample_span:
-        return BY_SAMPLES
+        return Limit.SAMPLES
     if h == ws.step.turning_step:
-        return BY_TURN
+        return Limit.TURN
     if h == ws.step.arrival_step:
-        return BY_EVENT
+        return Limit.EVENT
     if h == ws.step.closing_step:
-        return BY_CLOSING
-    return BY_END if h == ws.island.resumed_step else BY_FIRST
+        return Limit.CLOSING_GAP
+    return Limit.END if h == ws.island.resumed_step else Limit.FIRST_STEP
 
 
 @kernel("b1(ws, f8)")
@@ -186,23 +173,23 @@ def accepted_step(ws: Workspace) -> Status:
             # beyond the Painleve singularity a sliding contact is balanced on an edge: not a step further
             h *= 0.5
             wanted = 0.0
-            ws.step.limit = BY_SINGULARITY
+            ws.step.limit = Limit.SINGULARITY
         elif error <= 1.0 and ws.island.averaged_until < math.inf and astray(ws) > _ASTRAY:
             h *= 0.5
-            ws.step.limit = BY_AVERAGING
+            ws.step.limit = Limit.AVERAGING
         elif error <= 1.0 and _overran(ws, h):
             h *= 0.5
-            ws.step.limit = BY_LIST
+            ws.step.limit = Limit.NEIGHBOUR_LIST
         elif share < 1.0:
             h *= share
             wanted = 0.0
-            ws.step.limit = BY_STOP
+            ws.step.limit = Limit.STOPPING_SLIP
         elif error <= 1.0:
             _remember_step(ws, h, error, wanted)
             return Status.RUNNING
         else:
             ws.totals.n_rejected += 1
-            ws.step.limit = BY_ERROR
+            ws.step.limit = Limit.ERROR
             wanted = 0.0
             if not error < math.inf and 0.1 * h < ws.tolerance.time:
                 return Status.NOT_FINITE

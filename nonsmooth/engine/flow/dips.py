@@ -148,7 +148,7 @@ def stays_open(
     if closing <= 0.0 or min(ahead, back) <= 0.0:
         return True
     s = min(ahead / closing, span)
-    return g0 + s * (r0 - 0.5 * fall * s) >= -tolerance
+    return bool(g0 + s * (r0 - 0.5 * fall * s) >= -tolerance)
 
 
 @kernel("f8(ws, f8, i8, f8, b1)")

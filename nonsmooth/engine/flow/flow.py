@@ -149,7 +149,7 @@ def _set_friction(ws: Workspace, a: int, y: int) -> None:
         if active.static_coefficient > 0.0:
             active.sticks = True
             return
-    follow_slip(ws, a, contact.slip, ws.tolerance.velocity)
+    follow_slip(ws, a, contact.slip, ws.tolerance.velocity, may_reverse=False)
     if not active.is_normal_force_unknown:
         # what pulls does not rub
         active.friction_coefficient *= 1.0 if contact.compliant_force > 0.0 else 0.0

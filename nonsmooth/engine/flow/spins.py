@@ -44,7 +44,7 @@ def _slopes(ws: Workspace, number: int) -> int:
 
 @kernel("b1(F, i8, i8)")
 def _turns(w: Floats, spin: int, rate: int) -> bool:
-    """Return 1 if a spin does not keep its direction."""
+    """True if a spin does not keep its direction."""
     u, v = (w[spin], w[spin + 1], w[spin + 2]), (w[rate], w[rate + 1], w[rate + 2])
     across = cross(u, v)
     return dot(across, across) > _KEPT * _KEPT * dot(u, u) * dot(v, v)
@@ -58,9 +58,9 @@ def choose_spins(ws: Workspace) -> None:
         number = ws.island.integrated[i]
         body = ws.bodies[number]
         u = ws.model.n_q + body.u + body.spin
-        body.spins_apart = (
-            _turns(ws.floats, ws.island.y.start + u, ws.island.slopes.start + u) if body.spin >= 0 else False
-        )
+        body.spins_apart = False
+        if body.spin >= 0:
+            body.spins_apart = _turns(ws.floats, ws.island.y.start + u, ws.island.slopes.start + u)
         if body.spins_apart:
             ws.island.spinning[ws.island.n_spinning] = number
             ws.island.n_spinning += 1

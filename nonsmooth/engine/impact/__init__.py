@@ -1,1 +1,1 @@
-"""Impacts as processes in impulses, and impacts by maps."""
+"""Impacts: the energetic theory of multiple impacts, integrated over impulses, and impacts by maps of velocities."""

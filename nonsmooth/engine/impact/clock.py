@@ -1,81 +1,184 @@
-"""The clock of an impact: common to all contacts, until one is left in action, which gets its own."""
+"""The clock of an impact: common to all contacts until one is left with a load; then the impulse of that one.
+
+With its own clock the phases of a lone contact are polynomials (:mod:`nonsmooth.engine.impact.rates`), so the next
+event is known in closed form and a step can end there. The state is kept where the clock changes. If another contact is
+loaded before the lone one is done, the impact returns to that state, and continues with the common clock for good.
+"""
 
 from __future__ import annotations
 
-from nonsmooth.engine.impact.guards import prepare_guards
-from nonsmooth.engine.impact.rates import EXPANSION, HELD, IDLE, STRIDE
-from nonsmooth.engine.native.kernel import (
-    Workspace,
-    impact_state,
-    kernel,
+import math
+from typing import NamedTuple
+
+from nonsmooth.engine.delassus.delassus import diagonal_block
+from nonsmooth.engine.impact.guards import NO_GUARD, GuardKind, guard_of, prepare_guards
+from nonsmooth.engine.impact.rates import (
+    NOISE,
+    expansion_efficiency,
+    returned_part,
+    state_at,
+    state_of,
+    state_size,
 )
+from nonsmooth.engine.memory.modes import NO_CONTACT, Phase
+from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel, result
+
+_AT_EVENT = 4.0 * NOISE
+"""Value [1] within which the guard that a step aims at has fired. It is round-off of a few operations."""
+
+
+@result
+class Aim(NamedTuple):
+    """A step that ends at the next event of a lone contact."""
+
+    h: float
+    """Length of the step, in pseudo-time."""
+    guard: int
+    """Guard at whose root the step ends, or ``NO_GUARD``."""
+
+
+@result
+class Acting(NamedTuple):
+    """The contacts that are not idle."""
+
+    number: int
+    """How many there are."""
+    last: int
+    """The last one of them, or ``NO_CONTACT``."""
+
+
+# --- changes of the clock ---------------------------------------------------------------------------------------------
 
 
 @kernel("b1(ws)")
 def change_clock(ws: Workspace) -> bool:
-    """Give the last contact in action its own clock; go back to where it got it if it does not stay alone.
-
-    Returns 1 if the clock has changed.
-    """
-    acting = 0
-    last = -1
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        if active.phase != IDLE:
-            acting += 1
-            last = a
-    n = STRIDE * ws.problem.n_active
-    if ws.impact.lone_contact < 0:
-        if acting != 1 or not ws.impact.may_be_lone:
+    """Let the last contact with a load be the clock, or undo that if others follow. True if the clock has changed."""
+    acting = _acting(ws)
+    if ws.impact.lone_contact == NO_CONTACT:
+        if acting.number != 1 or not _can_be_clock(ws, ws.actives[acting.last]):
             return False
-        phase, state = ws.actives[last].phase, impact_state(ws.floats, ws.impact.y.start, last)
-        if phase == HELD:
-            return False
-        if phase == EXPANSION and not state.energy > state.lost:
-            # its own clock runs until the energy is used up, of which the integration's error has left none: a steep
-            # force has given all of it back long before the deformation, which ends the phase on the common clock
-            return False
-        for i in range(n):
-            ws.impact.y_kept[i] = ws.impact.y[i]
-        _keep_phases(ws)
-        ws.impact.lone_contact = last
+        _keep(ws)
+        ws.impact.lone_contact = acting.last
         prepare_guards(ws)
         return True
-    if acting == 0 or (acting == 1 and last == ws.impact.lone_contact):
+    if acting.number == 0 or (acting.number == 1 and acting.last == ws.impact.lone_contact):
         return False
-    for i in range(n):
-        ws.impact.y[i] = ws.impact.y_kept[i]
-    ws.impact.lone_contact = -1
+    ws.impact.lone_contact = NO_CONTACT
     ws.impact.may_be_lone = False
-    _restore_phases(ws)
+    _restore(ws)
+    prepare_guards(ws)
     return True
 
 
+@kernel("Acting(ws)")
+def _acting(ws: Workspace) -> Acting:
+    """Number of the active contacts that are not idle, and the last one."""
+    number, last = 0, NO_CONTACT
+    for active in ws.actives:
+        if active.phase != Phase.IDLE:
+            number += 1
+            last = active.index
+    return Acting(number=number, last=last)
+
+
+@kernel("b1(ws, ActiveContact)")
+def _can_be_clock(ws: Workspace, active: ActiveContact) -> bool:
+    """True if the impulse of an active contact, the only one that is not idle, may be the clock.
+
+    A lone expansion ends when its energy is used up. The error of the integration may have left none: a steep force has
+    returned all energy long before the deformation is zero, which ends the phase on the common clock.
+    """
+    if not ws.impact.may_be_lone or active.phase == Phase.HELD:
+        return False
+    state = state_of(ws, active)
+    return active.phase != Phase.EXPANSION or state.energy > state.lost
+
+
 @kernel()
-def _keep_phases(ws: Workspace) -> None:
+def _keep(ws: Workspace) -> None:
+    """Keep the state of the impact, to which it may return."""
+    for i in range(state_size(ws)):
+        ws.impact.y_kept[i] = ws.impact.y[i]
     ws.impact.phases_kept = ws.event.n_phases
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
+    for active in ws.actives:
         active.phase_kept, active.sticking_kept = active.phase, active.sticks
-        active.stored_kept, active.returned_kept, active.accounted_kept = (
-            active.energy_stored,
-            active.energy_returned,
-            active.work_accounted,
-        )
+        active.stored_kept, active.returned_kept = active.energy_stored, active.energy_returned
+        active.accounted_kept = active.work_accounted
         active.direction_kept = ws.contacts[active.contact].direction
 
 
 @kernel()
-def _restore_phases(ws: Workspace) -> None:
+def _restore(ws: Workspace) -> None:
+    """Return to the state that was kept."""
+    for i in range(state_size(ws)):
+        ws.impact.y[i] = ws.impact.y_kept[i]
     ws.event.n_phases = ws.impact.phases_kept
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        contact = ws.contacts[active.contact]
+    for active in ws.actives:
         active.phase, active.sticks = active.phase_kept, active.sticking_kept
-        active.energy_stored, active.energy_returned, active.work_accounted = (
-            active.stored_kept,
-            active.returned_kept,
-            active.accounted_kept,
-        )
-        contact.direction = active.direction_kept
-    prepare_guards(ws)
+        active.energy_stored, active.energy_returned = active.stored_kept, active.returned_kept
+        active.work_accounted = active.accounted_kept
+        ws.contacts[active.contact].direction = active.direction_kept
+
+
+# --- the next event of a lone contact ---------------------------------------------------------------------------------
+
+
+@kernel("Aim(ws, f8)")
+def aim(ws: Workspace, h: float) -> Aim:
+    """Shorten a step of ``h`` of the lone contact to its next event, which its polynomials predict."""
+    active = ws.actives[ws.impact.lone_contact]
+    direction = ws.contacts[active.contact].direction
+    rate, force, own = active.rate, active.force, diagonal_block(ws, active.index).entries
+    growth = slip = slip_growth = 0.0
+    for j in range(3):
+        growth += own[j] * force[j]
+    for r in range(1, 3):
+        slip += rate[r] * direction[r - 1]
+        for j in range(3):
+            slip_growth += own[3 * r + j] * force[j] * direction[r - 1]
+    found = _aim_at_end_of_phase(ws, active, growth, Aim(h=h, guard=NO_GUARD))
+    if not active.sticks and active.friction_coefficient > 0.0 and slip > 0.0 and slip_growth < 0.0:
+        root = -slip / slip_growth
+        if root < found.h:
+            return Aim(h=root, guard=guard_of(ws, active, GuardKind.FRICTION).index)
+    return found
+
+
+@kernel("Aim(ws, ActiveContact, f8, Aim)")
+def _aim_at_end_of_phase(ws: Workspace, active: ActiveContact, growth: float, aim: Aim) -> Aim:
+    """Shorten a step to the end of the phase of the lone contact, whose gap rate has the slope ``growth``.
+
+    A compression ends at g' + growth s = 0; an expansion at E + E' s + E'' s^2 / 2 = 0, with E' = -g' / efficiency. The
+    root is written so that nothing cancels.
+    """
+    rate = active.gap_rate
+    if active.phase == Phase.COMPRESSION and growth > 0.0:
+        root = -rate / growth
+        if 0.0 < root < aim.h:
+            return Aim(h=root, guard=guard_of(ws, active, GuardKind.RATE).index)
+    if active.phase == Phase.EXPANSION and growth > 0.0:
+        state = state_of(ws, active)
+        energy, first = state.energy - state.lost, state_at(ws, ws.impact.slopes.start, active).energy
+        square = first * first + 2.0 * growth / expansion_efficiency(ws, active, rate) * energy
+        speed = math.sqrt(max(0.0, square)) - first
+        if speed > 0.0 and 0.0 < 2.0 * energy / speed < aim.h:
+            return Aim(h=2.0 * energy / speed, guard=guard_of(ws, active, GuardKind.ENERGY).index)
+    return aim
+
+
+@kernel("b1(ws, Aim)")
+def has_arrived(ws: Workspace, aim: Aim) -> bool:
+    """True if the guard that a step of the lone contact aimed at is zero within round-off.
+
+    The energy guard of a contact that opens under load is what it still returns. That may be a small part of all, and
+    must then be zero more closely.
+    """
+    if aim.guard == NO_GUARD:
+        return False
+    active = ws.actives[ws.impact.lone_contact]
+    near, lost = _AT_EVENT, state_of(ws, active).lost
+    if aim.guard == guard_of(ws, active, GuardKind.ENERGY).index and lost != 0.0:
+        part = returned_part(ws, active)
+        returned = lost * part / ((1.0 - part) * active.energy_scale)
+        near = _AT_EVENT * min(1.0, returned)
+    return abs(ws.impact_guards[aim.guard].value) <= near

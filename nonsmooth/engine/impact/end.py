@@ -1,83 +1,166 @@
-"""How an impact ends: the books of its phases, and ends other than that of the last expansion."""
+"""How an impact ends: the energy accounts of its phases, and ends other than that of the last expansion.
+
+An impact is over when no contact is loaded. It may also end in these ways:
+
+trapped     Contacts are loaded, but their forces move nothing: the energy is never returned.
+faded       Ever smaller compressions go on, below the tolerance or too slow to bounce: the rest is cut short.
+
+An impact that was cut short may leave an approach. :func:`how_over` says what that is.
+"""
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from nonsmooth.engine.delassus.delassus import diagonal_block
-from nonsmooth.engine.impact.rates import COMPRESSION, EXPANSION, IDLE, NOISE, efficiency, evaluate_impact_rates
+from nonsmooth.engine.impact.rates import (
+    NOISE,
+    evaluate_impact_rates,
+    is_loaded,
+    is_lone,
+    least_efficiency,
+    state_of,
+)
 from nonsmooth.engine.impact.scales import REST
 from nonsmooth.engine.memory.blocks import DELASSUS
-from nonsmooth.engine.memory.modes import Truncation
-from nonsmooth.engine.native.kernel import Workspace, impact_state, kernel
+from nonsmooth.engine.memory.modes import Phase, Truncation
+from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel, result
 from nonsmooth.engine.numerics.linear import SINGULAR
 from nonsmooth.engine.numerics.vectors import length
 
 _LOCKED = 0.1
-"""Forces of which no more than this part is left unbalanced are those of a wedge, not of bodies that part."""
-
+"""Unbalanced part of the forces, relative to their parts, below which they may be those of a wedge. Forces of bodies
+that separate are not balanced."""
 _NEGLIGIBLE_APPROACH = 1e-3
 """Approach that is neglected after a truncated impact, relative to the fastest rate before the impact."""
+_LEAST_TOLERANCE = 1e-11
+"""Least relative tolerance of an impact for which what is left counts as faded. Below it there is round-off only."""
 
 
-@kernel("void(ws, i8)")
-def account(ws: Workspace, a: int) -> None:
-    """Book the work of the phase that ends at the active contact ``a``, or of the part of it so far."""
-    active = ws.actives[a]
-    state = impact_state(ws.floats, ws.impact.y.start, a)
+@result
+class Balance(NamedTuple):
+    """How far the forces of the active contacts balance each other."""
+
+    left: float
+    """Largest component of G f, the rate by which the forces accelerate the contacts [m/s per pseudo-time]."""
+    size: float
+    """Largest sum of the magnitudes of the terms of a component of G f, in the same unit."""
+
+
+# --- accounts ---------------------------------------------------------------------------------------------------------
+
+
+@kernel("void(ws, ActiveContact)")
+def account(ws: Workspace, active: ActiveContact) -> None:
+    """Account for the work of the present phase of an active contact, or for the part that is not accounted for [J]."""
+    state = state_of(ws, active)
     done = state.work - active.work_accounted
-    if active.phase == COMPRESSION:
+    if active.phase == Phase.COMPRESSION:
         active.energy_stored -= done
     else:
         active.energy_returned += done
     active.work_accounted = state.work
 
 
-@kernel("void(ws, i8)")
-def empty(ws: Workspace, a: int) -> None:
-    """Take the energy that is left of the active contact ``a``."""
-    state = impact_state(ws.floats, ws.impact.y.start, a)
+@kernel("void(ws, ActiveContact)")
+def empty(ws: Workspace, active: ActiveContact) -> None:
+    """Take the energy that is left in an active contact. It is lost to restitution."""
+    state = state_of(ws, active)
     state.deformation = state.energy = state.lost = 0.0
 
 
+@kernel("void(ws, ActiveContact)")
+def end_phase(ws: Workspace, active: ActiveContact) -> None:
+    """End the phase of an active contact, which is idle from then on."""
+    account(ws, active)
+    active.phase = Phase.IDLE
+    active.sticks = False
+    empty(ws, active)
+
+
+@kernel()
+def finish(ws: Workspace) -> None:
+    """Write the impulses [N s], energies [J] and rates [m/s] with which the impact ends."""
+    for active in ws.actives:
+        state = state_of(ws, active)
+        for r in range(3):
+            active.impulse[r] = state.impulse[r]
+        account(ws, active)
+        active.energy_dissipated = state.dissipated
+    evaluate_impact_rates(ws, ws.impact.y.start)
+
+
+# --- is the impact over? ----------------------------------------------------------------------------------------------
+
+
 @kernel("b1(ws)")
-def finished(ws: Workspace) -> bool:
-    """Return 1 if no contact is loaded: compressions that have not come to anything, and do not, are none."""
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        begins = a == ws.impact.lone_contact or impact_state(ws.floats, ws.impact.y.start, a).deformation > 0.0
-        comes = begins or active.gap_rate < -NOISE * ws.impact.speed_scale
-        if active.phase == EXPANSION or (active.phase == COMPRESSION and comes):
+def is_finished(ws: Workspace) -> bool:
+    """True if no contact is loaded. A compression without deformation that does not approach counts as none."""
+    for active in ws.actives:
+        has_begun = is_lone(ws, active) or state_of(ws, active).deformation > 0.0
+        begins = has_begun or active.gap_rate < -NOISE * ws.impact.speed_scale
+        if active.phase == Phase.EXPANSION or (active.phase == Phase.COMPRESSION and begins):
             return False
     return True
 
 
 @kernel("b1(ws)")
-def _trapped(ws: Workspace) -> bool:
-    """Return 1 if contacts are loaded, but none of them moves, and their forces move nothing.
+def end_trapped(ws: Workspace) -> bool:
+    """End the phases of contacts that are trapped. True if they are. What they have stored is lost to restitution."""
+    if not _is_trapped(ws):
+        return False
+    for active in ws.actives:
+        if is_loaded(active):
+            end_phase(ws, active)
+            ws.event.n_phases += 1
+    return True
 
-    A point that joints let move across one line only is wedged where that line lies within the cone of friction: slip
-    and approach stop together, and the force of the contact goes into the joints.  G f = 0 means f.G f = 0, the forces
-    then accelerate no part of the bodies, and so it stays: the deformation is never given back.  Rates that have next
-    to no energy count as none, and those too slow to bounce; they would not change either.  Nor would what a small part
-    of the forces gives back, the square of it in parts of what is stored.
+
+@kernel("b1(ws)")
+def _is_trapped(ws: Workspace) -> bool:
+    """True if contacts are loaded, but none of them moves, and their forces move nothing.
+
+    Joints may let a point move along one line only. The point is wedged if that line lies within the cone of friction:
+    slip and approach stop together, and the joints take the force of the contact. From G f = 0 follows f . G f = 0: the
+    forces accelerate no part of the bodies. So it stays, and the deformation is never returned.
+
+    Rates with next to no energy count as none, and rates too slow to bounce. A small part of the forces may be left
+    unbalanced. The energy that this part could return is its square, relative to the stored energy.
     """
+    if _moves(ws):
+        return False
+    stored, lightest = 0.0, math.inf
+    for active in ws.actives:
+        if active.phase != Phase.IDLE:
+            stored += state_of(ws, active).energy
+        lightest = min(lightest, 0.5 / diagonal_block(ws, active.index).nn)
+    balance = _balance(ws)
+    left, size = balance.left, balance.size
+    if left < max(SINGULAR, ws.tolerance.impact) * size:
+        return True
+    returns_little = left * left * stored < size * size * lightest * ws.event.slow_speed * ws.event.slow_speed
+    return returns_little and left < _LOCKED * size
+
+
+@kernel("b1(ws)")
+def _moves(ws: Workspace) -> bool:
+    """True if a loaded contact approaches or separates fast enough to have an energy and to bounce."""
     brought = 0.0
-    for a in range(ws.problem.n_active):
-        brought = max(brought, ws.actives[a].energy_scale)
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        loaded = active.phase == COMPRESSION or active.phase == EXPANSION
-        still = max(REST * math.sqrt(brought * diagonal_block(ws, a).nn), ws.event.slow_speed)
-        if loaded and abs(active.gap_rate) > still:
-            return False
-    size = left = stored = 0.0
-    lightest = math.inf
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        if active.phase != IDLE:
-            stored += impact_state(ws.floats, ws.impact.y.start, a).energy
-        lightest = min(lightest, 0.5 / diagonal_block(ws, a).nn)
+    for active in ws.actives:
+        brought = max(brought, active.energy_scale)
+    for active in ws.actives:
+        still = max(REST * math.sqrt(brought * diagonal_block(ws, active.index).nn), ws.event.slow_speed)
+        if is_loaded(active) and abs(active.gap_rate) > still:
+            return True
+    return False
+
+
+@kernel("Balance(ws)")
+def _balance(ws: Workspace) -> Balance:
+    """How far the present forces f of the active contacts balance each other: the largest component of G f."""
+    left = size = 0.0
+    for active in ws.actives:
         for r in range(3):
             total = total_size = 0.0
             for block in range(active.first_block, active.end_block):
@@ -87,70 +170,36 @@ def _trapped(ws: Workspace) -> bool:
                     total += part
                     total_size += abs(part)
             size, left = max(size, total_size), max(left, abs(total))
-    if left < max(SINGULAR, ws.tolerance.impact) * size:
-        return True
-    little = left * left * stored < size * size * lightest * ws.event.slow_speed * ws.event.slow_speed
-    return little and left < _LOCKED * size
+    return Balance(left=left, size=size)
+
+
+# --- cascades of ever smaller compressions ----------------------------------------------------------------------------
 
 
 @kernel("b1(ws)")
-def end_trapped(ws: Workspace) -> bool:
-    """End the phases of contacts that are trapped, if they are (1); what they have stored is lost to restitution."""
-    if not _trapped(ws):
-        return False
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        if active.phase == COMPRESSION or active.phase == EXPANSION:
-            account(ws, a)
-            active.phase = IDLE
-            active.sticks = False
-            empty(ws, a)
-            ws.event.n_phases += 1
-    return True
-
-
-@kernel("b1(ws)")
-def faded(ws: Workspace) -> bool:
-    """Return 1 if what is left of the impact, stored or about to be, is below the tolerance, or too slow to bounce."""
-    small = max(ws.tolerance.impact, 1e-11)
-    # behind the impact, what is within the tolerance of velocities is no approach
+def has_faded(ws: Workspace) -> bool:
+    """True if what is left of the impact, stored or about to be, is below the tolerance, or too slow to bounce."""
+    small = max(ws.tolerance.impact, _LEAST_TOLERANCE)
+    # after the impact, an approach within the tolerance of velocities is none
     slowest = max(ws.event.slow_speed, ws.tolerance.velocity)
     slow = max(slowest, small * ws.impact.speed_scale)
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        state = impact_state(ws.floats, ws.impact.y.start, a)
-        stored = state.energy if active.phase != IDLE else 0.0
-        least = max(small * small * active.energy_scale, 0.5 * slowest * slowest / diagonal_block(ws, a).nn)
+    for active in ws.actives:
+        inverse_mass = diagonal_block(ws, active.index).nn
+        stored = state_of(ws, active).energy if active.phase != Phase.IDLE else 0.0
+        least = max(small * small * active.energy_scale, 0.5 * slowest * slowest / inverse_mass)
         if active.gap_rate < -slow or stored > least:
             return False
-        if active.gap_rate > slow and stored > 0.0 and active.phase == EXPANSION:
+        if active.gap_rate > slow and stored > 0.0 and active.phase == Phase.EXPANSION:
             return False
     return True
 
 
 @kernel()
 def cut_short(ws: Workspace) -> None:
-    """End a cascade of ever smaller compressions; what still approaches is for the instant to stop."""
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        account(ws, a)
-        active.phase = IDLE
-        active.sticks = False
-        empty(ws, a)
+    """End a cascade of ever smaller compressions. An approach that is left is for the instant to stop."""
+    for active in ws.actives:
+        end_phase(ws, active)
     ws.event.truncation = Truncation.SLOW
-
-
-@kernel()
-def finish(ws: Workspace) -> None:
-    """Hand over the impulses and the energies."""
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        state = impact_state(ws.floats, ws.impact.y.start, a)
-        for r in range(3):
-            active.impulse[r] = state.impulse[r]
-        account(ws, a)
-        active.energy_dissipated = state.rubbed
-    evaluate_impact_rates(ws, ws.impact.y.start)
 
 
 @kernel("Truncation(ws)")
@@ -170,7 +219,7 @@ def how_over(ws: Workspace) -> Truncation:
         before = max(before, abs(active.rate_before[0]), abs(active.rate_before[1]), abs(active.rate_before[2]))
         behind = max(behind, -active.gap_rate)
         slip = max(slip, length(active.slip))
-        if not min(efficiency(ws, active.index, 0.0), efficiency(ws, active.index, 1e-300)) < 1.0:
+        if not least_efficiency(ws, active) < 1.0:
             loses = False
     if behind <= _NEGLIGIBLE_APPROACH * before:
         return Truncation.SLOW

@@ -1,4 +1,17 @@
-"""Friction inside an impact: who sticks, who slips, and which way a slip starts."""
+"""Friction inside an impact: which contacts stick, which slip, and in which direction a slip starts.
+
+Where a phase changes, contacts at rest must choose. Their modes solve the problem of Coulomb friction for the slopes of
+the velocities, Eq. (17) with impulses in place of forces:
+
+1. Slips at rest are stopped exactly. What is left of them is round-off, but its direction would act as that of a slip.
+2. Block Gauss-Seidel (:mod:`nonsmooth.engine.contact.cone`) finds sticking contacts and directions.
+3. Newton's method (:mod:`nonsmooth.engine.contact.polish`) makes the directions exact: next to the static bound they
+   decide whether a slip grows.
+4. Contacts that were found on their bounds but do not start to slip stick.
+
+Between two choices slips follow their own velocity, and :func:`stop_halted`, :func:`orient` and :func:`stays_slow` keep
+their directions well-defined.
+"""
 
 from __future__ import annotations
 
@@ -7,168 +20,218 @@ from nonsmooth.engine.contact.forces import friction_of_slip, resolve
 from nonsmooth.engine.contact.polish import polish
 from nonsmooth.engine.contact.problem import friction_coefficient, slip_coefficient
 from nonsmooth.engine.contact.trial import hold_tried
-from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
-from nonsmooth.engine.impact.guards import GUARDS, RATE_GUARD
-from nonsmooth.engine.impact.rates import COMPRESSION, EXPANSION, HELD, NOISE, evaluate_impact_rates, normal_force
-from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
-from nonsmooth.engine.native.kernel import (
-    Workspace,
-    entry_point,
-    impact_state,
-    kernel,
+from nonsmooth.engine.delassus.delassus import diagonal_block
+from nonsmooth.engine.impact.guards import GuardKind, guard_of
+from nonsmooth.engine.impact.rates import (
+    NOISE,
+    evaluate_impact_rates,
+    is_loaded,
+    normal_force,
+    slip_slope,
+    state_of,
 )
+from nonsmooth.engine.memory.modes import Mode, Phase
+from nonsmooth.engine.native.kernel import ActiveContact, Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
 
-_IDLE = 1e-10
-"""A slip that starts with less than this part of the largest acceleration does not."""
+_NO_START = 1e-10
+"""Slope of a slip that does not start, relative to the largest normal one. Redundant friction is not more exact."""
+_PATIENCE = 20
+"""Number of steps that a slip may take next to rest without slowing down, before friction is chosen again."""
+
+
+# --- the choice at a change of phase ----------------------------------------------------------------------------------
+
+
+@entry_point("void(ws, f8, b1)")
+def choose_friction(ws: Workspace, probe: float, turns_rate: bool) -> None:
+    """Decide which contacts at rest stick and in which direction the others start to slide.
+
+    ``probe`` is the pseudo-time after which forces are compared if none has built up yet. ``turns_rate`` is true if the
+    sign of a gap rate has changed.
+    """
+    evaluate_impact_rates(ws, ws.impact.y.start)
+    has_contact_at_rest = False
+    for active in ws.actives:
+        _find_rest(ws, active, turns_rate)
+        has_contact_at_rest = has_contact_at_rest or active.is_at_rest
+    if has_contact_at_rest:
+        _stop_slips(ws)
+    for active in ws.actives:
+        _write_problem(ws, active, probe)
+    if has_contact_at_rest:
+        for i in range(3 * len(ws.actives)):
+            ws.problem.free_accelerations[i] = 0.0
+        gauss_seidel(ws, SWEEPS)
+        _polish(ws)
+        _hold_idle(ws)
+    for active in ws.actives:
+        if active.normal_force <= 0.0:
+            active.sticks = False
+        ws.contacts[active.contact].direction = active.direction
+
+
+@kernel("void(ws, ActiveContact, b1)")
+def _find_rest(ws: Workspace, active: ActiveContact, turns_rate: bool) -> None:
+    """Write direction and coefficients of the friction of an active contact, and whether it is at rest and may stick.
+
+    Without friction nothing holds a contact, and nothing can stop a slip, however slow.
+    """
+    speed = length(active.slip)
+    active.direction = ws.contacts[active.contact].direction
+    active.static_coefficient = friction_coefficient(ws, active.contact, 0.0)
+    active.friction_coefficient = slip_coefficient(ws, active.contact, speed)
+    gets_away = turns_rate and _gets_away(ws, active)
+    is_slow = (speed <= active.rest_slip and not gets_away) or active.sticks
+    is_still = speed == 0.0 and active.friction_coefficient > 0.0
+    active.is_at_rest = is_slow and (active.static_coefficient > 0.0 or is_still)
+
+
+@kernel("b1(ws, ActiveContact)")
+def _gets_away(ws: Workspace, active: ActiveContact) -> bool:
+    """True if the slip of an active contact grows, at a time when the sign of a gap rate changes.
+
+    No force jumps there. Stopping the slip would change the rates of other contacts, and it would start again.
+    """
+    if length(active.slip) <= NOISE * ws.impact.speed_scale:
+        return False
+    (v1, v2), (growth_1, growth_2) = active.slip, slip_slope(ws, active)
+    return v1 * growth_1 + v2 * growth_2 > 0.0
 
 
 @kernel()
 def _stop_slips(ws: Workspace) -> None:
-    """Bring the slip velocities of the contacts at rest to exactly zero, by the impulses of least norm.
-
-    What is left there is round-off, but its direction would stiffen the slip that starts from it.
-    """
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
+    """Bring the slip velocities of the contacts at rest to exactly zero, by the impulses of least norm."""
+    for active in ws.actives:
         active.is_normal_force_unknown = False
         active.sticks = active.is_at_rest
         active.normal_force = active.friction_coefficient = 0.0
         for r in range(3):
             active.free[r] = active.rate[r]
     resolve(ws)
-    for a in range(ws.problem.n_active):
-        active, state = ws.actives[a], impact_state(ws.floats, ws.impact.y.start, a)
+    for active in ws.actives:
+        impulse = state_of(ws, active).impulse
         for r in range(1, 3):
-            state.impulse[r] += active.force[r]
+            impulse[r] += active.force[r]
     evaluate_impact_rates(ws, ws.impact.y.start)
+
+
+@kernel("void(ws, ActiveContact, f8)")
+def _write_problem(ws: Workspace, active: ActiveContact, probe: float) -> None:
+    """Write coefficient, normal force and slip direction of an active contact, and its friction if it slides."""
+    v1, v2 = active.slip
+    speed = length(active.slip)
+    active.friction_coefficient = slip_coefficient(ws, active.contact, speed)
+    if speed == 0.0 and max(active.friction_coefficient, active.static_coefficient) > 0.0:
+        # stopping the slips of others has stopped this one, too
+        active.is_at_rest = True
+    active.is_normal_force_unknown = active.phase == Phase.HELD
+    active.sticks = False
+    active.normal_force = 0.0
+    if is_loaded(active):
+        deformation = state_of(ws, active).deformation
+        if not deformation > 0.0:
+            deformation = -probe * active.gap_rate
+        active.normal_force = normal_force(ws, active, deformation)
+    active.direction = ws.contacts[active.contact].direction
+    if not active.is_at_rest and speed > 0.0:
+        active.direction = v1 / speed, v2 / speed
+    friction_of_slip(ws, active.index)
 
 
 @kernel()
 def _polish(ws: Workspace) -> None:
-    """Make the directions of slips that start exact: next to the bound they decide whether and where these go."""
+    """Make the directions of slips that start exact. If that fails, the ones that were found stay."""
     ws.problem.acceleration_scale = 0.0
-    for a in range(ws.problem.n_active):
-        active, own = ws.actives[a], diagonal_block(ws, a)
-        active.has_given_force = active.phase == COMPRESSION or active.phase == EXPANSION
-        active.mode_tried = STICK if active.sticks else SLIDE
+    for active in ws.actives:
+        own = diagonal_block(ws, active.index)
+        active.has_given_force = is_loaded(active)
+        active.mode_tried = Mode.STICK if active.sticks else Mode.SLIDE
         if active.normal_force <= 0.0:
-            active.mode_tried = OPEN
+            active.mode_tried = Mode.OPEN
         active.direction_found = active.direction
-        ws.problem.acceleration_scale = max(
-            ws.problem.acceleration_scale, max(own.nn, own.t11, own.t22) * abs(active.normal_force)
-        )
+        acceleration = max(own.nn, own.t11, own.t22) * abs(active.normal_force)
+        ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, acceleration)
     if polish(ws) == 0:
-        for a in range(ws.problem.n_active):
-            active = ws.actives[a]
+        for active in ws.actives:
             active.direction = active.direction_found
         hold_tried(ws)
 
 
 @kernel()
 def _hold_idle(ws: Workspace) -> None:
-    """Let stick who was found on its bound but does not start to slip.
+    """Let contacts stick that were found on their static bounds but do not start to slip.
 
-    Where several contacts share their friction at will, some stand on their bounds by chance.
+    The distribution of redundant friction is arbitrary, so some contacts are on their bounds by chance.
     """
     largest = 0.0
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        largest = max(largest, diagonal_block(ws, a).nn * active.normal_force)
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        if active.is_at_rest and not active.sticks and active.static_coefficient > 0.0:
-            growth = (
-                add_product(ws, 0.0, a, 1, ws.problem.forces.start),
-                add_product(ws, 0.0, a, 2, ws.problem.forces.start),
-            )
-            if length(growth) <= _IDLE * largest:
-                active.sticks = True
+    for active in ws.actives:
+        largest = max(largest, diagonal_block(ws, active.index).nn * active.normal_force)
+    for active in ws.actives:
+        may_stick = active.is_at_rest and not active.sticks and active.static_coefficient > 0.0
+        if may_stick and length(slip_slope(ws, active)) <= _NO_START * largest:
+            active.sticks = True
 
 
-@kernel("b1(ws, i8)")
-def _gets_away(ws: Workspace, a: int) -> bool:
-    """Return 1 if the active contact ``a`` slips faster and faster where a contact begins or ends to be pressed.
-
-    No force jumps there.  To stop the slip would turn the rates of others by what it has, and it would start again.
-    """
-    active = ws.actives[a]
-    if (
-        ws.step.guard < 0
-        or ws.step.guard % GUARDS != RATE_GUARD
-        or length(active.slip) <= NOISE * ws.impact.speed_scale
-    ):
-        return False
-    growth = active.slip[0] * add_product(ws, 0.0, a, 1, ws.problem.forces.start)
-    growth += active.slip[1] * add_product(ws, 0.0, a, 2, ws.problem.forces.start)
-    return growth > 0.0
+# --- between two choices ----------------------------------------------------------------------------------------------
 
 
-@entry_point("void(ws, f8)")
-def choose_friction(ws: Workspace, probe: float) -> None:
-    """Decide which contacts at rest stick and which way the others start to slide.
-
-    ``probe`` is the pseudo-time after which forces are compared where none has built up yet.
-    """
-    evaluate_impact_rates(ws, ws.impact.y.start)
-    open_question = 0
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        speed = length(active.slip)
-        active.static_coefficient = friction_coefficient(ws, active.contact, 0.0)
-        active.friction_coefficient = slip_coefficient(ws, active.contact, speed)
-        slow = (speed <= active.rest_slip and not _gets_away(ws, a)) or active.sticks
-        # without friction nothing holds a contact, and nothing can stop a slip, however slow
-        active.is_at_rest = slow and (
-            active.static_coefficient > 0.0 or (speed == 0.0 and active.friction_coefficient > 0.0)
-        )
-        open_question = max(open_question, active.is_at_rest)
-    if open_question == 1:
-        _stop_slips(ws)
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        state = impact_state(ws.floats, ws.impact.y.start, a)
-        c = active.contact
-        contact = ws.contacts[c]
-        v1, v2 = active.slip
-        speed = length(active.slip)
-        active.friction_coefficient = slip_coefficient(ws, c, speed)
-        if speed == 0.0 and max(active.friction_coefficient, active.static_coefficient) > 0.0:
-            # stopping the slips of others has stopped this one, too
-            active.is_at_rest = True
-        active.is_normal_force_unknown = active.phase == HELD
-        active.sticks = False
-        x = state.deformation
-        active.normal_force = 0.0
-        if active.phase == COMPRESSION or active.phase == EXPANSION:
-            x = x if x > 0.0 else -probe * active.gap_rate
-            active.normal_force = normal_force(ws, a, x)
-        active.direction = contact.direction
-        if not active.is_at_rest and speed > 0.0:
-            active.direction = v1 / speed, v2 / speed
-        friction_of_slip(ws, a)
-    if open_question == 1:
-        for i in range(3 * ws.problem.n_active):
-            ws.problem.free_accelerations[i] = 0.0
-        gauss_seidel(ws, SWEEPS)
-        _polish(ws)
-        _hold_idle(ws)
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        c = active.contact
-        contact = ws.contacts[c]
-        if active.normal_force <= 0.0:
-            active.sticks = False
-        contact.direction = active.direction
-
-
-@kernel("void(ws, i8)")
-def break_away(ws: Workspace, a: int) -> None:
-    """Let the active contact ``a`` slip against the friction that held it."""
-    active = ws.actives[a]
-    contact = ws.contacts[active.contact]
+@kernel("void(ws, ActiveContact)")
+def break_away(ws: Workspace, active: ActiveContact) -> None:
+    """Let an active contact slip against the friction that held it."""
     t1, t2 = active.friction
     norm = length(active.friction)
     active.sticks = False
     if norm > 0.0:
-        contact.direction = -t1 / norm, -t2 / norm
+        ws.contacts[active.contact].direction = -t1 / norm, -t2 / norm
+
+
+@kernel("b1(ActiveContact)")
+def has_stopped(active: ActiveContact) -> bool:
+    """True if an active contact that slides with friction has come to rest."""
+    slides = not active.sticks and active.friction_coefficient != 0.0
+    return slides and length(active.slip) <= active.rest_slip
+
+
+@kernel()
+def stop_halted(ws: Workspace) -> None:
+    """Let the slips stick that the accepted step has stopped. After an implicit step slips have any direction."""
+    if ws.impact.is_step_implicit:
+        ws.impact.is_step_implicit = False
+        orient(ws)
+    for active in ws.actives:
+        if active.was_halted:
+            ws.event.n_phases += 1
+        active.was_halted = False
+
+
+@kernel()
+def orient(ws: Workspace) -> None:
+    """Take the present slip directions as those of the step that begins. Their guards start anew."""
+    for active in ws.actives:
+        v1, v2 = active.slip
+        speed = length(active.slip)
+        if active.phase != Phase.IDLE and not active.sticks and speed > active.rest_slip:
+            ws.contacts[active.contact].direction = v1 / speed, v2 / speed
+            guard_of(ws, active, GuardKind.FRICTION).value = NOISE + speed / ws.impact.speed_scale
+
+
+@kernel("b1(ws)")
+def stays_slow(ws: Workspace) -> bool:
+    """True if a slip is next to rest and slows down, or has not got away from there for many steps.
+
+    Next to rest the direction of a slip is stiff, and its speed is below the error: friction must be chosen again.
+    """
+    is_slow = False
+    for active in ws.actives:
+        if active.phase == Phase.IDLE or not has_stopped(active):
+            continue
+        (v1, v2), (growth_1, growth_2) = active.slip, slip_slope(ws, active)
+        is_slow = True
+        if v1 * growth_1 + v2 * growth_2 < 0.0:
+            ws.impact.slow_steps = _PATIENCE
+    ws.impact.slow_steps = ws.impact.slow_steps + 1 if is_slow else 0
+    if ws.impact.slow_steps <= _PATIENCE:
+        return False
+    ws.impact.slow_steps = 0
+    return True

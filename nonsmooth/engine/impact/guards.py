@@ -1,56 +1,77 @@
-"""Guards inside an impact, and stepping exactly to the first that ends its phase.
+"""Guards: the event functions that end the phase of a contact within an impact.
 
-Guards are positive while a phase is valid: the gap rate (its sign in compression and expansion, the
-approach of an idle contact, the force of a held one), the deformation or stored energy, and the friction (the
-slip along its direction, or the distance to the static bound).
+A guard is positive while its phase is valid. The phase ends where the guard falls through zero. Each active contact has
+three, all of order 1:
+
+===========  ==========================  =========================================  ====================================
+phase        guard of the rate           guard of the energy                        guard of the friction
+===========  ==========================  =========================================  ====================================
+idle         gap rate                    1                                          1
+compression  approach                    deformation, with a slack                  slip along its initial direction, or
+expansion    gap rate                    deformation; energy left if it opens       distance to the static bound if the
+                                         under load or is lone                      contact sticks; 1 without friction
+held         normal force                1
+===========  ==========================  =========================================  ====================================
+
+Round-off may turn the sign of a guard that is about zero. A guard is armed when it has been positive in its phase, and
+an armed guard fires at zero. A disarmed guard fires only when it is negative by more than the error of a switch. Guards
+of the motion divide out a known root instead. Here several guards may be about zero where a phase begins, and their
+growth is not known before the first step.
 """
 
 from __future__ import annotations
 
-import math
+from enum import IntEnum
 
 from nonsmooth.engine.contact.forces import evaluate_margins
-from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.impact.rates import (
-    COMPRESSION,
-    EXPANSION,
-    HELD,
-    IDLE,
     NOISE,
-    STRIDE,
-    efficiency,
+    ContactState,
     evaluate_impact_forces,
+    is_lone,
+    state_at,
     write_rates,
 )
-from nonsmooth.engine.impact.step import try_impact_step
-from nonsmooth.engine.memory.layout import LAST_STAGE
-from nonsmooth.engine.native.kernel import (
-    Workspace,
-    entry_point,
-    impact_state,
-    kernel,
-)
-from nonsmooth.engine.native.watch import interrupted
-from nonsmooth.engine.numerics.roots import SHORT, TRUSTED, weakened
-from nonsmooth.engine.numerics.runge_kutta import dense_state
+from nonsmooth.engine.memory.layout import IMPACT_GUARDS
+from nonsmooth.engine.memory.modes import Phase
+from nonsmooth.engine.native.kernel import ActiveContact, ImpactGuard, Workspace, kernel, result
 from nonsmooth.engine.numerics.vectors import length
 
-_SLACK = 1e-9
-"""A compression that comes to nothing, of round-off, ends at this deformation below zero, relative to a full one."""
-RATE_GUARD, ENERGY_GUARD, FRICTION_GUARD = 0, 1, 2
-"""Which of its guards is which; every active contact has"""
-GUARDS = 3
-"""so many."""
+NO_GUARD = -1
+"""Number in place of a guard where none has fired."""
 TOGETHER = 1e-13
-"""Guards, which are of order 1, fire together within this of zero: round-off does not tell which one is first."""
-_WRONG = -1e-7
-"""A guard, of order 1, that is not armed fires below this all the same: more than a switch leaves by its error."""
-_ROUGH = 1e-11
-"""A guard, of order 1, need not be nearer zero on the interpolant: it is corrected on the step itself."""
-_SMALL = 1e-3
-"""But it must be small next to what the guard was before, which may be next to nothing, too."""
-_CORRECTIONS = 8
-"""Of a step to a switch, by Newton's method with the slope on the interpolant; two or three do."""
+"""Value [1] below which guards fire together. Round-off decides which of them is first."""
+_SLACK = 1e-9
+"""Deformation below zero at which a compression of round-off ends, relative to that of a full compression."""
+_VIOLATED = -1e-7
+"""Value [1] below which a disarmed guard fires. The error of a switch leaves less."""
+
+
+@result
+class GuardKind(IntEnum):
+    """What a guard of an active contact is a function of."""
+
+    RATE = 0
+    """The gap rate, or the force of a held contact."""
+    ENERGY = 1
+    """The deformation, or the stored energy."""
+    FRICTION = 2
+    """The slip, or the distance of the friction to its static bound."""
+
+
+@kernel("ImpactGuard(ws, ActiveContact, GuardKind)")
+def guard_of(ws: Workspace, active: ActiveContact, kind: GuardKind) -> ImpactGuard:
+    """Guard of an active contact, of a kind."""
+    return ws.impact_guards[IMPACT_GUARDS * active.index + kind]
+
+
+@kernel("b1(i8)")
+def is_rate_guard(guard: int) -> bool:
+    """True if a guard that fired is one of a gap rate."""
+    return guard != NO_GUARD and guard % IMPACT_GUARDS == GuardKind.RATE
+
+
+# --- evaluation -------------------------------------------------------------------------------------------------------
 
 
 @kernel("void(ws, i8)")
@@ -62,192 +83,92 @@ def evaluate_impact_guards(ws: Workspace, y: int) -> None:
 
 @kernel("void(ws, i8)")
 def write_impact_guards(ws: Workspace, y: int) -> None:
-    """Write the three guards of every active contact: rate, energy, friction; all of order 1."""
+    """Write the guards of the active contacts at the impact state ``y``, at which the forces are evaluated."""
     evaluate_margins(ws)
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        state = impact_state(ws.floats, y, a)
-        contact = ws.contacts[active.contact]
-        phase = active.phase
-        if phase == IDLE:
-            write_rates(ws, a, y)
-        rate = active.gap_rate / ws.impact.speed_scale
-        force_scale = 1.0 if a == ws.impact.lone_contact else active.force_scale
-        active.energy_guard = 1.0
-        if phase == COMPRESSION:
-            active.rate_guard = NOISE - rate
-            if a != ws.impact.lone_contact:
-                active.energy_guard = _SLACK + state.deformation / active.deformation_scale
-        elif phase == HELD:
-            active.rate_guard = NOISE + active.normal_force / force_scale
-        else:
-            behind = phase == IDLE and ws.impact.faint_rate > 0.0 and contact.n_waves > 0
-            active.rate_guard = (ws.impact.faint_rate if behind else NOISE) + rate
-        if phase == EXPANSION:
-            lost = state.lost
-            active.energy_guard = state.deformation / active.deformation_scale
-            if a == ws.impact.lone_contact or lost > 0.0:
-                active.energy_guard = (state.energy - lost) / active.energy_scale
-        if phase == IDLE or (not active.sticks and active.friction_coefficient == 0.0):
-            active.friction_guard = 1.0
-        elif active.sticks:
-            # one that the step has stopped may have slipped in the part before
-            margin = max(0.0, active.static_margin) if active.was_halted else active.static_margin
-            active.friction_guard = NOISE + margin / force_scale
-        elif ws.problem.is_turning:
-            active.friction_guard = NOISE + length(active.slip) / ws.impact.speed_scale
-        else:
-            slip = active.rate[1] * contact.direction[0] + active.rate[2] * contact.direction[1]
-            active.friction_guard = NOISE + slip / ws.impact.speed_scale
+    for active in ws.actives:
+        if active.phase == Phase.IDLE:
+            write_rates(ws, active, y)
+        guard_of(ws, active, GuardKind.RATE).value = _rate_guard(ws, active)
+        guard_of(ws, active, GuardKind.ENERGY).value = _energy_guard(ws, active, state_at(ws, y, active))
+        guard_of(ws, active, GuardKind.FRICTION).value = _friction_guard(ws, active)
 
 
-@kernel("i8(ws, i8)")
-def fired_guard(ws: Workspace, but: int) -> int:
-    """Return the first guard that ends its phase, other than ``but``, or -1.
+@kernel("f8(ws, ActiveContact)")
+def _force_scale(ws: Workspace, active: ActiveContact) -> float:
+    """Force to which the forces of an active contact are relative [N], or 1 if its impulse is the clock."""
+    return 1.0 if is_lone(ws, active) else active.force_scale
 
-    A guard left slightly negative by a switch is not armed until it has been positive.
+
+@kernel("f8(ws, ActiveContact)")
+def _rate_guard(ws: Workspace, active: ActiveContact) -> float:
+    """Guard of the gap rate of an active contact, relative to the largest speed, or of the force that holds it [1].
+
+    In a window a contact that a wave has passed starts again only at an approach above the error.
     """
-    for i in range(GUARDS * ws.problem.n_active):
-        value = ws.impact.guards[i]
-        if i != but and ((value < 0.0 and ws.impact.armed[i] == 1) or value < _WRONG):
-            return i
-    return -1
+    rate = active.gap_rate / ws.impact.speed_scale
+    if active.phase == Phase.COMPRESSION:
+        return NOISE - rate
+    if active.phase == Phase.HELD:
+        return NOISE + active.normal_force / _force_scale(ws, active)
+    has_passed = active.phase == Phase.IDLE and ws.contacts[active.contact].n_waves > 0
+    return (ws.impact.faint_rate if has_passed and ws.impact.faint_rate > 0.0 else NOISE) + rate
 
 
-@kernel()
-def arm_impact_guards(ws: Workspace) -> None:
-    """Arm the guards that are positive now, where the next step starts."""
-    for i in range(GUARDS * ws.problem.n_active):
-        ws.impact.guards_at_start[i] = ws.impact.guards[i]
-        if ws.impact.guards[i] > 0.0:
-            ws.impact.armed[i] = 1
+@kernel("f8(ws, ActiveContact, impact_state)")
+def _energy_guard(ws: Workspace, active: ActiveContact, state: ContactState) -> float:
+    """Guard of the deformation or of the energy of an active contact, relative to its scale [1]."""
+    if active.phase == Phase.COMPRESSION and not is_lone(ws, active):
+        return _SLACK + state.deformation / active.deformation_scale
+    if active.phase == Phase.EXPANSION:
+        if is_lone(ws, active) or state.lost > 0.0:
+            return (state.energy - state.lost) / active.energy_scale
+        return state.deformation / active.deformation_scale
+    return 1.0
+
+
+@kernel("f8(ws, ActiveContact)")
+def _friction_guard(ws: Workspace, active: ActiveContact) -> float:
+    """Guard of the slip of an active contact, or of its friction if it sticks, relative to its scale [1]."""
+    if active.phase == Phase.IDLE or (not active.sticks and active.friction_coefficient == 0.0):
+        return 1.0
+    if active.sticks:
+        # a slip that the step has stopped may have been outside of the cone before
+        margin = max(0.0, active.static_margin) if active.was_halted else active.static_margin
+        return NOISE + margin / _force_scale(ws, active)
+    if ws.impact.is_step_implicit:
+        return NOISE + length(active.slip) / ws.impact.speed_scale
+    d1, d2 = ws.contacts[active.contact].direction
+    v1, v2 = active.slip
+    return NOISE + (v1 * d1 + v2 * d2) / ws.impact.speed_scale
+
+
+# --- arming and firing ------------------------------------------------------------------------------------------------
 
 
 @kernel()
 def prepare_guards(ws: Workspace) -> None:
-    """Evaluate the guards where a phase begins and arm those that are positive."""
-    for i in range(GUARDS * ws.problem.n_active):
-        ws.impact.armed[i] = 0
+    """Evaluate the guards where a phase begins, and arm the positive ones only."""
+    ws.impact.n_guards = IMPACT_GUARDS * len(ws.actives)
+    for guard in ws.impact_guards:
+        guard.is_armed = False
     evaluate_impact_guards(ws, ws.impact.y.start)
     arm_impact_guards(ws)
 
 
-@kernel("f8(ws, f8, f8, i8)")
-def _guard_at(ws: Workspace, h: float, theta: float, i: int) -> float:
-    interrupted(ws, ws.problem.n_active)
-    dense_state(
-        ws, ws.impact.y.start, ws.impact.slopes.start, STRIDE * ws.problem.n_active, h, theta, ws.impact.y_stage.start
-    )
-    evaluate_impact_guards(ws, ws.impact.y_stage.start)
-    return ws.impact.guards[i]
+@kernel()
+def arm_impact_guards(ws: Workspace) -> None:
+    """Start the guards of a step from their present values, and arm the positive ones, too."""
+    for guard in ws.impact_guards:
+        guard.at_start = guard.value
+        if guard.value > 0.0:
+            guard.is_armed = True
 
 
-@kernel("f8(ws, f8, f8, f8, i8)")
-def _switch_fraction(ws: Workspace, h: float, high: float, g_high: float, i: int) -> float:
-    """Return the fraction of the step at which guard ``i`` vanishes on the interpolant (Anderson-Bjorck).
-
-    The guards are left evaluated there, the slope of guard ``i`` in ``guard_slope``.
-    """
-    low, g_low = 0.0, ws.impact.guards_at_start[i]
-    if g_low <= 0.0:
-        ws.step.guard_slope = 0.0
-        return 1e-3 * high
-    theta_before, g_before, largest = high, g_high, g_low
-    ws.step.guard_slope = (g_high - g_low) / ((high - low) * h)
-    for _iteration in range(60):
-        theta = high - g_high * (high - low) / (g_high - g_low)
-        g = _guard_at(ws, h, theta, i)
-        # of what is nearer round-off would tell the slope
-        if abs(theta - theta_before) > SHORT:
-            ws.step.guard_slope = (g - g_before) / ((theta - theta_before) * h)
-        theta_before, g_before = theta, g
-        largest = max(largest, g)
-        if abs(g) <= min(_ROUGH, _SMALL * largest) or high - low <= 1e-14:
-            return theta
-        if g < 0.0:
-            g_low = weakened(g_low, g, g_high)
-            high, g_high = theta, g
-        else:
-            g_high = weakened(g_high, g, g_low)
-            low, g_low = theta, g
-    return theta
-
-
-@entry_point("f8(ws, f8)")
-def locate_switch(ws: Workspace, h: float) -> float:
-    """Step to the first guard to fire within ``h``, kept in ``trigger``; return the error of that step.
-
-    The error is that of a part of an accepted step, unless the motion is not as smooth as it seemed.
-    Called with the guards evaluated at the end of the step.
-    """
-    theta = 1.0
-    first = fired_guard(ws, -1)
-    for _other in range(GUARDS * ws.problem.n_active):
-        if first < 0:
-            break
-        ws.step.guard = first
-        theta = _switch_fraction(ws, h, theta, ws.impact.guards[first], first)
-        if ws.impact.guards_at_start[first] <= 0.0:
-            # others that are wrong from the start would cut the step for one another until nothing is left of it
-            break
-        first = fired_guard(ws, first)
-        if first >= 0 and ws.impact.guards[first] >= -TOGETHER:
-            break
-    i = ws.step.guard
-    step = theta * h
-    n = STRIDE * ws.problem.n_active
-    error = 0.0
-    for iteration in range(_CORRECTIONS):
-        # the interpolant is of lower order than the step: correct on the step itself
-        error = try_impact_step(ws, step)
-        ws.totals.n_impact_steps += 1
-        write_impact_guards(ws, ws.impact.y_new.start)
-        if not (ws.step.guard_slope < 0.0 and error <= TRUSTED) or iteration == _CORRECTIONS - 1:
-            break
-        correction = min(0.2 * theta * h, max(-0.2 * theta * h, -ws.impact.guards[i] / ws.step.guard_slope))
-        if abs(correction) <= SHORT * h:
-            # so short a way is straight
-            for j in range(n):
-                ws.impact.y_new[j] += correction * ws.impact.slopes[LAST_STAGE * n + j]
-            break
-        step += correction
-    evaluate_impact_guards(ws, ws.impact.y_new.start)
-    return error
-
-
-@kernel("f8(ws, f8)")
-def aim(ws: Workspace, h: float) -> float:
-    """Shorten the step of a lone contact so that it ends at the next event, which its polynomials foretell.
-
-    Leaves the guard that it aims at in ``aimed``, -1 for none.
-    """
-    ws.impact.aimed_guard = -1
-    a = ws.impact.lone_contact
-    active = ws.actives[a]
-    shortest = h
-    contact = ws.contacts[active.contact]
-    rate, force, own = active.rate, active.force, diagonal_block(ws, a).entries
-    growth = slip = slip_growth = 0.0
-    for j in range(3):
-        growth += own[j] * force[j]
-    for r in range(1, 3):
-        slip += rate[r] * contact.direction[r - 1]
-        for j in range(3):
-            slip_growth += own[3 * r + j] * force[j] * contact.direction[r - 1]
-    if active.phase == COMPRESSION and growth > 0.0:
-        root = -rate[0] / growth
-        if 0.0 < root < shortest:
-            shortest, ws.impact.aimed_guard = root, GUARDS * a + RATE_GUARD
-    if active.phase == EXPANSION and growth > 0.0:
-        # E + E' s + E'' s^2 / 2 = 0, with E' = -rate / efficiency
-        state = impact_state(ws.floats, ws.impact.y.start, a)
-        energy, first = state.energy - state.lost, impact_state(ws.floats, ws.impact.slopes.start, a).energy
-        square = first * first + 2.0 * growth / efficiency(ws, a, max(rate[0], 1e-300)) * energy
-        speed = math.sqrt(max(0.0, square)) - first
-        if speed > 0.0 and 0.0 < 2.0 * energy / speed < shortest:
-            shortest, ws.impact.aimed_guard = 2.0 * energy / speed, GUARDS * a + ENERGY_GUARD
-    if not active.sticks and active.friction_coefficient > 0.0 and slip > 0.0 and slip_growth < 0.0:
-        root = -slip / slip_growth
-        if root < shortest:
-            shortest, ws.impact.aimed_guard = root, GUARDS * a + FRICTION_GUARD
-    return shortest
+@kernel("i8(ws, i8)")
+def first_fired(ws: Workspace, located: int) -> int:
+    """First guard that ends its phase, other than the guard ``located``, or ``NO_GUARD``."""
+    for guard in ws.impact_guards:
+        has_fired = (guard.value < 0.0 and guard.is_armed) or guard.value < _VIOLATED
+        if has_fired and guard.index != located:
+            return guard.index
+    return NO_GUARD

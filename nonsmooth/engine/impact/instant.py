@@ -6,71 +6,76 @@ from nonsmooth.engine.contact.forces import reduced_coefficient, resolve
 from nonsmooth.engine.contact.problem import slip_coefficient
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block, write_dense
 from nonsmooth.engine.memory.blocks import GUARD, UNTOUCHED
-from nonsmooth.engine.memory.modes import SLIDE, STICK
-from nonsmooth.engine.native.kernel import (
-    Workspace,
-    at,
-    call_map,
-    kernel,
-)
+from nonsmooth.engine.memory.modes import Mode
+from nonsmooth.engine.native.kernel import ActiveContact, Workspace, at, call_map, kernel
 from nonsmooth.engine.numerics.vectors import length
 
-_NEXT_TO_ZERO = 1e-3
-"""A reduced normal coefficient below this part of the plain one, where steps can shrink no more, is singular."""
+_SINGULAR = 1e-3
+"""Coefficient of the normal force with sliding friction that counts as singular, relative to the one without friction.
+Steps that approach the singularity shrink without end, and stop short of it."""
+
+
+# --- jams -------------------------------------------------------------------------------------------------------------
 
 
 @kernel("b1(ws)")
 def jam_slips(ws: Workspace) -> bool:
-    """Stop the slips that are at the Painleve singularity; return 1 if there are any and pushing impulses do that.
+    """Stop the slips that are at the Painleve singularity. True if there are any, and impulses that press do that.
 
-    In the limit of the singularity friction is at its bound all the way and the gap stays closed, so the
-    impulse is the one that brings slip and gap rate to rest together.  The other contacts keep their modes.
+    In the limit of the singularity friction is at its bound and the gap stays closed, so the impulse is the one that
+    brings slip and gap rate to rest together. The other contacts keep their modes.
     """
-    jammed = 0
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        contact = ws.contacts[active.contact]
-        speed = length(contact.slip)
-        active.friction_coefficient = 0.0
-        active.is_normal_force_unknown, active.sticks = True, contact.mode == STICK
-        if contact.mode == SLIDE and not contact.is_compliant and speed > 0.0:
-            active.friction_coefficient = slip_coefficient(ws, active.contact, speed)
-            active.direction = contact.slip[0] / speed, contact.slip[1] / speed
-            if reduced_coefficient(ws, a) < _NEXT_TO_ZERO * diagonal_block(ws, a).nn:
-                active.sticks = jammed = 1
-        for r in range(3):
-            active.free[r] = contact.rate[r]
-    if jammed == 0:
+    has_jammed = False
+    for active in ws.actives:
+        has_jammed = _write_jam(ws, active) or has_jammed
+    if not has_jammed:
         return False
     resolve(ws)
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        if not active.force[0] >= 0.0:
+    for active in ws.actives:
+        if not active.normal_force >= 0.0:
             return False
         for r in range(3):
             active.impulse[r] = active.force[r]
-    _split_loss(ws)
+    _write_losses(ws)
     return True
+
+
+@kernel("b1(ws, ActiveContact)")
+def _write_jam(ws: Workspace, active: ActiveContact) -> bool:
+    """Write the problem of an active contact that keeps its mode, or sticks if its slip jams. True if it does."""
+    contact = ws.contacts[active.contact]
+    v1, v2 = contact.slip
+    speed = length(contact.slip)
+    for r in range(3):
+        active.free[r] = contact.rate[r]
+    active.friction_coefficient = 0.0
+    active.is_normal_force_unknown, active.sticks = True, contact.mode == Mode.STICK
+    if contact.mode != Mode.SLIDE or contact.is_compliant or not speed > 0.0:
+        return False
+    active.friction_coefficient = slip_coefficient(ws, active.contact, speed)
+    active.direction = v1 / speed, v2 / speed
+    jams: bool = reduced_coefficient(ws, active.index) < _SINGULAR * diagonal_block(ws, active.index).nn
+    if jams:
+        active.sticks = True
+    return jams
+
+
+# --- maps of velocities -----------------------------------------------------------------------------------------------
 
 
 @kernel()
 def map_impact(ws: Workspace) -> None:
-    """Let a law that maps velocities to impulses treat the colliding set."""
-    m = ws.problem.n_active
-    for a in range(m):
-        active = ws.actives[a]
-        c = active.contact
-        contact = ws.contacts[c]
-        ws.impact.map_block[a] = slip_coefficient(ws, c, length(contact.slip))
-        for i in range(1, ws.model.map_width):
-            ws.impact.map_block[i * m + a] = ws.floats[contact.map_parameters + i - 1]
+    """Let a law that maps velocities find the impulses of the active contacts [N s]."""
+    n = len(ws.actives)
+    for active in ws.actives:
+        _write_parameters(ws, active)
     write_dense(ws)
-    behind = ws.impact.impulse.start + 3 * m
+    behind = ws.impact.impulse.start + 3 * n
     for i in range(GUARD):
         ws.floats[behind + i] = UNTOUCHED
     call_map(
         ws.options.impact_map,
-        m,
+        n,
         at(ws.floats, ws.problem.matrix.start),
         at(ws.floats, ws.impact.rates_before.start),
         at(ws.floats, ws.impact.map_block.start),
@@ -78,21 +83,36 @@ def map_impact(ws: Workspace) -> None:
     )
     for i in range(GUARD):
         if ws.floats[behind + i] != UNTOUCHED:
-            ws.run.n_past_map = m
-    _split_loss(ws)
+            ws.run.n_past_map = n
+    _write_losses(ws)
+
+
+@kernel("void(ws, ActiveContact)")
+def _write_parameters(ws: Workspace, active: ActiveContact) -> None:
+    """Write what the law is given of an active contact: its friction coefficient, then the parameters of the law.
+
+    The block is one vector over the contacts for each of them.
+    """
+    contact, n = ws.contacts[active.contact], len(ws.actives)
+    ws.impact.map_block[active.index] = slip_coefficient(ws, active.contact, length(contact.slip))
+    for i in range(1, ws.model.map_width):
+        ws.impact.map_block[i * n + active.index] = ws.floats[contact.map_parameters + i - 1]
 
 
 @kernel()
-def _split_loss(ws: Workspace) -> None:
-    """Split the energy that the impulses take, contact by contact, by the mean rates they act on."""
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
+def _write_losses(ws: Workspace) -> None:
+    """Write the energies that the impulses take from the bodies, contact by contact [J].
+
+    The work of an impulse is its product with the mean of the rates before and after it. That of the normal impulse is
+    the loss to restitution, that of the friction impulse the loss to friction.
+    """
+    for active in ws.actives:
         normal = tangential = 0.0
         for r in range(3):
-            line = 3 * a + r
-            mean = 0.5 * add_product(ws, 2.0 * ws.impact.rates_before[line], a, r, ws.impact.impulse.start)
+            impulse = active.impulse[r]
+            mean = 0.5 * add_product(ws, 2.0 * active.rate_before[r], active.index, r, ws.impact.impulse.start)
             if r == 0:
-                normal -= ws.impact.impulse[line] * mean
+                normal -= impulse * mean
             else:
-                tangential -= ws.impact.impulse[line] * mean
+                tangential -= impulse * mean
         active.energy_stored, active.energy_returned, active.energy_dissipated = normal, 0.0, tangential

@@ -1,118 +1,141 @@
-"""The scales of an impact: what counts as large and as small among its speeds, impulses, deformations and energies."""
+"""Scales of an impact: what counts as large and as small among its speeds, impulses, deformations and energies.
+
+Guards, errors and thresholds are made relative to these scales, so that no unit and no stiffness enters them. A contact
+takes up no more energy than the fastest approach would bring to it, and no more than the approaches of all contacts
+bring. Without the first bound a heavy body would set the scale of its light neighbours; without the second, a contact
+with a small effective inverse mass would set one that nothing reaches, and its errors would count as small.
+
+The deformation of a contact that takes up its energy E follows from E = F(x) x, by a secant in the logarithms: force
+laws are close to powers of x.
+"""
 
 from __future__ import annotations
 
 import math
 
 from nonsmooth.engine.delassus.delassus import diagonal_block
+from nonsmooth.engine.impact.rates import is_lone, state_of
 from nonsmooth.engine.memory.blocks import DELASSUS
-from nonsmooth.engine.native.kernel import (
-    Workspace,
-    at,
-    call_scalar,
-    impact_state,
-    kernel,
-)
+from nonsmooth.engine.native.kernel import ActiveContact, Workspace, at, call_scalar, kernel
 
 REST = 1e-9
-"""Slip velocities below this, relative to the impact speed, count as none; so do those within the tolerance."""
+"""Slip that counts as rest, relative to the largest speed of the impact. Slips within the error count as rest, too."""
 CIRCLING = 30.0
-"""A slip that circles round zero does so within the error of so many steps, and a wave leaves no more behind."""
-_GROWN = 2.0
-"""Impulses that grow by less than this factor have the same scale: what counts as none need not follow each step."""
-_MET = 1e-6
-"""So close, relative to the energy, need the deformation be known that takes it up: it is a scale."""
+"""Errors of a step within which a slip counts as rest. A slip that circles round zero stays within about so many."""
+_GROWTH = 2.0
+"""Growth of an impulse scale [1] below which it stays as it is. A threshold need not change in every step."""
+_CLOSE = 1e-6
+"""Accuracy of the deformation scale, relative to the energy. A scale needs no more."""
+_ITERATIONS = 4
+"""Maximum number of steps of the secant. It is exact after one for a power law."""
+_LEAST_RISE = 0.5001
+"""Least ratio of the force at double deformation to the force. A law that falls faster has no deformation scale."""
+_NO_SCALE = -1.0
+"""Deformation scale of a force law that has none."""
 
 
 @kernel("f8(ws, f8)")
 def scale_impact(ws: Workspace, seed: float) -> float:
-    """Set the scales of speed, energy, impulse, deformation, force and rest; return the shortest time of a compression.
+    """Set the scales of the active contacts. Shortest time of a compression, in pseudo-time, negative if there is none.
 
-    A contact takes up no more energy than the fastest approach would bring to it, and no more than the approaches of
-    all bring: next to one with a small coefficient of its own, others would else count as light.  No speed is slower
-    than the ``seed``.
+    No speed is smaller than the ``seed`` [m/s] of an impact without collision.
     """
-    m = ws.problem.n_active
-    ws.impact.speed_scale = seed
-    brought = 0.0
-    for a in range(m):
-        active = ws.actives[a]
-        speed = max(seed, -active.gap_rate_before)
-        ws.impact.speed_scale = max(ws.impact.speed_scale, speed)
-        if speed > 0.0:
-            brought = max(brought, speed * speed / diagonal_block(ws, a).nn)
-    ws.impact.rest_speed = max(REST, CIRCLING * ws.tolerance.impact) * ws.impact.speed_scale
+    brought = _scale_speeds(ws, seed)
     shortest = math.inf
-    for a in range(m):
-        active = ws.actives[a]
-        energy = min(brought, ws.impact.speed_scale * ws.impact.speed_scale / diagonal_block(ws, a).nn)
-        x = 1.0
+    for active in ws.actives:
+        inverse_mass = diagonal_block(ws, active.index).nn
+        energy = min(brought, ws.impact.speed_scale * ws.impact.speed_scale / inverse_mass)
         active.energy_scale = energy
-        # the impulse that takes it up
-        active.impulse_scale = math.sqrt(energy / diagonal_block(ws, a).nn)
-        if a != ws.impact.lone_contact:
-            contact = ws.contacts[active.contact]
-            for _iteration in range(4):
-                force = call_scalar(contact.impact_force_function, x, at(ws.floats, contact.impact_force_parameters))
-                double = call_scalar(
-                    contact.impact_force_function, 2.0 * x, at(ws.floats, contact.impact_force_parameters)
-                )
-                if not (force > 0.0 and double > 0.5001 * force):
-                    ws.run.unscaled_contact = active.contact
-                    return -1.0
-                if abs(energy - force * x) <= _MET * energy:
-                    break
-                x *= (energy / (force * x)) ** (math.log(2.0) / math.log(2.0 * double / force))
-        active.deformation_scale = x
-        active.force_scale = energy / x
-        shortest = min(shortest, (energy if a == ws.impact.lone_contact else x) / ws.impact.speed_scale)
+        active.impulse_scale = math.sqrt(energy / inverse_mass)
+        deformation = 1.0 if is_lone(ws, active) else _deformation_scale(ws, active)
+        if deformation < 0.0:
+            ws.run.unscaled_contact = active.contact
+            return deformation
+        active.deformation_scale = deformation
+        active.force_scale = energy / deformation
+        shortest = min(shortest, (energy if is_lone(ws, active) else deformation) / ws.impact.speed_scale)
     _set_rest_slips(ws)
     return shortest
 
 
-@kernel("f8(ws, i8)")
-def reached_energy(ws: Workspace, a: int) -> float:
-    """Return the energy to which errors of the active contact ``a`` are relative: its scale, or what it has taken up.
+@kernel("f8(ws, f8)")
+def _scale_speeds(ws: Workspace, seed: float) -> float:
+    """Set the largest speed of the impact and the slip that counts as rest. Largest energy of an approach [J].
 
-    Where friction blocks the way of a light point, or slip presses bodies together, that is far more than its approach
-    alone would bring.
+    An approach g' of effective inverse mass G_nn brings g'^2 / G_nn, twice its kinetic energy.
     """
-    active, state = ws.actives[a], impact_state(ws.floats, ws.impact.y.start, a)
-    return float(max(active.energy_scale, abs(state.work), state.rubbed, state.energy))
+    ws.impact.speed_scale = seed
+    brought = 0.0
+    for active in ws.actives:
+        speed = max(seed, -active.gap_rate_before)
+        ws.impact.speed_scale = max(ws.impact.speed_scale, speed)
+        if speed > 0.0:
+            brought = max(brought, speed * speed / diagonal_block(ws, active.index).nn)
+    ws.impact.rest_speed = max(REST, CIRCLING * ws.tolerance.impact) * ws.impact.speed_scale
+    return brought
+
+
+@kernel("f8(ws, ActiveContact)")
+def _deformation_scale(ws: Workspace, active: ActiveContact) -> float:
+    """Deformation x of an active contact with F(x) x = its energy scale [m], or ``_NO_SCALE``."""
+    contact, energy, x = ws.contacts[active.contact], active.energy_scale, 1.0
+    parameters = at(ws.floats, contact.impact_force_parameters)
+    for _ in range(_ITERATIONS):
+        force = call_scalar(contact.impact_force_function, x, parameters)
+        double = call_scalar(contact.impact_force_function, 2.0 * x, parameters)
+        if not (force > 0.0 and double > _LEAST_RISE * force):
+            return _NO_SCALE
+        if abs(energy - force * x) <= _CLOSE * energy:
+            break
+        x *= (energy / (force * x)) ** (math.log(2.0) / math.log(2.0 * double / force))
+    return x
+
+
+@kernel("f8(ws, ActiveContact)")
+def reached_energy(ws: Workspace, active: ActiveContact) -> float:
+    """Energy to which errors of an active contact are relative [J]: its scale, or what it has taken up.
+
+    If friction blocks a light point, or slip presses bodies together, that is far more than its approach brings.
+    """
+    state = state_of(ws, active)
+    return float(max(active.energy_scale, abs(state.work), state.dissipated, state.energy))
 
 
 @kernel()
 def grow_scales(ws: Workspace) -> None:
-    """Let the slips that count as none grow with the energies, as the errors do."""
-    grown = 0
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        energy, own, scale = reached_energy(ws, a), diagonal_block(ws, a).nn, active.impulse_scale
-        if energy > own * (_GROWN * scale) ** 2:
-            active.impulse_scale = math.sqrt(energy / own)
-            grown = 1
-    if grown == 1:
+    """Let the slips that count as rest grow with the energies, as the errors do."""
+    has_grown = False
+    for active in ws.actives:
+        energy, inverse_mass, scale = (
+            reached_energy(ws, active),
+            diagonal_block(ws, active.index).nn,
+            active.impulse_scale,
+        )
+        if energy > inverse_mass * (_GROWTH * scale) ** 2:
+            active.impulse_scale = math.sqrt(energy / inverse_mass)
+            has_grown = True
+    if has_grown:
         _set_rest_slips(ws)
 
 
 @kernel()
 def _set_rest_slips(ws: Workspace) -> None:
-    for a in range(ws.problem.n_active):
-        ws.actives[a].rest_slip = _slip_at_rest(ws, a)
+    """Write the slip of every active contact that counts as rest [m/s]."""
+    for active in ws.actives:
+        active.rest_slip = _rest_slip(ws, active)
 
 
-@kernel("f8(ws, i8)")
-def _slip_at_rest(ws: Workspace, a: int) -> float:
-    """Return the slip of the active contact ``a`` that counts as none: small by its energy, or within the error."""
-    active = ws.actives[a]
-    own = diagonal_block(ws, a)
+@kernel("f8(ws, ActiveContact)")
+def _rest_slip(ws: Workspace, active: ActiveContact) -> float:
+    """Slip of an active contact that counts as rest [m/s]: of little energy, or within the error."""
+    own = diagonal_block(ws, active.index)
     moved = 0.0
     for block in range(active.first_block, active.end_block):
         impulse = ws.actives[ws.island.block_column[block]].impulse_scale
-        for i in range(3, 9):
+        for i in range(3, DELASSUS):
             moved = max(moved, abs(ws.island.delassus[DELASSUS * block + i]) * impulse)
-    mobility = max(own.t11, own.t22)
+    inverse_mass = max(own.t11, own.t22)
     small = float(ws.impact.rest_speed)
-    if mobility < own.nn:
-        small *= math.sqrt(mobility / own.nn)
+    if inverse_mass < own.nn:
+        small *= math.sqrt(inverse_mass / own.nn)
     return float(max(small, CIRCLING * ws.tolerance.impact * moved))

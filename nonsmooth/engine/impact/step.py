@@ -1,9 +1,13 @@
-"""One step inside an impact: explicit, or implicit where the direction of a slip next to rest makes it stiff.
+"""One step inside an impact: explicit, or implicit if the direction of a slip next to rest makes it stiff.
 
-A contact that leaves its bound slowly, or slips on little more than friction takes, stays near rest for long.  The
-direction of its slip v follows the forces within an impulse of the order of |v|, and explicit steps may be no longer.
-The stages of an implicit one end with friction against their own slip (:mod:`nonsmooth.engine.contact.implicit_slip`),
-as in the flow: a slip that keeps its direction, as the terminal one, is exact in a step of any length.
+A contact may leave its static bound slowly, or slip with little more force than friction takes. Its slip v then stays
+near rest for long. The direction of v follows the forces within an impulse of the order of |v|, and explicit steps must
+not be longer than that. The stages of an implicit step end with friction against their own slip
+(:mod:`nonsmooth.engine.contact.implicit_slip`), as in the motion. A slip that keeps its direction, as the terminal one
+does, is exact in such a step of any length.
+
+The explicit pair is tried first: it costs less, and few steps are stiff. Only a step that it rejects is checked for
+stiffness.
 """
 
 from __future__ import annotations
@@ -14,46 +18,44 @@ from nonsmooth.engine.contact.implicit_slip import oppose_slips
 from nonsmooth.engine.contact.problem import slip_coefficient
 from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.impact.rates import (
-    COMPRESSION,
-    DEFORMATION,
-    EXPANSION,
-    IDLE,
-    STRIDE,
+    ContactState,
     evaluate_impact_rates,
     impact_slope,
+    is_loaded,
     normal_force,
+    state_at,
+    state_size,
     write_impact_slope,
 )
 from nonsmooth.engine.impact.scales import reached_energy
 from nonsmooth.engine.memory import implicit_tableau
-from nonsmooth.engine.memory.layout import LAST_STAGE, N_STAGES
-from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
-from nonsmooth.engine.native.kernel import (
-    Workspace,
-    impact_state,
-    kernel,
-)
+from nonsmooth.engine.memory.layout import DEFORMATION, IMPACT_STATE, LAST_STAGE, N_STAGES
+from nonsmooth.engine.memory.modes import Mode, Phase
+from nonsmooth.engine.native.kernel import ActiveContact, Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.runge_kutta import stage_state, weigh_slopes, write_implicit_interpolant
 from nonsmooth.engine.numerics.vectors import length
 
 _STIFF = 1.0
-"""Relaxations of a direction within a step that an explicit one bears."""
-_SETTLING = 10.0
-"""Relaxations of a direction while its slip changes by as much as it is, with which it is settled."""
-_CAREFUL = 4.0
-"""Errors of implicit steps count so many times: the estimate is of low order, and they add up."""
+"""Relaxations of the direction of a slip within a step, above which an explicit step is too long."""
+_SETTLED = 10.0
+"""Relaxations of the direction while the slip changes by its own size, above which it is in equilibrium."""
+_CAUTION = 4.0
+"""Factor by which errors of implicit steps count. Their estimate is of low order, and they add up."""
 _STRAIGHT = 1e-13
-"""Second differences of slopes below this, relative to the slopes, count as zero."""
+"""Second difference of slopes that counts as zero, relative to the slopes. It is round-off of a few operations."""
 
 
-@kernel("f8(ws, f8)")
+# --- explicit steps ---------------------------------------------------------------------------------------------------
+
+
+@entry_point("f8(ws, f8)")
 def try_impact_step(ws: Workspace, h: float) -> float:
-    """Take one step of ``h`` in pseudo-time to ``impact_new``; return its error relative to the tolerance.
+    """Take one step of ``h`` in pseudo-time to ``y_new``. Its error, relative to the tolerance [1].
 
-    A slip that an implicit step stops is held from there on, unless it is tried anew.
+    A slip that an implicit step stops sticks from then on, unless the step is tried again.
     """
     let_go(ws)
-    n = STRIDE * ws.problem.n_active
+    n = state_size(ws)
     for stage in range(1, N_STAGES):
         out = ws.impact.y_new.start if stage == LAST_STAGE else ws.impact.y_stage.start
         stage_state(ws, ws.coefficients.stages.start, ws.impact.y.start, ws.impact.slopes.start, n, stage, h, out)
@@ -69,177 +71,62 @@ def try_impact_step(ws: Workspace, h: float) -> float:
 
 @kernel()
 def let_go(ws: Workspace) -> None:
-    """Forget the slips that the last try of a step has stopped, and that it was implicit."""
-    ws.problem.is_turning = False
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
+    """Undo what the last attempt of a step has left: slips that it stopped slide again, and it counts as explicit."""
+    ws.impact.is_step_implicit = False
+    for active in ws.actives:
         if active.was_halted:
             active.was_halted = active.sticks = False
 
 
 @kernel("f8(ws, i8)")
 def _relative_error(ws: Workspace, errors: int) -> float:
-    """Return the largest of the ``errors`` of a state, relative to the tolerance.
-
-    Impulses count by the energy of what they move, energies are known to a part of what they are.
-    """
+    """Largest error of the active contacts, relative to the tolerance [1], from the ``errors`` of a state."""
     worst = 0.0
-    for a in range(ws.problem.n_active):
-        active, own = ws.actives[a], diagonal_block(ws, a).entries
-        if active.phase == IDLE:
-            continue
-        error, energy = impact_state(ws.floats, errors, a), reached_energy(ws, a)
-        p0, p1, p2 = error.impulse[0], error.impulse[1], error.impulse[2]
-        moved = own[0] * p0 * p0 + own[1] * p0 * p1 + own[2] * p0 * p2
-        moved = moved + own[3] * p1 * p0 + own[4] * p1 * p1 + own[5] * p1 * p2
-        moved = abs(moved + own[6] * p2 * p0 + own[7] * p2 * p1 + own[8] * p2 * p2)
-        deformed, worked, rubbed = abs(error.deformation), abs(error.work), abs(error.rubbed)
-        stored, lost = abs(error.energy), abs(error.lost)
-        # a maximum does not show what is not a number
-        if not moved + deformed + worked + rubbed + stored + lost < math.inf:
-            return math.inf
-        booked = max(max(worked, rubbed), max(stored, lost))
-        # few of them are divided
-        if moved > worst * worst * energy:
-            worst = math.sqrt(moved / energy)
-        if deformed > worst * active.deformation_scale:
-            worst = deformed / active.deformation_scale
-        if booked > worst * energy:
-            worst = booked / energy
+    for active in ws.actives:
+        if active.phase != Phase.IDLE:
+            worst = _worse_error(ws, active, state_at(ws, errors, active), worst)
+            # a maximum does not show what is not a number
+            if not worst < math.inf:
+                return math.inf
     return worst / float(ws.tolerance.impact)
 
 
-@kernel("b1(ws, f8)")
-def _is_stiff(ws: Workspace, h: float) -> bool:
-    """Return 1 if a slip turns too fast for an explicit step of ``h``, and faster than it changes.
+@kernel("f8(ws, ActiveContact, impact_state, f8)")
+def _worse_error(ws: Workspace, active: ActiveContact, error: ContactState, worst: float) -> float:
+    """Larger one of ``worst`` and the ``error`` of an active contact, relative to its scales [1]; infinite for a NaN.
 
-    One that passes close by rest does both at once, and where it goes hangs on every digit: that is for explicit steps.
+    An error of the impulses counts by the energy p . G p of what it moves, relative to the energy of the contact.
+    Energies count relative to that energy, too. Quotients are formed only where they exceed ``worst``.
     """
-    evaluate_impact_rates(ws, ws.impact.slopes.start)
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        for r in range(2):
-            active.acceleration[1 + r] = active.slip[r] - active.rate_before[1 + r]
-    evaluate_impact_rates(ws, ws.impact.y.start)
-    for a in range(ws.problem.n_active):
-        active, own = ws.actives[a], diagonal_block(ws, a)
-        turning = length(impact_state(ws.floats, ws.impact.slopes.start, a).friction) * max(own.t11, own.t22)
-        settled = not active.sticks and turning > _SETTLING * length(active.slip_acceleration)
-        if settled and h * turning > _STIFF * length(active.slip):
-            return True
-    return False
-
-
-@kernel("void(ws, f8, i8, i8, i8)")
-def _lay_stage(ws: Workspace, ahead: float, y: int, n: int, guess: int) -> None:
-    """Write what is held, and what pushes, at the end of a stage that goes ``ahead`` from ``y``, its slope a guess."""
-    for i in range(n):
-        ws.floats[y + i] += ahead * ws.floats[guess + i]
-    evaluate_impact_rates(ws, y)
-    ws.problem.acceleration_scale = 0.0
-    for a in range(ws.problem.n_active):
-        active, state, own = ws.actives[a], impact_state(ws.floats, y, a), diagonal_block(ws, a)
-        loaded = active.phase == COMPRESSION or active.phase == EXPANSION
-        active.has_given_force, active.mode_tried, active.is_at_rest = loaded, active.mode_past, False
-        if loaded:
-            active.normal_force = normal_force(ws, a, state.deformation)
-        if active.mode_past == SLIDE:
-            active.friction_coefficient = slip_coefficient(ws, active.contact, length(active.slip))
-            active.is_at_rest = active.friction_coefficient > 0.0
-            t1, t2 = impact_state(ws.floats, guess, a).friction
-            friction = length((t1, t2))
-            if friction > 0.0:
-                active.direction = -t1 / friction, -t2 / friction
-        ws.problem.acceleration_scale = max(
-            ws.problem.acceleration_scale, max(own.nn, own.t11, own.t22) * abs(active.normal_force)
-        )
-    for i in range(n):
-        ws.floats[y + i] -= ahead * ws.floats[guess + i]
-    evaluate_impact_rates(ws, y)
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        moves = active.mode_past == SLIDE and length(active.slip) > active.rest_slip
-        active.free[0] = 0.0
-        for r in range(1, 3):
-            active.free[r] = active.rate[r] / ahead if moves else 0.0
-
-
-@kernel("i8(ws, f8, i8)")
-def _solve_stage(ws: Workspace, h: float, stage: int) -> int:
-    """Find the slope of a stage at the state that it leads to itself; return 1 if it is found.
-
-    Friction of slips, which is stiff, is solved for; deformations are iterated.
-    """
-    n = STRIDE * ws.problem.n_active
-    out = ws.impact.y_new.start if stage == LAST_STAGE else ws.impact.y_stage.start
-    here, guess, ahead = ws.impact.slopes.start + stage * n, ws.impact.y_guess.start, implicit_tableau.DIAGONAL * h
-    for i in range(n):
-        ws.floats[here + i] = ws.floats[here - n + i]
-    for _iteration in range(implicit_tableau.ITERATIONS):
-        stage_state(
-            ws, ws.coefficients.implicit_stages.start, ws.impact.y.start, ws.impact.slopes.start, n, stage, h, out
-        )
-        for i in range(n):
-            ws.floats[guess + i] = ws.floats[here + i]
-        _lay_stage(ws, ahead, out, n, guess)
-        if not oppose_slips(ws):
-            return 0
-        for a in range(ws.problem.n_active):
-            active, state = ws.actives[a], impact_state(ws.floats, out, a)
-            for r in range(3):
-                state.impulse[r] += ahead * active.force[r]
-        evaluate_impact_rates(ws, out)
-        write_impact_slope(ws, here)
-        for i in range(n):
-            # of energies nothing depends
-            change = ws.floats[here + i] - ws.floats[guess + i] if i % STRIDE <= DEFORMATION else 0.0
-            ws.floats[guess + i] = ahead * change
-            if i % STRIDE >= DEFORMATION:
-                ws.floats[out + i] += ahead * ws.floats[here + i]
-        if _relative_error(ws, guess) <= implicit_tableau.SETTLED:
-            return 1
-    return 0
-
-
-@kernel("f8(ws, f8)")
-def _try_implicit_step(ws: Workspace, h: float) -> float:
-    """Take one step of ``h`` to ``impact_new`` whose stages end with friction against their own slip; return its error.
-
-    Leaves slopes from which the dense output of the explicit step makes the interpolant of this one.
-    """
-    n = STRIDE * ws.problem.n_active
-    ws.problem.is_turning = True
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        active.mode_past = OPEN if active.phase == IDLE else STICK if active.sticks else SLIDE
-        for r in range(3):
-            # what the motion keeps of forces that are not unique is chosen anew behind the impact
-            ws.contacts[active.contact].null_space_force[r] = 0.0
-    for i in range(n):
-        ws.impact.slopes[n + i] = ws.impact.slopes[i]
-    stage = 2
-    while stage < N_STAGES and _solve_stage(ws, h, stage) == 1:
-        stage += 1
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        active.was_halted = active.mode_past == SLIDE and active.sticks
-    if stage < N_STAGES:
+    energy, own = reached_energy(ws, active), diagonal_block(ws, active.index).entries
+    p0, p1, p2 = error.impulse[0], error.impulse[1], error.impulse[2]
+    moved = own[0] * p0 * p0 + own[1] * p0 * p1 + own[2] * p0 * p2
+    moved = moved + own[3] * p1 * p0 + own[4] * p1 * p1 + own[5] * p1 * p2
+    moved = abs(moved + own[6] * p2 * p0 + own[7] * p2 * p1 + own[8] * p2 * p2)
+    deformed, worked, dissipated = abs(error.deformation), abs(error.work), abs(error.dissipated)
+    stored, lost = abs(error.energy), abs(error.lost)
+    if not moved + deformed + worked + dissipated + stored + lost < math.inf:
         return math.inf
-    weigh_slopes(ws, ws.coefficients.implicit_errors.start, ws.impact.slopes.start, n, h, ws.impact.y_stage.start)
-    error = _CAREFUL * _relative_error(ws, ws.impact.y_stage.start)
-    write_implicit_interpolant(
-        ws, ws.impact.y.start, ws.impact.y_new.start, ws.impact.slopes.start, n, h, ws.impact.y_stage.start
-    )
-    return error
+    accounted = max(max(worked, dissipated), max(stored, lost))
+    if moved > worst * worst * energy:
+        worst = math.sqrt(moved / energy)
+    if deformed > worst * active.deformation_scale:
+        worst = deformed / active.deformation_scale
+    if accounted > worst * energy:
+        worst = accounted / energy
+    return worst
+
+
+# --- steps of a lone contact ------------------------------------------------------------------------------------------
 
 
 @kernel("b1(ws, f8)")
 def try_linear_step(ws: Workspace, h: float) -> bool:
-    """Take one step of ``h`` to ``impact_new`` by the midpoint rule; return 1 if the slope is linear and it is exact.
+    """Take one step of ``h`` to ``y_new`` by the midpoint rule. True if the slope is linear, so that it is exact.
 
-    A lone contact whose slip keeps its direction moves like that; the slope at the end tells.
+    A lone contact whose slip keeps its direction moves so. The slope at the end shows whether it did.
     """
-    n = STRIDE * ws.problem.n_active
+    n = state_size(ws)
     middle, end = ws.impact.slopes.start + n, ws.impact.slopes.start + LAST_STAGE * n
     for i in range(n):
         ws.impact.y_stage[i] = ws.impact.y[i] + 0.5 * h * ws.impact.slopes[i]
@@ -247,15 +134,188 @@ def try_linear_step(ws: Workspace, h: float) -> bool:
     for i in range(n):
         ws.impact.y_new[i] = ws.impact.y[i] + h * ws.floats[middle + i]
     impact_slope(ws, ws.impact.y_new.start, end)
-    # a component that is round-off next to the contact's force is as straight as that force
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        force = abs(active.force[0]) + abs(active.force[1]) + abs(active.force[2])
-        for i in range(STRIDE * a, STRIDE * (a + 1)):
-            first, half, last = ws.impact.slopes[i], ws.floats[middle + i], ws.floats[end + i]
-            size = abs(first) + abs(last) + abs(half)
-            if i < STRIDE * a + DEFORMATION:
-                size = max(size, force)
-            if not abs(first + last - 2.0 * half) <= _STRAIGHT * size:
-                return False
+    for active in ws.actives:
+        if not _is_straight(ws, active, middle, end):
+            return False
     return True
+
+
+@kernel("b1(ws, ActiveContact, i8, i8)")
+def _is_straight(ws: Workspace, active: ActiveContact, middle: int, end: int) -> bool:
+    """True if the slope of an active contact is linear over the step: those at the start, ``middle`` and ``end`` agree.
+
+    A component of an impulse is compared with the force: one that is round-off relative to the force is straight.
+    """
+    force = abs(active.force[0]) + abs(active.force[1]) + abs(active.force[2])
+    for component in range(IMPACT_STATE):
+        i = IMPACT_STATE * active.index + component
+        first, half, last = ws.impact.slopes[i], ws.floats[middle + i], ws.floats[end + i]
+        size = abs(first) + abs(last) + abs(half)
+        if component < DEFORMATION:
+            size = max(size, force)
+        if not abs(first + last - 2.0 * half) <= _STRAIGHT * size:
+            return False
+    return True
+
+
+# --- implicit steps ---------------------------------------------------------------------------------------------------
+
+
+@kernel("b1(ws, f8)")
+def _is_stiff(ws: Workspace, h: float) -> bool:
+    """True if the direction of a slip follows the forces too fast for an explicit step of ``h``, and is in equilibrium.
+
+    A slip that passes close to rest turns fast and changes fast. Its further direction depends on every digit, which
+    explicit steps find.
+    """
+    evaluate_impact_rates(ws, ws.impact.slopes.start)
+    for active in ws.actives:
+        (v1, v2), (before_1, before_2) = active.slip, active.slip_before
+        active.slip_acceleration = v1 - before_1, v2 - before_2
+    evaluate_impact_rates(ws, ws.impact.y.start)
+    for active in ws.actives:
+        own = diagonal_block(ws, active.index)
+        turning = length(state_at(ws, ws.impact.slopes.start, active).friction) * max(own.t11, own.t22)
+        is_settled = not active.sticks and turning > _SETTLED * length(active.slip_acceleration)
+        if is_settled and h * turning > _STIFF * length(active.slip):
+            return True
+    return False
+
+
+@kernel("f8(ws, f8)")
+def _try_implicit_step(ws: Workspace, h: float) -> float:
+    """Take one step of ``h`` to ``y_new`` whose stages end with friction against their own slip. Its relative error.
+
+    The slopes are left so that the dense output of the explicit step is the interpolant of this one.
+    """
+    n = state_size(ws)
+    y, y_new, y_stage, slopes = (
+        ws.impact.y.start,
+        ws.impact.y_new.start,
+        ws.impact.y_stage.start,
+        ws.impact.slopes.start,
+    )
+    _begin_implicit_step(ws)
+    has_solution = _solve_stages(ws, h)
+    for active in ws.actives:
+        active.was_halted = active.mode_past == Mode.SLIDE and active.sticks
+    if not has_solution:
+        return math.inf
+    weigh_slopes(ws, ws.coefficients.implicit_errors.start, slopes, n, h, y_stage)
+    error = _CAUTION * _relative_error(ws, y_stage)
+    write_implicit_interpolant(ws, y, y_new, slopes, n, h, y_stage)
+    return error
+
+
+@kernel()
+def _begin_implicit_step(ws: Workspace) -> None:
+    """Set the modes in which the contacts begin an implicit step, and the slope of its first stage."""
+    ws.impact.is_step_implicit = True
+    for active in ws.actives:
+        active.mode_past = Mode.STICK if active.sticks else Mode.SLIDE
+        if active.phase == Phase.IDLE:
+            active.mode_past = Mode.OPEN
+        null_space_force = ws.contacts[active.contact].null_space_force
+        for r in range(3):
+            # the motion chooses forces that are not unique again after the impact
+            null_space_force[r] = 0.0
+    n = state_size(ws)
+    for i in range(n):
+        ws.impact.slopes[n + i] = ws.impact.slopes[i]
+
+
+@kernel("b1(ws, f8)")
+def _solve_stages(ws: Workspace, h: float) -> bool:
+    """Find the slopes of all stages but the first two, which are those of the start. True if they are found."""
+    for stage in range(2, N_STAGES):
+        if not _solve_stage(ws, h, stage):
+            return False
+    return True
+
+
+@kernel("b1(ws, f8, i8)")
+def _solve_stage(ws: Workspace, h: float, stage: int) -> bool:
+    """Find the slope of a stage at the state that it leads to itself. True if it is found.
+
+    The friction of slips, which is stiff, is solved for. Deformations, which are not, are iterated.
+    """
+    n = state_size(ws)
+    out = ws.impact.y_new.start if stage == LAST_STAGE else ws.impact.y_stage.start
+    here, guess, ahead = ws.impact.slopes.start + stage * n, ws.impact.y_guess.start, implicit_tableau.DIAGONAL * h
+    for i in range(n):
+        ws.floats[here + i] = ws.floats[here - n + i]
+    for _ in range(implicit_tableau.ITERATIONS):
+        stage_state(
+            ws, ws.coefficients.implicit_stages.start, ws.impact.y.start, ws.impact.slopes.start, n, stage, h, out
+        )
+        for i in range(n):
+            ws.floats[guess + i] = ws.floats[here + i]
+        _write_problem(ws, ahead, out, guess)
+        if not oppose_slips(ws):
+            return False
+        for active in ws.actives:
+            impulse = state_at(ws, out, active).impulse
+            for r in range(3):
+                impulse[r] += ahead * active.force[r]
+        evaluate_impact_rates(ws, out)
+        write_impact_slope(ws, here)
+        _advance_stage(ws, ahead, out, here, guess)
+        if _relative_error(ws, guess) <= implicit_tableau.SETTLED:
+            return True
+    return False
+
+
+@kernel("void(ws, f8, i8, i8, i8)")
+def _advance_stage(ws: Workspace, ahead: float, out: int, here: int, guess: int) -> None:
+    """Add what the slope ``here`` does in ``ahead`` to all of the state ``out`` but its impulses.
+
+    The last change of the slope, times ``ahead``, takes the place of the ``guess``. Nothing depends on energies, so
+    they count as unchanged.
+    """
+    for i in range(state_size(ws)):
+        component = i % IMPACT_STATE
+        change = ws.floats[here + i] - ws.floats[guess + i] if component <= DEFORMATION else 0.0
+        ws.floats[guess + i] = ahead * change
+        if component >= DEFORMATION:
+            ws.floats[out + i] += ahead * ws.floats[here + i]
+
+
+@kernel("void(ws, f8, i8, i8)")
+def _write_problem(ws: Workspace, ahead: float, y: int, guess: int) -> None:
+    """Write the contact problem at the end of a stage that goes ``ahead`` from the state ``y``, its slope a ``guess``.
+
+    Given are the normal forces at the end of the stage, and the slips with which it would end without forces.
+    """
+    n = state_size(ws)
+    for i in range(n):
+        ws.floats[y + i] += ahead * ws.floats[guess + i]
+    evaluate_impact_rates(ws, y)
+    ws.problem.acceleration_scale = 0.0
+    for active in ws.actives:
+        _write_given(ws, active, y, guess)
+    for i in range(n):
+        ws.floats[y + i] -= ahead * ws.floats[guess + i]
+    evaluate_impact_rates(ws, y)
+    for active in ws.actives:
+        moves = active.mode_past == Mode.SLIDE and length(active.slip) > active.rest_slip
+        active.free[0] = 0.0
+        for r in range(1, 3):
+            active.free[r] = active.rate[r] / ahead if moves else 0.0
+
+
+@kernel("void(ws, ActiveContact, i8, i8)")
+def _write_given(ws: Workspace, active: ActiveContact, y: int, guess: int) -> None:
+    """Write what is given of an active contact at the state ``y``: normal force, mode, friction and slip direction."""
+    own = diagonal_block(ws, active.index)
+    active.has_given_force, active.mode_tried, active.is_at_rest = is_loaded(active), active.mode_past, False
+    if active.has_given_force:
+        active.normal_force = normal_force(ws, active, state_at(ws, y, active).deformation)
+    if active.mode_past == Mode.SLIDE:
+        active.friction_coefficient = slip_coefficient(ws, active.contact, length(active.slip))
+        active.is_at_rest = active.friction_coefficient > 0.0
+        t1, t2 = state_at(ws, guess, active).friction
+        friction = length((t1, t2))
+        if friction > 0.0:
+            active.direction = -t1 / friction, -t2 / friction
+    acceleration = max(own.nn, own.t11, own.t22) * abs(active.normal_force)
+    ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, acceleration)

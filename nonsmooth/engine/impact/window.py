@@ -1,8 +1,19 @@
-"""A large multiple impact, of which only the contacts about a travelling wave are looked at.
+"""A large multiple impact, of which only the contacts near a travelling wave are evaluated.
 
-Most contacts of a long chain are idle at any moment of its impact.  A window holds those that act and their
-neighbours; where the wave comes to its rim the impulses so far are given to the bodies, and the next window is drawn
-about the contacts that act then.  The phases, deformations and energies go on as they are: no step is different.
+Most contacts of a long chain are idle at any time of its impact. A window holds the contacts that are not idle, and
+their neighbours in a few layers. Where the wave reaches the rim of the window, the bodies get the impulses so far, and
+the next window is drawn about the contacts that are not idle then:
+
+    gather ---> draw ---> load ---> integrate ---> store ---> collect
+                  ^                                  |
+                  +------------ rim reached ---------+
+
+Phases, deformations and energies continue as they are, so no step differs from one of an integration of all contacts. A
+chain of n balls then costs in proportion to n, and the Delassus matrix of all contacts is never needed. Without windows
+the cost would grow with n^2: every step would evaluate all contacts.
+
+Contacts have no list of their neighbours. Each articulation has a list of its colliding contacts: of entries that are
+linked, one for each side of a contact.
 """
 
 from __future__ import annotations
@@ -11,182 +22,201 @@ from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.delassus.blocks import link_active
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
 from nonsmooth.engine.impact.end import account
-from nonsmooth.engine.impact.problem import (
-    ENDLESS,
-    INVALID,
-    MOST_STEPS,
-    MOVED,
-    first_step,
-    run_impact,
-    start_impact,
-)
-from nonsmooth.engine.impact.rates import IDLE, NOISE
+from nonsmooth.engine.impact.integration import MOST_STEPS, Outcome, run_impact
+from nonsmooth.engine.impact.phases import start_phases
+from nonsmooth.engine.impact.rates import NOISE, state_of
 from nonsmooth.engine.impact.scales import CIRCLING, scale_impact
-from nonsmooth.engine.memory.layout import TOTALS
-from nonsmooth.engine.memory.modes import Truncation
-from nonsmooth.engine.native.kernel import (
-    Workspace,
-    entry_point,
-    impact_state,
-    kernel,
-)
+from nonsmooth.engine.impact.step_length import first_step
+from nonsmooth.engine.memory.modes import NO_CONTACT, Phase, Truncation
+from nonsmooth.engine.native.kernel import ActiveContact, Contact, Workspace, entry_point, kernel
 
 LARGE = 16
-"""Impacts with more contacts than this are looked at through a window: below, a window would hold most of them."""
+"""Number of contacts of an impact above which windows are used. A window would hold most of fewer contacts."""
 _LAYERS = 4
-"""How many neighbours deep a window reaches beyond the contacts that act: the less often a wave comes to its rim."""
+"""Number of layers of neighbours in a window. The more there are, the more rarely a wave reaches the rim."""
+_OUTSIDE = -1
+"""Layer of a contact that is not in the window."""
+_NO_ENTRY = -1
+"""Number in place of an entry at the end of a list."""
+
+
+@entry_point("Outcome(ws)")
+def windowed_impact(ws: Workspace) -> Outcome:
+    """Integrate the impact of the active contacts, window by window, with the results of ``energetic_impact``."""
+    ws.impact.may_be_lone, ws.impact.is_step_implicit = True, False
+    ws.event.truncation = Truncation.NONE
+    ws.impact.slow_steps = 0
+    fastest = _gather(ws)
+    outcome = _run_window(ws, fastest, is_first=True)
+    for _ in range(1, MOST_STEPS):
+        if outcome != Outcome.MOVED:
+            break
+        outcome = _run_window(ws, fastest, is_first=False)
+    ws.impact.faint_rate = 0.0
+    _collect(ws)
+    return Outcome.ENDLESS if outcome == Outcome.MOVED else outcome
+
+
+@kernel("Outcome(ws, f8, b1)")
+def _run_window(ws: Workspace, fastest: float, is_first: bool) -> Outcome:
+    """Draw a window and integrate until the impact ends or reaches its rim. ``fastest`` is the fastest approach [m/s].
+
+    Behind the wave, rates within the error cannot be told from rest. If all contacts are in the window, none is behind.
+    """
+    _draw(ws, fastest, is_first)
+    has_all = len(ws.actives) == ws.impact.n_colliding
+    ws.impact.faint_rate = 0.0 if has_all else CIRCLING * ws.tolerance.impact
+    _load(ws)
+    ws.impact.lone_contact = NO_CONTACT
+    shortest = scale_impact(ws, fastest)
+    if not shortest > 0.0:
+        return Outcome.INVALID
+    if is_first:
+        ws.impact.h = first_step(ws, shortest)
+        start_phases(ws, ws.impact.h, 0.0)
+    outcome = run_impact(ws, ws.impact.h, shortest, is_windowed=True)
+    _store(ws)
+    return outcome
+
+
+# --- the contacts of the impact ---------------------------------------------------------------------------------------
+
+
+@kernel("f8(ws)")
+def _gather(ws: Workspace) -> float:
+    """List the active contacts, all idle, as those of the impact, and by articulation. Fastest approach [m/s]."""
+    fastest = 0.0
+    ws.impact.n_colliding = len(ws.actives)
+    for articulation in ws.articulations:
+        articulation.first_colliding = _NO_ENTRY
+    for i in range(ws.model.n_u):
+        ws.impact.u[i] = ws.floats[ws.island.velocities + i]
+    for active in ws.actives:
+        contact = ws.contacts[active.contact]
+        fastest = max(fastest, -contact.normal_rate)
+        ws.impact.colliding[active.index] = contact.index
+        _clear(contact)
+        _add_entry(ws, contact.articulation_a, contact.index)
+        _add_entry(ws, contact.articulation_b, ws.model.n_slots + contact.index)
+    return fastest
+
+
+@kernel("void(Contact)")
+def _clear(contact: Contact) -> None:
+    """Set the impulse and the energies of a contact to zero, and its phase to idle."""
+    contact.window_phase, contact.window_sticks, contact.n_waves = Phase.IDLE, False, 0
+    for r in range(3):
+        contact.window_impulse[r] = 0.0
+    contact.window_stored = contact.window_returned = contact.window_dissipated = 0.0
+    contact.window_deformation = contact.window_energy = contact.window_lost = 0.0
+
+
+@kernel("void(ws, i8, i8)")
+def _add_entry(ws: Workspace, number: int, entry: int) -> None:
+    """Add an entry to the list of an articulation: the number of a contact, plus ``n_slots`` for its second side."""
+    articulation = ws.articulations[number]
+    ws.impact.chain[entry] = articulation.first_colliding
+    articulation.first_colliding = entry
 
 
 @kernel()
-def _gather_colliding(ws: Workspace) -> None:
-    """Keep the active contacts as those of the impact, with nothing done yet, and hang them on their articulations.
+def _collect(ws: Workspace) -> None:
+    """Make the contacts of the impact the active ones again, with their impulses [N s] and energies [J]."""
+    ws.problem.n_active = ws.impact.n_colliding
+    for active in ws.actives:
+        active.contact = ws.impact.colliding[active.index]
+        contact = ws.contacts[active.contact]
+        for r in range(3):
+            active.impulse[r] = contact.window_impulse[r]
+        active.energy_stored, active.energy_returned = contact.window_stored, contact.window_returned
+        active.energy_dissipated = contact.window_dissipated
 
-    An articulation has a list of entries: first ones of all contacts, and second ones behind those of all slots.
+
+# --- a window ---------------------------------------------------------------------------------------------------------
+
+
+@kernel("void(ws, f8, b1)")
+def _draw(ws: Workspace, fastest: float, is_first: bool) -> None:
+    """Make the contacts that are not idle and their neighbours the active ones.
+
+    In the first window all contacts are idle, and those that approach take the place of those that are not.
     """
-    ws.impact.n_colliding = ws.problem.n_active
-    for number in range(ws.model.n_articulations):
-        ws.articulations[number].first_colliding = -1
-    for i in range(ws.model.n_u):
-        ws.impact.u[i] = ws.floats[ws.island.velocities + i]
+    ws.problem.n_active = 0
     for i in range(ws.impact.n_colliding):
-        c = ws.problem.active[i]
-        contact = ws.contacts[c]
-        ws.impact.colliding[i] = c
-        contact.window_phase = IDLE
-        contact.window_sticks = False
-        contact.n_waves = 0
-        for j in range(TOTALS):
-            contact.window_totals[j] = 0.0
-        for side in range(2):
-            articulation = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b]
-            entry = side * ws.model.n_slots + c
-            ws.impact.chain[entry] = articulation.first_colliding
-            articulation.first_colliding = entry
-
-
-@kernel("void(ws, f8)")
-def _draw(ws: Workspace, fastest: float) -> None:
-    """Make the contacts that act and their neighbours the active ones; at first, given the fastest, who approaches."""
-    m = 0
-    for i in range(ws.impact.n_colliding):
-        c = ws.impact.colliding[i]
-        contact = ws.contacts[c]
-        acts = contact.window_phase != IDLE
-        if fastest > 0.0:
-            acts = contact.rate[0] < -NOISE * fastest
-        contact.layer = 0 if acts else -1
-        contact.is_at_rim = False
-        if acts:
-            ws.problem.active[m] = c
-            m += 1
+        contact = ws.contacts[ws.impact.colliding[i]]
+        contact.layer, contact.is_at_rim = _OUTSIDE, False
+        approaches = is_first and contact.normal_rate < -NOISE * fastest
+        if approaches or contact.window_phase != Phase.IDLE:
+            _add(ws, contact, 0)
     begin = 0
     for layer in range(1, _LAYERS + 1):
-        end = m
+        end = ws.problem.n_active
         for i in range(begin, end):
-            for side in range(2):
-                contact = ws.contacts[ws.problem.active[i]]
-                articulation = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b]
-                entry = articulation.first_colliding if articulation.n_u > 0 else -1
-                while entry >= 0:
-                    other = entry if entry < ws.model.n_slots else entry - ws.model.n_slots
-                    neighbour = ws.contacts[other]
-                    if neighbour.layer < 0:
-                        neighbour.layer = layer
-                        neighbour.is_at_rim = layer == _LAYERS
-                        ws.problem.active[m] = other
-                        m += 1
-                    entry = ws.impact.chain[entry]
+            contact = ws.contacts[ws.problem.active[i]]
+            _add_neighbours(ws, contact.articulation_a, layer)
+            _add_neighbours(ws, contact.articulation_b, layer)
         begin = end
-    ws.problem.n_active = m
+
+
+@kernel("void(ws, Contact, i8)")
+def _add(ws: Workspace, contact: Contact, layer: int) -> None:
+    """Add a contact to the window."""
+    contact.layer, contact.is_at_rim = layer, layer == _LAYERS
+    ws.problem.active[ws.problem.n_active] = contact.index
+    ws.problem.n_active += 1
+
+
+@kernel("void(ws, i8, i8)")
+def _add_neighbours(ws: Workspace, number: int, layer: int) -> None:
+    """Add the contacts of an articulation that are outside of the window. An immovable one transmits nothing."""
+    articulation = ws.articulations[number]
+    entry = articulation.first_colliding if articulation.n_u > 0 else _NO_ENTRY
+    while entry != _NO_ENTRY:
+        neighbour = ws.contacts[entry if entry < ws.model.n_slots else entry - ws.model.n_slots]
+        if neighbour.layer == _OUTSIDE:
+            _add(ws, neighbour, layer)
+        entry = ws.impact.chain[entry]
 
 
 @kernel()
 def _load(ws: Workspace) -> None:
-    """Set matrix, rates and state of the window, whose structure takes the place of the island's."""
+    """Write Delassus matrix, rates and state of the window. Its structure takes the place of that of the island."""
     link_active(ws)
     assemble_delassus(ws)
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        state = impact_state(ws.floats, ws.impact.y.start, a)
-        c = active.contact
-        contact = ws.contacts[c]
+    for active in ws.actives:
+        contact = ws.contacts[active.contact]
         for r in range(3):
-            active.rate_before[r] = contact.prescribed_rate[r] + row(ws, c, r, ws.impact.u.start)
-        for r in range(3):
-            state.impulse[r] = 0.0
-        state.work = state.rubbed = 0.0
-        state.deformation = contact.window_deformation
-        state.energy = contact.window_energy
-        state.lost = contact.window_lost
-        active.energy_stored = active.energy_returned = active.work_accounted = 0.0
-        active.phase = contact.window_phase
-        active.sticks = contact.window_sticks
+            active.rate_before[r] = contact.prescribed_rate[r] + row(ws, contact.index, r, ws.impact.u.start)
+        _load_state(ws, active, contact)
+
+
+@kernel("void(ws, ActiveContact, Contact)")
+def _load_state(ws: Workspace, active: ActiveContact, contact: Contact) -> None:
+    """Continue the phase, the deformation and the energy of a contact. Impulses and accounts start from zero."""
+    state = state_of(ws, active)
+    for r in range(3):
+        state.impulse[r] = 0.0
+    state.work = state.dissipated = 0.0
+    state.deformation, state.energy = contact.window_deformation, contact.window_energy
+    state.lost = contact.window_lost
+    active.energy_stored = active.energy_returned = active.work_accounted = 0.0
+    active.phase, active.sticks = contact.window_phase, contact.window_sticks
+    active.was_halted = False
 
 
 @kernel()
 def _store(ws: Workspace) -> None:
-    """Give the bodies the impulses of the window, and keep what goes on."""
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        state = impact_state(ws.floats, ws.impact.y.start, a)
-        c = active.contact
-        contact = ws.contacts[c]
-        account(ws, a)
+    """Give the bodies the impulses of the window, and store the state in which it ends."""
+    for active in ws.actives:
+        state, contact = state_of(ws, active), ws.contacts[active.contact]
+        account(ws, active)
         for r in range(3):
             active.impulse[r] = state.impulse[r]
             contact.window_impulse[r] += active.impulse[r]
         contact.window_stored += active.energy_stored
         contact.window_returned += active.energy_returned
-        contact.window_dissipated += state.rubbed
-        contact.window_deformation, contact.window_energy, contact.window_lost = (
-            state.deformation,
-            state.energy,
-            state.lost,
-        )
+        contact.window_dissipated += state.dissipated
+        contact.window_deformation, contact.window_energy = state.deformation, state.energy
+        contact.window_lost = state.lost
         contact.window_phase, contact.window_sticks = active.phase, active.sticks
     add_response(ws, ws.impact.impulse.start, ws.impact.u.start)
-
-
-@entry_point("i8(ws)")
-def windowed_impact(ws: Workspace) -> int:
-    """Do what ``energetic_impact`` does, for many contacts; the Delassus matrix of all of them is not needed."""
-    fastest = 0.0
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        fastest = max(fastest, -ws.contacts[active.contact].rate[0])
-    ws.impact.may_be_lone = True
-    ws.event.truncation = Truncation.NONE
-    ws.impact.slow_steps = 0
-    _gather_colliding(ws)
-    outcome = MOVED
-    for window in range(MOST_STEPS):
-        _draw(ws, fastest if window == 0 else 0.0)
-        # behind the wave what is within the error is not told from rest; where all lie in the window none leaves it
-        ws.impact.faint_rate = CIRCLING * ws.tolerance.impact if ws.problem.n_active < ws.impact.n_colliding else 0.0
-        _load(ws)
-        ws.impact.lone_contact = -1
-        shortest = scale_impact(ws, fastest)
-        if not shortest > 0.0:
-            outcome = INVALID
-            break
-        if window == 0:
-            ws.impact.h = first_step(ws, shortest)
-            start_impact(ws, ws.impact.h, 0.0)
-        outcome = run_impact(ws, ws.impact.h, shortest, 1)
-        _store(ws)
-        if outcome != MOVED:
-            break
-    ws.impact.faint_rate = 0.0
-    ws.problem.n_active = ws.impact.n_colliding
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        active.contact = ws.impact.colliding[a]
-        contact = ws.contacts[active.contact]
-        for r in range(3):
-            active.impulse[r] = contact.window_impulse[r]
-        active.energy_stored, active.energy_returned, active.energy_dissipated = (
-            contact.window_stored,
-            contact.window_returned,
-            contact.window_dissipated,
-        )
-    return ENDLESS if outcome == MOVED else outcome

@@ -1,1 +1,1 @@
-"""What the engine remembers: one table of scalars and two heaps, their layout, and the codes that stand in them."""
+"""The workspace of the engine: a declaration for each number, the layout that follows from them, codes and tables."""

@@ -1,12 +1,12 @@
 """The field table: one declaration for every number of the engine.
 
 A declaration says what a number is: its type, unit, life, and one sentence. Its owner is the class that it stands in.
-Everything else follows from it: the compiled records and those of plain mode, allocation, checkpoints, the identity of a
-model, the poison of a debug run, and the page of the internals.
+Everything else follows from it: the compiled records and those of plain mode, allocation, checkpoints, the identity
+of a model, the poison of a debug run, and the page of the internals.
 
-An owner is a :class:`Record`, of which there are many (``ws.contacts[c].gap``), or a :class:`Part`, of which there is one
-(``ws.tolerance.gap``). A class of declarations is also what editors and type checkers see: ``contact.gap`` is a float,
-and "find usages" works.
+An owner is a :class:`Record`, of which there are many (``ws.contacts[c].gap``), or a :class:`Part`, of which there is
+one (``ws.tolerance.gap``). A class of declarations is also what editors and type checkers see: ``contact.gap`` is a
+float, and "find usages" works.
 """
 
 from __future__ import annotations
@@ -180,7 +180,7 @@ class Record(Owner):
     index: int
 
     def __init_subclass__(cls, key: str, capacity: str | Size, length: str, copies: type[Record] | None = None) -> None:
-        """Note key, capacity and length, and declare what is known of a record of another owner while it is not listed."""
+        """Note key, capacity and length. Declare what is known of a record of ``copies`` while it is not listed."""
         cls.key, cls.length = key, length
         cls.capacity = staticmethod(per(1, capacity) if isinstance(capacity, str) else capacity)
         for name, declared in declarations(copies).items() if copies else ():
@@ -242,5 +242,5 @@ def array(life: Life, size: Size, kind: type, unit: str, sentence: str, **option
 
 
 def declarations(owner: type) -> Mapping[str, Declaration]:
-    """Return the declarations of an owner by name."""
+    """Declarations of an owner, by name."""
     return {name: value for name, value in vars(owner).items() if isinstance(value, Declaration)}

@@ -23,7 +23,7 @@ ENTRY_POINTS = (
     "search_by_newton",
     "right_hand_side",
     "evaluate_contact",
-    "locate_switch",
+    "try_impact_step",
     "gauss_seidel",
     "inelastic_impulses",
     "solve_ill_conditioned",

@@ -19,7 +19,7 @@ class Field:
     Attributes
     ----------
     array : str
-        The array; without a name the record is a block in the heap of floats.
+        The array; without a name the record is a block among the floats.
     stride : int
         Numbers from that of one record to that of the next.
     first, numbers : int
@@ -33,7 +33,7 @@ class Field:
     enumeration : type or None
         IntEnum of which the number is a member.
     is_float : bool
-        True if it stands in the heap of floats.
+        True if it is a float, False if an integer.
     """
 
     array: str
@@ -51,7 +51,7 @@ Fields: TypeAlias = Mapping[str, Field]
 
 
 def fields_of(owner: type[Record]) -> Fields:
-    """Return the fields of the compiled record of an owner."""
+    """Fields of the compiled record of an owner, by name."""
     return {name: _field(declared) for name, declared in declarations(owner).items()}
 
 
@@ -71,5 +71,5 @@ def _field(declared: Declaration) -> Field:
 
 
 def packed(first: int, numbers: int = 1, stride: int = 0) -> Field:
-    """Return a field of a block in the heap of floats; three numbers are a vector."""
+    """A field of a block among the floats; three numbers are a vector."""
     return Field("", stride, first, numbers, is_vector=numbers == 3)

@@ -24,8 +24,11 @@ N_STAGES = len(tableau.NODES)
 """Stages of the Runge-Kutta pair;"""
 LAST_STAGE = N_STAGES - 1
 """the slope of the last one is that at the end of the step."""
-TOTALS = 9
-"""Floats of a contact that go from one window of a large impact to the next."""
-
 NORMAL_ROW, FIRST_ROW, SECOND_ROW = 0, 1, 2
 """Rows of a contact: along the normal and along the two tangents."""
+IMPULSE, DEFORMATION, WORK, DISSIPATED, ENERGY, LOST = 0, 3, 4, 5, 6, 7
+"""Where the numbers of a contact begin in the state of an impact."""
+IMPACT_STATE = 8
+"""Floats of a contact in the state of an impact."""
+IMPACT_GUARDS = 3
+"""Guards of a contact within an impact."""

@@ -1,23 +1,42 @@
-"""What may limit a step of the flow: codes and their words."""
+"""What may limit a step of the flow."""
 
 from __future__ import annotations
 
-(
-    NO_STEP,
-    BY_ERROR,
-    BY_LARGEST,
-    BY_LIST,
-    BY_SAMPLES,
-    BY_FIRST,
-    BY_CLOSING,
-    BY_SINGULARITY,
-    BY_STOP,
-    BY_EVENT,
-    BY_CROWD,
-    BY_END,
-    BY_AVERAGING,
-    BY_TURN,
-) = range(14)
+from enum import IntEnum
+
+
+class Limit(IntEnum):
+    """What limited a step."""
+
+    NO_STEP = 0
+    """No step was taken: an event began where another one ended, or the neighbour list was made again."""
+    ERROR = 1
+    """The estimated error."""
+    LARGEST_STEP = 2
+    """The largest step of the engine."""
+    NEIGHBOUR_LIST = 3
+    """The neighbour list is valid for no longer."""
+    SAMPLES = 4
+    """The buffer of samples is full."""
+    FIRST_STEP = 5
+    """The first step after an event is short."""
+    CLOSING_GAP = 6
+    """A gap is about to close."""
+    SINGULARITY = 7
+    """Sliding comes near Painleve's singularity."""
+    STOPPING_SLIP = 8
+    """A slip is about to stop."""
+    EVENT = 9
+    """An event."""
+    CROWDED_EVENTS = 10
+    """Too many guards fire in it."""
+    END = 11
+    """The end of the run."""
+    AVERAGING = 12
+    """The end of the averaging of forces."""
+    TURN = 13
+    """Bodies turn too far in ballistic motion."""
+
 
 LIMITS = (
     "no step",
@@ -35,4 +54,4 @@ LIMITS = (
     "averaging of forces",
     "turning in flight",
 )
-"""Their words; without a step are the events that begin where another ended, and new lists of near contacts."""
+"""The same in words, by number."""

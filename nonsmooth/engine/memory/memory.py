@@ -1,4 +1,4 @@
-"""The heaps of one trajectory: views by name, blocks appended behind the fixed arrays."""
+"""The workspace of one trajectory in Python: views by declaration, and blocks behind the arrays of the table."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from nonsmooth.engine.memory.blocks import GUARD, PAIR, UNTOUCHED
 from nonsmooth.engine.memory.declare import Declaration, Part
 from nonsmooth.engine.memory.owners.contact import Contact, DeclaredContact
 from nonsmooth.engine.memory.owners.model import Coefficients, Model
+from nonsmooth.engine.memory.sizes import Counts
 from nonsmooth.engine.memory.tables import (
     COUNTS,
     OWNERS,
@@ -74,7 +75,7 @@ class Heap:
         return start
 
     def close(self) -> Memory:
-        """Return the memory with all blocks in it, and behind them every table once."""
+        """The memory with all blocks, and each table once behind them."""
         old, tables = self._memory, {id(table): table for _, _, table in self._references}
         first, places = self._first + len(self._values), dict[int, int]()
         end = first
@@ -97,34 +98,40 @@ class Heap:
 
 
 def output_block(size: int) -> list[float]:
-    """Return what stands in a block that a plug-in writes before it does, guards included."""
+    """Content of a block before a plug-in has written it, guards included."""
     return size * [0.0] + GUARD * [UNTOUCHED]
 
 
-def view_of(declared: Declaration, record: np.void, heap: np.ndarray) -> np.ndarray:
-    """Return a view of the numbers of a declaration in a heap; the record of scalars says where they are."""
-    counts = {name: record[f"{Model.key}.{name}"].item() for name in COUNTS}
+def counts_in(record: np.void) -> Counts:
+    """Counts that a record of scalars was laid out for."""
+    return {name: record[f"{Model.key}.{name}"].item() for name in COUNTS}
+
+
+def view_of(declared: Declaration, record: np.void, counts: Counts, numbers: np.ndarray) -> np.ndarray:
+    """View of the numbers of a declaration among all floats or integers. The record of scalars gives its place."""
     storage, start = storage_of(declared), int(record[declared.key])
-    numbers = heap[start : start + length_of(storage, counts)]
-    if issubclass(declared.owner, Part) or storage.has_end:
+    numbers = numbers[start : start + length_of(storage, counts)]
+    if issubclass(declared.owner, Part):
         return numbers
     stride, first, n = stride_of(storage), declared.inside[1], declared.owner.capacity(counts)
-    columns = numbers[: stride * n].reshape(n, stride)[:, first : first + declared.numbers]
-    return columns[:, 0] if declared.numbers == 1 else columns
+    if declared.numbers == 1:
+        # the end of a range is the start of the next one, in the row behind its own
+        return numbers[first::stride][: n + declared.has_end]
+    return numbers[: stride * n].reshape(n, stride)[:, first : first + declared.numbers]
 
 
 @dataclass(frozen=True)
 class Memory:
-    """Scalars and heaps of one trajectory.
+    """All numbers of one trajectory.
 
     Attributes
     ----------
     scalars : numpy.ndarray
-        The record ``S``, shape [1].
+        The record of scalars, shape [1].
     floats : numpy.ndarray
-        The heap ``w``: the arrays of the table, then the blocks that the assembly appended.
+        The arrays of floats, late ones last, then blocks and tables.
     integers : numpy.ndarray
-        The heap ``k``.
+        The arrays of integers.
     blocks, tables : int
         Where in ``floats`` the blocks that the assembly appended begin, and the tables behind them.
     references : tuple
@@ -149,7 +156,7 @@ class Memory:
     owner: Memory | None = None
 
     def __getitem__(self, declared: Any) -> Any:
-        """Return a scalar, or a view of an array: ``memory[Island.time]``, ``memory[Contact.gap]``.
+        """A scalar, or a view of an array: ``memory[Island.time]``, ``memory[Contact.gap]``.
 
         The first axis of the numbers of a record is the record, the second one, if it has several, the number.
         """
@@ -165,11 +172,11 @@ class Memory:
             self._view(declared)[...] = value
 
     def start(self, declared: Any) -> int:
-        """Return where the array of a declaration begins in its heap."""
+        """Place of the first number of an array among all floats or integers."""
         return int(self.record[declared.key])
 
     def declared(self, declared: Any) -> np.ndarray:
-        """Return a view of what the declared contacts hold of a number of contacts."""
+        """View of a number of all declared contacts, active or not."""
         return self._view(getattr(DeclaredContact, declared.name))
 
     def _view(self, declared: Declaration) -> np.ndarray:
@@ -178,8 +185,8 @@ class Memory:
         return self._views[declared]
 
     def _made_view(self, declared: Declaration) -> np.ndarray:
-        heap, _start = self._places[declared.key]
-        return view_of(declared, self.record, heap)
+        numbers = self.floats if storage_of(declared).is_float else self.integers
+        return view_of(declared, self.record, self._counts, numbers)
 
     @functools.cached_property
     def _views(self) -> dict[Declaration, np.ndarray]:
@@ -199,18 +206,12 @@ class Memory:
         return self.scalars.view(np.float64), self.scalars.view(np.int64)
 
     @functools.cached_property
-    def _places(self) -> dict[str, tuple[np.ndarray, int]]:
-        owners = (*OWNERS, *self.own)
-        heaps = (
-            (self.floats, arrays_of(owners, of_floats=True)),
-            (self.integers, arrays_of(owners, of_floats=False)),
-        )
-        starts = dict(zip(self.scalars.dtype.names or (), self.scalars.item(), strict=True))
-        return {name: (heap, starts[name]) for heap, names in heaps for name in names}
+    def _counts(self) -> Counts:
+        return counts_in(self.record)
 
     @functools.cached_property
     def addresses(self) -> tuple[int, int, int]:
-        """Where scalars and heaps stand, for calls of the engine."""
+        """Addresses of scalars, floats and integers, for calls of the engine."""
         return self.scalars.ctypes.data, self.floats.ctypes.data, self.integers.ctypes.data
 
     @functools.cached_property
@@ -237,8 +238,7 @@ class Memory:
 
     @functools.cached_property
     def _lengths(self) -> tuple[tuple[int, int, int], ...]:
-        counts = {name: self.record[f"{Model.key}.{name}"].item() for name in COUNTS}
-        return tuple(lengths_of((*OWNERS, *self.own), of_floats, counts) for of_floats in (True, False))
+        return tuple(lengths_of((*OWNERS, *self.own), of_floats, self._counts) for of_floats in (True, False))
 
 
 def allocate(counts: Mapping[str, int], own: tuple[type[Part], ...] = ()) -> Memory:
@@ -264,7 +264,7 @@ def allocate(counts: Mapping[str, int], own: tuple[type[Part], ...] = ()) -> Mem
 def _laid(
     counts: tuple[tuple[str, int], ...], own: tuple[type[Part], ...]
 ) -> tuple[tuple[float, ...], tuple[int, int]]:
-    """Return the numbers of the record of scalars, and the lengths of the heaps of floats and of integers.
+    """Numbers of the record of scalars, and the lengths of floats and integers.
 
     Kept, as systems that differ in their numbers only are laid out alike, and often one after another.
     """

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from enum import IntEnum
 
+from nonsmooth.engine.memory.limits import Limit
+
 
 class Mode(IntEnum):
     """Mode of a contact between events."""
 
+    UNKNOWN = -1
+    """No mode is known. Only a contact problem may begin so."""
     OPEN = 0
     """The bodies are apart, or separate."""
     STICK = 1
@@ -80,6 +84,19 @@ NO_CONTACT = -1
 """Number in place of a contact where there is none."""
 NO_RELEASE = Cause.START
 """Cause of the release of a contact that no jump of its contact point released."""
+
+
+class Phase(IntEnum):
+    """Phase of a contact within an impact."""
+
+    IDLE = 0
+    """No force acts."""
+    COMPRESSION = 1
+    """The bodies approach each other, and the contact stores energy."""
+    EXPANSION = 2
+    """The bodies separate, and the contact returns energy."""
+    HELD = 3
+    """The contact stays closed without restitution: a unilateral constraint."""
 
 
 class Truncation(IntEnum):
@@ -173,7 +190,7 @@ REASONS = {
 }
 """Why a run ended, by status."""
 
-ENUMERATIONS = (Mode, Cause, Truncation, Painleve, Status)
+ENUMERATIONS = (Mode, Cause, Phase, Truncation, Painleve, Status, Limit)
 """All of them; signatures of kernels know them by their names."""
 
 
@@ -186,7 +203,7 @@ def word(a: list[int], b: list[int], c: list[int]) -> str:
     return "{" + ",".join("".join(str(bit) for bit in reversed(bits)) for bits in (a, b, c)) + "}"
 
 
-OPEN, STICK, SLIDE = Mode
+OPEN, STICK, SLIDE = Mode.OPEN, Mode.STICK, Mode.SLIDE
 START, IMPACT, LIFT_OFF, SLIP_TO_STICK, STICK_TO_SLIP, CLOSING, PAINLEVE, END, JAM, GUARD, TOUCH, FEATURE_END = [
     *Cause
 ][:12]

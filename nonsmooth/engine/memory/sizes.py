@@ -13,17 +13,17 @@ Size: TypeAlias = Callable[[Counts], int]
 
 
 def per(stride: int, count: str) -> Size:
-    """Return the size of so many numbers for each of what is counted."""
+    """Size of ``stride`` numbers for each of what is counted."""
     return lambda n: stride * n[count]
 
 
 def fixed(length: int) -> Size:
-    """Return a size that is the same in all systems."""
+    """Size that is the same in all systems."""
     return lambda n: length
 
 
 def ends(count: str) -> Size:
-    """Return the size of a list of starts, with the end behind the last."""
+    """Size of a list of starts and the end of the last."""
     return lambda n: n[count] + 1
 
 
@@ -88,5 +88,5 @@ def sample_numbers(n: Counts) -> int:
 
 
 def stage_numbers(count: str, each: int = 1) -> Size:
-    """Return the size of the slopes of all stages."""
+    """Size of the slopes of all stages."""
     return per(each * N_STAGES, count)

@@ -31,7 +31,7 @@ MOST_PIVOTED = 16
 
 
 def solver_number(name: str) -> int:
-    """Return the number of a solver.
+    """Number of a solver.
 
     Raises
     ------
@@ -44,5 +44,5 @@ def solver_number(name: str) -> int:
 
 
 def pivoted_contacts(solver: int, n_contacts: int) -> int:
-    """Return for how many contacts Lemke's tableau is laid out."""
+    """Number of contacts that Lemke's tableau has room for."""
     return n_contacts if solver == LEMKE else min(n_contacts, MOST_PIVOTED) if solver == AUTO else 0

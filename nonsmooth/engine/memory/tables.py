@@ -1,11 +1,11 @@
-"""Where the numbers of the field table stand: scalars in one record, arrays one behind another in two heaps.
+"""Where the numbers of the field table are: scalars in one record, all floats in one array, all integers in another.
 
-Every scalar of a :class:`~nonsmooth.engine.memory.declare.Part` is an entry of the record of scalars; so is the offset of
-every array in the heap of floats or in that of integers. The entries are named by owner and field: ``"island.time"``,
-``"contacts.gap"``. All sizes are counts of a system: another number of bodies or contacts is another set of offsets,
-never another compilation. The numbers of an engine that is no built-in one come last.
+Each scalar of a :class:`~nonsmooth.engine.memory.declare.Part` is an entry of the record. So is the offset of
+each array among the floats or integers. Entries are named by owner and field: ``"island.time"``, ``"contacts.gap"``.
+The sizes are functions of the counts of a system: another number of bodies or contacts gives other offsets, and no new
+compilation. The numbers of an engine of another kind come last.
 
-Arrays that outlive a step come first in their heap, so that a checkpoint takes one piece of each. Late arrays come last.
+Arrays that outlive a step come first, so that a checkpoint is one piece of each array. Late arrays come last.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def _all(owners: Iterable[type]) -> list[Declaration]:
 
 
 def arrays_of(owners: Iterable[type], of_floats: bool) -> dict[str, Size]:
-    """Return the sizes of all arrays of some owners by name, in the order in which they stand."""
+    """Sizes of all arrays of some owners by name, in the order of their places."""
     found = [one for one in _all(owners) if has_array(one) and one.is_float == of_floats]
     return {one.key: functools.partial(length_of, one) for one in sorted(found, key=_rank)}
 
@@ -52,7 +52,7 @@ _KEPT, _SHORT, _LATE = range(3)
 
 
 def lengths_of(owners: Iterable[type], of_floats: bool, counts: Counts) -> tuple[int, int, int]:
-    """Return how far the arrays that outlive a step reach in a heap, those that are not late, and all."""
+    """Length of the arrays that outlive a step, of those that are not late, and of all."""
     totals = [0, 0, 0]
     for one in _all(owners):
         if has_array(one) and one.is_float == of_floats:
@@ -62,7 +62,7 @@ def lengths_of(owners: Iterable[type], of_floats: bool, counts: Counts) -> tuple
 
 
 def scalars_of(owners: Iterable[type]) -> dict[str, float]:
-    """Return what each scalar of some owners is before any run."""
+    """Value of each scalar of some owners before any run."""
     return {one.key: one.begin for one in _all(owners) if issubclass(one.owner, Part) and one.size is None}
 
 
@@ -88,19 +88,25 @@ CONSTANT_SCALARS = frozenset((*(f"{Model.key}.{name}" for name in COUNTS), *FLOA
 
 
 def kept_scalars(own: Iterable[type[Part]]) -> NDArray[np.bool_]:
-    """Return of each entry of the record of scalars whether it outlives a step."""
+    """Of each entry of the record of scalars: whether it outlives a step."""
     kept = {one.key for one in _all((*OWNERS, *own)) if one.outlives_a_step and not has_array(one)}
     return np.array([name in kept for name in record_with(own).names or ()])
 
 
 def record_with(own: Iterable[type[Part]]) -> np.dtype[np.void]:
-    """Return the record of scalars of an engine that has numbers of its own, which stand at its end."""
+    """Record of scalars of an engine that has numbers of its own, which come last."""
+    return _record_with(tuple(own))
+
+
+@functools.cache
+def _record_with(own: tuple[type[Part], ...]) -> np.dtype[np.void]:
+    # kept, as each run asks for it
     entries = _entries(own)
     return np.dtype([*SCALARS.descr, *entries], align=True) if entries else SCALARS
 
 
 def places(*names: str) -> NDArray[np.int64]:
-    """Return where scalars stand in the record, all of which are equally long."""
+    """Places of scalars in the record, all of which have the same length."""
     known = SCALARS.names or ()
     return np.array([known.index(name) for name in names])
 
@@ -114,7 +120,7 @@ def stride_of(storage: Declaration) -> int:
 
 
 def storage_of(declared: Declaration) -> Declaration:
-    """Return the declaration whose storage a declaration is a view of: itself, if it has one of its own."""
+    """The declaration whose storage a declaration is a view of: itself, if it has its own."""
     return declared if not declared.inside[0] else _STORAGE[declared.key]
 
 

@@ -10,7 +10,7 @@ from nonsmooth.engine.memory.owners.active_contact import ActiveContact, Unknown
 from nonsmooth.engine.memory.owners.bodies import Articulation, Body, Joint, Load
 from nonsmooth.engine.memory.owners.contact import Contact, DeclaredContact
 from nonsmooth.engine.memory.owners.event import Event
-from nonsmooth.engine.memory.owners.guards import Guard, OwnGuard
+from nonsmooth.engine.memory.owners.guards import Guard, ImpactGuard, OwnGuard
 from nonsmooth.engine.memory.owners.impact import Impact
 from nonsmooth.engine.memory.owners.island import Island, Step
 from nonsmooth.engine.memory.owners.model import Coefficients, Model, Options, Tolerance
@@ -46,6 +46,7 @@ class Workspace:
     unknowns: Sequence[Unknown]
     guards: Sequence[Guard]
     own_guards: Sequence[OwnGuard]
+    impact_guards: Sequence[ImpactGuard]
     spheres: Sequence[Sphere]
     half_spaces: Sequence[HalfSpace]
     searches: Sequence[Search]

@@ -1,4 +1,4 @@
-"""Blocks in the heap of floats that functions of plug-ins write or read, and those of impacts and steps, by name."""
+"""Blocks among the floats that functions of plug-ins write or read, and those of impacts and steps, by name."""
 
 from __future__ import annotations
 
@@ -32,7 +32,16 @@ from nonsmooth.engine.memory.blocks import (
     VELOCITY,
 )
 from nonsmooth.engine.memory.fields import Field, Fields, packed
-from nonsmooth.engine.memory.layout import PART_END
+from nonsmooth.engine.memory.layout import (
+    DEFORMATION,
+    DISSIPATED,
+    ENERGY,
+    IMPACT_STATE,
+    IMPULSE,
+    LOST,
+    PART_END,
+    WORK,
+)
 
 CONVEX_PART: Fields = {
     "place": packed(PART_PLACE, 3),
@@ -80,17 +89,17 @@ PART_OF_STEP: Fields = {
     "past": packed(3, 1, PART_END),
     "arm": packed(4, 3, PART_END),
 }
-"""Of an end of a part of a step: fraction, gap, its rate, distance past the end of the features, offset of the witness."""
+"""Of an end of a part of a step: fraction, gap, gap rate, distance past the features, offset of the witness."""
 
-IMPACT_STATE: Fields = {
-    "impulse": Field("", 8, 0, 3),
-    "normal_force": Field("", 8, 0),
-    "friction": Field("", 8, 1, 2, is_vector=True),
-    "deformation": Field("", 8, 3),
-    "work": Field("", 8, 4),
-    "rubbed": Field("", 8, 5),
-    "energy": Field("", 8, 6),
-    "lost": Field("", 8, 7),
+STATE_OF_IMPACT: Fields = {
+    "impulse": Field("", IMPACT_STATE, IMPULSE, 3),
+    "normal_force": Field("", IMPACT_STATE, IMPULSE),
+    "friction": Field("", IMPACT_STATE, IMPULSE + 1, 2, is_vector=True),
+    "deformation": Field("", IMPACT_STATE, DEFORMATION),
+    "work": Field("", IMPACT_STATE, WORK),
+    "dissipated": Field("", IMPACT_STATE, DISSIPATED),
+    "energy": Field("", IMPACT_STATE, ENERGY),
+    "lost": Field("", IMPACT_STATE, LOST),
 }
 """Of an active contact in a state of an impact, and in the slope of one (:mod:`nonsmooth.engine.impact.rates`)."""
 
@@ -106,7 +115,7 @@ DELASSUS_BLOCK: Fields = {
 """Of a block on the diagonal of the Delassus matrix, which is symmetric."""
 
 PACKED: Mapping[str, Fields] = {
-    "impact_state": IMPACT_STATE,
+    "impact_state": STATE_OF_IMPACT,
     "part_end": PART_OF_STEP,
     "delassus_block": DELASSUS_BLOCK,
     "joint_row": ROW_OF_JOINT,

@@ -30,7 +30,7 @@ from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.owners.active_contact import ActiveContact, Unknown
 from nonsmooth.engine.memory.owners.bodies import Articulation, Body, Joint, Load
 from nonsmooth.engine.memory.owners.contact import Contact, DeclaredContact
-from nonsmooth.engine.memory.owners.guards import Guard, OwnGuard
+from nonsmooth.engine.memory.owners.guards import Guard, ImpactGuard, OwnGuard
 from nonsmooth.engine.memory.owners.neighbours import Carrier, HalfSpace, Pair, Search, Sphere
 from nonsmooth.engine.memory.workspace import Workspace
 from nonsmooth.engine.native.entries import Fingerprint
@@ -140,6 +140,7 @@ __all__ = [
     "Floats",
     "Guard",
     "HalfSpace",
+    "ImpactGuard",
     "Integers",
     "Joint",
     "Load",

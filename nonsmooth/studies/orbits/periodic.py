@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.checks import is_finite
-from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
+from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK, Mode
 from nonsmooth.errors import InvalidInput, NonsmoothError, RunFailed
 from nonsmooth.progress import Display, Pace, TimeReached
 from nonsmooth.runs.model import Model
@@ -280,8 +280,8 @@ def _check_closed(model: Model, start: State, end: State) -> None:
     if not differ:
         return
     told = [
-        f"{model.system.names.contacts[i]!r} is {_MODES[int(start.modes[i])]} at the start of the period and "
-        f"{_MODES[int(end.modes[i])]} at its end"
+        f"{model.system.names.contacts[i]!r} is {_MODES[Mode(start.modes[i])]} at the start of the period and "
+        f"{_MODES[Mode(end.modes[i])]} at its end"
         for i in differ[:_TOLD]
     ]
     more = f" (and {len(differ) - _TOLD} more)" if len(differ) > _TOLD else ""

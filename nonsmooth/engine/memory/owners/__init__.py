@@ -6,7 +6,7 @@ from nonsmooth.engine.memory.owners.active_contact import ActiveContact, Unknown
 from nonsmooth.engine.memory.owners.bodies import Articulation, Body, Joint, Load
 from nonsmooth.engine.memory.owners.contact import Contact, DeclaredContact
 from nonsmooth.engine.memory.owners.event import Event
-from nonsmooth.engine.memory.owners.guards import Guard, OwnGuard
+from nonsmooth.engine.memory.owners.guards import Guard, ImpactGuard, OwnGuard
 from nonsmooth.engine.memory.owners.impact import Impact
 from nonsmooth.engine.memory.owners.island import Island, Step
 from nonsmooth.engine.memory.owners.model import Coefficients, Model, Options, Tolerance
@@ -26,6 +26,7 @@ __all__ = [
     "Guard",
     "HalfSpace",
     "Impact",
+    "ImpactGuard",
     "Island",
     "Joint",
     "Load",

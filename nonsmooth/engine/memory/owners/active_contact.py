@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import final
 
 from nonsmooth.engine.memory.declare import Life, Record, one_of, question, real, row, vector, whole
-from nonsmooth.engine.memory.modes import Mode
+from nonsmooth.engine.memory.modes import Mode, Phase
 from nonsmooth.engine.memory.sizes import per
 from nonsmooth.types import Floats
 
@@ -66,8 +66,8 @@ class ActiveContact(Record, key="actives", capacity="n_slots", length="problem.n
     rank: int = whole(_SOLUTION, "Its place in the order with a small band, or -1.")
 
     # --- an impact ----------------------------------------------------------------------------------------------------
-    phase: int = whole(_IMPACT, "Idle, compression or expansion.")
-    was_halted: bool = question(_IMPACT, "Friction has just stopped its slip.")
+    phase: Phase = one_of(Phase, _IMPACT, "Phase of the impact.")
+    was_halted: bool = question(_IMPACT, "Friction has stopped its slip within the step.")
     is_lossless: bool = question(_IMPACT, "Its restitution is 1, whatever its law.")
     rest_slip: float = real(_IMPACT, "m/s", "Slip that counts as rest.")
     impulse_scale: float = real(_IMPACT, "N s", "Impulse that stops its approach.")
@@ -89,17 +89,12 @@ class ActiveContact(Record, key="actives", capacity="n_slots", length="problem.n
     force_scale: float = real(_IMPACT, "N", "Scale of the force.")
     energy_scale: float = real(_IMPACT, "J", "Scale of the energy.")
     work_accounted: float = real(_IMPACT, "J", "Work of the normal force that is accounted for.")
-    rate_guard: float = real(_IMPACT, "1", "Guard of its gap rate.", inside=("impact.guards", 0))
-    energy_guard: float = real(_IMPACT, "1", "Guard of its energy.", inside=("impact.guards", 1))
-    friction_guard: float = real(
-        _IMPACT, "1", "Guard of its slip or of its static friction.", inside=("impact.guards", 2)
-    )
-    phase_kept: int = whole(_IMPACT, "Phase before the step.")
-    sticking_kept: bool = question(_IMPACT, "Friction held it before the step.")
-    stored_kept: float = real(_IMPACT, "J", "Energy stored before the step.")
-    returned_kept: float = real(_IMPACT, "J", "Energy returned before the step.")
-    accounted_kept: float = real(_IMPACT, "J", "Work accounted for before the step.")
-    direction_kept: tuple[float, float] = vector(_IMPACT, 2, "1", "Slip direction before the step.")
+    phase_kept: Phase = one_of(Phase, _IMPACT, "Phase before a contact became the clock.")
+    sticking_kept: bool = question(_IMPACT, "Friction held it before a contact became the clock.")
+    stored_kept: float = real(_IMPACT, "J", "Energy stored before a contact became the clock.")
+    returned_kept: float = real(_IMPACT, "J", "Energy returned before a contact became the clock.")
+    accounted_kept: float = real(_IMPACT, "J", "Work accounted for before a contact became the clock.")
+    direction_kept: tuple[float, float] = vector(_IMPACT, 2, "1", "Slip direction before a contact became the clock.")
 
 
 @final

@@ -92,4 +92,5 @@ class Load(Record, key="loads", capacity="n_loads", length="model.n_loads"):
     frame_b: int = whole(_PARAMETER, "Place of the frame on the second body.")
     body_a: int = whole(_PARAMETER, "First body.")
     body_b: int = whole(_PARAMETER, "Second body.")
+    depends_on_time: bool = question(_PARAMETER, "Its force depends on time other than through the two bodies.")
     out: int = whole(_PARAMETER, "Place where the function writes.")

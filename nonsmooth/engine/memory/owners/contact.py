@@ -19,7 +19,7 @@ from nonsmooth.engine.memory.blocks import (
     TURN_MATRIX,
 )
 from nonsmooth.engine.memory.declare import Life, Record, address, one_of, question, real, row, vector, whole
-from nonsmooth.engine.memory.modes import Cause, Mode
+from nonsmooth.engine.memory.modes import Cause, Mode, Phase
 from nonsmooth.engine.memory.sizes import per
 from nonsmooth.types import Floats
 
@@ -257,29 +257,18 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     leap_b: tuple[float, float, float] = vector(_EVENT, 3, "m", "Displacement of the second witness point in the jump.")
 
     # --- an impact ----------------------------------------------------------------------------------------------------
-    window_phase: int = whole(_IMPACT, "Phase at the end of the last window.")
+    window_phase: Phase = one_of(Phase, _IMPACT, "Phase at the end of the last window.")
     window_sticks: bool = question(_IMPACT, "Friction held the contact at the end of the last window.")
     n_waves: int = whole(_IMPACT, "Number of waves of compression that passed.")
     layer: int = whole(_IMPACT, "Distance in contacts from those that act, -1 outside the window.")
-    is_at_rim: bool = question(_IMPACT, "The contact stands at the rim of the window.")
-    window_totals: Floats = row(_IMPACT, 9, "", "Totals of the impact, one by one.")
-    window_impulse: Floats = row(
-        _IMPACT, 3, "N s", "Impulse of the windows so far, n, t1, t2.", inside=("window_totals", 0)
-    )
-    window_stored: float = real(_IMPACT, "J", "Energy stored in the windows so far.", inside=("window_totals", 3))
-    window_returned: float = real(_IMPACT, "J", "Energy returned in the windows so far.", inside=("window_totals", 4))
-    window_dissipated: float = real(
-        _IMPACT, "J", "Energy dissipated by friction in the windows so far.", inside=("window_totals", 5)
-    )
-    window_deformation: float = real(
-        _IMPACT, "m", "Deformation at the end of the last window.", inside=("window_totals", 6)
-    )
-    window_energy: float = real(
-        _IMPACT, "J", "Stored energy at the end of the last window.", inside=("window_totals", 7)
-    )
-    window_lost: float = real(
-        _IMPACT, "J", "Stored energy that is lost when the contact opens.", inside=("window_totals", 8)
-    )
+    is_at_rim: bool = question(_IMPACT, "The contact is in the outermost layer of the window.")
+    window_impulse: Floats = row(_IMPACT, 3, "N s", "Impulse of the windows so far, n, t1, t2.")
+    window_stored: float = real(_IMPACT, "J", "Energy stored in the windows so far.")
+    window_returned: float = real(_IMPACT, "J", "Energy returned in the windows so far.")
+    window_dissipated: float = real(_IMPACT, "J", "Energy dissipated by friction in the windows so far.")
+    window_deformation: float = real(_IMPACT, "m", "Deformation at the end of the last window.")
+    window_energy: float = real(_IMPACT, "J", "Stored energy at the end of the last window.")
+    window_lost: float = real(_IMPACT, "J", "Stored energy that is lost when the contact opens.")
 
 
 if TYPE_CHECKING:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import final
 
 from nonsmooth.engine.memory.declare import Life, Record, address, question, real, whole
-from nonsmooth.engine.memory.sizes import all_guards
+from nonsmooth.engine.memory.layout import IMPACT_GUARDS
+from nonsmooth.engine.memory.sizes import all_guards, per
 
-_STEP, _REUSED = Life.STEP, Life.REUSED
+_STEP, _REUSED, _IMPACT = Life.STEP, Life.REUSED, Life.IMPACT
 
 
 @final
@@ -31,3 +32,12 @@ class OwnGuard(Record, key="own_guards", capacity="n_own_guards", length="model.
     parameters: int = whole(Life.PARAMETER, "Place of the parameters of that function.")
     has_just_fired: bool = question(Life.STATE, "It fired at the last event.")
     ends_the_run: bool = question(Life.PARAMETER, "The run ends when it fires.")
+
+
+@final
+class ImpactGuard(Record, key="impact_guards", capacity=per(IMPACT_GUARDS, "n_slots"), length="impact.n_guards"):
+    """A guard of an impact: three of every active contact, those of its rate, its energy and its friction."""
+
+    value: float = real(_IMPACT, "1", "Value where it was evaluated last.")
+    at_start: float = real(_IMPACT, "1", "Value at the start of the step.")
+    is_armed: bool = question(_IMPACT, "It was positive in its phase, so that it may fire.")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import final
 
 from nonsmooth.engine.memory.declare import FloatRow, IntegerRow, Life, Part, array, question, real, whole
-from nonsmooth.engine.memory.layout import N_STAGES
+from nonsmooth.engine.memory.layout import IMPACT_STATE, N_STAGES
 from nonsmooth.engine.memory.sizes import impulse_numbers, map_numbers, per
 
 _IMPACT = Life.IMPACT
@@ -15,33 +15,41 @@ _IMPACT = Life.IMPACT
 class Impact(Part, key="impact"):
     """Numbers of one impact, or of one window of a large impact."""
 
-    aimed_guard: int = whole(_IMPACT, "Guard at whose root the step aims, or -1.")
     lone_contact: int = whole(_IMPACT, "Active contact whose impulse is the clock, or -1.")
+    is_step_implicit: bool = question(_IMPACT, "The step of the impact is implicit, so that slips may reverse in it.")
     may_be_lone: bool = question(_IMPACT, "One contact may become the clock.")
-    phases_kept: int = whole(_IMPACT, "Number of phases before the step.")
-    slow_steps: int = whole(_IMPACT, "Number of slow steps in a row.")
+    phases_kept: int = whole(_IMPACT, "Number of phases before a contact became the clock.")
+    slow_steps: int = whole(_IMPACT, "Number of steps in a row with a slip next to rest.")
     speed_scale: float = real(_IMPACT, "m/s", "Largest speed of the impact.")
     rest_speed: float = real(_IMPACT, "m/s", "Slip that counts as rest.")
-    h: float = real(_IMPACT, "N s", "Step of the impact.")
-    faint_rate: float = real(_IMPACT, "m/s", "Approach below which a contact of a window begins no phase.")
+    h: float = real(_IMPACT, "", "Step with which the next window begins, in pseudo-time.")
+    faint_rate: float = real(
+        _IMPACT, "1", "Approach with which a contact of a window begins a phase, relative to the largest speed."
+    )
     n_colliding: int = whole(_IMPACT, "Number of contacts of the whole impact.")
     colliding: IntegerRow = array(_IMPACT, per(1, "n_slots"), int, "", "Contacts of the whole impact.")
     chain: IntegerRow = array(
         _IMPACT, per(2, "n_slots"), int, "", "Next entry of the list of contacts of an articulation."
     )
-    armed: IntegerRow = array(_IMPACT, per(3, "n_slots"), int, "", "Guards of the impact that are armed.")
     u: FloatRow = array(_IMPACT, per(1, "n_u"), float, "", "Velocities between windows of a large impact.")
-    guards: FloatRow = array(_IMPACT, per(3, "n_slots"), float, "", "Guards of the impact.")
-    guards_at_start: FloatRow = array(_IMPACT, per(3, "n_slots"), float, "", "Guards at the start of the step.")
+    n_guards: int = whole(_IMPACT, "Number of guards of the impact.")
     rates: FloatRow = array(_IMPACT, per(3, "n_slots"), float, "m/s", "Rates of the active contacts.")
     rates_before: FloatRow = array(
         _IMPACT, per(3, "n_slots"), float, "m/s", "Rates of the active contacts before the impact."
     )
     impulse: FloatRow = array(_IMPACT, impulse_numbers, float, "N s", "Impulses of the active contacts.")
     map_block: FloatRow = array(_IMPACT, map_numbers, float, "", "What an impact law that maps velocities is given.")
-    y: FloatRow = array(_IMPACT, per(8, "n_slots"), float, "", "State of the impact.", is_late=True)
-    y_new: FloatRow = array(_IMPACT, per(8, "n_slots"), float, "", "State at the end of the step.", is_late=True)
-    y_stage: FloatRow = array(_IMPACT, per(8, "n_slots"), float, "", "State of a stage.", is_late=True)
-    y_guess: FloatRow = array(_IMPACT, per(8, "n_slots"), float, "", "First guess of an implicit stage.", is_late=True)
-    y_kept: FloatRow = array(_IMPACT, per(8, "n_slots"), float, "", "State before the step.", is_late=True)
-    slopes: FloatRow = array(_IMPACT, per(8 * N_STAGES, "n_slots"), float, "", "Slopes of the stages.", is_late=True)
+    y: FloatRow = array(_IMPACT, per(IMPACT_STATE, "n_slots"), float, "", "State of the impact.", is_late=True)
+    y_new: FloatRow = array(
+        _IMPACT, per(IMPACT_STATE, "n_slots"), float, "", "State at the end of the step.", is_late=True
+    )
+    y_stage: FloatRow = array(_IMPACT, per(IMPACT_STATE, "n_slots"), float, "", "State of a stage.", is_late=True)
+    y_guess: FloatRow = array(
+        _IMPACT, per(IMPACT_STATE, "n_slots"), float, "", "First guess of an implicit stage.", is_late=True
+    )
+    y_kept: FloatRow = array(
+        _IMPACT, per(IMPACT_STATE, "n_slots"), float, "", "State before a contact became the clock.", is_late=True
+    )
+    slopes: FloatRow = array(
+        _IMPACT, per(IMPACT_STATE * N_STAGES, "n_slots"), float, "", "Slopes of the stages.", is_late=True
+    )

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from typing import final
 
-from nonsmooth.engine.memory.declare import FloatRow, IntegerRow, Life, Part, array, question, real, whole
+from nonsmooth.engine.memory.declare import FloatRow, IntegerRow, Life, Part, array, one_of, question, real, whole
 from nonsmooth.engine.memory.layout import N_STAGES
+from nonsmooth.engine.memory.limits import Limit
 from nonsmooth.engine.memory.sizes import (
     coordinates_and_velocities,
     delassus_blocks,
@@ -126,7 +127,7 @@ class Island(Part, key="island"):
 class Step(Part, key="step"):
     """Numbers of one step."""
 
-    limit: int = whole(Life.STEP, "What limited the step.")
+    limit: Limit = one_of(Limit, Life.STEP, "What limited the step.")
     h: float = real(Life.STEP, "s", "Length of the step.")
     listed_step: float = real(Life.STEP, "s", "Longest step for which the neighbour list holds.")
     closing_step: float = real(Life.STEP, "s", "Longest step by the gaps that close.")

@@ -31,7 +31,6 @@ class Problem(Part, key="problem"):
     is_null_space_banded: bool = question(_SOLUTION, "The null space is known by the band of the square.")
     guess: int = whole(_SOLUTION, "Where the first guess of the accelerations is, or 0.")
     is_unsettled: bool = question(_SOLUTION, "The slip at the end of an implicit stage has not converged.")
-    is_turning: bool = question(_SOLUTION, "The direction of a slip turns too fast for the step.")
     stage_time: float = real(_SOLUTION, "s", "Time of the implicit stage at whose end the slip is found, or 0.")
     effort: float = real(_SOLUTION, "1", "Operations of the search so far.")
     acceleration_scale: float = real(_SOLUTION, "m/s^2", "Largest acceleration of the problem.")

@@ -1,0 +1,59 @@
+"""The equations of motion by name, for engines of another kind.
+
+Of each body dq/dt = B(q) u and M u' = h + W lambda_N + N lambda_T. The blocks that bodies and contacts write hold the
+matrices one behind another; an engine reads them by these names, and needs no place in a block. Evaluate the bodies
+first (:func:`nonsmooth.engine.bodies.bodies.evaluate_bodies`), and contacts before their Jacobians
+(:func:`nonsmooth.engine.bodies.kinematics.evaluate_contact`).
+"""
+
+from __future__ import annotations
+
+from nonsmooth.engine.native.kernel import Body, Contact, Floats, Workspace, at, kernel
+
+
+@kernel("F(ws, Body)")
+def coordinate_rates(ws: Workspace, body: Body) -> Floats:
+    """dq/dt of a body, shape [n_q]."""
+    return at(ws.floats, body.tail)
+
+
+@kernel("F(ws, Body)")
+def force_without_contacts(ws: Workspace, body: Body) -> Floats:
+    """H of a body, the force on its velocities without contacts [N or N m], shape [n_u]."""
+    return at(ws.floats, body.tail + body.n_q)
+
+
+@kernel("F(ws, Body)")
+def inverse_mass(ws: Workspace, body: Body) -> Floats:
+    """M^-1 of a body, row by row [1/kg or 1/(kg m^2)], shape [n_u * n_u]."""
+    return at(ws.floats, body.tail + body.n_q + body.n_u)
+
+
+@kernel("F(ws, Body)")
+def energies(ws: Workspace, body: Body) -> Floats:
+    """Kinetic and potential energy of a body [J], shape [2]."""
+    return at(ws.floats, body.tail + body.n_q + body.n_u + body.n_u * body.n_u)
+
+
+@kernel("F(ws, Contact)")
+def jacobian_of_first(ws: Workspace, contact: Contact) -> Floats:
+    """Rows n, t1, t2 of W^T and N^T on the articulation of the first body, row by row."""
+    return at(ws.floats, contact.jacobian_a)
+
+
+@kernel("F(ws, Contact)")
+def jacobian_of_second(ws: Workspace, contact: Contact) -> Floats:
+    """Rows n, t1, t2 of W^T and N^T on the articulation of the second body, row by row."""
+    return at(ws.floats, contact.jacobian_b)
+
+
+@kernel("F(ws, Contact)")
+def response_of_first(ws: Workspace, contact: Contact) -> Floats:
+    """M^-1 W and M^-1 N of the articulation of the first body, column n, then t1, t2."""
+    return at(ws.floats, contact.response_a)
+
+
+@kernel("F(ws, Contact)")
+def response_of_second(ws: Workspace, contact: Contact) -> Floats:
+    """M^-1 W and M^-1 N of the articulation of the second body, column n, then t1, t2."""
+    return at(ws.floats, contact.response_b)

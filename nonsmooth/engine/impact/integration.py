@@ -1,0 +1,264 @@
+"""The energetic multiple impact, Eqs. (19) to (28), integrated in pseudo-time with all of its events located.
+
+    start ---> attempt ---> accept ---> no event ---> attempt
+                  ^            |
+               shorter       event ---> switch phases, change the clock ---> attempt
+
+attempt  Takes a step of the Runge-Kutta pair, and steps to the first guard that fires within it. A lone contact aims at
+         its next event instead (:mod:`nonsmooth.engine.impact.clock`).
+accept   Takes over the state, and lets slips stick that the step has stopped.
+switch   Changes the phases whose guards vanish (:mod:`nonsmooth.engine.impact.phases`).
+
+The impact ends when no contact is loaded (:mod:`nonsmooth.engine.impact.end`). The right-hand side is smooth between
+its events only. An integrator that steps over them, as one with impulses of fixed size does, is of first order; and it
+does not find which of two contacts turns first, which decides how the energy is distributed.
+"""
+
+from __future__ import annotations
+
+import math
+from enum import IntEnum
+from typing import NamedTuple
+
+from nonsmooth.engine.impact.clock import Aim, aim, change_clock, has_arrived
+from nonsmooth.engine.impact.end import cut_short, end_trapped, finish, has_faded, is_finished
+from nonsmooth.engine.impact.friction import choose_friction, orient, stays_slow, stop_halted
+from nonsmooth.engine.impact.guards import (
+    NO_GUARD,
+    arm_impact_guards,
+    first_fired,
+    prepare_guards,
+    write_impact_guards,
+)
+from nonsmooth.engine.impact.location import Switch, locate_switch
+from nonsmooth.engine.impact.phases import end_faint, has_reached_rim, start_phases, switch_phases
+from nonsmooth.engine.impact.rates import NOISE, state_size, write_impact_slope
+from nonsmooth.engine.impact.scales import grow_scales, scale_impact
+from nonsmooth.engine.impact.step import let_go, try_impact_step, try_linear_step
+from nonsmooth.engine.impact.step_length import first_step, graded, lone_step, rejection_factor, step_after_switch
+from nonsmooth.engine.memory.layout import LAST_STAGE
+from nonsmooth.engine.memory.modes import NO_CONTACT, Truncation
+from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel, result
+from nonsmooth.engine.native.watch import interrupted
+from nonsmooth.engine.numerics.roots import TRUSTED
+from nonsmooth.engine.numerics.runge_kutta import step_factor, trend
+
+MOST_STEPS = 100000
+"""Maximum number of steps of an impact or of a window of one, and of windows. Ever smaller bounces may feed each other
+without end; of thousands of random wedges none that ended took as many."""
+_WORK = 8
+"""Work of a step, in evaluations of a contact: seven stages and the guards."""
+_LONG = 6
+"""Number of phases per contact after which an impact may be a cascade without end."""
+_LEAST_ERROR = 1e-2
+"""Relative error below which errors show no trend [1]."""
+_UNTRUSTED = 0.25
+"""Factor by which a step is shortened if the step to a switch within it has too large an error."""
+
+
+@result
+class Outcome(IntEnum):
+    """How the integration of an impact ended."""
+
+    FINISHED = 1
+    """No contact is loaded."""
+    ENDLESS = 2
+    """It was cut short: too many steps, or an interrupt."""
+    INVALID = 3
+    """A law gave a number that is not finite, or not positive."""
+    MOVED = 4
+    """It continues, but has reached the rim of its window."""
+
+
+@result
+class Pace(NamedTuple):
+    """What determines the length of a step."""
+
+    h: float
+    """Length of the next step, in pseudo-time."""
+    h_before: float
+    """Length of the last step, or 0 at the start and after a switch of phases."""
+    error_before: float
+    """Error of the last step, relative to the tolerance."""
+
+
+@result
+class Attempt(NamedTuple):
+    """An attempt of a step."""
+
+    h: float
+    """Length that was tried, in pseudo-time."""
+    error: float
+    """Error, relative to the tolerance."""
+    guard: int
+    """Guard at whose root the step ends, or ``NO_GUARD``."""
+    is_accepted: bool
+    """The error is small enough."""
+    h_again: float
+    """Length to try next if it is not."""
+
+
+# --- the impact -------------------------------------------------------------------------------------------------------
+
+
+@entry_point("Outcome(ws, f8)")
+def energetic_impact(ws: Workspace, seed: float) -> Outcome:
+    """Integrate the impact of the active contacts, from their rates before it.
+
+    Writes the impulse of every active contact [N s] and its energies stored in compression, returned in expansion and
+    dissipated by friction [J]. An impact without collision needs a speed ``seed`` [m/s]; of other impacts it is zero.
+    """
+    ws.impact.lone_contact = 0 if len(ws.actives) == 1 else NO_CONTACT
+    ws.impact.may_be_lone, ws.impact.is_step_implicit = True, False
+    ws.event.truncation = Truncation.NONE
+    ws.impact.slow_steps = 0
+    shortest = scale_impact(ws, seed)
+    if not shortest > 0.0:
+        return Outcome.INVALID
+    h = first_step(ws, shortest)
+    start_phases(ws, h, seed)
+    return run_impact(ws, h, shortest, is_windowed=False)
+
+
+@entry_point("Outcome(ws, f8, f8, b1)")
+def run_impact(ws: Workspace, h: float, shortest: float, is_windowed: bool) -> Outcome:
+    """Integrate from the present phases and state, with a first step of ``h`` in pseudo-time.
+
+    The active contacts are all contacts of the impact, or those of a window of it. ``shortest`` is the pseudo-time of
+    the shortest compression.
+    """
+    prepare_guards(ws)
+    write_impact_slope(ws, ws.impact.slopes.start)
+    pace = Pace(h=h, h_before=0.0, error_before=1.0)
+    for _ in range(MOST_STEPS):
+        if interrupted(ws, _WORK * len(ws.actives)):
+            return Outcome.ENDLESS
+        if is_finished(ws):
+            finish(ws)
+            return Outcome.FINISHED
+        attempt = _attempt(ws, pace.h)
+        if not attempt.is_accepted:
+            if not attempt.error < math.inf and attempt.h < NOISE * shortest:
+                # a law without a finite value here has none at any step
+                return Outcome.INVALID
+            pace = pace._replace(h=attempt.h_again)
+            continue
+        _accept(ws)
+        if attempt.guard == NO_GUARD:
+            pace = _next_pace(ws, pace, attempt)
+            _continue(ws, shortest)
+            continue
+        pace = pace._replace(h=_pass_switch(ws, attempt, shortest, is_windowed), h_before=0.0)
+        if is_windowed and ws.impact.lone_contact == NO_CONTACT and has_reached_rim(ws):
+            ws.impact.h = pace.h
+            return Outcome.MOVED
+        write_impact_slope(ws, ws.impact.slopes.start)
+    cut_short(ws)
+    finish(ws)
+    return Outcome.ENDLESS
+
+
+# --- a step -----------------------------------------------------------------------------------------------------------
+
+
+@kernel("Attempt(ws, f8)")
+def _attempt(ws: Workspace, h: float) -> Attempt:
+    """Try a step of ``h`` in pseudo-time, or a shorter one that ends at an event."""
+    let_go(ws)
+    aimed = _aim(ws, h)
+    is_linear = aimed.guard != NO_GUARD and try_linear_step(ws, aimed.h)
+    error = 0.0 if is_linear else try_impact_step(ws, aimed.h)
+    ws.totals.n_impact_steps += 1
+    if not error <= 1.0:
+        h_again = aimed.h * rejection_factor(ws, error)
+        return Attempt(h=aimed.h, error=error, guard=NO_GUARD, is_accepted=False, h_again=h_again)
+    switch = _step_to_switch(ws, aimed, is_linear)
+    if not switch.error <= TRUSTED:
+        h_again = aimed.h * _UNTRUSTED
+        return Attempt(h=aimed.h, error=switch.error, guard=NO_GUARD, is_accepted=False, h_again=h_again)
+    return Attempt(h=aimed.h, error=error, guard=switch.guard, is_accepted=True, h_again=aimed.h)
+
+
+@kernel("Aim(ws, f8)")
+def _aim(ws: Workspace, h: float) -> Aim:
+    """Shorten a step of ``h`` to the next event of a lone contact, or towards the end of an expansion."""
+    if ws.impact.lone_contact != NO_CONTACT:
+        return aim(ws, h)
+    return Aim(h=graded(ws, h), guard=NO_GUARD)
+
+
+@kernel("Switch(ws, Aim, b1)")
+def _step_to_switch(ws: Workspace, aimed: Aim, is_linear: bool) -> Switch:
+    """Shorten an accepted step to the first guard that fires in it. A step that has arrived where it aimed stays.
+
+    The last stage of the step has left the forces at its end.
+    """
+    write_impact_guards(ws, ws.impact.y_new.start)
+    fired = first_fired(ws, NO_GUARD)
+    if has_arrived(ws, aimed) and (fired == NO_GUARD or fired == aimed.guard):
+        return Switch(guard=aimed.guard, error=0.0)
+    if fired == NO_GUARD:
+        return Switch(guard=NO_GUARD, error=0.0)
+    if is_linear:
+        # location needs the interpolant of the full step
+        try_impact_step(ws, aimed.h)
+        write_impact_guards(ws, ws.impact.y_new.start)
+    return locate_switch(ws, aimed.h, fired)
+
+
+@kernel()
+def _accept(ws: Workspace) -> None:
+    """Take over the state at the end of a step, and let the slips stick that it has stopped."""
+    for i in range(state_size(ws)):
+        ws.impact.y[i] = ws.impact.y_new[i]
+    grow_scales(ws)
+    stop_halted(ws)
+
+
+@kernel("Pace(ws, Pace, Attempt)")
+def _next_pace(ws: Workspace, pace: Pace, attempt: Attempt) -> Pace:
+    """Length of the step after an accepted one without an event: by its error, and by the trend of the errors."""
+    factor, error = step_factor(attempt.error), max(_LEAST_ERROR, attempt.error)
+    if pace.h_before > 0.0 and ws.impact.lone_contact == NO_CONTACT:
+        factor = min(factor, trend(error, pace.error_before, attempt.h / pace.h_before))
+    return Pace(h=attempt.h * factor, h_before=attempt.h, error_before=error)
+
+
+# --- between two steps ------------------------------------------------------------------------------------------------
+
+
+@kernel("void(ws, f8)")
+def _continue(ws: Workspace, shortest: float) -> None:
+    """Prepare the next step after one without an event. Its first slope is the last one of the step before."""
+    if stays_slow(ws):
+        choose_friction(ws, first_step(ws, shortest), turns_rate=False)
+        prepare_guards(ws)
+        end_trapped(ws)
+        write_impact_slope(ws, ws.impact.slopes.start)
+        ws.event.n_phases += 1
+        return
+    orient(ws)
+    if end_trapped(ws):
+        prepare_guards(ws)
+        write_impact_slope(ws, ws.impact.slopes.start)
+        return
+    arm_impact_guards(ws)
+    n = state_size(ws)
+    for i in range(n):
+        ws.impact.slopes[i] = ws.impact.slopes[LAST_STAGE * n + i]
+
+
+@kernel("f8(ws, Attempt, f8, b1)")
+def _pass_switch(ws: Workspace, attempt: Attempt, shortest: float, is_windowed: bool) -> float:
+    """Change the phases at the guard that fired, and the clock, and end what is over. Length of the next step."""
+    h = step_after_switch(ws, attempt.h, shortest)
+    switch_phases(ws, first_step(ws, shortest), attempt.guard)
+    if len(ws.actives) > 1 and change_clock(ws):
+        h = shortest if ws.impact.lone_contact == NO_CONTACT else lone_step(ws)
+    n_contacts = ws.impact.n_colliding if is_windowed else len(ws.actives)
+    if ws.event.n_phases > _LONG * n_contacts and has_faded(ws):
+        cut_short(ws)
+    end_trapped(ws)
+    if is_windowed:
+        end_faint(ws)
+    return h

@@ -1,0 +1,74 @@
+"""Lengths of the steps of an impact, in pseudo-time.
+
+Steps follow the error of the last one, and its trend, as in the motion. Three places need more:
+
+* The first step. No error is known, and a contact without deformation has no force.
+* The end of an expansion. A force law such as x^1.5 is not smooth at zero: steps shrink with the deformation.
+* An implicit step in which slips settle. Its error grows with a lower power of its length.
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.impact.rates import state_at, state_of
+from nonsmooth.engine.memory.modes import NO_CONTACT, Phase
+from nonsmooth.engine.native.kernel import Workspace, kernel
+from nonsmooth.engine.numerics.runge_kutta import SAFETY, SHRINK, step_factor
+
+_FIRST_POWER = 0.25
+"""Power of the tolerance that is the first step, relative to the shortest compression. Forces are compared after
+that step if none has built up."""
+_FAR = 4.0
+"""First step of a lone contact, relative to the impulse that stops it. It is past all events of the contact."""
+_LARGEST_LOSS = 0.7
+"""Largest part of its deformation that a contact loses in one step of its expansion [1]."""
+_LAST = 2.0
+"""Deformation down to which steps of an expansion shrink, relative to that after the first step of a compression."""
+_LAST_POWER = 0.4
+"""Power of the tolerance that is this deformation, relative to that of a full compression."""
+_SETTLING_POWER = -0.4
+"""Inverse of the power 2.5 with which the error grows of an implicit step in which slips settle. Its stages are of
+second order there."""
+_NOT_FINITE = 0.1
+"""Factor by which a step is shortened whose error is not finite."""
+
+
+@kernel("f8(ws, f8)")
+def first_step(ws: Workspace, shortest: float) -> float:
+    """First step of an impact whose ``shortest`` compression takes that pseudo-time."""
+    return shortest * (_FAR if len(ws.actives) == 1 else float(ws.tolerance.impact) ** _FIRST_POWER)
+
+
+@kernel("f8(ws, f8, f8)")
+def step_after_switch(ws: Workspace, h: float, shortest: float) -> float:
+    """Step after a switch of phases at the end of a step of ``h``: that, but not less than the first step."""
+    if ws.impact.lone_contact != NO_CONTACT:
+        return lone_step(ws)
+    return float(max(h, shortest * ws.tolerance.impact**_FIRST_POWER))
+
+
+@kernel("f8(ws)")
+def lone_step(ws: Workspace) -> float:
+    """Step of the lone contact, before it is shortened to the next event."""
+    return _FAR * ws.actives[ws.impact.lone_contact].impulse_scale
+
+
+@kernel("f8(ws, f8)")
+def graded(ws: Workspace, h: float) -> float:
+    """Shorten a step of ``h`` towards the end of an expansion geometrically."""
+    for active in ws.actives:
+        deformation = state_of(ws, active).deformation
+        rate = state_at(ws, ws.impact.slopes.start, active).deformation
+        loses_much = active.phase == Phase.EXPANSION and h * rate < -_LARGEST_LOSS * deformation
+        if loses_much and deformation > _LAST * ws.tolerance.impact**_LAST_POWER * active.deformation_scale:
+            h = -_LARGEST_LOSS * deformation / rate
+    return h
+
+
+@kernel("f8(ws, f8)")
+def rejection_factor(ws: Workspace, error: float) -> float:
+    """Factor by which a rejected step of a relative ``error`` [1] must be shorter."""
+    if not error < math.inf:
+        return _NOT_FINITE
+    return max(SHRINK, SAFETY * error**_SETTLING_POWER) if ws.impact.is_step_implicit else float(step_factor(error))
