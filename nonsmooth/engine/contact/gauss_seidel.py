@@ -1,4 +1,9 @@
-"""Projected block Gauss-Seidel: contact after contact, each on its own cone, until the forces settle."""
+"""The solver "gauss_seidel" of the contact problem: sweeps in stages (:mod:`nonsmooth.engine.contact.cone`).
+
+Sweeps may settle slowly, but the forces show the modes of the contacts long before. So modes are guessed from the
+forces and verified after each stage, and each stage has more sweeps than the one before. A single long run would spend
+most of its sweeps on digits that the verification then finds exactly.
+"""
 
 from __future__ import annotations
 
@@ -6,25 +11,24 @@ from nonsmooth.engine.contact.cone import gauss_seidel
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
 STAGES = 3
-"""After each of which modes are guessed and verified: what settles slowly may tell them long before."""
+"""Number of stages, with 20, 200 and 2000 sweeps."""
 SWEEPS = 20
-"""Of the first stage; ten times more in each that follows."""
+"""Maximum number of sweeps of the first stage. Each further stage has ten times as many."""
 
 
 @kernel("b1(ws, i8)")
-def sweep(ws: Workspace, sweeps: int) -> bool:
-    """Improve the forces by some sweeps; return 1 if they have settled."""
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
+def sweep(ws: Workspace, max_sweeps: int) -> bool:
+    """Improve the forces of all active contacts by sweeps. True if they have settled within ``max_sweeps``."""
+    for active in ws.actives:
         active.is_normal_force_unknown = True
         active.sticks = False
-    return gauss_seidel(ws, sweeps)
+    return gauss_seidel(ws, max_sweeps)
 
 
 @kernel("b1(ws, i8)")
 def search_by_sweeps(ws: Workspace, stage: int) -> bool:
-    """Improve the forces; return 1 if they have settled."""
-    sweeps = SWEEPS
-    for _stage in range(stage):
-        sweeps *= 10
-    return sweep(ws, sweeps)
+    """Improve the forces by the sweeps of a stage. True if they have settled."""
+    max_sweeps = SWEEPS
+    for _ in range(stage):
+        max_sweeps *= 10
+    return sweep(ws, max_sweeps)

@@ -1,8 +1,14 @@
-"""Slip that is an unknown of the contact problem, where its direction turns too fast to be followed.
+"""Slip as an unknown of the contact problem, in the stages of an implicit step.
 
-At the end of a stage of an implicit step the slip is v0 + tau a, a the acceleration that the forces give and v0 what
-it would be without it.  Coulomb's friction opposes v0 + tau a, or holds it at zero: with v0 / tau added to the
-accelerations without forces that is the problem of incipient slip, and stopping, creeping and breaking away are one.
+In an implicit step, the slip at the end of a stage is v = v0 + tau a_t: tau is the time of the stage, a_t the slip
+acceleration, and v0 the slip at the end without it. Coulomb's friction opposes v, or keeps it at zero. Divided by tau,
+this is the problem of a slip that begins, Eq. (17), with v0 / tau added to the acceleration without contact forces. So
+slips that stop, turn or start within a step need no event. An explicit step would have to follow the direction of a
+slip as it turns, which takes very small steps if the slip is slow.
+
+The modes are found by exchange: a slip whose friction would reverse it sticks, and a contact whose friction exceeds its
+bound slides against this friction. The directions of the slips are made exact after each exchange
+(:mod:`nonsmooth.engine.contact.polish`).
 """
 
 from __future__ import annotations
@@ -12,27 +18,59 @@ from nonsmooth.engine.bodies.kinematics import evaluate_contact, row
 from nonsmooth.engine.contact.distribution import distribute
 from nonsmooth.engine.contact.forces import friction_of_slip, reduced_coefficient
 from nonsmooth.engine.contact.null_space_forces import shift_forces
-from nonsmooth.engine.contact.polish import EXACT, polish
+from nonsmooth.engine.contact.polish import EXACT, has_slip_that_begins, polish
 from nonsmooth.engine.contact.problem import friction_coefficient, slip_coefficient
 from nonsmooth.engine.contact.trial import hold_tried
 from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus, diagonal_block
-from nonsmooth.engine.memory.layout import FIRST_ROW, SECOND_ROW
+from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
 from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.native.kernel import Workspace, kernel
+from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel
 from nonsmooth.engine.numerics.vectors import length
 
-_FAINT = 1e-13
-"""What is held by this part of the largest force more than the bound of friction stays: it is round-off."""
-_ARRIVED = 1e-10
-"""Forces that are not unique may be so much out of their cones, relative to the largest."""
-_TURNS = 8
-"""Newton steps of the direction of a slip that is alone; from a step before three or four do."""
+_ROUND_OFF = 1e-13
+"""Excess of friction over its bound, relative to the largest force, that is round-off."""
+_DISTRIBUTED = 1e-10
+"""Distance of redundant forces to their cones, relative to the largest force, that counts as zero."""
+_NEWTON_STEPS = 8
+"""Maximum number of Newton steps for a slip that is alone. From the last direction, three or four suffice."""
 
 
-@kernel("void(ws, i8)")
-def _lay(ws: Workspace, a: int) -> None:
-    """Write acceleration without forces, coefficients, mode and slip direction of active contact ``a``."""
-    active = ws.actives[a]
+@kernel()
+def add_forces_at_stage_end(ws: Workspace) -> None:
+    """Find the forces of the active contacts at the end of an implicit stage [N], and add their responses to ``du``.
+
+    The state is the one to which the accelerations at ``guess`` lead. If no forces are found, ``is_unsettled`` is set.
+    """
+    has_settled = False
+    for _ in range(1 + ws.problem.n_active):
+        if not _find_forces(ws):
+            break
+        if not _turn_facings(ws):
+            has_settled = True
+            break
+    if not has_settled:
+        ws.problem.is_unsettled = True
+    _add_forces(ws)
+
+
+@kernel("b1(ws)")
+def _find_forces(ws: Workspace) -> bool:
+    """Find the forces at the end of a stage [N], for the present facing of anisotropic friction. True if found."""
+    ws.problem.acceleration_scale = 0.0
+    for active in ws.actives:
+        evaluate_contact(ws, active.contact, rows=3)
+    assemble_delassus(ws)
+    for active in ws.actives:
+        _write_contact(ws, active)
+    if not ws.problem.acceleration_scale > 0.0:
+        # a trial step that is far too long leads to numbers that are not finite
+        return False
+    return _solve_lone_slip(ws) or oppose_slips(ws)
+
+
+@kernel("void(ws, ActiveContact)")
+def _write_contact(ws: Workspace, active: ActiveContact) -> None:
+    """Write b, friction coefficient, mode and slip direction of a contact. The b of its slip includes v0 / tau."""
     c = active.contact
     contact = ws.contacts[c]
     contact.dissipated_by_spin = 0.0
@@ -48,90 +86,106 @@ def _lay(ws: Workspace, a: int) -> None:
     for r in range(3):
         free = row(ws, c, r, ws.island.du.start)
         active.free[r] = free + contact.bias[r]
-        if r > 0 and contact.mode == Mode.SLIDE:
+        if r != NORMAL_ROW and contact.mode == Mode.SLIDE:
+            # the rate at the end holds the guessed acceleration, which is subtracted again
             active.free[r] = free + contact.rate[r] / ws.problem.stage_time - row(ws, c, r, ws.problem.guess)
         ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, abs(free), abs(contact.bias[r]))
 
 
+# --- any number of contacts -------------------------------------------------------------------------------------------
+
+
 @kernel("b1(ws)")
-def _halts(ws: Workspace) -> bool:
-    """Return 1 if a slip is held: whether others share its load, forces that are not unique tell."""
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
+def oppose_slips(ws: Workspace) -> bool:
+    """Find forces whose friction opposes the slips at the end, or stops them [N]. True if they are found.
+
+    Before: b holds v0 / tau. A slip has ``mode_past`` SLIDE and ``is_at_rest``. If Newton's method finds no directions,
+    all contacts stick at first, and slip directions follow from the friction that exceeds its bound.
+    """
+    has_restarted = False
+    for _ in range(2 * (2 + ws.problem.n_active)):
+        is_exact = polish(ws)
+        if not is_exact:
+            if has_restarted:
+                return False
+            has_restarted = True
+            for active in ws.actives:
+                active.mode_tried = Mode.STICK if active.is_at_rest else active.mode_past
+        if not is_exact or not has_slip_that_begins(ws) or ws.problem.is_deficient:
+            hold_tried(ws)
+        if not _exchange_modes(ws):
+            return True
+    return False
+
+
+@kernel("b1(ws)")
+def _exchange_modes(ws: Workspace) -> bool:
+    """Stop the slips that friction would reverse, and release those that it cannot stop. True if a mode changes."""
+    largest = 0.0
+    for i in range(3 * ws.problem.n_active):
+        largest = max(largest, abs(ws.problem.forces[i]))
+    excess = _ROUND_OFF * largest
+    if ws.problem.is_deficient:
+        shift_forces(ws)
+    if ws.problem.is_deficient and _has_stopped_slip(ws):
+        # redundant friction may exceed one bound although other contacts could take the load
+        excess = 2.0 * _DISTRIBUTED * largest
+        distribute(ws, 0.0, _DISTRIBUTED * largest)
+        for active in ws.actives:
+            if active.mode_tried == Mode.SLIDE:
+                friction_of_slip(ws, active.index)
+    has_changed = False
+    for active in ws.actives:
+        if active.mode_past == Mode.SLIDE and active.is_at_rest:
+            has_changed = _exchange_mode(ws, active, excess) or has_changed
+    return has_changed
+
+
+@kernel("b1(ws)")
+def _has_stopped_slip(ws: Workspace) -> bool:
+    """True if the friction of a contact that slides stops it at the end of the stage."""
+    for active in ws.actives:
         if active.mode_past == Mode.SLIDE and active.mode_tried == Mode.STICK:
             return True
     return False
 
 
-@kernel("i8(ws)")
-def _stop_and_go(ws: Workspace) -> int:
-    """Hold the slips that friction would turn round, and let go those that it cannot hold; return how many."""
-    largest = 0.0
-    for i in range(3 * ws.problem.n_active):
-        largest = max(largest, abs(ws.problem.forces[i]))
-    small = _FAINT * largest
-    if ws.problem.is_deficient:
-        shift_forces(ws)
-    if ws.problem.is_deficient and _halts(ws):
-        small = 2.0 * _ARRIVED * largest
-        distribute(ws, 0.0, _ARRIVED * largest)
-        for a in range(ws.problem.n_active):
-            if ws.actives[a].mode_tried == Mode.SLIDE:
-                friction_of_slip(ws, a)
-    changed = 0
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        if active.mode_past != Mode.SLIDE or not active.is_at_rest:
-            continue
-        if active.mode_tried == Mode.STICK:
-            t1, t2 = active.friction
-            norm = length(active.friction)
-            if norm > active.friction_coefficient * active.normal_force + small:
-                active.mode_tried = Mode.SLIDE
-                active.direction = -t1 / norm, -t2 / norm
-                changed += 1
-            continue
-        a1 = add_product(ws, active.free[1], a, FIRST_ROW, ws.problem.forces.start)
-        a2 = add_product(ws, active.free[2], a, SECOND_ROW, ws.problem.forces.start)
-        if a1 * active.direction[0] + a2 * active.direction[1] < 0.0:
-            active.mode_tried = Mode.STICK
-            changed += 1
-    return changed
+@kernel("b1(ws, ActiveContact, f8)")
+def _exchange_mode(ws: Workspace, active: ActiveContact, allowed_excess: float) -> bool:
+    """Stop or release the slip of one contact. True if its mode changes.
 
-
-@kernel("b1(ws)")
-def oppose_slips(ws: Workspace) -> bool:
-    """Find forces whose friction opposes the slip of all that slides, or holds it at zero; return 1 if found.
-
-    Of what slides ``mode_past`` is that and ``at_rest`` 1; the accelerations at which it would end without forces are
-    laid, and the given normal forces.  Directions that lead nowhere are looked for from those in which slips that are
-    held break away.
+    ``allowed_excess`` is the friction over the bound that counts as none [N].
     """
-    held = False
-    for _round in range(2 * (2 + ws.problem.n_active)):
-        polished = polish(ws)
-        if polished == 0:
-            if held:
-                return False
-            held = True
-            for a in range(ws.problem.n_active):
-                active = ws.actives[a]
-                active.mode_tried = Mode.STICK if active.is_at_rest else active.mode_past
-        if polished != 1 or ws.problem.is_deficient:
-            hold_tried(ws)
-        if _stop_and_go(ws) == 0:
-            return True
-    return False
+    if active.mode_tried == Mode.STICK:
+        t1, t2 = active.friction
+        norm = length(active.friction)
+        if not norm > active.friction_coefficient * active.normal_force + allowed_excess:
+            return False
+        active.mode_tried = Mode.SLIDE
+        active.direction = -t1 / norm, -t2 / norm
+        return True
+    a1 = add_product(ws, active.free[FIRST_ROW], active.index, FIRST_ROW, ws.problem.forces.start)
+    a2 = add_product(ws, active.free[SECOND_ROW], active.index, SECOND_ROW, ws.problem.forces.start)
+    if not a1 * active.direction[0] + a2 * active.direction[1] < 0.0:
+        return False
+    active.mode_tried = Mode.STICK
+    return True
+
+
+# --- a single contact -------------------------------------------------------------------------------------------------
 
 
 @kernel("b1(ws)")
-def _oppose_alone(ws: Workspace) -> bool:
-    """Do the same for one contact that slides on, whose only unknown is a direction; return 1 if it is found."""
-    active, g = ws.actives[0], diagonal_block(ws, 0)
+def _solve_lone_slip(ws: Workspace) -> bool:
+    """Find the force of an island of one contact that slides on [N]. False if it is not so, or no force is found.
+
+    The only unknown is the direction d. Newton's method is applied to the acceleration across d, without matrices.
+    """
+    active, g = ws.actives[0], diagonal_block(ws, ws.actives[0].index)
     if ws.problem.n_active > 1 or active.mode_past != Mode.SLIDE or not active.is_at_rest or active.has_given_force:
         return False
     mu, (d1, d2) = active.friction_coefficient, active.direction
-    for _turn in range(_TURNS):
+    for _ in range(_NEWTON_STEPS):
         reduced = g.nn - mu * (g.n1 * d1 + g.n2 * d2)
         if not reduced > 0.0:
             return False
@@ -144,9 +198,9 @@ def _oppose_alone(ws: Workspace) -> bool:
                 return False
             active.normal_force, active.direction = force, (d1, d2)
             ws.problem.is_deficient, active.has_redundant_force = False, False
-            friction_of_slip(ws, 0)
+            friction_of_slip(ws, active.index)
             return True
-        # what turning the direction does to the normal force, and to the acceleration
+        # derivatives of normal force and slip acceleration with respect to the angle of d
         change = mu * force * (g.n2 * d1 - g.n1 * d2) / reduced
         c1 = change * p1 - mu * force * (g.t12 * d1 - g.t11 * d2)
         c2 = change * p2 - mu * force * (g.t22 * d1 - g.t12 * d2)
@@ -157,65 +211,32 @@ def _oppose_alone(ws: Workspace) -> bool:
     return False
 
 
-@kernel()
-def _note(ws: Workspace) -> None:
-    """Add what the forces do to ``du``, and note power and what is held."""
-    add_response(ws, ws.problem.forces.start, ws.island.du.start)
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        c = active.contact
-        contact = ws.contacts[c]
-        slides = contact.mode == Mode.SLIDE
-        if slides and reduced_coefficient(ws, a) <= 0.0:
-            ws.island.singular_contact = c
-        active.sticks = not (slides)
-        for r in range(3):
-            ws.step.driven_power += active.force[r] * (row(ws, c, r, ws.island.velocities) - contact.rate[r])
-        if slides and active.mode_tried == Mode.STICK:
-            # whatever the state from which it was found has of it
-            contact.slip = 0.0, 0.0
+# --- the result of a stage --------------------------------------------------------------------------------------------
 
 
 @kernel("b1(ws)")
-def _solve(ws: Workspace) -> bool:
-    """Find the ``active_forces`` with which a stage ends, as the contacts face; return 1 if they are found."""
-    ws.problem.acceleration_scale = 0.0
-    for a in range(ws.problem.n_active):
-        evaluate_contact(ws, ws.actives[a].contact, 3)
-    assemble_delassus(ws)
-    for a in range(ws.problem.n_active):
-        _lay(ws, a)
-    if not ws.problem.acceleration_scale > 0.0:
-        # a trial step far too long led to what is no number
-        return False
-    return True if _oppose_alone(ws) else oppose_slips(ws)
-
-
-@kernel("i8(ws)")
-def _face(ws: Workspace) -> int:
-    """Let slips that are held face against what holds them; return how many had another bound than it seemed."""
-    turned = 0
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
+def _turn_facings(ws: Workspace) -> bool:
+    """Let anisotropic friction that stops a slip face against its own force. True if a bound of friction changes."""
+    has_turned = False
+    for active in ws.actives:
         if ws.contacts[active.contact].mode == Mode.SLIDE and active.mode_tried == Mode.STICK:
-            turned += turn_facing(ws, active.contact, active.force[1])
-    return turned
+            has_turned = turn_facing(ws, active.contact, active.force[FIRST_ROW]) or has_turned
+    return has_turned
 
 
 @kernel()
-def hold_at_end(ws: Workspace) -> None:
-    """Write the ``active_forces`` of the active contacts with which a stage ends, and add what they do to ``du``.
-
-    Geometry and rates are those of the state that the accelerations at ``guess`` lead to.  Where no forces are found
-    ``unsettled`` is raised.
-    """
-    settled = False
-    for _facing in range(1 + ws.problem.n_active):
-        if not _solve(ws):
-            break
-        if _face(ws) == 0:
-            settled = True
-            break
-    if not settled:
-        ws.problem.is_unsettled = True
-    _note(ws)
+def _add_forces(ws: Workspace) -> None:
+    """Add the responses to the forces to ``du`` and the power of driven bodies. Write which contacts stick."""
+    add_response(ws, ws.problem.forces.start, ws.island.du.start)
+    for active in ws.actives:
+        c = active.contact
+        contact = ws.contacts[c]
+        slides = contact.mode == Mode.SLIDE
+        if slides and reduced_coefficient(ws, active.index) <= 0.0:
+            ws.island.singular_contact = c
+        active.sticks = not slides
+        for r in range(3):
+            ws.step.driven_power += active.force[r] * (row(ws, c, r, ws.island.velocities) - contact.rate[r])
+        if slides and active.mode_tried == Mode.STICK:
+            # a stopped slip is exactly zero, and not what the guessed accelerations leave of it
+            contact.slip = 0.0, 0.0

@@ -1,9 +1,19 @@
-"""The inelastic impact on Coulomb's cone: what one step of Moreau's rule asks for.
+"""The inelastic impact with friction: impulses that leave no approach, and oppose the slip after the impact.
 
-Wedged contacts and redundant ones pass impulses round for long, and from a start far away Newton's method finds none.
-Contacts that give way a little do neither.  So impulses that are at hand, of the averaging before, lead to those of
-contacts that give way next to not at all.  Others are followed from contacts that give way as much as the bodies do to
-those that do not at all: every answer is the start of the next.
+It is one step of Moreau's time stepping (J. J. Moreau, in Nonsmooth Mechanics and Applications, Springer (1988) 1-82).
+With the velocities z of the contacts before the impact, G the Delassus matrix and p the impulses, the velocities
+after it are z + G p, and
+
+    0 <= p_n,  0 <= z_n + (G p)_n,  one of them zero;
+    p_t on Coulomb's disc of radius mu p_n, opposite to the slip z_t + (G p)_t, or inside it if that is zero.
+
+If contacts wedge, or are redundant, Gauss-Seidel needs very many sweeps, and Newton's method diverges from a bad start.
+Compliance of the contacts, which is a positive number added to the diagonal of G, cures both. So there are three
+attempts, the cheapest first:
+
+1. with a negligible compliance, from the given impulses, such as those of the step before;
+2. with rigid contacts, from sweeps of Gauss-Seidel;
+3. with a large compliance, which is reduced in steps to a negligible one. Each solution starts the search for the next.
 """
 
 from __future__ import annotations
@@ -12,136 +22,127 @@ from nonsmooth.engine.contact.gauss_seidel import SWEEPS, sweep
 from nonsmooth.engine.contact.newton import STEPS, step_by_newton
 from nonsmooth.engine.contact.problem import write_friction
 from nonsmooth.engine.delassus.delassus import diagonal_block
-from nonsmooth.engine.native.kernel import (
-    Workspace,
-    entry_point,
-    kernel,
-)
+from nonsmooth.engine.memory.layout import NORMAL_ROW
+from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
 
-_TRUE = 0.5
-"""Contacts give way no more where that makes rates wrong by no more than this part of what counts as none."""
-_LAST = 3
-"""Newton steps from there to contacts that do not give way: where impulses are unique, one or two do."""
-_RATIO = 0.01
-"""Contacts give way by this part of what they did before,"""
-_STUCK = 0.5
-"""or by the root of it where that leads nowhere; above this it does not at all."""
+_NEGLIGIBLE = 0.5
+"""Error of a velocity by compliance that is negligible, in velocity tolerances."""
+_RIGID_STEPS = 3
+"""Maximum number of Newton steps from a negligible compliance to none. One or two suffice if impulses are unique."""
+_REDUCTION = 0.01
+"""Ratio of one compliance to the one before. If a step fails, its square root is tried."""
+_LARGEST_RATIO = 0.5
+"""Ratio of compliances above which the reduction is given up: it would need too many steps."""
+
+
+@entry_point("b1(ws, f8)")
+def inelastic_impulses(ws: Workspace, time: float) -> bool:
+    """Find the impulses of the inelastic impact of the active contacts [N s]. True if they are found.
+
+    Before: ``rate`` holds velocities, ``free`` accelerations without contact forces, and ``force`` the impulses to
+    start from. The impact comes after the accelerations have acted for a ``time`` [s]. After: ``force`` holds the
+    impulses, and ``free`` the velocities without them.
+    """
+    for active in ws.actives:
+        contact = ws.contacts[active.contact]
+        write_friction(ws, active)
+        mu = active.static_coefficient if active.is_at_rest else active.friction_coefficient
+        active.static_coefficient = active.friction_coefficient = mu
+        active.is_at_rest = active.is_normal_force_unknown = active.sticks = True
+        for r in range(3):
+            is_given = r == NORMAL_ROW and contact.is_compliant
+            active.free[r] = time * active.free[r] + (0.0 if is_given else contact.rate[r])
+    _store_diagonal(ws)
+    has_found = _solve_from_guess(ws)
+    if not has_found:
+        sweep(ws, SWEEPS)
+        if step_by_newton(ws, STEPS):
+            return True
+        for i in range(3 * ws.problem.n_active):
+            ws.problem.forces[i] = 0.0
+        has_found = _reduce_compliance(ws)
+    if has_found:
+        # if rigid impulses are unique, those of a negligible compliance are close to them
+        _step_or_restore(ws, _RIGID_STEPS)
+    return has_found
 
 
 @kernel()
-def _keep_rigid(ws: Workspace) -> None:
-    for a in range(ws.problem.n_active):
+def _store_diagonal(ws: Workspace) -> None:
+    """Store the diagonal of the Delassus matrix of rigid contacts [1/kg]."""
+    for active in ws.actives:
         for r in range(3):
-            ws.actives[a].rigid[r] = diagonal_block(ws, a).entries[4 * r]
+            active.rigid[r] = diagonal_block(ws, active.index).entries[4 * r]
 
 
 @kernel("void(ws, f8)")
-def _soften(ws: Workspace, part: float) -> None:
-    """Let the active contacts give way by a ``part`` of what the bodies do."""
-    for a in range(ws.problem.n_active):
-        active, own = ws.actives[a], diagonal_block(ws, a)
-        # the normal impulse of a contact with a law of its own is given
-        rigid = not ws.contacts[active.contact].is_compliant
-        along = part * max(active.rigid[1], active.rigid[2])
-        own.nn = active.rigid[0] * (1.0 + part if rigid else 1.0)
-        own.t11, own.t22 = active.rigid[1] + along, active.rigid[2] + along
+def _set_compliance(ws: Workspace, compliance: float) -> None:
+    """Make all contacts compliant. A ``compliance`` of 1 doubles the diagonal of the Delassus matrix."""
+    for active in ws.actives:
+        own = diagonal_block(ws, active.index)
+        # the normal impulse of a contact with a normal law is given
+        is_rigid = not ws.contacts[active.contact].is_compliant
+        tangential = compliance * max(active.rigid[1], active.rigid[2])
+        own.nn = active.rigid[0] * (1.0 + compliance if is_rigid else 1.0)
+        own.t11, own.t22 = active.rigid[1] + tangential, active.rigid[2] + tangential
 
 
 @kernel("f8(ws)")
-def _fastest(ws: Workspace) -> float:
-    """Return what rate the impulses would bring about at their own contacts at most."""
-    fastest = 0.0
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        along = max(active.rigid[1], active.rigid[2]) * length(active.friction)
-        fastest = max(fastest, active.rigid[0] * active.normal_force, along)
-    return fastest
+def _largest_velocity(ws: Workspace) -> float:
+    """Largest velocity that the impulse of a contact causes at this contact [m/s]."""
+    largest = 0.0
+    for active in ws.actives:
+        tangential = max(active.rigid[1], active.rigid[2]) * length(active.friction)
+        largest = max(largest, active.rigid[0] * active.normal_force, tangential)
+    return largest
 
 
-@kernel()
-def _keep(ws: Workspace) -> None:
-    for i in range(3 * ws.problem.n_active):
-        ws.problem.forces_at_start[i] = ws.problem.forces[i]
+@kernel("b1(ws, f8)")
+def _is_negligible(ws: Workspace, compliance: float) -> bool:
+    """True if a ``compliance`` changes no velocity by more than a part of the tolerance."""
+    return compliance * _largest_velocity(ws) <= _NEGLIGIBLE * ws.tolerance.velocity
 
 
 @kernel("b1(ws, i8)")
-def _step_or_stay(ws: Workspace, steps: int) -> bool:
-    """Go to the next answer by Newton's method, or stay at the last (0)."""
-    _keep(ws)
-    if step_by_newton(ws, steps):
+def _step_or_restore(ws: Workspace, max_steps: int) -> bool:
+    """Improve the impulses by Newton steps. False, and the impulses restored, if they do not settle."""
+    for i in range(3 * ws.problem.n_active):
+        ws.problem.forces_at_start[i] = ws.problem.forces[i]
+    if step_by_newton(ws, max_steps):
         return True
     for i in range(3 * ws.problem.n_active):
         ws.problem.forces[i] = ws.problem.forces_at_start[i]
     return False
 
 
-@kernel("b1(ws, f8)")
-def _next_to_rigid(ws: Workspace, part: float) -> bool:
-    """Return 1 if contacts that give way by a ``part`` make no rates wrong by more than counts."""
-    return part * _fastest(ws) <= _TRUE * ws.tolerance.velocity
-
-
-@kernel("i8(ws)")
-def _go_on(ws: Workspace) -> int:
-    """Go from the impulses at hand to those of contacts that give way next to not at all, or stay (0)."""
-    fastest = _fastest(ws)
-    if fastest == 0.0:
-        return 0
-    # half of what may be, as the impulses to be found may be larger than those at hand
-    part = min(1.0, 0.5 * _TRUE * ws.tolerance.velocity / fastest)
-    _soften(ws, part)
-    settled = _step_or_stay(ws, STEPS)
-    _soften(ws, 0.0)
-    return settled * _next_to_rigid(ws, part)
+@kernel("b1(ws)")
+def _solve_from_guess(ws: Workspace) -> bool:
+    """Find the impulses with a negligible compliance, from the given ones. False, and these restored, if it fails."""
+    largest = _largest_velocity(ws)
+    if largest == 0.0:
+        return False
+    # half of a negligible compliance, because the impulses to be found may be larger than the given ones
+    compliance = min(1.0, 0.5 * _NEGLIGIBLE * ws.tolerance.velocity / largest)
+    _set_compliance(ws, compliance)
+    has_settled = _step_or_restore(ws, STEPS)
+    _set_compliance(ws, 0.0)
+    return has_settled and _is_negligible(ws, compliance)
 
 
 @kernel("b1(ws)")
-def _follow(ws: Workspace) -> bool:
-    """Follow impulses from contacts that give way to those that do next to not at all; return 1 if that leads there."""
-    found, ratio = 1.0, _RATIO
-    _soften(ws, found)
+def _reduce_compliance(ws: Workspace) -> bool:
+    """Follow the impulses from a large compliance to a negligible one. True if this is reached."""
+    compliance, ratio = 1.0, _REDUCTION
+    _set_compliance(ws, compliance)
     sweep(ws, SWEEPS)
     if not step_by_newton(ws, STEPS):
         ratio = 1.0
-    while ratio <= _STUCK and not _next_to_rigid(ws, found):
-        _soften(ws, ratio * found)
-        if _step_or_stay(ws, STEPS):
-            found *= ratio
+    while ratio <= _LARGEST_RATIO and not _is_negligible(ws, compliance):
+        _set_compliance(ws, ratio * compliance)
+        if _step_or_restore(ws, STEPS):
+            compliance *= ratio
         else:
             ratio **= 0.5
-    _soften(ws, 0.0)
-    return _next_to_rigid(ws, found)
-
-
-@entry_point("i8(ws, f8)")
-def inelastic_impulses(ws: Workspace, moment: float) -> int:
-    """Write to ``active_forces`` the impulses of the inelastic impact on Coulomb's cone, of which none pulls.
-
-    The search starts from the impulses at hand.  The rates are those at hand and what the ``free_accelerations`` make
-    of them in a ``moment`` [s]; those rates take the place of the accelerations.  Return 1 if the impulses settle.
-    """
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        contact = ws.contacts[active.contact]
-        write_friction(ws, a)
-        active.static_coefficient = active.friction_coefficient = (
-            active.friction_coefficient if not active.is_at_rest else active.static_coefficient
-        )
-        active.is_at_rest = active.is_normal_force_unknown = active.sticks = True
-        for r in range(3):
-            given = r == 0 and contact.is_compliant
-            active.free[r] = moment * active.free[r] + (0.0 if given else contact.rate[r])
-    _keep_rigid(ws)
-    found = _go_on(ws)
-    if found == 0:
-        sweep(ws, SWEEPS)
-        if step_by_newton(ws, STEPS):
-            return 1
-        for i in range(3 * ws.problem.n_active):
-            ws.problem.forces[i] = 0.0
-        found = _follow(ws)
-    if found == 1:
-        # where they are unique those of contacts that do not give way are next to them
-        _step_or_stay(ws, _LAST)
-    return found
+    _set_compliance(ws, 0.0)
+    return _is_negligible(ws, compliance)

@@ -1,15 +1,19 @@
-"""Lemke's method on the faceted problem, the facets then laid along the friction that it finds.
+"""The solver "lemke" of the contact problem: Lemke's method, with polygons in place of Coulomb's discs.
 
-With the disc of Coulomb replaced by a polygon whose corners are the unit vectors d_j, the laws are a linear
-complementarity problem (Stewart and Trinkle 1996; Anitescu and Potra 1997) in the forces f_N and beta,
-f_T = sum of d_j beta_j, and one slip acceleration lambda per contact at rest:
+With a polygon whose corners are the unit vectors d_j, the laws are a linear complementarity problem (Stewart and
+Trinkle, Int. J. Numer. Methods Eng. 39 (1996) 2673-2691; Anitescu and Potra, Nonlinear Dyn. 14 (1997) 231-247). The
+unknowns are normal forces f_n, forces beta_j >= 0 along the corners, with f_t = sum of beta_j d_j, and one slip
+acceleration lambda >= 0 of each contact at rest:
 
-    a_N                          >= 0   complementary to   f_N
-    d_j . a_T + lambda           >= 0   complementary to   beta_j
-    mu f_N - (sum of beta_j)     >= 0   complementary to   lambda
+    a_n                          >= 0   complementary to   f_n
+    d_j . a_t + lambda           >= 0   complementary to   beta_j
+    mu f_n - (sum of beta_j)     >= 0   complementary to   lambda
 
-A corner that points along the exact friction makes the exact solution one of the faceted problem: solved again
-with the corners so laid, the facets leave no trace.
+If a corner points along the exact friction, the exact solution solves the problem with the polygon, too. So the problem
+is solved again in stages, each with one corner along the friction found last. A polygon of four corners is then enough.
+
+Lemke's method follows a path of pivots. It ends in a solution or in a ray, where it fails. It does not depend on a
+start, so it finds solutions that the iterative solvers miss. Its tableau is a full matrix, so it is for few contacts.
 """
 
 from __future__ import annotations
@@ -18,97 +22,217 @@ import math
 
 from nonsmooth.engine.contact.forces import friction_of_slip
 from nonsmooth.engine.delassus.delassus import write_dense
-from nonsmooth.engine.native.kernel import Workspace, at, entry_point, kernel
+from nonsmooth.engine.memory.layout import FIRST_ROW, SECOND_ROW
+from nonsmooth.engine.native.kernel import ActiveContact, Workspace, at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
+from nonsmooth.engine.numerics.vectors import Pair
 
 STAGES = 12
-"""In each of which corners are turned to where the last one found the friction; a few do where that settles at all."""
+"""Number of stages. A few turn the corners along the friction, if this converges at all."""
 CORNERS = 4
-"""Of the polygon in place of Coulomb's disc, one of them along the friction: the others only bound what turns away."""
+"""Number of corners of the polygon. The workspace holds six unknowns per contact: these, f_n and lambda."""
+_PIVOTS = 50
+"""Maximum number of pivots per unknown. It ends a cycle, which round-off may cause."""
 _ZERO = 1e-11
-"""Entries of the scaled tableau, and differences of ratios in it, below this are round-off."""
+"""Entry of the scaled tableau, or difference of ratios in it, that counts as zero: round-off of the pivots."""
+_COVER_SPREAD = 0.3
+"""Difference between the largest and the smallest factor of the covering variable. Equal ones would lead to ties."""
+_GOLDEN_RATIO = 0.6180339887498949
+"""Its multiples modulo 1 are spread evenly, so that no two factors of the covering variable are equal."""
+_NORMAL_FORCE = -1
+"""Number in place of a corner: the unknown is f_n."""
+_SLIP_ACCELERATION = -2
+"""Number in place of a corner: the unknown is lambda."""
+_NO_ROW = -1
+"""Number in place of a row of the tableau where there is none."""
 
 
-@kernel("f8(ws, i8, i8, i8)")
-def _corner(ws: Workspace, a: int, j: int, r: int) -> float:
-    """Return component ``r`` of corner ``j``; corner 0 points along the friction."""
-    d1, d2 = ws.actives[a].direction
-    turn = 2.0 * math.pi * j / CORNERS
-    if r == 1:
-        return float(-d1 * math.cos(turn) + d2 * math.sin(turn))
-    return float(-d2 * math.cos(turn) - d1 * math.sin(turn))
+@entry_point("b1(ws, i8)")
+def search_by_pivots(ws: Workspace, stage: int) -> bool:
+    """Find the forces of the problem with polygons [N]. True if a further stage is useless: the path ends in a ray.
+
+    The stages do not differ; between them, the search turns ``direction``, and with it the corners.
+    """
+    n_active = ws.problem.n_active
+    if n_active > ws.model.n_pivoted:
+        return True
+    write_dense(ws)
+    inverse_mass = size = 0.0
+    for i in range(3 * n_active):
+        inverse_mass = max(inverse_mass, ws.problem.matrix[i * 3 * n_active + i])
+        size = max(size, abs(ws.problem.free_accelerations[i]))
+        ws.problem.forces[i] = 0.0
+    if size == 0.0:
+        return False
+    n = _list_unknowns(ws)
+    _write_tableau(ws, n, inverse_mass, size)
+    if _ends_in_ray(ws, n):
+        return True
+    _read_forces(ws, n, inverse_mass, size)
+    for active in ws.actives:
+        if not active.is_at_rest:
+            friction_of_slip(ws, active.index)
+    return False
+
+
+# --- the tableau ------------------------------------------------------------------------------------------------------
+
+
+@kernel("i8(ws)")
+def _list_unknowns(ws: Workspace) -> int:
+    """List contact and corner of each unknown. Returns the number of unknowns."""
+    n = 0
+    for active in ws.actives:
+        first = _SLIP_ACCELERATION if active.is_at_rest else _NORMAL_FORCE
+        for corner in range(first, CORNERS if active.is_at_rest else 0):
+            ws.problem.lemke_contact[n], ws.problem.lemke_corner[n] = active.index, corner
+            n += 1
+    return n
+
+
+@kernel("v2(ActiveContact, i8)")
+def _corner(active: ActiveContact, number: int) -> Pair:
+    """Unit vector of a corner of the polygon of a contact. Corner 0 is opposite to its slip direction."""
+    d1, d2 = active.direction
+    angle = 2.0 * math.pi * number / CORNERS
+    return -d1 * math.cos(angle) + d2 * math.sin(angle), -d2 * math.cos(angle) - d1 * math.sin(angle)
 
 
 @kernel("f8(ws, i8, i8)")
-def _push(ws: Workspace, line: int, column: int) -> float:
-    """Return what the unknown of a column does to row ``line`` of G f, G standing in full in ``matrix``."""
-    a, j = ws.problem.lemke_contact[column], ws.problem.lemke_corner[column]
+def _acceleration_per_unknown(ws: Workspace, line: int, column: int) -> float:
+    """Acceleration along row ``line`` of G per unit of the unknown of a ``column`` [1/kg]."""
+    a, corner = ws.problem.lemke_contact[column], ws.problem.lemke_corner[column]
     active, g = ws.actives[a], at(ws.floats, ws.problem.matrix.start + line * 3 * ws.problem.n_active + 3 * a)
-    if j >= 0:
-        return g[1] * _corner(ws, a, j, 1) + g[2] * _corner(ws, a, j, 2)
-    if j == -2:
+    if corner >= 0:
+        c1, c2 = _corner(active, corner)
+        return g[1] * c1 + g[2] * c2
+    if corner == _SLIP_ACCELERATION:
         return 0.0
     if active.is_at_rest:
         return g[0]
     return float(g[0] - active.friction_coefficient * (active.direction[0] * g[1] + active.direction[1] * g[2]))
 
 
-@kernel("i8(ws)")
-def _list_unknowns(ws: Workspace) -> int:
-    """List contact and corner of every unknown: -1 is a normal force, -2 a slip acceleration; return their number."""
-    n = 0
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        for j in range(-2 if active.is_at_rest else -1, CORNERS if active.is_at_rest else 0):
-            ws.problem.lemke_contact[n], ws.problem.lemke_corner[n] = a, j
-            n += 1
-    return n
-
-
 @kernel("i8(ws, i8, i8)")
 def _row(ws: Workspace, n: int, i: int) -> int:
-    """Return where row ``i`` of the tableau begins: factors of ``n`` unknowns, of the covering variable, constant."""
+    """Place of row ``i`` of the tableau: factors of ``n`` unknowns and of the covering variable, and the constant."""
     return int(ws.problem.tableau.start + i * (n + 2))
 
 
 @kernel("void(ws, i8, f8, f8)")
-def _lay(ws: Workspace, n: int, g: float, size: float) -> None:
-    """Write the tableau: complementary quantities by unknowns, covering column, constant; ``g``, ``size``: scales."""
+def _write_tableau(ws: Workspace, n: int, inverse_mass: float, size: float) -> None:
+    """Write the tableau of ``n`` rows. It is scaled by an ``inverse_mass`` [1/kg] and the ``size`` of b [m/s^2].
+
+    Variables 0 to n - 1 are the quantities on the left, n to 2 n - 1 the unknowns, and 2 n is the covering variable.
+    """
     for i in range(n):
-        a, corner = ws.problem.lemke_contact[i], ws.problem.lemke_corner[i]
-        active = ws.actives[a]
+        corner = ws.problem.lemke_corner[i]
+        active = ws.actives[ws.problem.lemke_contact[i]]
         row = _row(ws, n, i)
-        # a cover that differs from row to row keeps pivots from being equal
-        ws.floats[row + n] = 1.0 + 0.3 * ((0.6180339887498949 * (i + 1)) % 1.0)
+        ws.floats[row + n] = 1.0 + _COVER_SPREAD * ((_GOLDEN_RATIO * (i + 1)) % 1.0)
         ws.floats[row + n + 1] = 0.0
         ws.problem.lemke_row[i], ws.problem.lemke_column[i] = i, n + i
         for j in range(n):
-            other, its = ws.problem.lemke_contact[j], ws.problem.lemke_corner[j]
-            entry = 0.0
-            if corner == -1:
-                entry = _push(ws, 3 * a, j) / g
-            elif corner == -2:
-                if other == a and its >= 0:
-                    entry = -1.0
-                elif other == a and its == -1:
-                    entry = active.friction_coefficient
-            else:
-                for r in range(1, 3):
-                    entry += _corner(ws, a, corner, r) * _push(ws, 3 * a + r, j) / g
-                if other == a and its == -2:
-                    entry = 1.0
-            ws.floats[row + j] = entry
-        if corner == -1:
+            ws.floats[row + j] = _tableau_entry(ws, i, j, inverse_mass)
+        if corner == _NORMAL_FORCE:
             ws.floats[row + n + 1] = active.free[0] / size
         elif corner >= 0:
-            for r in range(1, 3):
-                ws.floats[row + n + 1] += _corner(ws, a, corner, r) * active.free[r] / size
+            c1, c2 = _corner(active, corner)
+            ws.floats[row + n + 1] += c1 * active.free[1] / size
+            ws.floats[row + n + 1] += c2 * active.free[2] / size
     ws.problem.lemke_column[n] = 2 * n
+
+
+@kernel("f8(ws, i8, i8, f8)")
+def _tableau_entry(ws: Workspace, i: int, j: int, inverse_mass: float) -> float:
+    """Factor of unknown ``j`` in row ``i`` of the tableau, scaled by an ``inverse_mass`` [1/kg]."""
+    a, corner = ws.problem.lemke_contact[i], ws.problem.lemke_corner[i]
+    active, is_own = ws.actives[a], ws.problem.lemke_contact[j] == a
+    other_corner = ws.problem.lemke_corner[j]
+    if corner == _NORMAL_FORCE:
+        return _acceleration_per_unknown(ws, 3 * a, j) / inverse_mass
+    if corner == _SLIP_ACCELERATION:
+        if is_own and other_corner >= 0:
+            return -1.0
+        return float(active.friction_coefficient if is_own and other_corner == _NORMAL_FORCE else 0.0)
+    if is_own and other_corner == _SLIP_ACCELERATION:
+        return 1.0
+    c1, c2 = _corner(active, corner)
+    entry = 0.0
+    entry += c1 * _acceleration_per_unknown(ws, 3 * a + 1, j) / inverse_mass
+    entry += c2 * _acceleration_per_unknown(ws, 3 * a + 2, j) / inverse_mass
+    return entry
+
+
+# --- the path of pivots -----------------------------------------------------------------------------------------------
+
+
+@kernel("b1(ws, i8)")
+def _ends_in_ray(ws: Workspace, n: int) -> bool:
+    """Follow the path of pivots. True if it ends in a ray, so that no solution is found.
+
+    The covering variable enters first. After each pivot, the complement of the variable that has left enters. The path
+    ends in a solution if the covering variable leaves.
+    """
+    row, column = _first_row(ws, n), n
+    for _ in range(_PIVOTS * n):
+        if row == _NO_ROW or interrupted(ws, ws.problem.n_active):
+            return False
+        leaving = ws.problem.lemke_row[row]
+        _pivot(ws, n, row, column)
+        if leaving == 2 * n:
+            return False
+        complement = leaving - n if leaving >= n else leaving + n
+        for j in range(n + 1):
+            if ws.problem.lemke_column[j] == complement:
+                column = j
+        row = _leaving_row(ws, n, column)
+        if row == _NO_ROW:
+            return True
+    return False
+
+
+@kernel("i8(ws, i8)")
+def _first_row(ws: Workspace, n: int) -> int:
+    """Row whose variable leaves when the covering variable enters, or -1 if the tableau is solved already."""
+    first, worst = _NO_ROW, 0.0
+    for i in range(n):
+        row = _row(ws, n, i)
+        ratio = ws.floats[row + n + 1] / ws.floats[row + n]
+        if ratio < worst:
+            first, worst = i, ratio
+    return first
+
+
+@kernel("i8(ws, i8, i8)")
+def _leaving_row(ws: Workspace, n: int, s: int) -> int:
+    """Row whose variable reaches zero first while the variable of column ``s`` grows, or -1.
+
+    Of equal rows, that of the covering variable is taken, or else the one with the largest pivot.
+    """
+    least, chosen = math.inf, _NO_ROW
+    for i in range(n):
+        row = _row(ws, n, i)
+        entry = ws.floats[row + s]
+        if entry < -_ZERO:
+            ratio = max(0.0, ws.floats[row + n + 1]) / -entry
+            if ratio < least:
+                least = ratio
+    pivot = 0.0
+    for i in range(n):
+        row = _row(ws, n, i)
+        entry = ws.floats[row + s]
+        if entry < -_ZERO and max(0.0, ws.floats[row + n + 1]) / -entry <= least + _ZERO:
+            if ws.problem.lemke_row[i] == 2 * n:
+                return i
+            if -entry > pivot:
+                pivot, chosen = -entry, i
+    return chosen
 
 
 @kernel("void(ws, i8, i8, i8)")
 def _pivot(ws: Workspace, n: int, r: int, s: int) -> None:
-    """Exchange the quantity of row ``r`` for that of column ``s``."""
+    """Exchange the variable of row ``r`` for that of column ``s``."""
     row = _row(ws, n, r)
     pivot = ws.floats[row + s]
     for j in range(n + 2):
@@ -126,86 +250,18 @@ def _pivot(ws: Workspace, n: int, r: int, s: int) -> None:
     ws.problem.lemke_row[r], ws.problem.lemke_column[s] = ws.problem.lemke_column[s], ws.problem.lemke_row[r]
 
 
-@kernel("i8(ws, i8)")
-def _first_row(ws: Workspace, n: int) -> int:
-    """Return the row that the covering variable enters at, or -1 if none is needed."""
-    first, worst = -1, 0.0
-    for i in range(n):
-        row = _row(ws, n, i)
-        ratio = ws.floats[row + n + 1] / ws.floats[row + n]
-        if ratio < worst:
-            first, worst = i, ratio
-    return first
-
-
-@kernel("i8(ws, i8, i8)")
-def _leaving(ws: Workspace, n: int, s: int) -> int:
-    """Return the row that reaches zero first when column ``s`` grows, or -1; among equals the covering variable."""
-    best, chosen = math.inf, -1
-    for i in range(n):
-        row = _row(ws, n, i)
-        entry = ws.floats[row + s]
-        if entry < -_ZERO:
-            ratio = max(0.0, ws.floats[row + n + 1]) / -entry
-            if ratio < best:
-                best = ratio
-    pivot = 0.0
-    for i in range(n):
-        row = _row(ws, n, i)
-        entry = ws.floats[row + s]
-        if entry < -_ZERO and max(0.0, ws.floats[row + n + 1]) / -entry <= best + _ZERO:
-            if ws.problem.lemke_row[i] == 2 * n:
-                return i
-            if -entry > pivot:
-                pivot, chosen = -entry, i
-    return chosen
-
-
-@entry_point("b1(ws, i8)")
-def search_by_pivots(ws: Workspace, stage: int) -> bool:
-    """Write ``active_forces`` of the faceted problem; return 1 if there are none, its path ending in a ray."""
-    m = ws.problem.n_active
-    if m > ws.model.n_pivoted:
-        return True
-    write_dense(ws)
-    g = size = 0.0
-    for i in range(3 * m):
-        g = max(g, ws.problem.matrix[i * 3 * m + i])
-        size = max(size, abs(ws.problem.free_accelerations[i]))
-        ws.problem.forces[i] = 0.0
-    if size == 0.0:
-        return False
-    n = _list_unknowns(ws)
-    _lay(ws, n, g, size)
-    row, column = _first_row(ws, n), n
-    for _pivots in range(50 * n):
-        if row < 0 or interrupted(ws, m):
-            break
-        left = ws.problem.lemke_row[row]
-        _pivot(ws, n, row, column)
-        if left == 2 * n:
-            break
-        # what enters next is the partner of what has left
-        partner = left - n if left >= n else left + n
-        for j in range(n + 1):
-            if ws.problem.lemke_column[j] == partner:
-                column = j
-        row = _leaving(ws, n, column)
-        if row < 0:
-            return True
+@kernel("void(ws, i8, f8, f8)")
+def _read_forces(ws: Workspace, n: int, inverse_mass: float, size: float) -> None:
+    """Write the forces of the solved tableau [N]. For the scales see :func:`_write_tableau`."""
     for i in range(n):
         unknown = ws.problem.lemke_row[i] - n
         if unknown < 0 or unknown >= n:
             continue
-        value = ws.floats[_row(ws, n, i) + n + 1] * size / g
-        a, j = ws.problem.lemke_contact[unknown], ws.problem.lemke_corner[unknown]
-        active = ws.actives[a]
-        if j == -1:
+        value = ws.floats[_row(ws, n, i) + n + 1] * size / inverse_mass
+        active, corner = ws.actives[ws.problem.lemke_contact[unknown]], ws.problem.lemke_corner[unknown]
+        if corner == _NORMAL_FORCE:
             active.normal_force = value
-        elif j >= 0:
-            for r in range(1, 3):
-                active.force[r] += value * _corner(ws, a, j, r)
-    for a in range(m):
-        if not ws.actives[a].is_at_rest:
-            friction_of_slip(ws, a)
-    return False
+        elif corner >= 0:
+            c1, c2 = _corner(active, corner)
+            active.force[FIRST_ROW] += value * c1
+            active.force[SECOND_ROW] += value * c2

@@ -1,196 +1,233 @@
-"""Semismooth Newton on the cones: the natural map of Alart and Curnier (1991), with a line search.
+"""The solver "newton" of the contact problem: a semismooth Newton method on Coulomb's cones.
 
-The search is the non-monotone one of Zhang and Hager (SIAM J. Optim. 14 (2004) 1043-1056): at the kinks of the map the
-way to a solution leads over larger values.  The equations of a contact at rest, y = f - rho a being where its force
-would go:
+The laws of a contact at rest hold if and only if its natural map vanishes (Alart and Curnier, Comput. Methods Appl.
+Mech. Eng. 92 (1991) 353-375):
 
-    f_N - max(0, y_N) = 0,    f_T - (projection of y_T on the disc of radius mu max(0, y_N)) = 0
+    f_n - max(0, y_n) = 0,
+    f_t - (projection of y_t on the disc of radius mu max(0, y_n)) = 0,    y = f - a / g,
 
-They hold iff Eqs. (16) and (17) do.  Sweeps of Gauss-Seidel bring the start near.
+where a is the acceleration and g the inverse mass of the contact. Friction that slides adds f_t + mu f_n d = 0 instead.
+The map has kinks, and at these the path to the solution may lead over larger values. So the line search compares with a
+weighted mean of the past values, not with the last one (Zhang and Hager, SIAM J. Optim. 14 (2004) 1043-1056). Sweeps of
+Gauss-Seidel find the start.
+
+The method converges quadratically. Gauss-Seidel alone converges slowly where many contacts press on each other, and
+Lemke's method needs a full matrix.
 """
 
 from __future__ import annotations
 
 from nonsmooth.engine.contact.gauss_seidel import sweep
-from nonsmooth.engine.contact.trial import slope_of_slip
+from nonsmooth.engine.contact.trial import tangential_inverse_mass
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
-from nonsmooth.engine.memory.layout import NORMAL_ROW
-from nonsmooth.engine.native.kernel import Workspace, at, entry_point, kernel
+from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW
+from nonsmooth.engine.native.kernel import ActiveContact, Workspace, at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.band import open_band
 from nonsmooth.engine.numerics.linear import SINGULAR, band_row, eliminate
-from nonsmooth.engine.numerics.vectors import length
+from nonsmooth.engine.numerics.vectors import Pair, length
 
 STAGES = 4
-"""Starts from ever better forces: where steps lead nowhere, sweeps do in time."""
+"""Number of stages. Each starts from better forces, because each has ten times as many sweeps as the one before."""
 _SWEEPS = 10
-"""Before the first stage; ten times more before each that follows."""
+"""Maximum number of sweeps before the Newton steps of the first stage."""
 STEPS = 30
-"""Newton steps of one stage: they are quadratic or lead nowhere."""
+"""Maximum number of Newton steps of a stage. If convergence is not quadratic by then, the start was too far away."""
 _HALVINGS = 8
-"""Of one step, down to which the natural map must become less than its mean over the steps before,"""
+"""Number of lengths of a Newton step that the line search tries, each half of the one before."""
+_DECREASE = 1e-4
+"""Decrease of the squared map that the line search requires, relative to the mean: Armijo's usual value."""
 _MEMORY = 0.85
-"""in which each counts by this part of the one behind it."""
-_FLOOR = 1e-8
-"""Added to the diagonal, whose entries are near 1: forces that are not unique must not stop the elimination."""
+"""Weight of the past in the mean of the line search: 0 is monotone, 1 a plain mean. It is the authors' value."""
+_SHIFT = 1e-8
+"""Added to the diagonal, whose entries are about 1, so that redundant forces do not make the matrix singular."""
 _SETTLED = 1e-11
-"""Length of the natural map, relative to that of the forces, at which they are left to be made exact."""
+"""Length of the natural map, relative to that of the forces, at which they have settled. Trials make them exact."""
 
 
-@kernel("v2(ws, i8)")
-def _aim(ws: Workspace, a: int) -> tuple[float, float]:
-    """Return where the friction of the active contact ``a`` would go if nothing cut it."""
-    active, slope = ws.actives[a], slope_of_slip(ws, a)
-    y1 = active.friction[0] - active.slip_acceleration[0] / slope
-    return y1, active.friction[1] - active.slip_acceleration[1] / slope
+@entry_point("b1(ws, i8)")
+def search_by_newton(ws: Workspace, stage: int) -> bool:
+    """Improve the forces by the sweeps and the Newton steps of a stage. True if they have settled."""
+    max_sweeps = _SWEEPS
+    for _ in range(stage):
+        max_sweeps *= 10
+    sweep(ws, max_sweeps)
+    return step_by_newton(ws, STEPS)
+
+
+@kernel("b1(ws, i8)")
+def step_by_newton(ws: Workspace, max_steps: int) -> bool:
+    """Improve the forces by Newton steps. True if they have settled within ``max_steps``."""
+    n = 3 * ws.problem.n_active
+    square = write_natural_map(ws)
+    mean, weight = square, 1.0
+    for _ in range(max_steps):
+        if interrupted(ws, ws.problem.n_active * ws.problem.half_band):
+            return False
+        size = 0.0
+        for i in range(n):
+            size += ws.problem.forces[i] * ws.problem.forces[i]
+        if square <= _SETTLED * _SETTLED * size:
+            return True
+        if not _find_step(ws):
+            return False
+        square = _search_along_step(ws, mean)
+        if square < 0.0:
+            return False
+        mean = (_MEMORY * weight * mean + square) / (_MEMORY * weight + 1.0)
+        weight = _MEMORY * weight + 1.0
+    return False
+
+
+@kernel("b1(ws)")
+def _find_step(ws: Workspace) -> bool:
+    """Write Newton's step to ``x`` [N]. False if the matrix is singular, or has too many entries."""
+    n = 3 * ws.problem.n_active
+    if not _write_jacobian(ws):
+        return False
+    for i in range(n):
+        ws.problem.x[i] = -ws.problem.right[i]
+    return eliminate(ws.floats, ws.problem.matrix.start, n, ws.problem.half_band, ws.problem.x.start, SINGULAR)
+
+
+@kernel("f8(ws, f8)")
+def _search_along_step(ws: Workspace, mean: float) -> float:
+    """Make the longest step that decreases the squared natural map below its ``mean``. Returns it, or -1.
+
+    Without such a step the forces stay as they are.
+    """
+    n = 3 * ws.problem.n_active
+    for i in range(n):
+        ws.problem.forces_kept[i] = ws.problem.forces[i]
+    part = 1.0
+    for _ in range(_HALVINGS):
+        for i in range(n):
+            ws.problem.forces[i] = ws.problem.forces_kept[i] + part * ws.problem.x[i]
+        square = write_natural_map(ws)
+        if square < (1.0 - _DECREASE * part) * mean:
+            return square
+        part *= 0.5
+    for i in range(n):
+        ws.problem.forces[i] = ws.problem.forces_kept[i]
+    return -1.0
+
+
+@kernel("v2(ws, ActiveContact)")
+def _trial_friction(ws: Workspace, active: ActiveContact) -> Pair:
+    """Friction y_t of a contact before it is projected on Coulomb's disc [N]."""
+    g = tangential_inverse_mass(ws, active)
+    y1 = active.friction[0] - active.slip_acceleration[0] / g
+    return y1, active.friction[1] - active.slip_acceleration[1] / g
 
 
 @kernel("f8(ws)")
 def write_natural_map(ws: Workspace) -> float:
-    """Write the natural map to ``right``; return its square."""
+    """Write the natural map to ``right`` [N]. Returns the square of its length [N^2]."""
     square = 0.0
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        right = at(ws.floats, ws.problem.right.start + 3 * a)
+    for active in ws.actives:
+        right = at(ws.floats, ws.problem.right.start + 3 * active.index)
         for r in range(3):
-            active.acceleration[r] = add_product(ws, active.free[r], a, r, ws.problem.forces.start)
-        y = active.normal_force - active.normal_acceleration / diagonal_block(ws, a).nn
+            active.acceleration[r] = add_product(ws, active.free[r], active.index, r, ws.problem.forces.start)
+        y = active.normal_force - active.normal_acceleration / diagonal_block(ws, active.index).nn
         right[0] = active.normal_force - max(0.0, y)
         radius = active.friction_coefficient * max(0.0, y)
         t1, t2 = active.friction
         if not active.is_at_rest:
-            pull = active.friction_coefficient * active.normal_force
-            right[1], right[2] = t1 + pull * active.direction[0], t2 + pull * active.direction[1]
+            along = active.friction_coefficient * active.normal_force
+            right[1], right[2] = t1 + along * active.direction[0], t2 + along * active.direction[1]
         else:
-            y1, y2 = _aim(ws, a)
+            y1, y2 = _trial_friction(ws, active)
             size = length((y1, y2))
-            cut = radius / size if size > radius else 1.0
-            right[1], right[2] = t1 - cut * y1, t2 - cut * y2
+            factor = radius / size if size > radius else 1.0
+            right[1], right[2] = t1 - factor * y1, t2 - factor * y2
         for r in range(3):
             square += right[r] * right[r]
     return square
 
 
-@kernel("void(ws, i8, i8, f8)")
-def _add_row(ws: Workspace, a: int, r: int, slope: float) -> None:
-    """Add a row of G, that is of contact ``a``, over a slope to the same row of ``matrix``."""
-    active = ws.actives[a]
-    line = band_row(ws.problem.matrix.start, 3 * a + r, 3 * ws.problem.n_active, ws.problem.half_band)
-    for block in range(active.first_block, active.end_block):
-        for s in range(3):
-            ws.floats[line + 3 * ws.island.block_column[block] + s] += (
-                ws.island.delassus[DELASSUS * block + 3 * r + s] / slope
-            )
-
-
-@kernel("void(ws, i8, f8, f8, f8)")
-def _add_cut(ws: Workspace, a: int, cut: float, c1: float, c2: float) -> None:
-    """Add the derivative of the friction that is cut to the disc, along (c1, c2), to its two rows of ``matrix``."""
-    active = ws.actives[a]
-    own, slope = diagonal_block(ws, a).nn, slope_of_slip(ws, a)
-    n = 3 * ws.problem.n_active
-    first, second = (
-        band_row(ws.problem.matrix.start, 3 * a + 1, n, ws.problem.half_band),
-        band_row(ws.problem.matrix.start, 3 * a + 2, n, ws.problem.half_band),
-    )
-    for block in range(active.first_block, active.end_block):
-        for s in range(3):
-            g, j = at(ws.floats, ws.island.delassus.start + DELASSUS * block + s), 3 * ws.island.block_column[block] + s
-            z1, z2 = -g[3] / slope, -g[6] / slope
-            z1 += 1.0 if j == 3 * a + 1 else 0.0
-            z2 += 1.0 if j == 3 * a + 2 else 0.0
-            across = c2 * z1 - c1 * z2
-            grown = active.friction_coefficient * ((1.0 if j == 3 * a else 0.0) - g[0] / own)
-            ws.floats[first + j] -= cut * c2 * across + c1 * grown
-            ws.floats[second + j] += cut * c1 * across - c2 * grown
+# --- its derivative ---------------------------------------------------------------------------------------------------
 
 
 @kernel("b1(ws)")
 def _write_jacobian(ws: Workspace) -> bool:
-    """Write the derivative of the natural map at the forces at hand to ``matrix``; return 0 if it is too wide."""
+    """Write the derivative of the natural map to ``matrix`` [1]. False if its band has too many entries."""
     n = 3 * ws.problem.n_active
     for a in range(ws.problem.n_active + 1):
-        ws.actives[a].first_unknown = 3 * a
+        ws.problem.first_unknown[a] = 3 * a
     if not open_band(ws, n, ws.problem.matrix.start):
         return False
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        line = 3 * a
-        own = diagonal_block(ws, a).nn
+    for active in ws.actives:
+        own = diagonal_block(ws, active.index).nn
         y = active.normal_force - active.normal_acceleration / own
-        row = band_row(ws.problem.matrix.start, line, n, ws.problem.half_band)
         if y > 0.0:
-            _add_row(ws, a, NORMAL_ROW, own)
-            ws.floats[row + line] += _FLOOR
+            _add_row(ws, active, NORMAL_ROW, own)
+            ws.floats[_place(ws, active, NORMAL_ROW, NORMAL_ROW)] += _SHIFT
         else:
-            ws.floats[row + line] = 1.0
-        for r in range(1, 3):
-            row = band_row(ws.problem.matrix.start, line + r, n, ws.problem.half_band)
-            ws.floats[row + line + r] = 1.0
-            if not active.is_at_rest:
-                ws.floats[row + line] = active.friction_coefficient * active.direction[r - 1]
-        if not active.is_at_rest:
-            continue
-        slope = slope_of_slip(ws, a)
-        y1, y2 = _aim(ws, a)
-        size, radius = length((y1, y2)), active.friction_coefficient * max(0.0, y)
-        if size <= radius:
-            for r in range(1, 3):
-                row = band_row(ws.problem.matrix.start, line + r, n, ws.problem.half_band)
-                ws.floats[row + line + r] = 0.0
-                _add_row(ws, a, r, slope)
-                ws.floats[row + line + r] += _FLOOR
-        elif radius > 0.0:
-            _add_cut(ws, a, radius / size, y1 / size, y2 / size)
+            ws.floats[_place(ws, active, NORMAL_ROW, NORMAL_ROW)] = 1.0
+        if active.is_at_rest:
+            _add_rows_of_rest(ws, active, active.friction_coefficient * max(0.0, y))
+        else:
+            for r in range(FIRST_ROW, 3):
+                ws.floats[_place(ws, active, r, r)] = 1.0
+                ws.floats[_place(ws, active, r, NORMAL_ROW)] = active.friction_coefficient * active.direction[r - 1]
     return True
 
 
-@entry_point("b1(ws, i8)")
-def search_by_newton(ws: Workspace, stage: int) -> bool:
-    """Improve the forces by sweeps, ten times more of them in every stage, and Newton steps; return 1 if settled."""
-    sweeps = _SWEEPS
-    for _stage in range(stage):
-        sweeps *= 10
-    sweep(ws, sweeps)
-    return step_by_newton(ws, STEPS)
+@kernel("i8(ws, ActiveContact, i8, i8)")
+def _place(ws: Workspace, active: ActiveContact, r: int, s: int) -> int:
+    """Place of entry (r, s) of the diagonal block of a contact in ``matrix``."""
+    first = 3 * active.index
+    line = band_row(ws.problem.matrix.start, first + r, 3 * ws.problem.n_active, ws.problem.half_band)
+    return line + first + s
 
 
-@kernel("b1(ws, i8)")
-def step_by_newton(ws: Workspace, steps: int) -> bool:
-    """Improve the forces by so many Newton steps at most; return 1 if settled."""
-    width = 3 * ws.problem.n_active
-    square = write_natural_map(ws)
-    mean, weight = square, 1.0
-    for _step in range(steps):
-        if interrupted(ws, ws.problem.n_active * ws.problem.half_band):
-            return False
-        size = 0.0
-        for i in range(width):
-            size += ws.problem.forces[i] * ws.problem.forces[i]
-        if square <= _SETTLED * _SETTLED * size:
-            return True
-        if not _write_jacobian(ws):
-            return False
-        for i in range(width):
-            ws.problem.x[i] = -ws.problem.right[i]
-        if not eliminate(ws.floats, ws.problem.matrix.start, width, ws.problem.half_band, ws.problem.x.start, SINGULAR):
-            return False
-        for i in range(width):
-            ws.problem.forces_kept[i] = ws.problem.forces[i]
-        share, better = 1.0, False
-        for _halving in range(_HALVINGS):
-            for i in range(width):
-                ws.problem.forces[i] = ws.problem.forces_kept[i] + share * ws.problem.x[i]
-            new = write_natural_map(ws)
-            if new < (1.0 - 1e-4 * share) * mean:
-                square, better = new, True
-                break
-            share *= 0.5
-        if not better:
-            for i in range(width):
-                ws.problem.forces[i] = ws.problem.forces_kept[i]
-            return False
-        mean = (_MEMORY * weight * mean + square) / (_MEMORY * weight + 1.0)
-        weight = _MEMORY * weight + 1.0
-    return False
+@kernel("void(ws, ActiveContact, i8, f8)")
+def _add_row(ws: Workspace, active: ActiveContact, r: int, inverse_mass: float) -> None:
+    """Add row ``r`` of a contact of G, divided by an inverse mass [1/kg], to the same row of ``matrix``."""
+    line = band_row(ws.problem.matrix.start, 3 * active.index + r, 3 * ws.problem.n_active, ws.problem.half_band)
+    for block in range(active.first_block, active.end_block):
+        for s in range(3):
+            ws.floats[line + 3 * ws.island.block_column[block] + s] += (
+                ws.island.delassus[DELASSUS * block + 3 * r + s] / inverse_mass
+            )
+
+
+@kernel("void(ws, ActiveContact, f8)")
+def _add_rows_of_rest(ws: Workspace, active: ActiveContact, radius: float) -> None:
+    """Add the two rows of friction of a contact at rest. ``radius`` is that of Coulomb's disc [N]."""
+    y1, y2 = _trial_friction(ws, active)
+    size = length((y1, y2))
+    if size <= radius:
+        g = tangential_inverse_mass(ws, active)
+        for r in range(FIRST_ROW, 3):
+            _add_row(ws, active, r, g)
+            ws.floats[_place(ws, active, r, r)] += _SHIFT
+        return
+    for r in range(FIRST_ROW, 3):
+        ws.floats[_place(ws, active, r, r)] = 1.0
+    if radius > 0.0:
+        _subtract_projection(ws, active, radius / size, y1 / size, y2 / size)
+
+
+@kernel("void(ws, ActiveContact, f8, f8, f8)")
+def _subtract_projection(ws: Workspace, active: ActiveContact, factor: float, c1: float, c2: float) -> None:
+    """Subtract the derivative of the projection on Coulomb's disc from the two rows of friction of a contact.
+
+    The projection is ``factor`` times y_t, and (c1, c2) is the unit vector along y_t. A change of y_t across this
+    vector turns the projection, and a change of y_n moves it along the vector.
+    """
+    own, g_t = diagonal_block(ws, active.index).nn, tangential_inverse_mass(ws, active)
+    n, a = 3 * ws.problem.n_active, active.index
+    first = band_row(ws.problem.matrix.start, 3 * a + 1, n, ws.problem.half_band)
+    second = band_row(ws.problem.matrix.start, 3 * a + 2, n, ws.problem.half_band)
+    for block in range(active.first_block, active.end_block):
+        for s in range(3):
+            g, j = at(ws.floats, ws.island.delassus.start + DELASSUS * block + s), 3 * ws.island.block_column[block] + s
+            z1, z2 = -g[3] / g_t, -g[6] / g_t
+            z1 += 1.0 if j == 3 * a + 1 else 0.0
+            z2 += 1.0 if j == 3 * a + 2 else 0.0
+            across = c2 * z1 - c1 * z2
+            growth = active.friction_coefficient * ((1.0 if j == 3 * a else 0.0) - g[0] / own)
+            ws.floats[first + j] -= factor * c2 * across + c1 * growth
+            ws.floats[second + j] += factor * c1 * across - c2 * growth

@@ -1,10 +1,14 @@
-"""The part of the forces that the motion does not determine, held fixed as long as it keeps every bound.
+"""The part of redundant forces that the motion does not determine.
 
-Of closed contacts whose forces are not unique the flow finds those of least norm.  These may pull, or leave Coulomb's
-cone, though others that do neither give the same motion.  So a force from the null space is added to them, chosen to
-stay as far from every bound as can be, within a factor, and kept while time goes on.  That such forces keep the
-bounds shows that the contacts hold; where they come to a bound a new one is chosen, and only where there is none
-the contacts let go.
+The forces of least norm may be tensile or leave Coulomb's cone, although other forces with the same motion do not. So a
+force from the null space is added to them. It is chosen as far inside all cones as possible, within a factor of
+four, and then stays constant. So forces remain smooth in time, and a new choice is needed only if a force comes to its
+bound again. If no force is inside all cones, contacts must open or slide: an event.
+
+With a new choice at each instant, no force would approach its bound gradually, and no guard could locate the event.
+
+The distance is found by bisection of its exponent: for each distance, a convex problem decides
+(:mod:`nonsmooth.engine.contact.distribution`).
 """
 
 from __future__ import annotations
@@ -14,34 +18,66 @@ import math
 from nonsmooth.engine.contact.distribution import distribute
 from nonsmooth.engine.contact.trial import NO_FORCE
 from nonsmooth.engine.contact.unknowns import force_of, set_force
-from nonsmooth.engine.native.kernel import (
-    Workspace,
-    entry_point,
-    kernel,
-)
+from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW
+from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.null_band import project_on_null
 from nonsmooth.engine.numerics.vectors import length
 
-_AMPLE = 1e-2
-"""A distance to the bounds of this part of the largest force is as good as more."""
-_RUNGS = 18
-"""A distance of the largest force quartered more often than that, 1.5e-11 of it, is none."""
-_ARRIVED = 1e-12
-"""Forces may be so much out of their cones, relative to the largest, where they count as within."""
+_LARGE_DISTANCE = 1e-2
+"""Distance to the bounds, relative to the largest force, at which forces of least norm are left as they are."""
+_QUARTERINGS = 18
+"""Maximum number of times that the distance is quartered, down to 1.5e-11 of the largest force, which is round-off."""
+_DISTRIBUTED = 1e-12
+"""Distance of a force to its cone, relative to the largest force, that counts as zero."""
 _SLACK = 2.0 * NO_FORCE
-"""Then a bound that is passed by this part of the largest force holds, as it does to the contact problem."""
+"""Excess over the bounds, relative to the largest force, that is allowed if no forces are inside all cones. The contact
+problem accepts as much."""
 
 
-@kernel("f8(ws, i8)")
-def _least_distance(ws: Workspace, n: int) -> float:
-    """Return how far the forces that are not unique are from their bounds at least [N]."""
-    least = math.inf
+@entry_point("b1(ws)")
+def choose_null_space_force(ws: Workspace) -> bool:
+    """Choose the null-space force of each active contact. True if all forces are then inside their cones.
+
+    ``x`` must hold the forces of least norm [N]. If the choice fails, the forces closest to the cones are taken, and
+    ``slack`` is what their bounds may be exceeded by [N].
+    """
+    n = ws.problem.n_unknown
+    largest = 0.0
+    for active in ws.actives:
+        contact = ws.contacts[active.contact]
+        contact.slack = 0.0
+        for r in range(3):
+            contact.null_space_force[r] = 0.0
     for i in range(n):
+        ws.problem.forces_at_start[i] = ws.problem.x[i]
+        set_force(ws, i, ws.problem.x[i])
+        largest = max(largest, abs(ws.problem.x[i]))
+    if _least_distance(ws) >= _LARGE_DISTANCE * largest:
+        return True
+    has_found = _choose_farthest(ws, largest)
+    if not has_found:
+        for i in range(n):
+            set_force(ws, i, ws.problem.forces_at_start[i])
+        distribute(ws, 0.0, _DISTRIBUTED * largest)
+        for active in ws.actives:
+            ws.contacts[active.contact].slack = _SLACK * largest
+    _store_null_space_force(ws)
+    for i in range(n):
+        ws.problem.x[i] = ws.problem.forces_at_start[i]
+    return has_found
+
+
+@kernel("f8(ws)")
+def _least_distance(ws: Workspace) -> float:
+    """Smallest distance of the redundant forces to their bounds [N]."""
+    least = math.inf
+    for i in range(ws.problem.n_unknown):
         unknown = ws.unknowns[i]
         active = ws.actives[unknown.contact]
-        if unknown.direction == 1 and not active.is_normal_force_unknown and active.has_redundant_force:
+        has_given_normal = unknown.direction == FIRST_ROW and not active.is_normal_force_unknown
+        if has_given_normal and active.has_redundant_force:
             least = min(least, active.static_coefficient * active.normal_force - length(active.friction))
-        if unknown.direction != 0 or not active.has_redundant_force:
+        if unknown.direction != NORMAL_ROW or not active.has_redundant_force:
             continue
         distance = active.normal_force
         if active.sticks:
@@ -50,73 +86,47 @@ def _least_distance(ws: Workspace, n: int) -> float:
     return least
 
 
-@kernel("void(ws, i8)")
-def _keep_null_space_force(ws: Workspace, n: int) -> None:
-    """Keep by how much the ``active_forces`` differ from ``x``, those of least norm."""
-    for i in range(n):
+@kernel("b1(ws, f8)")
+def _choose_farthest(ws: Workspace, largest: float) -> bool:
+    """Find forces as far inside their cones as possible, within a factor. False if there are none.
+
+    The distance is ``largest`` / 4^n [N]. The number n of quarterings is doubled until forces exist, then bisected.
+    """
+    feasible, infeasible = 1, 0
+    while not _choose_at_distance(ws, largest, feasible):
+        if feasible == _QUARTERINGS:
+            return False
+        infeasible, feasible = feasible, min(2 * feasible, _QUARTERINGS)
+    last = feasible
+    while feasible - infeasible > 1:
+        last = (feasible + infeasible) // 2
+        if _choose_at_distance(ws, largest, last):
+            feasible = last
+        else:
+            infeasible = last
+    return last == feasible or _choose_at_distance(ws, largest, feasible)
+
+
+@kernel("b1(ws, f8, i8)")
+def _choose_at_distance(ws: Workspace, largest: float, n_quarterings: int) -> bool:
+    """Find forces at the distance ``largest`` / 4^n_quarterings [N] inside their cones. False if there are none."""
+    for i in range(ws.problem.n_unknown):
+        set_force(ws, i, ws.problem.forces_at_start[i])
+    return distribute(ws, 0.25**n_quarterings * largest, _DISTRIBUTED * largest)
+
+
+@kernel()
+def _store_null_space_force(ws: Workspace) -> None:
+    """Store the difference between the chosen forces and those of least norm [N]."""
+    for i in range(ws.problem.n_unknown):
         unknown = ws.unknowns[i]
         contact = ws.contacts[ws.actives[unknown.contact].contact]
         contact.null_space_force[unknown.direction] = force_of(ws, i) - ws.problem.forces_at_start[i]
 
 
-@kernel("b1(ws, f8, i8)")
-def _choose(ws: Workspace, largest: float, rung: int) -> bool:
-    """Choose forces off every bound by so many quarterings of the largest, from those of least norm; 1 if there are."""
-    for i in range(ws.problem.n_unknown):
-        set_force(ws, i, ws.problem.forces_at_start[i])
-    return distribute(ws, 0.25**rung * largest, _ARRIVED * largest)
-
-
-@kernel("b1(ws, f8)")
-def _choose_farthest(ws: Workspace, largest: float) -> bool:
-    """Choose forces as far off every bound as can be, within a factor; false if there are none."""
-    near, far = 1, 0
-    while not _choose(ws, largest, near):
-        if near == _RUNGS:
-            return False
-        far, near = near, min(2 * near, _RUNGS)
-    rung = near
-    while near - far > 1:
-        rung = (near + far) // 2
-        if _choose(ws, largest, rung):
-            near = rung
-        else:
-            far = rung
-    return rung == near or _choose(ws, largest, near)
-
-
-@entry_point("b1(ws)")
-def choose_null_space_force(ws: Workspace) -> bool:
-    """Choose the null-space force, ``x`` being the forces of least norm; true if it keeps off every bound."""
-    n = ws.problem.n_unknown
-    largest = 0.0
-    for a in range(ws.problem.n_active):
-        contact = ws.contacts[ws.actives[a].contact]
-        contact.slack = 0.0
-        for r in range(3):
-            contact.null_space_force[r] = 0.0
-    for i in range(n):
-        ws.problem.forces_at_start[i] = ws.problem.x[i]
-        set_force(ws, i, ws.problem.x[i])
-        largest = max(largest, abs(ws.problem.x[i]))
-    if _least_distance(ws, n) >= _AMPLE * largest:
-        return True
-    found = _choose_farthest(ws, largest)
-    if not found:
-        for i in range(n):
-            set_force(ws, i, ws.problem.forces_at_start[i])
-        distribute(ws, 0.0, _ARRIVED * largest)
-        for a in range(ws.problem.n_active):
-            ws.contacts[ws.actives[a].contact].slack = _SLACK * largest
-    _keep_null_space_force(ws, n)
-    for i in range(n):
-        ws.problem.x[i] = ws.problem.forces_at_start[i]
-    return found
-
-
 @kernel()
 def add_null_space_force(ws: Workspace) -> None:
-    """Add what of the null-space force lies in the present null space to the unknowns ``x``."""
+    """Add the null-space force to the unknowns ``x`` [N], projected on the present null space."""
     n = ws.problem.n_unknown
     for i in range(n):
         unknown = ws.unknowns[i]
@@ -134,7 +144,7 @@ def add_null_space_force(ws: Workspace) -> None:
 
 @kernel()
 def shift_forces(ws: Workspace) -> None:
-    """Add what of the null-space force lies in the present null space to the ``active_forces``, those of least norm."""
+    """Add the null-space force to the contact forces [N], which must be those of least norm."""
     for i in range(ws.problem.n_unknown):
         ws.problem.x[i] = force_of(ws, i)
     add_null_space_force(ws)

@@ -1,4 +1,15 @@
-"""Directions of incipient slip made exact: the friction of a contact that starts to slide opposes its acceleration."""
+"""Exact slip directions: the friction of a contact that starts to slide opposes its slip acceleration, Eq. (17).
+
+The direction d of a slip that begins is an unknown of the contact problem. Solvers find it to their tolerance only.
+Here it is made exact by Newton's method on the angles of all such directions:
+
+    a_t x d = 0    for each contact at rest that slides,
+
+where x is the two-dimensional cross product. A turn of d by an angle moves the friction by the angle times mu f_n
+across d. This product is the unknown, because the system then has no small columns if a contact is almost without load.
+The forces of the current directions are found exactly first, so that the other residuals of the system are zero.
+Convergence is quadratic from a good guess.
+"""
 
 from __future__ import annotations
 
@@ -9,63 +20,119 @@ from nonsmooth.engine.contact.trial import hold_tried
 from nonsmooth.engine.contact.unknowns import list_force, list_turn
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
-from nonsmooth.engine.memory.layout import FIRST_ROW, SECOND_ROW
+from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
 from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.native.kernel import (
-    Workspace,
-    at,
-    entry_point,
-    kernel,
-)
+from nonsmooth.engine.native.kernel import ActiveContact, Workspace, at, entry_point, kernel
 from nonsmooth.engine.numerics.band import open_band
 from nonsmooth.engine.numerics.linear import SINGULAR, band_row, band_width, minimum_norm, transpose
 from nonsmooth.engine.numerics.null_band import solve_shifted
-from nonsmooth.engine.numerics.vectors import length
+from nonsmooth.engine.numerics.vectors import Pair, length
 
 _STEPS = 25
-"""Newton steps of the directions: from a guess far off some go to within a turn, and then they are quadratic."""
-_TURN = 0.7
-"""Largest turn of a direction in one step [rad]."""
+"""Maximum number of Newton steps. Bad guesses need several steps before convergence is quadratic."""
+_LARGEST_TURN = 0.7
+"""Largest turn of a direction in one step [rad]. Newton's model of a turn is linear."""
 EXACT = 1e-14
-"""Acceleration across its slip, relative to the largest, that is round-off."""
-_NEAR = 1e-8
-"""The same where Newton's steps gain no more: next to redundant contacts round-off is larger."""
+"""Acceleration across a slip, relative to the largest acceleration, that is round-off."""
+_NEARLY_EXACT = 1e-8
+"""The same if steps no longer improve it: near redundant contacts round-off is larger."""
 
 
-@kernel("f8(ws, i8, i8)")
-def _acceleration(ws: Workspace, a: int, r: int) -> float:
-    return add_product(ws, ws.actives[a].free[r], a, r, ws.problem.forces.start)
+@kernel("b1(ws)")
+def has_slip_that_begins(ws: Workspace) -> bool:
+    """True if an active contact starts to slide in the modes under trial."""
+    for active in ws.actives:
+        if _starts_to_slide(active):
+            return True
+    return False
 
 
-@kernel("f8(ws, i8, i8)")
-def _across(ws: Workspace, a: int, i: int) -> float:
-    """Write what row ``i`` of contact ``a``, that of its turn, lacks; return how wrong it is, relative."""
-    d1, d2 = ws.actives[a].direction
-    a1, a2 = _acceleration(ws, a, FIRST_ROW), _acceleration(ws, a, SECOND_ROW)
-    ws.problem.right[i] = -(a1 * d2 - a2 * d1)
-    return float(abs(ws.problem.right[i]) / max(ws.problem.acceleration_scale, abs(a1), abs(a2)))
+@kernel("b1(ActiveContact)")
+def _starts_to_slide(active: ActiveContact) -> bool:
+    """True if a contact at rest slides in the mode under trial."""
+    return active.is_at_rest and active.mode_tried == Mode.SLIDE
+
+
+@entry_point("b1(ws)")
+def polish(ws: Workspace) -> bool:
+    """Turn the directions of slips that begin until the slip accelerations oppose the friction. True if they do.
+
+    The modes under trial are given. Signs and bounds of the forces are not checked. The forces are those of the final
+    directions, unless no slip begins: then they are not computed.
+    """
+    if not has_slip_that_begins(ws):
+        return True
+    best = math.inf
+    for _ in range(_STEPS):
+        hold_tried(ws)
+        n = _list_unknowns(ws)
+        worst = _write_residuals(ws, n)
+        if worst <= EXACT or (worst <= _NEARLY_EXACT and worst >= best):
+            return True
+        best = min(best, worst)
+        if not open_band(ws, n, ws.problem.reduced.start):
+            return False
+        for active in ws.actives:
+            for i in range(active.first_unknown, active.end_unknown):
+                _write_row(ws, active, i, n)
+        _solve(ws, n)
+        for i in range(n):
+            if ws.unknowns[i].is_turn:
+                _turn(ws, ws.actives[ws.unknowns[i].contact], ws.problem.x[i])
+    return False
+
+
+@kernel("i8(ws)")
+def _list_unknowns(ws: Workspace) -> int:
+    """List the unknown forces, and the turns of the slips that begin. Returns their number."""
+    n = 0
+    for active in ws.actives:
+        active.first_unknown = n
+        for r in range(3):
+            if active.is_normal_force_unknown if r == NORMAL_ROW else active.sticks:
+                list_force(ws, n, active, r)
+                n += 1
+        if _starts_to_slide(active):
+            list_turn(ws, n, active)
+            n += 1
+    ws.problem.first_unknown[ws.problem.n_active] = n
+    return n
+
+
+@kernel("v2(ws, ActiveContact)")
+def _slip_acceleration(ws: Workspace, active: ActiveContact) -> Pair:
+    """Slip acceleration of a contact under the present forces [m/s^2]."""
+    forces = ws.problem.forces.start
+    return (
+        add_product(ws, active.free[FIRST_ROW], active.index, FIRST_ROW, forces),
+        add_product(ws, active.free[SECOND_ROW], active.index, SECOND_ROW, forces),
+    )
 
 
 @kernel("f8(ws, i8)")
-def _worst_across(ws: Workspace, n: int) -> float:
-    """Write the right-hand side of Newton's system; return how wrong the worst direction is.
+def _write_residuals(ws: Workspace, n: int) -> float:
+    """Write the right-hand side of Newton's system. Returns the largest residual, relative to the acceleration.
 
-    The forces of the present directions are exact.
+    Only the rows of turns have residuals, because the forces are exact for the present directions.
     """
     worst = 0.0
     for i in range(n):
         unknown = ws.unknowns[i]
         ws.problem.right[i] = 0.0
         if unknown.is_turn:
-            worst = max(worst, _across(ws, unknown.contact, i))
-    return worst
+            active = ws.actives[unknown.contact]
+            (d1, d2), (a1, a2) = active.direction, _slip_acceleration(ws, active)
+            ws.problem.right[i] = -(a1 * d2 - a2 * d1)
+            residual = abs(ws.problem.right[i]) / max(ws.problem.acceleration_scale, abs(a1), abs(a2))
+            worst = max(worst, residual)
+    return float(worst)
 
 
-@kernel("void(ws, i8, i8, i8)")
-def _write_row(ws: Workspace, a: int, i: int, n: int) -> None:
-    """Write row ``i`` of Newton's system, one of contact ``a``: of an acceleration, or of that across a slip."""
-    active, unknown = ws.actives[a], ws.unknowns[i]
-    line, turn, r = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band), unknown.is_turn, unknown.direction
+@kernel("void(ws, ActiveContact, i8, i8)")
+def _write_row(ws: Workspace, active: ActiveContact, i: int, n: int) -> None:
+    """Write row ``i`` of ``n`` of Newton's system, which belongs to a contact: of an acceleration, or of a turn."""
+    unknown = ws.unknowns[i]
+    line, r = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band), unknown.direction
     d1, d2 = active.direction
     for block in range(active.first_block, active.end_block):
         other = ws.actives[ws.island.block_column[block]]
@@ -73,7 +140,7 @@ def _write_row(ws: Workspace, a: int, i: int, n: int) -> None:
         if out == end:
             continue
         g = at(ws.floats, ws.island.delassus.start + DELASSUS * block)
-        if turn:
+        if unknown.is_turn:
             g0, g1, g2 = d2 * g[3] - d1 * g[6], d2 * g[4] - d1 * g[7], d2 * g[5] - d1 * g[8]
         else:
             g0, g1, g2 = g[3 * r], g[3 * r + 1], g[3 * r + 2]
@@ -86,77 +153,35 @@ def _write_row(ws: Workspace, a: int, i: int, n: int) -> None:
             out += 2
         if out < end:
             ws.floats[out] = e2 * g1 - e1 * g2
-    if turn:
-        _add_turn(ws, a, i, n)
+    if unknown.is_turn:
+        _add_turn(ws, active, i, n)
 
 
-@kernel("void(ws, i8, i8, i8)")
-def _add_turn(ws: Workspace, a: int, i: int, n: int) -> None:
-    """Add what turning the direction of contact ``a`` does to what is across it, by the force that the turn moves.
+@kernel("void(ws, ActiveContact, i8, i8)")
+def _add_turn(ws: Workspace, active: ActiveContact, i: int, n: int) -> None:
+    """Add the change of the residual a_t x d that the turn of d itself causes: a_t . d per unit of mu f_n.
 
-    Of next to no force it is so much that the row is weighed less, or all others would count as zero beside it.
+    It is very large if the contact has almost no load. The row is then scaled down, or all other entries of the matrix
+    would count as zero.
     """
-    active, own = ws.actives[a], diagonal_block(ws, a)
+    own = diagonal_block(ws, active.index)
     force, (d1, d2) = active.friction_coefficient * active.normal_force, active.direction
     if not abs(force) > 0.0:
         return
     line = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band)
-    turned = (_acceleration(ws, a, FIRST_ROW) * d1 + _acceleration(ws, a, SECOND_ROW) * d2) / force
-    ws.floats[line + i] += turned
-    mobility = max(own.nn, own.t11, own.t22)
-    weight = mobility / (mobility + abs(turned))
+    a1, a2 = _slip_acceleration(ws, active)
+    change = (a1 * d1 + a2 * d2) / force
+    ws.floats[line + i] += change
+    inverse_mass = max(own.nn, own.t11, own.t22)
+    weight = inverse_mass / (inverse_mass + abs(change))
     ws.problem.right[i] *= weight
     for j in range(max(0, i - ws.problem.half_band), min(n, i + ws.problem.half_band + 1)):
         ws.floats[line + j] *= weight
 
 
-@kernel("i8(ws)")
-def _list_unknowns(ws: Workspace) -> int:
-    """List the forces that are held and the turns of the contacts that start to slide; return how many there are."""
-    n = 0
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        active.first_unknown = n
-        for r in range(3):
-            if active.is_normal_force_unknown if r == 0 else active.sticks:
-                list_force(ws, n, a, r)
-                n += 1
-        if _starts(ws, a):
-            list_turn(ws, n, a)
-            n += 1
-    ws.problem.first_unknown[ws.problem.n_active] = n
-    return n
-
-
-@kernel("b1(ws, i8)")
-def _starts(ws: Workspace, a: int) -> bool:
-    active = ws.actives[a]
-    return active.is_at_rest and active.mode_tried == Mode.SLIDE
-
-
-@kernel("void(ws, i8)")
-def _turn(ws: Workspace, i: int) -> None:
-    """Turn the direction of unknown ``i`` by its step; one without friction follows its acceleration."""
-    a = ws.unknowns[i].contact
-    active = ws.actives[a]
-    d1, d2 = active.direction
-    force = active.friction_coefficient * active.normal_force
-    if abs(force) > 0.0:
-        angle = max(-_TURN, min(_TURN, ws.problem.x[i] / force))
-        active.direction = (
-            d1 * math.cos(angle) - d2 * math.sin(angle),
-            d2 * math.cos(angle) + d1 * math.sin(angle),
-        )
-        return
-    a1, a2 = _acceleration(ws, a, FIRST_ROW), _acceleration(ws, a, SECOND_ROW)
-    norm = length((a1, a2))
-    if norm > 0.0:
-        active.direction = a1 / norm, a2 / norm
-
-
 @kernel("void(ws, i8)")
 def _solve(ws: Workspace, n: int) -> None:
-    """Solve Newton's system; where it is singular, for least norm, or a little off where its band is narrow."""
+    """Solve Newton's system of ``n`` unknowns. A singular one is solved for least norm, or shifted if it is banded."""
     if eliminate_reduced(ws, n, SINGULAR):
         return
     if band_width(n, ws.problem.half_band) < n:
@@ -177,35 +202,22 @@ def _solve(ws: Workspace, n: int) -> None:
     )
 
 
-@entry_point("i8(ws)")
-def polish(ws: Workspace) -> int:
-    """Turn the directions of incipient slip until no acceleration is left across them, the modes being given.
+@kernel("void(ws, ActiveContact, f8)")
+def _turn(ws: Workspace, active: ActiveContact, step: float) -> None:
+    """Turn the slip direction of a contact by Newton's ``step`` [N], which is the angle times mu f_n.
 
-    Newton's method on the turns, the forces of every direction being exact; quadratic, from a good guess.  Return 1
-    if it arrives, its forces in ``active_forces``, or 2 where there is nothing to turn.  Nothing is asked of signs and
-    bounds.
+    The slip of a contact without friction follows its acceleration.
     """
-    turns = 0
-    for a in range(ws.problem.n_active):
-        turns += _starts(ws, a)
-    if turns == 0:
-        return 2
-    best = math.inf
-    for _step in range(_STEPS):
-        hold_tried(ws)
-        n = _list_unknowns(ws)
-        worst = _worst_across(ws, n)
-        if worst <= EXACT or (worst <= _NEAR and worst >= best):
-            return 1
-        best = min(best, worst)
-        if not open_band(ws, n, ws.problem.reduced.start):
-            return 0
-        for a in range(ws.problem.n_active):
-            active = ws.actives[a]
-            for i in range(active.first_unknown, active.end_unknown):
-                _write_row(ws, a, i, n)
-        _solve(ws, n)
-        for i in range(n):
-            if ws.unknowns[i].is_turn:
-                _turn(ws, i)
-    return 0
+    d1, d2 = active.direction
+    force = active.friction_coefficient * active.normal_force
+    if abs(force) > 0.0:
+        angle = max(-_LARGEST_TURN, min(_LARGEST_TURN, step / force))
+        active.direction = (
+            d1 * math.cos(angle) - d2 * math.sin(angle),
+            d2 * math.cos(angle) + d1 * math.sin(angle),
+        )
+        return
+    a1, a2 = _slip_acceleration(ws, active)
+    norm = length((a1, a2))
+    if norm > 0.0:
+        active.direction = a1 / norm, a2 / norm

@@ -1,7 +1,9 @@
-"""Sustained contact at an instant: modes and forces that fulfil Eqs. (14)-(18), every answer verified.
+"""Contact at an instant: modes and forces of closed contacts that fulfil Eqs. (14)-(18).
 
-The past modes are tried first, so that, of several solutions, the one continuous with the past is kept; then the
-solvers of :mod:`nonsmooth.engine.memory.solvers`.
+The accelerations of the contacts are a = b + G f, with the laws of :mod:`nonsmooth.engine.contact.trial`. With friction
+there may be several solutions. So the past modes are tried first: the solution that continues the past is kept. This is
+also the cheapest trial, because modes rarely change. Only then do the solvers search
+(:mod:`nonsmooth.engine.memory.solvers` explains their order), and every answer is verified.
 """
 
 from __future__ import annotations
@@ -22,60 +24,78 @@ from nonsmooth.engine.memory.solvers import (
     MOST_PIVOTED,
     NEWTON,
 )
-from nonsmooth.engine.native.kernel import (
-    Workspace,
-    at,
-    call_scalar,
-    entry_point,
-    kernel,
-)
+from nonsmooth.engine.native.kernel import ActiveContact, Workspace, at, call_scalar, entry_point, kernel
 from nonsmooth.engine.numerics.linear import multiply
 from nonsmooth.engine.numerics.vectors import Pair, length
 
-_INCIPIENT = 1e-300
-"""The least speed of what slips: at speed 0 laws give the static limit."""
+_LEAST_SLIP_SPEED = 1e-300
+"""Smallest speed for which a friction law is asked about a slip [m/s]. At speed 0 it gives the static coefficient."""
+
+
+# --- friction ---------------------------------------------------------------------------------------------------------
 
 
 @kernel("f8(ws, i8, f8)")
 def friction_coefficient(ws: Workspace, c: int, speed: float) -> float:
-    """Return the friction coefficient of contact ``c``; speed 0 is the static limit."""
+    """Friction coefficient of contact ``c`` at a slip ``speed`` [m/s]. At speed 0 it is the static one."""
     contact = ws.contacts[c]
     return call_scalar(contact.friction_function, speed, at(ws.floats, contact.friction_parameters))
 
 
 @kernel("f8(ws, i8, f8)")
 def slip_coefficient(ws: Workspace, c: int, speed: float) -> float:
-    """Return the friction coefficient of contact ``c`` as it slips; at speed 0 that of a slip that begins."""
-    return friction_coefficient(ws, c, max(speed, _INCIPIENT))
+    """Friction coefficient of contact ``c`` that slides at ``speed`` [m/s]. At speed 0 its slip begins."""
+    return friction_coefficient(ws, c, max(speed, _LEAST_SLIP_SPEED))
 
 
 @kernel("v2(ws, i8, v2, f8, b1)")
-def slip_direction(ws: Workspace, c: int, slip: Pair, still: float, may_reverse: bool) -> Pair:
-    """Return the direction of a slip of contact ``c``, continued smoothly through a reversal.
+def slip_direction(ws: Workspace, c: int, slip: Pair, rest_speed: float, may_reverse: bool) -> Pair:
+    """Unit direction of the ``slip`` of contact ``c``, with the sign of the direction at the start of the step.
 
-    If it ``may_reverse``, as within an implicit step of an impact, which stops slips itself, it is that of the slip. A
-    slip no faster than ``still`` [m/s] has no direction of its own: that at the start of the step holds.
+    So the friction stays smooth if a slip reverses within a step, and the event of the reversal can be located. If it
+    ``may_reverse``, as in an implicit step, which stops slips itself, the sign is that of the slip. A slip up to
+    ``rest_speed`` [m/s] has no direction of its own, and the one at the start of the step is returned.
     """
     d1, d2 = ws.contacts[c].direction
     v1, v2 = slip
     speed = length(slip)
-    if speed > still:
+    if speed > rest_speed:
         inverse = (1.0 if may_reverse or v1 * d1 + v2 * d2 >= 0.0 else -1.0) / speed
         d1, d2 = inverse * v1, inverse * v2
     return d1, d2
 
 
 @kernel("void(ws, i8, v2, f8, b1)")
-def follow_slip(ws: Workspace, a: int, slip: Pair, still: float, may_reverse: bool) -> None:
-    """Write the direction of a slip (:func:`slip_direction`) and its coefficient of the active contact ``a``."""
+def follow_slip(ws: Workspace, a: int, slip: Pair, rest_speed: float, may_reverse: bool) -> None:
+    """Set slip direction (:func:`slip_direction`) and friction coefficient of active contact ``a`` for its ``slip``."""
     active = ws.actives[a]
-    active.direction = slip_direction(ws, active.contact, slip, still, may_reverse)
+    active.direction = slip_direction(ws, active.contact, slip, rest_speed, may_reverse)
     active.friction_coefficient = slip_coefficient(ws, active.contact, length(slip))
+
+
+@kernel("void(ws, ActiveContact)")
+def write_friction(ws: Workspace, active: ActiveContact) -> None:
+    """Write both friction coefficients, slip direction, and whether the contact is at rest."""
+    contact = ws.contacts[active.contact]
+    v1, v2 = contact.slip
+    speed = length(contact.slip)
+    active.has_given_force = False
+    active.static_coefficient = friction_coefficient(ws, active.contact, 0.0)
+    active.is_at_rest = not speed > ws.tolerance.velocity
+    if active.is_at_rest:
+        active.direction = contact.direction
+        active.friction_coefficient = slip_coefficient(ws, active.contact, 0.0)
+    else:
+        active.direction = v1 / speed, v2 / speed
+        active.friction_coefficient = slip_coefficient(ws, active.contact, speed)
+
+
+# --- accelerations without contact forces -----------------------------------------------------------------------------
 
 
 @kernel("void(ws, i8)")
 def accelerate_freely(ws: Workspace, number: int) -> None:
-    """Write M^-1 h of one body to ``du``."""
+    """Write the accelerations M^-1 h of one body to ``du``. Those of a body in ballistic motion are stored."""
     body = ws.bodies[number]
     n_u = body.n_u
     force = body.tail + body.n_q
@@ -91,7 +111,7 @@ def accelerate_freely(ws: Workspace, number: int) -> None:
 
 @kernel("void(ws, b1)")
 def free_acceleration(ws: Workspace, of_all_bodies: bool) -> None:
-    """Write M^-1 h to ``du``, and what the joints leave of it, of every body (1), or of those that are integrated."""
+    """Write the accelerations without contact forces to ``du``, joints included: of all or of integrated bodies."""
     for i in range(ws.model.n_bodies if of_all_bodies else ws.island.n_integrated):
         accelerate_freely(ws, i if of_all_bodies else ws.island.integrated[i])
     if ws.model.n_joints > 0:
@@ -102,71 +122,56 @@ def free_acceleration(ws: Workspace, of_all_bodies: bool) -> None:
 
 @kernel()
 def accelerate_touching(ws: Workspace) -> None:
-    """Write the same of the bodies of contacts that touch, which is all that an instant asks for."""
+    """Write the accelerations without contact forces to ``du``, of the bodies of touching contacts at least.
+
+    An event needs no others. With joints, all bodies are evaluated.
+    """
     if ws.model.n_joints > 0:
         free_acceleration(ws, of_all_bodies=True)
         return
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
+    for contact in ws.contacts:
         if contact.is_touching:
             accelerate_freely(ws, contact.body_a)
             accelerate_freely(ws, contact.body_b)
 
 
-@kernel("void(ws, i8)")
-def write_friction(ws: Workspace, a: int) -> None:
-    """Write coefficients, slip direction and whether it is at rest of active contact ``a``."""
-    active = ws.actives[a]
-    c = active.contact
-    contact = ws.contacts[c]
-    v1, v2 = contact.slip
-    speed = length(contact.slip)
-    active.has_given_force = False
-    active.static_coefficient = friction_coefficient(ws, c, 0.0)
-    if speed > ws.tolerance.velocity:
-        active.is_at_rest = False
-        active.direction = v1 / speed, v2 / speed
-        active.friction_coefficient = slip_coefficient(ws, c, speed)
-    else:
-        active.is_at_rest = True
-        active.direction = contact.direction
-        active.friction_coefficient = slip_coefficient(ws, c, 0.0)
+# --- the problem ------------------------------------------------------------------------------------------------------
 
 
 @entry_point()
-def set_up(ws: Workspace) -> None:
-    """Write G and b of Eq. (18) and the friction data of the active contacts, kinematics and M^-1 h being known."""
+def write_contact_problem(ws: Workspace) -> None:
+    """Write G and b of Eq. (18) and the friction of the active contacts.
+
+    Their kinematics must be evaluated, and ``du`` must hold the accelerations without contact forces.
+    """
     assemble_delassus(ws)
     ws.problem.acceleration_scale = 0.0
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        c = active.contact
-        contact = ws.contacts[c]
+    for active in ws.actives:
+        contact = ws.contacts[active.contact]
         for r in range(3):
-            bias, free = contact.bias[r], row(ws, c, r, ws.island.du.start)
+            bias, free = contact.bias[r], row(ws, active.contact, r, ws.island.du.start)
             active.free[r] = bias + free
             ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, abs(bias), abs(free))
-        write_friction(ws, a)
+        write_friction(ws, active)
     decouple_normals(ws)
 
 
 @entry_point("b1(ws)")
 def solve_contact(ws: Workspace) -> bool:
-    """Find modes and forces of the active contacts, ``mode_tried`` holding the past modes; return 1 if found.
+    """Find modes and forces of the active contacts. True if they are found.
 
-    The kinematics of the active contacts must be evaluated and :func:`set_up` called. A past mode may be unknown. On
-    return ``mode_tried``, ``force`` and ``direction`` of the active contacts describe the solution.
+    Before: :func:`write_contact_problem` has been called, and ``mode_tried`` holds the past modes, which may be
+    unknown. After: ``mode_tried``, ``force`` and ``direction`` describe the solution.
     """
     ws.problem.effort = 0.0
-    has_past_modes = True
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
+    has_past = True
+    for active in ws.actives:
         if not active.is_at_rest and active.mode_tried == Mode.STICK:
             active.mode_tried = Mode.SLIDE
         active.mode_past = active.mode_tried
         if active.mode_tried == Mode.UNKNOWN:
-            has_past_modes = False
-    if has_past_modes and verify(ws, is_lenient=False):
+            has_past = False
+    if has_past and verify(ws, is_lenient=False):
         return True
     if ws.options.solver != AUTO:
         return find_modes(ws, ws.options.solver)
@@ -181,17 +186,19 @@ def solve_contact(ws: Workspace) -> bool:
 
 @entry_point("b1(ws)")
 def solve_from_rates(ws: Workspace) -> bool:
-    """Solve on G and b as given, the friction following from the slip velocities in ``rate``; return 1 if solved."""
-    for a in range(ws.problem.n_active):
-        write_friction(ws, a)
+    """Find modes and forces for given G and b, with the friction of the slip velocities in ``rate``. True if found."""
+    for active in ws.actives:
+        write_friction(ws, active)
     return solve_contact(ws)
 
 
 @kernel()
 def accelerate(ws: Workspace) -> None:
-    """Add the accelerations that the contact forces give to ``du``; it holds those of given normal forces."""
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
+    """Add the response of the bodies to the contact forces to ``du``.
+
+    The response to the normal forces of compliant contacts is in ``du`` already.
+    """
+    for active in ws.actives:
         if ws.contacts[active.contact].is_compliant:
             active.normal_force = 0.0
     add_response(ws, ws.problem.forces.start, ws.island.du.start)

@@ -1,9 +1,20 @@
-"""A search for modes and forces by one solver, with the static and the kinetic bound told apart.
+"""The search for modes and forces by one solver.
 
-The contract of a solver: it reads G, ``free_accelerations``, who is ``at_rest``, the coefficients ``mu`` and, of
-sliding contacts, ``active_directions``; it improves the ``active_forces`` stage by stage and returns 1 where a further
-stage would not help.  Every contact at rest has one cone, that of ``mu``.  Which modes the forces mean, and whether
-these are right, is found here alike for all.
+Each solver finds forces for Coulomb's law with one coefficient per contact, and only to its tolerance. The search does
+all the rest, in the same way for all solvers:
+
+1. A contact at rest gets its static coefficient, so that it sticks if it can. If it is found to slide, the search runs
+   again, with its kinetic coefficient and without sticking.
+2. The solver improves the forces stage by stage. After each stage, modes are guessed from the forces.
+3. Slip directions are made exact (:mod:`nonsmooth.engine.contact.polish`).
+4. The modes are verified by exact forces (:mod:`nonsmooth.engine.contact.trial`).
+
+A solver reads G, ``free``, ``is_at_rest``, ``friction_coefficient`` and, for sliding contacts, ``direction``. It writes
+the forces, and returns True if a further stage would not change them.
+
+Redundant forces need more care. A solver may put the friction of one contact on its bound and leave others below it, so
+that sliding is guessed although nothing moves. Forces of least norm may be tensile although others are not. Each of the
+steps below that deals with such a case says so.
 """
 
 from __future__ import annotations
@@ -14,21 +25,112 @@ from nonsmooth.engine.contact.gauss_seidel import search_by_sweeps
 from nonsmooth.engine.contact.lemke import search_by_pivots
 from nonsmooth.engine.contact.newton import search_by_newton
 from nonsmooth.engine.contact.polish import polish
-from nonsmooth.engine.contact.trial import EQUAL, identify, judge, set_scales, verify
+from nonsmooth.engine.contact.trial import EQUAL, fulfils_laws, guess_modes_from_forces, set_scales, verify
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.memory.solvers import ENUMERATION, GAUSS_SEIDEL, LEMKE
-from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
+from nonsmooth.engine.native.kernel import ActiveContact, Workspace, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.vectors import length
 
 _MOST_EFFORT = 3e8
-"""What the trials of one problem may cost, each counting as the cube of its unknowns: about a second."""
-_SAME = 1e-6
-"""Contacts that pull alike, but for this part, open together."""
+"""Maximum effort of one problem, in cubes of the number of unknowns summed over all trials. It takes about a second."""
+_EQUALLY_TENSILE = 1e-6
+"""Relative difference of tensile forces below which contacts open together. Symmetric contacts differ by round-off."""
+
+
+# --- the search -------------------------------------------------------------------------------------------------------
+
+
+@entry_point("b1(ws, i8)")
+def find_modes(ws: Workspace, solver: int) -> bool:
+    """Find modes and forces of the active contacts by one solver. True if they are found, and fulfil the laws.
+
+    ``mode_past`` holds the past modes. Contacts that have just started to slide must not stick again at the static
+    coefficient, so the first search excludes that. Of several solutions, one with more sticking and closed contacts is
+    preferred.
+    """
+    has_found = enumerate_modes(ws, first=0) > 0 if solver == ENUMERATION else _find_by_solver(ws, solver)
+    if has_found:
+        _prefer_sticking(ws)
+        _prefer_closed(ws)
+    return has_found
+
+
+@kernel("b1(ws, i8)")
+def _find_by_solver(ws: Workspace, solver: int) -> bool:
+    """Search with the contacts that have just started to slide kept from sticking, and then without that."""
+    has_sliding = False
+    for active in ws.actives:
+        active.was_freed = active.is_at_rest and active.mode_past == Mode.SLIDE
+        has_sliding = has_sliding or active.was_freed
+    if has_sliding:
+        if _search(ws, solver):
+            return True
+        for active in ws.actives:
+            active.was_freed = False
+    return _search(ws, solver)
+
+
+@kernel("b1(ws, i8)")
+def _search(ws: Workspace, solver: int) -> bool:
+    """Search in rounds. After each, contacts found to slide are kept from sticking. True if a solution is found."""
+    for _ in range(1 + ws.problem.n_active):
+        if _search_round(ws, solver):
+            return True
+        if not _exclude_sticking(ws):
+            return False
+    return False
+
+
+@kernel("b1(ws, i8)")
+def _search_round(ws: Workspace, solver: int) -> bool:
+    """Search by the stages of a solver. True if a solution is found."""
+    n_stages = _n_stages(solver)
+    for i in range(3 * ws.problem.n_active):
+        ws.problem.forces_at_start[i] = 0.0
+    for stage in range(n_stages):
+        if ws.problem.effort >= _MOST_EFFORT or interrupted(ws, ws.problem.n_active):
+            return False
+        has_settled = _guess_by_stage(ws, solver, stage)
+        if not has_settled and stage < n_stages - 1 and _may_still_stick(ws):
+            continue
+        _store_modes(ws)
+        if _verify_guess(ws):
+            return True
+        _restore_modes(ws)
+        if has_settled:
+            return False
+    return False
+
+
+@kernel("i8(i8)")
+def _n_stages(solver: int) -> int:
+    """Number of stages of a solver."""
+    if solver == GAUSS_SEIDEL:
+        return gauss_seidel.STAGES
+    return lemke.STAGES if solver == LEMKE else newton.STAGES
 
 
 @kernel("b1(ws, i8, i8)")
-def _improve(ws: Workspace, solver: int, stage: int) -> bool:
+def _guess_by_stage(ws: Workspace, solver: int, stage: int) -> bool:
+    """Improve the forces by a stage of a solver, and guess modes from them. True if the forces have settled.
+
+    The forces go from stage to stage in ``forces_at_start``, because trials overwrite the others.
+    """
+    for i in range(3 * ws.problem.n_active):
+        ws.problem.forces[i] = ws.problem.forces_at_start[i]
+    _unite_coefficients(ws)
+    has_settled = _improve_forces(ws, solver, stage)
+    for i in range(3 * ws.problem.n_active):
+        ws.problem.forces_at_start[i] = ws.problem.forces[i]
+    guess_modes_from_forces(ws)
+    _restore_coefficients(ws)
+    return has_settled
+
+
+@kernel("b1(ws, i8, i8)")
+def _improve_forces(ws: Workspace, solver: int, stage: int) -> bool:
+    """Run a stage of a solver. True if the forces have settled."""
     if solver == GAUSS_SEIDEL:
         return search_by_sweeps(ws, stage)
     if solver == LEMKE:
@@ -37,10 +139,9 @@ def _improve(ws: Workspace, solver: int, stage: int) -> bool:
 
 
 @kernel()
-def _write_cones(ws: Workspace) -> None:
-    """Give every contact at rest one cone: the static one, or the kinetic one where it may not stick."""
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
+def _unite_coefficients(ws: Workspace) -> None:
+    """Give each contact at rest one coefficient of friction: the static one, or the kinetic one if it may not stick."""
+    for active in ws.actives:
         active.coefficient_kept, active.static_kept = active.friction_coefficient, active.static_coefficient
         if active.is_at_rest:
             if active.was_freed:
@@ -50,286 +151,230 @@ def _write_cones(ws: Workspace) -> None:
 
 
 @kernel()
-def _restore_cones(ws: Workspace) -> None:
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
+def _restore_coefficients(ws: Workspace) -> None:
+    """Restore the coefficients that :func:`_unite_coefficients` has changed."""
+    for active in ws.actives:
         active.friction_coefficient, active.static_coefficient = active.coefficient_kept, active.static_kept
 
 
+@kernel("b1(ActiveContact)")
+def _has_two_bounds(active: ActiveContact) -> bool:
+    """True if the static coefficient of a contact differs from the kinetic one."""
+    return active.static_coefficient != active.friction_coefficient
+
+
 @kernel("b1(ws)")
-def _guess_by_motion(ws: Workspace) -> bool:
-    """Try the modes that the accelerations tell, but for those of the past; return 1 if they differ."""
-    differ = False
+def _may_still_stick(ws: Workspace) -> bool:
+    """True if a contact is guessed to slide at its static bound, before the forces have settled."""
+    for active in ws.actives:
+        may_stick = active.is_at_rest and not active.was_freed and _has_two_bounds(active)
+        if may_stick and active.mode_tried == Mode.SLIDE:
+            return True
+    return False
+
+
+@kernel("b1(ws)")
+def _exclude_sticking(ws: Workspace) -> bool:
+    """Keep the contacts at rest that were found to slide from sticking. True if this changes the coefficient of one."""
+    has_changed = False
+    for active in ws.actives:
+        if active.is_at_rest and active.mode_found == Mode.SLIDE and not active.was_freed:
+            active.was_freed = True
+            has_changed = has_changed or _has_two_bounds(active)
+    return has_changed
+
+
+# --- the verification of a guess --------------------------------------------------------------------------------------
+
+
+@kernel("b1(ws)")
+def _verify_guess(ws: Workspace) -> bool:
+    """Verify the guessed modes, in several forms. True if one fulfils the laws."""
+    if _verify_by_acceleration(ws):
+        return True
+    polish(ws)
+    if _verify_or_open(ws):
+        return True
+    return ws.problem.is_deficient and _verify_forces_of_solver(ws)
+
+
+@kernel("b1(ws)")
+def _verify_by_acceleration(ws: Workspace) -> bool:
+    """Verify the modes that the accelerations show, if they differ from the guess. True if they fulfil the laws.
+
+    A contact with friction on its bound but without slip acceleration sticks. Solvers produce it if forces are
+    redundant.
+    """
+    set_scales(ws)
+    if _guess_modes_from_accelerations(ws):
+        polish(ws)
+        if _verify_or_open(ws):
+            return True
+        _restore_guess(ws)
+    return False
+
+
+@kernel("b1(ws)")
+def _guess_modes_from_accelerations(ws: Workspace) -> bool:
+    """Guess modes from the accelerations, except where the mode is the past one. True if a mode changes.
+
+    A contact that does not separate is closed. At rest, it sticks if it has no slip acceleration.
+    """
+    has_changed = False
     small = EQUAL * ws.problem.small_acceleration
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
+    for active in ws.actives:
         if active.mode_tried == active.mode_past or active.normal_acceleration > small:
             continue
-        mode = Mode.SLIDE
         a1, a2 = active.slip_acceleration
         slip = length(active.slip_acceleration)
-        if active.is_at_rest and slip <= small:
-            mode = Mode.STICK
+        mode = Mode.STICK if active.is_at_rest and slip <= small else Mode.SLIDE
         if mode != active.mode_tried:
-            differ = True
+            has_changed = True
             active.mode_tried = mode
             if active.is_at_rest and mode == Mode.SLIDE:
                 active.direction = a1 / slip, a2 / slip
-    return differ
-
-
-@kernel()
-def _keep_found(ws: Workspace) -> None:
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        active.mode_found = active.mode_tried
-        active.direction_found = active.direction
-
-
-@kernel()
-def _take_found(ws: Workspace) -> None:
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        active.mode_tried = active.mode_found
-        active.direction = active.direction_found
-
-
-@kernel("i8(ws)")
-def _open_pulling(ws: Workspace) -> int:
-    """Open the closed contacts that pull most; return how many."""
-    worst = -ws.problem.small_force
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        if active.mode_tried != Mode.OPEN:
-            worst = min(worst, active.normal_force)
-    opened = 0
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        pulls = active.normal_force <= (1.0 - _SAME) * worst and active.normal_force < -ws.problem.small_force
-        if active.mode_tried != Mode.OPEN and pulls:
-            active.mode_tried = Mode.OPEN
-            opened += 1
-    return opened
+    return has_changed
 
 
 @kernel("b1(ws)")
-def _accept(ws: Workspace) -> bool:
-    """Verify the modes under trial; where the forces of least norm pull, open who pulls; return 1 if all is well."""
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
+def _verify_or_open(ws: Workspace) -> bool:
+    """Verify the modes under trial, and open contacts in steps if redundant forces are tensile. True if all is lawful.
+
+    If that fails, the modes are verified once more, and redundant forces may then be any that are compressive.
+    """
+    for active in ws.actives:
         active.mode_closed = active.mode_tried
         active.direction_closed = active.direction
     if verify(ws, is_lenient=False):
         return True
     if not ws.problem.is_deficient:
         return False
-    while ws.problem.effort < _MOST_EFFORT and _open_pulling(ws) > 0:
+    # TODO: a single contact that must open is found only if it is the most tensile one at some step
+    while ws.problem.effort < _MOST_EFFORT and _open_most_tensile(ws):
         polish(ws)
         if verify(ws, is_lenient=False):
             return True
-    # without the share of those opened the others may not hold: forces that press, though not of least norm
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
+    # the contacts that were opened may carry a load that the others cannot
+    for active in ws.actives:
         active.mode_tried = active.mode_closed
         active.direction = active.direction_closed
     return verify(ws, is_lenient=True)
 
 
 @kernel("b1(ws)")
-def _rubs(ws: Workspace) -> bool:
-    """Return 1 if all that slides has the friction of slip."""
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        pull = active.friction_coefficient * active.normal_force
+def _open_most_tensile(ws: Workspace) -> bool:
+    """Open the closed contacts with the largest tensile forces. True if there are any."""
+    worst = -ws.problem.small_force
+    for active in ws.actives:
+        if active.mode_tried != Mode.OPEN:
+            worst = min(worst, active.normal_force)
+    has_opened = False
+    for active in ws.actives:
+        is_tensile = active.normal_force < -ws.problem.small_force
+        if active.mode_tried != Mode.OPEN and is_tensile and active.normal_force <= (1.0 - _EQUALLY_TENSILE) * worst:
+            active.mode_tried = Mode.OPEN
+            has_opened = True
+    return has_opened
+
+
+@kernel("b1(ws)")
+def _verify_forces_of_solver(ws: Workspace) -> bool:
+    """Take the forces of the solver as they are. True if they fulfil the laws.
+
+    If sliding contacts are redundant, the motion depends on the distribution of their load, and the forces of least
+    norm may violate the laws.
+    """
+    _restore_guess(ws)
+    for active in ws.actives:
+        active.has_redundant_force = False
+    ws.problem.is_deficient = False
+    return fulfils_laws(ws, is_lenient=False) and _friction_opposes_slip(ws)
+
+
+@kernel("b1(ws)")
+def _friction_opposes_slip(ws: Workspace) -> bool:
+    """True if the friction of all sliding contacts is -mu f_n d. Forces of a solver fulfil it to its tolerance only."""
+    small = ws.problem.small_force
+    for active in ws.actives:
+        along = active.friction_coefficient * active.normal_force
         if active.mode_tried != Mode.SLIDE:
             continue
         (t1, t2), (d1, d2) = active.friction, active.direction
-        if not (abs(t1 + pull * d1) <= ws.problem.small_force and abs(t2 + pull * d2) <= ws.problem.small_force):
+        if not (abs(t1 + along * d1) <= small and abs(t2 + along * d2) <= small):
             return False
     return True
 
 
-@kernel("b1(ws)")
-def _hasty(ws: Workspace) -> bool:
-    """Return 1 if a contact seems to slide that, once the forces have settled, its static bound may still hold."""
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        held = active.is_at_rest and not active.was_freed and active.static_coefficient != active.friction_coefficient
-        if held and active.mode_tried == Mode.SLIDE:
-            return True
-    return False
+@kernel()
+def _store_modes(ws: Workspace) -> None:
+    """Store the modes and slip directions under trial."""
+    for active in ws.actives:
+        active.mode_found = active.mode_tried
+        active.direction_found = active.direction
 
 
 @kernel()
-def _take_raw(ws: Workspace) -> None:
-    """Go back to the forces of the solver, its modes and directions."""
-    _take_found(ws)
+def _restore_modes(ws: Workspace) -> None:
+    """Restore the modes and slip directions that were stored."""
+    for active in ws.actives:
+        active.mode_tried = active.mode_found
+        active.direction = active.direction_found
+
+
+@kernel()
+def _restore_guess(ws: Workspace) -> None:
+    """Restore the stored modes and directions, and the forces in ``forces_at_start``."""
+    _restore_modes(ws)
     for i in range(3 * ws.problem.n_active):
         ws.problem.forces[i] = ws.problem.forces_at_start[i]
 
 
-@kernel("b1(ws)")
-def _try_by_motion(ws: Workspace) -> bool:
-    """Let stick who seems to slide without acceleration, its friction being on the bound by chance; return 1 if right.
-
-    Where forces are not unique a solver may well put the friction of some on the bound and let others do with less.
-    """
-    set_scales(ws)
-    if _guess_by_motion(ws):
-        polish(ws)
-        if _accept(ws):
-            return True
-        _take_raw(ws)
-    return False
-
-
-@kernel("b1(ws)")
-def _accept_raw(ws: Workspace) -> bool:
-    """Take the forces of the solver as they are; return 1 if they are lawful.
-
-    Where sliding contacts share their load at will, the motion hangs on the share, and least norm need not be lawful.
-    """
-    _take_raw(ws)
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        active.has_redundant_force = False
-    ws.problem.is_deficient = False
-    return judge(ws, is_lenient=False) and _rubs(ws)
-
-
-@kernel("b1(ws, i8)")
-def _search_round(ws: Workspace, solver: int) -> bool:
-    """Search with the freed contacts kept from sticking; return 1 if the answer is verified."""
-    stages = newton.STAGES
-    if solver == GAUSS_SEIDEL:
-        stages = gauss_seidel.STAGES
-    elif solver == LEMKE:
-        stages = lemke.STAGES
-    for i in range(3 * ws.problem.n_active):
-        ws.problem.forces_at_start[i] = 0.0
-    for stage in range(stages):
-        if ws.problem.effort >= _MOST_EFFORT or interrupted(ws, ws.problem.n_active):
-            return False
-        for i in range(3 * ws.problem.n_active):
-            ws.problem.forces[i] = ws.problem.forces_at_start[i]
-        _write_cones(ws)
-        settled = _improve(ws, solver, stage)
-        for i in range(3 * ws.problem.n_active):
-            ws.problem.forces_at_start[i] = ws.problem.forces[i]
-        identify(ws)
-        _restore_cones(ws)
-        if not settled and stage < stages - 1 and _hasty(ws):
-            continue
-        _keep_found(ws)
-        if _try_by_motion(ws):
-            return True
-        polish(ws)
-        if _accept(ws):
-            return True
-        if ws.problem.is_deficient and _accept_raw(ws):
-            return True
-        _take_found(ws)
-        if settled:
-            return False
-    return False
-
-
-@kernel("i8(ws)")
-def _free_sliding(ws: Workspace) -> int:
-    """Keep the contacts at rest that were found to slide from sticking; return how many that are new."""
-    new = 0
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        if active.is_at_rest and active.mode_found == Mode.SLIDE and not active.was_freed:
-            active.was_freed = True
-            if active.static_coefficient != active.friction_coefficient:
-                new += 1
-    return new
-
-
-@kernel("b1(ws, i8)")
-def _search_from(ws: Workspace, solver: int) -> bool:
-    """Search, and again while contacts are found to slide that the higher static bound might still hold."""
-    for _round in range(1 + ws.problem.n_active):
-        if _search_round(ws, solver):
-            return True
-        if _free_sliding(ws) == 0:
-            return False
-    return False
+# --- the choice between several solutions -----------------------------------------------------------------------------
 
 
 @kernel()
-def _keep_answer(ws: Workspace) -> None:
-    _keep_found(ws)
+def _store_solution(ws: Workspace) -> None:
+    """Store modes, directions and forces of the solution."""
+    _store_modes(ws)
     for i in range(3 * ws.problem.n_active):
         ws.problem.forces_at_start[i] = ws.problem.forces[i]
 
 
 @kernel()
-def _take_answer(ws: Workspace) -> None:
-    _take_raw(ws)
+def _restore_solution(ws: Workspace) -> None:
+    """Restore modes, directions and forces of the solution, and its accelerations."""
+    _restore_guess(ws)
     set_scales(ws)
 
 
 @kernel()
-def _close_idle(ws: Workspace) -> None:
-    """Of several sets of forces for the motion found take that of all contacts that it leaves closed."""
-    _keep_answer(ws)
-    if not _guess_by_motion(ws):
+def _prefer_closed(ws: Workspace) -> None:
+    """Replace the solution by one in which all contacts that do not separate are closed, if that fulfils the laws."""
+    _store_solution(ws)
+    if not _guess_modes_from_accelerations(ws):
         return
     polish(ws)
-    if _accept(ws):
+    if _verify_or_open(ws):
         return
-    _take_answer(ws)
+    _restore_solution(ws)
 
 
 @kernel()
-def _prefer_stick(ws: Workspace) -> None:
-    """Between the two bounds a contact at rest may stick and may slide: what is at rest stays so if all can."""
-    _keep_answer(ws)
-    changed = False
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        undecided = (
-            active.is_at_rest
-            and active.mode_past != Mode.SLIDE
-            and active.static_coefficient != active.friction_coefficient
-        )
-        if undecided and active.mode_tried == Mode.SLIDE:
+def _prefer_sticking(ws: Workspace) -> None:
+    """Replace the solution by one in which contacts at rest stick, if that fulfils the laws.
+
+    With friction between the kinetic and the static bound, a contact at rest may stick or slide. It sticks, unless it
+    was sliding before.
+    """
+    _store_solution(ws)
+    has_changed = False
+    for active in ws.actives:
+        may_stick = active.is_at_rest and active.mode_past != Mode.SLIDE and _has_two_bounds(active)
+        if may_stick and active.mode_tried == Mode.SLIDE:
             active.mode_tried = Mode.STICK
-            changed = True
-    if not changed:
+            has_changed = True
+    if not has_changed:
         return
     polish(ws)
-    if not _accept(ws):
-        _take_answer(ws)
-
-
-@entry_point("b1(ws, i8)")
-def find_modes(ws: Workspace, solver: int) -> bool:
-    """Search by one solver, ``mode_past`` holding the past modes; return 1 if a verified answer is found."""
-    found = False
-    if solver == ENUMERATION:
-        found = enumerate_modes(ws, 0) > 0
-    else:
-        for a in range(ws.problem.n_active):
-            active = ws.actives[a]
-            active.was_freed = False
-        # where a contact has just broken away it must not stick again at the higher static bound
-        broken = 0
-        for a in range(ws.problem.n_active):
-            active = ws.actives[a]
-            if active.is_at_rest and active.mode_past == Mode.SLIDE:
-                active.was_freed = True
-                broken += 1
-        if broken > 0:
-            found = _search_from(ws, solver)
-            for a in range(ws.problem.n_active):
-                active = ws.actives[a]
-                active.was_freed = False
-        if not found:
-            found = _search_from(ws, solver)
-    if found:
-        _prefer_stick(ws)
-        _close_idle(ws)
-    return found
+    if not _verify_or_open(ws):
+        _restore_solution(ws)

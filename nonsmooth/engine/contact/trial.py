@@ -1,36 +1,63 @@
-"""A trial of the contact problem: modes guessed from forces, and the one test that every answer must pass."""
+"""A trial of the contact problem: forces for the modes under trial, and the test of these forces by the contact laws.
+
+Each solver only proposes modes. Every proposal is tried here: the forces of the modes follow from linear equations
+(:mod:`nonsmooth.engine.contact.forces`), and the laws decide. So a solution is exact to round-off whatever the
+tolerance of the solver, and solvers need no proof of convergence.
+
+The laws, with accelerations a and forces f of each contact:
+
+* open:     f = 0, a_n >= 0;
+* sticking: a = 0, f_n >= 0, |f_t| <= mu_s f_n;
+* sliding:  a_n = 0, f_n >= 0, f_t = -mu f_n d. At rest, the slip acceleration must point along d.
+
+The comparisons need a scale. The largest summand of the accelerations is taken, not the largest acceleration, because
+the summands cancel each other and leave round-off of their own size.
+"""
 
 from __future__ import annotations
+
+from enum import IntEnum
 
 from nonsmooth.engine.contact.distribution import distribute
 from nonsmooth.engine.contact.forces import friction_of_slip, reduced_coefficient, resolve
 from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
+from nonsmooth.engine.native.kernel import ActiveContact, Workspace, entry_point, kernel, result
 from nonsmooth.engine.numerics.vectors import length
 
 NO_FORCE = 1e-9
-"""Part of the accelerations, and of the forces, that counts as zero among them."""
-_SOLVED = 1e-5
-"""Part of what counts as zero in an island that round-off of its largest forces leaves in all of them."""
-_ARRIVED = 0.1
-"""Forces may be out of their cones by this part of what counts as zero among them, where they are distributed."""
+"""Force or acceleration that counts as zero, relative to the largest. Round-off of elimination is smaller."""
+_SHARED_ROUND_OFF = 1e-5
+"""Part of the zero force of the island that counts as zero in each contact: round-off of large forces reaches all."""
+_DISTRIBUTED = 0.1
+"""Distance of redundant forces to their cones, in zero forces, at which they count as distributed."""
 EQUAL = 1e3
-"""Accelerations that tell modes, and those on which more contacts than can hold independently may disagree, may be so
-many times what counts as zero."""
+"""Acceleration, in zero accelerations, that still shows a contact at rest. More contacts than can stick independently
+disagree by so much."""
+
+
+@result
+class Verdict(IntEnum):
+    """What the contact laws say of forces and modes under trial."""
+
+    VIOLATED = 0
+    """A law is violated."""
+    FULFILLED = 1
+    """All laws are fulfilled."""
+    REDISTRIBUTABLE = 2
+    """Only bounds of redundant forces are violated. Other forces that give the same motion may keep them."""
 
 
 @kernel()
 def hold_tried(ws: Workspace) -> None:
-    """Translate the modes under trial into what is held, and find the forces that hold it."""
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        mode = active.mode_tried
-        active.is_normal_force_unknown = not (mode == Mode.OPEN or active.has_given_force)
-        # nothing holds what has no friction: it is at rest by chance
-        active.sticks = mode == Mode.STICK and active.static_coefficient > 0.0
-        if mode == Mode.OPEN:
+    """Find the forces of the active contacts in the modes under trial [N]."""
+    for active in ws.actives:
+        is_open = active.mode_tried == Mode.OPEN
+        active.is_normal_force_unknown = not (is_open or active.has_given_force)
+        # a contact without friction is at rest by chance, and no force keeps it there
+        active.sticks = active.mode_tried == Mode.STICK and active.static_coefficient > 0.0
+        if is_open:
             active.normal_force = 0.0
     resolve(ws)
     ws.totals.n_evaluations += 1
@@ -39,18 +66,16 @@ def hold_tried(ws: Workspace) -> None:
 
 @kernel()
 def set_scales(ws: Workspace) -> None:
-    """Write the accelerations and what counts as zero among them and among the forces."""
-    # the accelerations that may cancel one another in b set the scale, not b itself
+    """Write the accelerations under the present forces, and the acceleration and force that count as zero."""
     scale = ws.problem.acceleration_scale
     force_scale = 0.0
     for i in range(3 * ws.problem.n_active):
         force_scale = max(force_scale, abs(ws.problem.forces[i]))
-    for a in range(ws.problem.n_active):
-        own = diagonal_block(ws, a).nn
+    for active in ws.actives:
+        own = diagonal_block(ws, active.index).nn
         if own > 0.0:
             force_scale = max(force_scale, scale / own)
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
+    for active in ws.actives:
         for r in range(3):
             total = active.free[r]
             for block in range(active.first_block, active.end_block):
@@ -65,109 +90,145 @@ def set_scales(ws: Workspace) -> None:
 
 @kernel("f8(ws, i8)")
 def small_force(ws: Workspace, a: int) -> float:
-    """Return what counts as zero among the forces of one contact: beside a heavy body a light one has its own scale."""
+    """Force of active contact ``a`` that counts as zero [N].
+
+    Its own forces set the scale: those of a heavy body in the same island may be many orders larger.
+    """
     active = ws.actives[a]
     own, size = diagonal_block(ws, a).nn, 0.0
     for r in range(3):
         size = max(size, abs(active.force[r]))
     if own > 0.0:
         size = max(size, ws.problem.acceleration_scale / own)
-    return float(NO_FORCE * size + _SOLVED * ws.problem.small_force)
+    return float(NO_FORCE * size + _SHARED_ROUND_OFF * ws.problem.small_force)
 
 
 @entry_point("b1(ws, b1)")
 def verify(ws: Workspace, is_lenient: bool) -> bool:
-    """Find the forces of the modes under trial; return 1 if modes and forces fulfil the laws themselves.
+    """Find the forces of the modes under trial. True if modes and forces fulfil the contact laws.
 
-    Where the forces are not unique those of least norm are found; where they break Coulomb's bound, others that
-    give the same motion and keep it are looked for, and the modes pass iff there are such; a lenient look does so
-    where they pull, too.
+    Redundant forces are first those of least norm. If these exceed Coulomb's bound, other forces that give the same
+    motion are tried (:func:`nonsmooth.engine.contact.distribution.distribute`). If ``is_lenient``, this is done for
+    tensile normal forces, too.
     """
     hold_tried(ws)
-    return judge(ws, is_lenient)
-
-
-@kernel("i8(ws, b1)")
-def _compare(ws: Workspace, is_lenient: bool) -> int:
-    """Return 1 if the forces fulfil the laws, 2 if others that are as good may, 0 if not."""
-    set_scales(ws)
-    small = ws.problem.small_acceleration
-    held = small if not ws.problem.is_deficient else EQUAL * small
-    result = 1
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        mode, faint = active.mode_tried, small_force(ws, a)
-        normal = active.normal_acceleration
-        if mode == Mode.OPEN:
-            if not normal >= -small:
-                return 0
-            continue
-        if not abs(normal) <= held:
-            return 0
-        # sliding on which more force gives more approach is balanced on an edge, and falls off either side
-        if mode == Mode.SLIDE and not active.is_at_rest and reduced_coefficient(ws, a) <= 0.0:
-            return 0
-        if not active.normal_force >= -faint:
-            if not is_lenient or not ws.problem.is_deficient:
-                return 0
-            result = 2
-        a1, a2 = active.slip_acceleration
-        if mode == Mode.STICK:
-            if not abs(a1) + abs(a2) <= held:
-                return 0
-            if not length(active.friction) <= active.static_coefficient * active.normal_force + faint:
-                if not active.has_redundant_force:
-                    return 0
-                result = 2
-        elif active.is_at_rest:
-            forward = a1 * active.direction[0] + a2 * active.direction[1]
-            across = a1 * active.direction[1] - a2 * active.direction[0]
-            if not (forward >= -small and abs(across) <= small):
-                return 0
-    return result
+    return fulfils_laws(ws, is_lenient)
 
 
 @kernel("b1(ws, b1)")
-def judge(ws: Workspace, is_lenient: bool) -> bool:
-    """Return 1 if the ``active_forces`` fulfil the laws in the modes under trial, distributed where not unique."""
-    result = _compare(ws, is_lenient)
-    if result == 2 and distribute(ws, 0.0, _ARRIVED * ws.problem.small_force):
-        # the share of sliding contacts may have moved with their normal forces: all is looked at again
-        for a in range(ws.problem.n_active):
-            if ws.actives[a].mode_tried == Mode.SLIDE:
-                friction_of_slip(ws, a)
-        result = _compare(ws, is_lenient)
-    return result == 1
+def fulfils_laws(ws: Workspace, is_lenient: bool) -> bool:
+    """True if the forces fulfil the contact laws in the modes under trial. Redundant forces are distributed if need be.
+
+    For ``is_lenient`` see :func:`verify`.
+    """
+    verdict = _check(ws, is_lenient)
+    if verdict == Verdict.REDISTRIBUTABLE and distribute(ws, 0.0, _DISTRIBUTED * ws.problem.small_force):
+        # distribution moves normal forces, and with them the friction of sliding contacts
+        for active in ws.actives:
+            if active.mode_tried == Mode.SLIDE:
+                friction_of_slip(ws, active.index)
+        verdict = _check(ws, is_lenient)
+    return verdict == Verdict.FULFILLED
+
+
+@kernel("Verdict(ws, b1)")
+def _check(ws: Workspace, is_lenient: bool) -> Verdict:
+    """Verdict on the forces of all active contacts."""
+    set_scales(ws)
+    verdict = Verdict.FULFILLED
+    for active in ws.actives:
+        own = _check_contact(ws, active, is_lenient)
+        if own == Verdict.VIOLATED:
+            return own
+        if own == Verdict.REDISTRIBUTABLE:
+            verdict = own
+    return verdict
+
+
+@kernel("Verdict(ws, ActiveContact, b1)")
+def _check_contact(ws: Workspace, active: ActiveContact, is_lenient: bool) -> Verdict:
+    """Verdict on the force of one contact."""
+    if active.mode_tried == Mode.OPEN:
+        separates = active.normal_acceleration >= -ws.problem.small_acceleration
+        return Verdict.FULFILLED if separates else Verdict.VIOLATED
+    if not abs(active.normal_acceleration) <= _allowed_acceleration(ws):
+        return Verdict.VIOLATED
+    # if more force means more approach (Painleve's paradox), the balance is unstable
+    slips = active.mode_tried == Mode.SLIDE and not active.is_at_rest
+    if slips and reduced_coefficient(ws, active.index) <= 0.0:
+        return Verdict.VIOLATED
+    is_tensile = not active.normal_force >= -small_force(ws, active.index)
+    if is_tensile and not (is_lenient and ws.problem.is_deficient):
+        return Verdict.VIOLATED
+    of_friction = _check_friction(ws, active)
+    if of_friction == Verdict.FULFILLED and is_tensile:
+        return Verdict.REDISTRIBUTABLE
+    return of_friction
+
+
+@kernel("f8(ws)")
+def _allowed_acceleration(ws: Workspace) -> float:
+    """Acceleration of a contact at rest that counts as zero [m/s^2]. Redundant contacts may disagree by more."""
+    small = ws.problem.small_acceleration
+    return float(EQUAL * small if ws.problem.is_deficient else small)
+
+
+@kernel("Verdict(ws, ActiveContact)")
+def _check_friction(ws: Workspace, active: ActiveContact) -> Verdict:
+    """Verdict on the friction of one closed contact."""
+    a1, a2 = active.slip_acceleration
+    if active.mode_tried == Mode.STICK:
+        if not abs(a1) + abs(a2) <= _allowed_acceleration(ws):
+            return Verdict.VIOLATED
+        if length(active.friction) <= active.static_coefficient * active.normal_force + small_force(ws, active.index):
+            return Verdict.FULFILLED
+        return Verdict.REDISTRIBUTABLE if active.has_redundant_force else Verdict.VIOLATED
+    if not active.is_at_rest:
+        return Verdict.FULFILLED
+    small = ws.problem.small_acceleration
+    forward = a1 * active.direction[0] + a2 * active.direction[1]
+    across = a1 * active.direction[1] - a2 * active.direction[0]
+    is_opposed = forward >= -small and abs(across) <= small
+    return Verdict.FULFILLED if is_opposed else Verdict.VIOLATED
 
 
 @kernel()
-def identify(ws: Workspace) -> None:
-    """Guess modes and directions from the ``active_forces``, by the side of the natural map on which they stand."""
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        push = 0.0
+def guess_modes_from_forces(ws: Workspace) -> None:
+    """Guess modes and slip directions from the present forces and their accelerations.
+
+    A projection decides: f - a / g is projected on Coulomb's cone, where g is the inverse mass of the contact. Forces
+    of the solution are their own projections (Alart and Curnier 1991). A projection on the apex means open, on the
+    inside of the cone sticking, on its surface sliding.
+    """
+    for active in ws.actives:
+        compression = 0.0
         for r in range(3):
-            total = add_product(ws, active.free[r], a, r, ws.problem.forces.start)
+            total = add_product(ws, active.free[r], active.index, r, ws.problem.forces.start)
             if r == 0:
-                push = active.normal_force * diagonal_block(ws, a).nn - total
+                compression = active.normal_force * diagonal_block(ws, active.index).nn - total
             active.acceleration[r] = total
         active.mode_tried = Mode.SLIDE
         if active.is_at_rest:
-            g = slope_of_slip(ws, a)
+            g = tangential_inverse_mass(ws, active)
             y1 = g * active.friction[0] - active.slip_acceleration[0]
             y2 = g * active.friction[1] - active.slip_acceleration[1]
             norm = length((y1, y2))
             if norm > 0.0:
                 active.direction = -y1 / norm, -y2 / norm
+            # TODO: a projection would have the radius mu y_n of the projected normal force, not mu f_n
             if not active.was_freed and norm <= g * active.friction_coefficient * active.normal_force:
                 active.mode_tried = Mode.STICK
-        if push <= 0.0:
+        if compression <= 0.0:
             active.mode_tried = Mode.OPEN
 
 
-@kernel("f8(ws, i8)")
-def slope_of_slip(ws: Workspace, a: int) -> float:
-    """Return how fast contact ``a`` slips under a unit of its own friction, or a number like it where it cannot."""
-    own = diagonal_block(ws, a)
+@kernel("f8(ws, ActiveContact)")
+def tangential_inverse_mass(ws: Workspace, active: ActiveContact) -> float:
+    """Largest slip acceleration of a contact per unit of its own friction along t1 or t2 [1/kg].
+
+    It is only a scale. If the contact cannot slip, its normal inverse mass takes the place.
+    """
+    # TODO: the larger diagonal entry depends on the choice of the tangents; the larger eigenvalue would not
+    own = diagonal_block(ws, active.index)
     largest = max(own.t11, own.t22)
     return float(largest if largest > 0.0 else own.nn)

@@ -1,1 +1,1 @@
-"""Delassus matrices, the islands they fall into, and the order of their rows."""
+"""The Delassus matrix, the islands of contacts, and the order of the contacts within them."""

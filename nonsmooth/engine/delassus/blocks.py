@@ -1,74 +1,76 @@
-"""The structure of the Delassus matrix by blocks: which of the active contacts share a movable articulation.
+"""Sparsity of the Delassus matrix G: which pairs of active contacts have a block of 3 x 3 that is not zero.
 
-Rows of 3 x 3 blocks are compressed: that of active contact a is entry ``first_grouped`` + a of ``block_start``, and
-``block_column`` holds the active contacts that it couples with, in ascending order and itself among them.
+Two contacts act on each other only if they share a movable articulation, which is a set of bodies that joints connect.
+G is stored in compressed rows of blocks. Active contact a owns the blocks ``first_block`` to ``end_block`` - 1, and
+``block_column`` holds the active contact that each of them couples with, in ascending order, a itself among them.
+
+Each articulation gets a linked list of its contacts, and each contact goes through the lists of its two articulations.
+So the effort grows with the number of blocks; a comparison of all pairs of contacts would grow with the square of
+their number. The outer loop runs over columns: the columns of each row then ascend without being sorted. It runs twice,
+first to count the blocks of each row, then to write them.
 """
 
 from __future__ import annotations
 
 from nonsmooth.engine.memory.layout import MOST_BLOCKS
-from nonsmooth.engine.native.kernel import (
-    Workspace,
-    kernel,
-)
+from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel
 
 
 @kernel()
-def _hang(ws: Workspace) -> None:
-    """Hang the active contacts on their movable articulations: first entries of all contacts, then second ones."""
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
+def _link_contacts(ws: Workspace) -> None:
+    """Link the active contacts to the movable articulations of their two bodies.
+
+    Entry a of ``link_next`` belongs to the first body of contact a, entry ``n_active`` + a to the second.
+    """
+    for active in ws.actives:
         active.block_mark = -1
         active.n_blocks = 0
         contact = ws.contacts[active.contact]
         ws.articulations[contact.articulation_a].first_linked = -1
         ws.articulations[contact.articulation_b].first_linked = -1
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
+    for active in ws.actives:
         contact = ws.contacts[active.contact]
         for side in range(2):
             articulation = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b]
             if articulation.n_u > 0:
-                entry = side * ws.problem.n_active + a
+                entry = side * ws.problem.n_active + active.index
                 ws.problem.link_next[entry] = articulation.first_linked
                 articulation.first_linked = entry
 
 
-@kernel("void(ws, i8, i8, i8)")
-def _note(ws: Workspace, row: int, column: int, fill: int) -> None:
-    """Count a block of a row or, with ``fill``, write it."""
-    active = ws.actives[row]
-    if fill == 1:
+@kernel("void(ws, ActiveContact, i8, b1)")
+def _add_block(ws: Workspace, active: ActiveContact, column: int, is_written: bool) -> None:
+    """Count a block of the row of an active contact. If ``is_written``, write its column, too."""
+    if is_written:
         block = active.first_block + active.n_blocks
         ws.island.block_column[block] = column
-        if row == column:
+        if active.index == column:
             active.diagonal_block = block
     active.n_blocks += 1
 
 
-@kernel("void(ws, i8)")
-def _visit(ws: Workspace, fill: int) -> None:
-    """Note every pair of active contacts that share a movable articulation, once for each of the two."""
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
-        contact = ws.contacts[active.contact]
-        mark = fill * ws.problem.n_active + a
+@kernel("void(ws, b1)")
+def _add_blocks(ws: Workspace, are_written: bool) -> None:
+    """Count the blocks of all rows, or write them: of each pair that shares a movable articulation, once each way."""
+    for active in ws.actives:
+        # a contact that both articulations list is marked, so that it is counted once
+        mark = active.index + (ws.problem.n_active if are_written else 0)
         active.block_mark = mark
-        _note(ws, a, a, fill)
+        _add_block(ws, active, active.index, are_written)
+        contact = ws.contacts[active.contact]
         for side in range(2):
             entry = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b].first_linked
             while entry >= 0 and not ws.run.has_too_many_blocks:
-                other = entry if entry < ws.problem.n_active else entry - ws.problem.n_active
-                neighbour = ws.actives[other]
+                neighbour = ws.actives[entry if entry < ws.problem.n_active else entry - ws.problem.n_active]
                 if neighbour.block_mark != mark:
                     neighbour.block_mark = mark
-                    _note(ws, other, a, fill)
+                    _add_block(ws, neighbour, active.index, are_written)
                 entry = ws.problem.link_next[entry]
 
 
 @kernel()
 def _link_alone(ws: Workspace) -> None:
-    """Write the structure of an island of one contact: a block of its own."""
+    """Write the structure of an island of one contact: its diagonal block."""
     active = ws.actives[0]
     active.diagonal_block = active.first_block
     active.end_block = active.first_block + 1
@@ -77,9 +79,9 @@ def _link_alone(ws: Workspace) -> None:
 
 @kernel()
 def link_active(ws: Workspace) -> None:
-    """Write the structure of the active contacts to the place that starts at ``first_grouped``.
+    """Write the block structure of the active contacts, behind that of the islands before.
 
-    Without room for it ``crowded`` is set, and the run must stop.
+    Sets ``has_too_many_blocks`` if there is no room for the blocks. The run must then stop.
     """
     start = ws.island.block_start.start + ws.problem.first_grouped
     if ws.problem.first_grouped == 0:
@@ -90,15 +92,14 @@ def link_active(ws: Workspace) -> None:
         if ws.integers[start + 1] > most:
             ws.run.has_too_many_blocks = True
         return
-    _hang(ws)
-    _visit(ws, 0)
+    _link_contacts(ws)
+    _add_blocks(ws, are_written=False)
     total = ws.integers[start]
-    for a in range(ws.problem.n_active):
-        total += ws.actives[a].n_blocks
+    for active in ws.actives:
+        total += active.n_blocks
     if total > most:
         ws.run.has_too_many_blocks = True
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
+    for active in ws.actives:
         active.end_block = active.first_block + (active.n_blocks if not ws.run.has_too_many_blocks else 1)
         active.n_blocks = 0
-    _visit(ws, 1)
+    _add_blocks(ws, are_written=True)

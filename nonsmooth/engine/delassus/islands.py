@@ -1,20 +1,27 @@
-"""Islands: contacts that share no movable body act on each other in no way, and are solved apart."""
+"""Islands: sets of contacts that share no movable body with the contacts of other sets.
+
+Contacts of different islands do not act on each other, so each island is a contact problem of its own. Islands are
+found by a disjoint-set forest of articulations (R. E. Tarjan, J. ACM 22 (1975) 215-225): a contact between two movable
+articulations joins their sets, and ``root`` leads from an articulation to the representative of its set. This needs
+one pass through the contacts. A search through the graph of contacts would need its edges, which are not known yet.
+
+Islands are numbered in the order of their first contacts. Arrays call an island a group.
+"""
 
 from __future__ import annotations
 
 from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.delassus.ordering import order_active
 from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.native.kernel import (
-    Workspace,
-    entry_point,
-    kernel,
-)
+from nonsmooth.engine.native.kernel import Contact, Workspace, entry_point, kernel
+
+_NO_GROUP = -1
+"""Island of an articulation that has none yet."""
 
 
 @kernel("i8(ws, i8)")
-def _leader(ws: Workspace, number: int) -> int:
-    """Return the articulation that stands for all that contacts join to this one, shortening the way there."""
+def _root(ws: Workspace, number: int) -> int:
+    """Representative of the set of an articulation. The path to it is shortened for the next query."""
     root = number
     while ws.articulations[root].root != root:
         root = ws.articulations[root].root
@@ -25,10 +32,9 @@ def _leader(ws: Workspace, number: int) -> int:
     return root
 
 
-@kernel("i8(ws, i8)")
-def _articulation(ws: Workspace, c: int) -> int:
-    """Return a movable articulation of contact ``c``; the first one if none is."""
-    contact = ws.contacts[c]
+@kernel("i8(ws, Contact)")
+def _movable_articulation(ws: Workspace, contact: Contact) -> int:
+    """A movable articulation of a contact, or its first articulation if both bodies are driven."""
     a, b = contact.articulation_a, contact.articulation_b
     return int(b if ws.articulations[a].n_u == 0 and ws.articulations[b].n_u > 0 else a)
 
@@ -39,74 +45,86 @@ def activate_group(ws: Workspace, group: int) -> None:
     first = ws.island.group_start[group]
     ws.problem.first_grouped = first
     ws.problem.n_active = ws.island.group_start[group + 1] - first
-    for a in range(ws.problem.n_active):
-        ws.actives[a].contact = ws.island.grouped[first + a]
+    for active in ws.actives:
+        active.contact = ws.island.grouped[first + active.index]
 
 
 @entry_point()
 def group_members(ws: Workspace) -> None:
-    """Sort the contacts marked as ``member`` into islands, in the order of their first contacts, and link each."""
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
-        if contact.is_in_problem:
-            for side in range(2):
-                number = contact.articulation_a if side == 0 else contact.articulation_b
-                articulation = ws.articulations[number]
-                articulation.root, articulation.group = number, -1
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
-        a, b = contact.articulation_a, contact.articulation_b
-        if contact.is_in_problem and ws.articulations[a].n_u > 0 and ws.articulations[b].n_u > 0:
-            ws.articulations[_leader(ws, b)].root = _leader(ws, a)
-    groups = members = 0
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
-        if not contact.is_in_problem:
-            continue
-        number = _articulation(ws, c)
-        root = ws.articulations[_leader(ws, number)]
-        # between two driven bodies every contact is an island of its own
-        if ws.articulations[number].n_u == 0 or root.group < 0:
-            root.group = groups
-            ws.island.group_start[groups] = 0
-            groups += 1
-        contact.group = root.group
-        ws.island.group_start[contact.group] += 1
-        members += 1
-    # counts become starts, and the contacts fall into their places
-    end = members
-    for i in range(groups):
-        g = groups - 1 - i
-        end -= ws.island.group_start[g]
-        ws.island.group_start[g] = end
-        ws.island.group_next[g] = end
-    ws.island.group_start[groups] = members
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
-        if contact.is_in_problem:
-            g = contact.group
-            ws.island.grouped[ws.island.group_next[g]] = c
-            ws.island.group_next[g] += 1
-    ws.island.n_groups = groups
-    ws.island.n_grouped = members
-    for group in range(groups):
+    """Sort the contacts marked by ``is_in_problem`` into islands, and write the block structure of each island."""
+    _join_articulations(ws)
+    _number_islands(ws)
+    _list_islands(ws)
+    for group in range(ws.island.n_groups):
         activate_group(ws, group)
         order_active(ws)
 
 
 @kernel()
+def _join_articulations(ws: Workspace) -> None:
+    """Join the articulations of each marked contact, if both are movable."""
+    for contact in ws.contacts:
+        if contact.is_in_problem:
+            for side in range(2):
+                number = contact.articulation_a if side == 0 else contact.articulation_b
+                articulation = ws.articulations[number]
+                articulation.root, articulation.group = number, _NO_GROUP
+    for contact in ws.contacts:
+        a, b = contact.articulation_a, contact.articulation_b
+        if contact.is_in_problem and ws.articulations[a].n_u > 0 and ws.articulations[b].n_u > 0:
+            ws.articulations[_root(ws, b)].root = _root(ws, a)
+
+
+@kernel()
+def _number_islands(ws: Workspace) -> None:
+    """Give each marked contact the number of its island, and write the sizes of the islands to ``group_start``."""
+    n_groups = n_grouped = 0
+    for contact in ws.contacts:
+        if not contact.is_in_problem:
+            continue
+        number = _movable_articulation(ws, contact)
+        root = ws.articulations[_root(ws, number)]
+        # a contact between two driven bodies is an island of its own
+        if ws.articulations[number].n_u == 0 or root.group == _NO_GROUP:
+            root.group = n_groups
+            ws.island.group_start[n_groups] = 0
+            n_groups += 1
+        contact.group = root.group
+        ws.island.group_start[contact.group] += 1
+        n_grouped += 1
+    ws.island.n_groups, ws.island.n_grouped = n_groups, n_grouped
+
+
+@kernel()
+def _list_islands(ws: Workspace) -> None:
+    """Write the marked contacts to ``grouped``, island after island, and the starts of the islands to ``group_start``.
+
+    This is a counting sort. Before, ``group_start`` holds the sizes of the islands.
+    """
+    end = ws.island.n_grouped
+    for i in range(ws.island.n_groups):
+        group = ws.island.n_groups - 1 - i
+        end -= ws.island.group_start[group]
+        ws.island.group_start[group] = end
+        ws.island.group_next[group] = end
+    ws.island.group_start[ws.island.n_groups] = ws.island.n_grouped
+    for contact in ws.contacts:
+        if contact.is_in_problem:
+            ws.island.grouped[ws.island.group_next[contact.group]] = contact.index
+            ws.island.group_next[contact.group] += 1
+
+
+@kernel()
 def group_closed(ws: Workspace) -> None:
-    """Sort the closed contacts into islands, but for those of bodies on their courses."""
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
-        contact.is_in_problem = contact.mode != Mode.OPEN and not has_own_step(ws, c)
+    """Sort the closed contacts into islands, except those of bodies with a step of their own."""
+    for contact in ws.contacts:
+        contact.is_in_problem = contact.mode != Mode.OPEN and not has_own_step(ws, contact.index)
     group_members(ws)
 
 
 @kernel()
 def group_touching(ws: Workspace) -> None:
-    """Sort the touching contacts that collide, not those that give way, into islands."""
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
+    """Sort the rigid contacts that touch into islands, for a collision. Compliant contacts do not collide."""
+    for contact in ws.contacts:
         contact.is_in_problem = contact.is_touching and not contact.is_compliant
     group_members(ws)

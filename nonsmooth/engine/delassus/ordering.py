@@ -1,6 +1,10 @@
-"""An order of the contacts of an island in which those that act on one another stand near each other.
+"""An order of the contacts of an island in which contacts that act on each other are near each other.
 
-Reverse Cuthill-McKee: breadth first from an end of the island, neighbours of few neighbours first.
+The matrix of the unknown forces then has a narrow band, and elimination within it needs far less than the cube of the
+number of unknowns. The order is that of Cuthill and McKee, reversed: breadth first from an end of the island, and
+neighbours with few neighbours first. To find an end, the search runs twice; the contact found last is the start of the
+second search.
+
 E. Cuthill, J. McKee, "Reducing the bandwidth of sparse symmetric matrices", Proc. 24th ACM Nat. Conf. (1969) 157-172;
 A. George, J. W. H. Liu, Computer Solution of Large Sparse Positive Definite Systems, Prentice-Hall (1981).
 """
@@ -8,80 +12,88 @@ A. George, J. W. H. Liu, Computer Solution of Large Sparse Positive Definite Sys
 from __future__ import annotations
 
 from nonsmooth.engine.delassus.blocks import link_active
-from nonsmooth.engine.native.kernel import Workspace, kernel
+from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel
+
+_UNRANKED = -1
+"""Rank of a contact that the search has not met."""
 
 
-@kernel("i8(ws, i8)")
-def _degree(ws: Workspace, a: int) -> int:
-    active = ws.actives[a]
+@kernel("i8(ActiveContact)")
+def _n_neighbours(active: ActiveContact) -> int:
+    """Number of contacts that an active contact acts on, itself included."""
     return int(active.end_block - active.first_block)
 
 
 @kernel("void(ws, i8)")
-def _search(ws: Workspace, start: int) -> None:
-    """Write the active contacts to ``order`` as met from ``start`` on, breadth first."""
-    for a in range(ws.problem.n_active):
-        ws.actives[a].rank = -1
+def _write_breadth_first_order(ws: Workspace, start: int) -> None:
+    """Write the active contacts to ``order``, breadth first from ``start``, those with few neighbours first."""
+    for active in ws.actives:
+        active.rank = _UNRANKED
     ws.problem.order[0] = start
     ws.actives[start].rank = 0
-    end = 1
+    n_ordered = 1
     for i in range(ws.problem.n_active):
-        if i >= end:
+        if i >= n_ordered:
             return
         active = ws.actives[ws.problem.order[i]]
-        begin = end
+        first_new = n_ordered
         for block in range(active.first_block, active.end_block):
-            other = ws.island.block_column[block]
-            neighbour = ws.actives[other]
-            if neighbour.rank >= 0:
+            neighbour = ws.actives[ws.island.block_column[block]]
+            if neighbour.rank != _UNRANKED:
                 continue
             neighbour.rank = i
-            place = end
-            while place > begin and _degree(ws, ws.problem.order[place - 1]) > _degree(ws, other):
-                ws.problem.order[place] = ws.problem.order[place - 1]
-                place -= 1
-            ws.problem.order[place] = other
-            end += 1
+            _insert(ws, neighbour, first_new, n_ordered)
+            n_ordered += 1
+
+
+@kernel("void(ws, ActiveContact, i8, i8)")
+def _insert(ws: Workspace, active: ActiveContact, first: int, end: int) -> None:
+    """Insert an active contact into the part of ``order`` from ``first`` to ``end``, sorted by number of neighbours."""
+    place = end
+    while place > first and _n_neighbours(ws.actives[ws.problem.order[place - 1]]) > _n_neighbours(active):
+        ws.problem.order[place] = ws.problem.order[place - 1]
+        place -= 1
+    ws.problem.order[place] = active.index
 
 
 @kernel("i8(ws)")
-def _reach(ws: Workspace) -> int:
-    """Return how far apart, by their ``rank``, contacts stand that act on one another."""
-    reach = 0
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
+def _bandwidth(ws: Workspace) -> int:
+    """Largest difference of rank between contacts that act on each other."""
+    bandwidth = 0
+    for active in ws.actives:
         for block in range(active.first_block, active.end_block):
-            reach = max(reach, active.rank - ws.actives[ws.island.block_column[block]].rank)
-    return reach
+            bandwidth = max(bandwidth, active.rank - ws.actives[ws.island.block_column[block]].rank)
+    return bandwidth
 
 
 @kernel()
 def order_active(ws: Workspace) -> None:
-    """Bring the active island into an order that makes the band of its matrix narrow, and link it.
+    """Sort the contacts of the active island for a narrow band, and write its block structure.
 
-    It stays in the order of its contacts where no other is better, and where the band would fill the matrix.
+    They stay in the order of the list if the new order is not better, or if its band would fill the matrix.
     """
-    m = ws.problem.n_active
+    n_active = ws.problem.n_active
     link_active(ws)
     start = ws.island.block_start.start + ws.problem.first_grouped
-    if ws.run.has_too_many_blocks or ws.integers[start + m] - ws.integers[start] == m * m:
+    if ws.run.has_too_many_blocks or ws.integers[start + n_active] - ws.integers[start] == n_active * n_active:
         return
     first = 0
-    for a in range(m):
-        ws.actives[a].rank = a
-        if _degree(ws, a) < _degree(ws, first):
-            first = a
-    listed = _reach(ws)
-    _search(ws, first)
-    _search(ws, ws.problem.order[m - 1])
-    for i in range(m):
-        ws.actives[ws.problem.order[i]].rank = m - 1 - i
-    reach = _reach(ws)
-    # three unknowns for each contact, and room for exchanges of rows: see the band of forces
-    if reach >= listed or 9 * reach + 7 >= 3 * m:
+    for active in ws.actives:
+        active.rank = active.index
+        if _n_neighbours(active) < _n_neighbours(ws.actives[first]):
+            first = active.index
+    listed = _bandwidth(ws)
+    _write_breadth_first_order(ws, first)
+    _write_breadth_first_order(ws, ws.problem.order[n_active - 1])
+    for i in range(n_active):
+        ws.actives[ws.problem.order[i]].rank = n_active - 1 - i
+    bandwidth = _bandwidth(ws)
+    # of n = 3 n_active unknowns, a half band of 3 bandwidth + 2 is stored in rows of three times that length plus one
+    if bandwidth >= listed or 9 * bandwidth + 7 >= 3 * n_active:
         return
-    for i in range(m):
-        ws.island.grouped[ws.problem.first_grouped + m - 1 - i] = ws.problem.active[ws.problem.order[i]]
-    for a in range(m):
-        ws.actives[a].contact = ws.island.grouped[ws.problem.first_grouped + a]
+    for i in range(n_active):
+        place = ws.problem.first_grouped + n_active - 1 - i
+        ws.island.grouped[place] = ws.problem.active[ws.problem.order[i]]
+    for active in ws.actives:
+        active.contact = ws.island.grouped[ws.problem.first_grouped + active.index]
     link_active(ws)

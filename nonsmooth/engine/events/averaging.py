@@ -7,8 +7,8 @@ import math
 from nonsmooth.engine.bodies.touching import touch
 from nonsmooth.engine.contact.mean_forces import (
     averaging_time,
+    has_no_stopping_slip,
     is_averaged,
-    is_settled,
 )
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.mean_motion import find_mean_forces
@@ -63,7 +63,7 @@ def keeps_averaging(ws: Workspace, ends: bool) -> bool:
     # a contact by itself has forces of its own
     if ws.problem.n_active == 1:
         return False
-    if not is_settled(ws):
+    if not has_no_stopping_slip(ws):
         return True
     for a in range(ws.problem.n_active):
         contact = ws.contacts[ws.actives[a].contact]

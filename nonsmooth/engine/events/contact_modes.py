@@ -12,8 +12,8 @@ from nonsmooth.engine.bodies.anisotropy import turn_facing
 from nonsmooth.engine.bodies.compliance import begin_contact, push_compliant, rubs_unasked
 from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.bodies.touching import slip_speed
-from nonsmooth.engine.contact.problem import accelerate, accelerate_touching, set_up, solve_contact
-from nonsmooth.engine.contact.trial import slope_of_slip, small_force
+from nonsmooth.engine.contact.problem import accelerate, accelerate_touching, solve_contact, write_contact_problem
+from nonsmooth.engine.contact.trial import small_force, tangential_inverse_mass
 from nonsmooth.engine.delassus.islands import activate_group, group_members
 from nonsmooth.engine.events.averaging import average, keeps_averaging
 from nonsmooth.engine.events.record import (
@@ -117,7 +117,7 @@ def solve_islands(ws: Workspace, averaging_ends: bool) -> Solution:
             accelerate(ws)
             continue
         _use_guessed_modes(ws)
-        set_up(ws)
+        write_contact_problem(ws)
         if not solve_contact(ws):
             return Solution.NONE
         accelerate(ws)
@@ -142,7 +142,7 @@ def _take_solution(ws: Workspace) -> bool:
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         contact.force_round_off = small_force(ws, active.index)
-        contact.slip_per_force = slope_of_slip(ws, active.index)
+        contact.slip_per_force = tangential_inverse_mass(ws, active)
         contact.mode_agreed = active.mode_tried
         contact.direction_agreed = active.direction
         if active.is_at_rest and active.mode_tried != Mode.OPEN:

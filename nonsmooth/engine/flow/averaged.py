@@ -7,7 +7,7 @@ import math
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.compliance import push_compliant, refresh_states
 from nonsmooth.engine.bodies.kinematics import evaluate_contact
-from nonsmooth.engine.contact.mean_forces import is_averaged, measure_spans
+from nonsmooth.engine.contact.mean_forces import is_averaged, set_spans
 from nonsmooth.engine.contact.problem import free_acceleration
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.mean_motion import find_mean_forces
@@ -20,7 +20,7 @@ from nonsmooth.engine.native.kernel import Workspace, kernel
 @kernel()
 def reach_end(ws: Workspace) -> None:
     """Take the modes that averaged forces were to end in, where they end, the rates there being at hand."""
-    measure_spans(ws)
+    set_spans(ws)
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         if contact.is_averaged and contact.mode != Mode.OPEN:

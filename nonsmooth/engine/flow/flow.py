@@ -17,10 +17,10 @@ from nonsmooth.engine.bodies.compliance import (
 )
 from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.bodies.kinematics import evaluate_bias, evaluate_geometry, evaluate_rates
+from nonsmooth.engine.contact.closed_contacts import add_contact_forces, write_rows
 from nonsmooth.engine.contact.forces import friction_of_slip
-from nonsmooth.engine.contact.held_contacts import hold_contacts, write_rows
-from nonsmooth.engine.contact.implicit_slip import hold_at_end
-from nonsmooth.engine.contact.lone_slip import hold_lone_slip, lone_slip
+from nonsmooth.engine.contact.implicit_slip import add_forces_at_stage_end
+from nonsmooth.engine.contact.lone_slip import add_lone_slip_force, lone_sliding_contact
 from nonsmooth.engine.contact.problem import follow_slip, free_acceleration, friction_coefficient, slip_coefficient
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.flight import accelerate_in_flight
@@ -60,8 +60,8 @@ def right_hand_side(ws: Workspace, t: float, y: int, may_choose: bool, of_all_bo
     evaluate_driven_bodies(ws, t, y)
     refresh_states(ws, y)
     for group in range(ws.island.n_groups):
-        c = lone_slip(ws, group)
-        if c >= 0 and hold_lone_slip(ws, c):
+        c = lone_sliding_contact(ws, group)
+        if c >= 0 and add_lone_slip_force(ws, c):
             continue
         activate_group(ws, group)
         implicit = ws.problem.stage_time > 0.0 and _slides(ws)
@@ -79,9 +79,9 @@ def right_hand_side(ws: Workspace, t: float, y: int, may_choose: bool, of_all_bo
             evaluate_bias(ws, c, 1 + 2 * active.sticks)
             write_rows(ws, a)
         if implicit:
-            hold_at_end(ws)
+            add_forces_at_stage_end(ws)
         else:
-            keeps = hold_contacts(ws, may_choose) and keeps
+            keeps = add_contact_forces(ws, may_choose) and keeps
         for a in range(ws.problem.n_active):
             active = ws.actives[a]
             c = active.contact

@@ -10,7 +10,7 @@ import math
 from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_driven_bodies
 from nonsmooth.engine.bodies.joint_forces import evaluate_joint_forces
 from nonsmooth.engine.bodies.kinematics import evaluate_contact
-from nonsmooth.engine.contact.trial import slope_of_slip
+from nonsmooth.engine.contact.trial import tangential_inverse_mass
 from nonsmooth.engine.delassus.delassus import assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.averaged import reach_end, renew_mean_forces
@@ -116,7 +116,7 @@ def _measure_mobilities(ws: Workspace) -> None:
             evaluate_contact(ws, ws.actives[a].contact, 1)
         assemble_delassus(ws)
         for a in range(ws.problem.n_active):
-            ws.contacts[ws.actives[a].contact].slip_per_force = slope_of_slip(ws, a)
+            ws.contacts[ws.actives[a].contact].slip_per_force = tangential_inverse_mass(ws, ws.actives[a])
 
 
 @entry_point("Status(ws, f8)")

@@ -11,7 +11,7 @@ import math
 from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_free_bodies
 from nonsmooth.engine.bodies.compliance import refresh_states
 from nonsmooth.engine.bodies.kinematics import evaluate_contact, evaluate_geometry
-from nonsmooth.engine.contact.mean_forces import averaging_span, find_mean_impulses, gap_after, take_mean_forces
+from nonsmooth.engine.contact.mean_forces import averaging_span, find_mean_impulses, gap_after, set_mean_forces
 from nonsmooth.engine.delassus.delassus import add_response
 from nonsmooth.engine.flow.self_check import EXPLAINED, energies_of_bodies, scale_energy, tolerated_gap
 from nonsmooth.engine.native.kernel import Workspace, kernel
@@ -119,7 +119,7 @@ def find_mean_forces(ws: Workspace, follows: bool) -> None:
         part = max(_SHORTER, 0.8 * math.sqrt(_AHEAD / astray)) if astray < math.inf else _SHORTER
         time = find_mean_impulses(ws, max(ws.tolerance.time, part * time))
         astray = _departure(ws, time)
-    take_mean_forces(ws, time)
+    set_mean_forces(ws, time)
 
 
 @kernel("f8(ws)")

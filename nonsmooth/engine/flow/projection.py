@@ -13,8 +13,8 @@ from nonsmooth.engine.bodies.kinematics import (
     push_response,
     row,
 )
+from nonsmooth.engine.contact.closed_contacts import coupling
 from nonsmooth.engine.contact.forces import resolve
-from nonsmooth.engine.contact.held_contacts import coupling
 from nonsmooth.engine.contact.mean_forces import is_averaged
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus, diagonal_block
 from nonsmooth.engine.delassus.islands import activate_group, group_closed

@@ -1,0 +1,274 @@
+"""Forces of closed contacts during smooth motion, in their modes.
+
+Each contact has rows, along which its acceleration must vanish, and columns, along which an unknown force acts:
+
+=======================  ==================  ==============================
+contact                  rows                columns
+=======================  ==================  ==============================
+sticks                   n, t1, t2           n, t1, t2
+slides                   n                   n - mu d, friction included
+compliant and sticks     t1, t2              t1, t2
+compliant and slides     none                none: its force is given
+=======================  ==================  ==============================
+
+With the rows W^T, the columns V and the inverse mass matrix K, the forces f follow from
+
+    (W^T K V) f = -(W^T a + bias),
+
+where a are the accelerations without contact forces. This is the matrix of :mod:`nonsmooth.engine.contact.forces`, but
+only the entries that are needed are computed. The three rows of each contact of the Delassus matrix would take up to
+nine times as many products.
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.bodies.compliance import write_wrench
+from nonsmooth.engine.bodies.kinematics import evaluate_row, evaluate_row_response, push_response, row
+from nonsmooth.engine.contact.forces import ILL_CONDITIONED, friction_of_slip, solve_ill_conditioned, solve_unknowns
+from nonsmooth.engine.contact.null_space_forces import add_null_space_force, choose_null_space_force
+from nonsmooth.engine.contact.unknowns import list_force
+from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
+from nonsmooth.engine.memory.modes import Mode
+from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel
+from nonsmooth.engine.numerics.band import open_band
+from nonsmooth.engine.numerics.linear import band_row, product, solve_three
+
+
+@kernel("b1(ws, b1)")
+def add_contact_forces(ws: Workspace, may_choose: bool) -> bool:
+    """Find the forces of the active contacts [N], add their responses to ``du``, and add the power of driven bodies.
+
+    Before: rows, columns and given forces are written, and ``du`` holds the accelerations without contact forces. If it
+    ``may_choose``, the null-space force of redundant contacts is chosen again. False if no choice keeps all bounds.
+    """
+    if ws.problem.n_active == 1 and ws.actives[0].is_normal_force_unknown and _add_lone_force(ws):
+        return True
+    _add_given_forces(ws)
+    if not _solve_forces(ws):
+        return True
+    keeps_bounds = True
+    if ws.problem.is_deficient:
+        if may_choose:
+            keeps_bounds = choose_null_space_force(ws)
+        add_null_space_force(ws)
+    for active in ws.actives:
+        _add_unknown_forces(ws, active)
+    return keeps_bounds
+
+
+# --- rows and columns -------------------------------------------------------------------------------------------------
+
+
+@kernel("void(ws, i8)")
+def write_rows(ws: Workspace, a: int) -> None:
+    """Write the rows and columns of active contact ``a``.
+
+    Of a contact that sticks these are Jacobian rows n, t1, t2 and their responses. Of one that slides, row 0 is n, row
+    1 is n - mu d, and response 0 that of row 1. Of a compliant one that slides, row 1 is its given force.
+    """
+    active = ws.actives[a]
+    c = active.contact
+    contact = ws.contacts[c]
+    n, t1, t2 = contact.axis_n, contact.axis_1, contact.axis_2
+    if active.sticks:
+        evaluate_row(ws, c, NORMAL_ROW, n)
+        evaluate_row(ws, c, FIRST_ROW, t1)
+        evaluate_row(ws, c, SECOND_ROW, t2)
+        for r in range(3):
+            evaluate_row_response(ws, c, r, r)
+        return
+    if not active.is_normal_force_unknown:
+        write_wrench(ws, c, active.force)
+        return
+    m1, m2 = active.friction_coefficient * active.direction[0], active.friction_coefficient * active.direction[1]
+    force_direction = (
+        n[0] - m1 * t1[0] - m2 * t2[0],
+        n[1] - m1 * t1[1] - m2 * t2[1],
+        n[2] - m1 * t1[2] - m2 * t2[2],
+    )
+    evaluate_row(ws, c, NORMAL_ROW, n)
+    evaluate_row(ws, c, FIRST_ROW, force_direction)
+    evaluate_row_response(ws, c, FIRST_ROW, NORMAL_ROW)
+
+
+@kernel("f8(ws, i8, i8, i8, i8)")
+def coupling(ws: Workspace, c: int, r: int, d: int, s: int) -> float:
+    """Acceleration along row ``r`` of contact ``c`` per unit force in column ``s`` of contact ``d`` [1/kg]."""
+    contact, other = ws.contacts[c], ws.contacts[d]
+    total = 0.0
+    for side in range(2):
+        articulation = contact.articulation_a if side == 0 else contact.articulation_b
+        n_u = ws.articulations[articulation].n_u
+        jacobian = (contact.jacobian_a if side == 0 else contact.jacobian_b) + r * n_u
+        if n_u > 0 and other.articulation_a == articulation:
+            total = product(ws.floats, total, jacobian, other.response_a + s * n_u, n_u)
+        if n_u > 0 and other.articulation_b == articulation:
+            total = product(ws.floats, total, jacobian, other.response_b + s * n_u, n_u)
+    return total
+
+
+# --- any number of contacts -------------------------------------------------------------------------------------------
+
+
+@kernel()
+def _add_given_forces(ws: Workspace) -> None:
+    """Add the responses and powers of given forces: of compliant contacts, and of the time-stepping fallback."""
+    for active in ws.actives:
+        if active.is_normal_force_unknown:
+            continue
+        contact = ws.contacts[active.contact]
+        # of a contact that sticks the normal force is given, else the whole force, which row 1 holds
+        force, r = (active.normal_force, NORMAL_ROW) if active.sticks else (1.0, FIRST_ROW)
+        push_response(ws, active.contact, NORMAL_ROW, force, ws.island.du.start)
+        power = force * row(ws, active.contact, r, ws.island.velocities)
+        ws.step.driven_power += power - contact.dissipated_by_spin
+        if contact.is_compliant:
+            ws.step.load_power += active.normal_force * contact.rate[0]
+
+
+@kernel("b1(ws)")
+def _solve_forces(ws: Workspace) -> bool:
+    """Write the unknown forces to ``x`` [N]. False if the matrix has too many entries."""
+    n = _list_unknown_forces(ws)
+    if not open_band(ws, n, ws.problem.reduced.start):
+        return False
+    for active in ws.actives:
+        for i in range(active.first_unknown, active.end_unknown):
+            _write_row(ws, active, i, n)
+    if not solve_unknowns(ws, n):
+        for active in ws.actives:
+            if not active.sticks and active.is_normal_force_unknown:
+                evaluate_row_response(ws, active.contact, NORMAL_ROW, FIRST_ROW)
+        for active in ws.actives:
+            for i in range(active.first_unknown, active.end_unknown):
+                _write_frictionless_row(ws, active, i, n)
+        solve_ill_conditioned(ws, n)
+    return True
+
+
+@kernel("i8(ws)")
+def _list_unknown_forces(ws: Workspace) -> int:
+    """List the unknown forces of the active contacts. Returns their number."""
+    n = 0
+    for active in ws.actives:
+        active.has_redundant_force = False
+        active.first_unknown = n
+        first = NORMAL_ROW if active.is_normal_force_unknown else FIRST_ROW
+        for r in range(first, 3 if active.sticks else FIRST_ROW):
+            list_force(ws, n, active, r)
+            n += 1
+    ws.problem.first_unknown[ws.problem.n_active] = n
+    return n
+
+
+@kernel("void(ws, ActiveContact, i8, i8)")
+def _write_row(ws: Workspace, active: ActiveContact, i: int, n: int) -> None:
+    """Write row ``i`` of ``n`` of the matrix, which belongs to a contact, and its right-hand side [m/s^2]."""
+    c, r = active.contact, ws.unknowns[i].direction
+    contact = ws.contacts[c]
+    ws.problem.right[i] = -contact.bias[r] - row(ws, c, r, ws.island.du.start)
+    line = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band)
+    for block in range(active.first_block, active.end_block):
+        other = ws.actives[ws.island.block_column[block]]
+        for j in range(other.first_unknown, other.end_unknown):
+            ws.floats[line + j] = coupling(ws, c, r, other.contact, ws.unknowns[j].direction)
+    # more force means more approach (Painleve's paradox)
+    if r == NORMAL_ROW and contact.mode == Mode.SLIDE and ws.floats[line + i] <= 0.0:
+        ws.island.singular_contact = c
+
+
+@kernel("void(ws, ActiveContact, i8, i8)")
+def _write_frictionless_row(ws: Workspace, active: ActiveContact, i: int, n: int) -> None:
+    """Write row ``i`` of ``n`` to ``matrix``, as if sliding contacts had no friction.
+
+    Response 1 of a sliding contact must be that of its normal.
+    """
+    r = ws.unknowns[i].direction
+    line = band_row(ws.problem.matrix.start, i, n, ws.problem.half_band)
+    for block in range(active.first_block, active.end_block):
+        other = ws.actives[ws.island.block_column[block]]
+        for j in range(other.first_unknown, other.end_unknown):
+            column = ws.unknowns[j].direction if other.sticks else FIRST_ROW
+            ws.floats[line + j] = coupling(ws, active.contact, r, other.contact, column)
+
+
+@kernel("void(ws, ActiveContact)")
+def _add_unknown_forces(ws: Workspace, active: ActiveContact) -> None:
+    """Write the forces of a contact that were unknown [N], and add their responses and powers."""
+    c = active.contact
+    contact = ws.contacts[c]
+    first_row = NORMAL_ROW if active.sticks else FIRST_ROW
+    for i in range(active.first_unknown, active.end_unknown):
+        r, force = ws.unknowns[i].direction, ws.problem.x[i]
+        active.force[r] = force
+        push_response(ws, c, r, force, ws.island.du.start)
+        # power of driven bodies: power of the force on all coordinates, less its power on the relative motion
+        ws.step.driven_power += force * row(ws, c, r + first_row, ws.island.velocities)
+    if not active.sticks and active.is_normal_force_unknown:
+        friction_of_slip(ws, active.index)
+    for r in range(3):
+        ws.step.driven_power -= active.force[r] * contact.rate[r]
+
+
+# --- a single rigid contact -------------------------------------------------------------------------------------------
+
+
+@kernel("b1(ws)")
+def _add_lone_force(ws: Workspace) -> bool:
+    """Find the force of an island of one rigid contact, and add its response and power, without a matrix.
+
+    False, with nothing done, if the problem is ill-conditioned or the force cannot accelerate the contact.
+    """
+    active = ws.actives[0]
+    if active.sticks:
+        return _add_lone_sticking_force(ws)
+    c = active.contact
+    contact = ws.contacts[c]
+    inverse_mass = coupling(ws, c, NORMAL_ROW, c, NORMAL_ROW)
+    if inverse_mass == 0.0:
+        return False
+    if contact.mode == Mode.SLIDE and inverse_mass < 0.0:
+        ws.island.singular_contact = c
+    ws.problem.n_unknown, ws.problem.is_deficient, ws.problem.is_null_space_banded = 1, False, False
+    active.has_redundant_force = False
+    force = (-contact.bias[0] - row(ws, c, NORMAL_ROW, ws.island.du.start)) / inverse_mass
+    active.normal_force = force
+    push_response(ws, c, NORMAL_ROW, force, ws.island.du.start)
+    friction_of_slip(ws, active.index)
+    (t1, t2), (v1, v2) = active.friction, contact.slip
+    on_coordinates = force * row(ws, c, FIRST_ROW, ws.island.velocities)
+    ws.step.driven_power += on_coordinates - force * contact.rate[0] - t1 * v1 - t2 * v2
+    return True
+
+
+@kernel("b1(ws)")
+def _add_lone_sticking_force(ws: Workspace) -> bool:
+    """The same for a contact that sticks: three equations."""
+    active = ws.actives[0]
+    c = active.contact
+    contact = ws.contacts[c]
+    row_0 = coupling(ws, c, NORMAL_ROW, c, NORMAL_ROW), 0.0, 0.0
+    row_1 = coupling(ws, c, FIRST_ROW, c, NORMAL_ROW), coupling(ws, c, FIRST_ROW, c, FIRST_ROW), 0.0
+    row_2 = (
+        coupling(ws, c, SECOND_ROW, c, NORMAL_ROW),
+        coupling(ws, c, SECOND_ROW, c, FIRST_ROW),
+        coupling(ws, c, SECOND_ROW, c, SECOND_ROW),
+    )
+    bias, du = contact.bias, ws.island.du.start
+    right = (
+        -bias[0] - row(ws, c, NORMAL_ROW, du),
+        -bias[1] - row(ws, c, FIRST_ROW, du),
+        -bias[2] - row(ws, c, SECOND_ROW, du),
+    )
+    forces = solve_three(row_0, row_1, row_2, right, ILL_CONDITIONED)
+    if math.isnan(forces[0]):
+        return False
+    ws.problem.n_unknown, ws.problem.is_deficient, ws.problem.is_null_space_banded = 3, False, False
+    active.has_redundant_force = False
+    active.normal_force, active.friction = forces[0], (forces[1], forces[2])
+    for r in range(3):
+        push_response(ws, c, r, active.force[r], du)
+        ws.step.driven_power += active.force[r] * (row(ws, c, r, ws.island.velocities) - contact.rate[r])
+    return True
