@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.bodies.compliance import begin_contact, push_compliant
+from nonsmooth.engine.bodies.compliance import start_inner_states, accelerate_by_compliance
 from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.bodies.touching import slip_speed, touch
@@ -16,19 +16,19 @@ from nonsmooth.engine.delassus.delassus import add_product, add_response, assemb
 from nonsmooth.engine.delassus.islands import activate_group, group_closed, group_touching
 from nonsmooth.engine.events.averaging import average_active
 from nonsmooth.engine.events.record import CLOSING_LOSS, DRIVEN_WORK, record_event, remember
-from nonsmooth.engine.events.twins import closed_twin, take_over
+from nonsmooth.engine.events.coincident import closed_coincident, replace_coincident
 from nonsmooth.engine.flow.projection import project_rates
-from nonsmooth.engine.flow.self_check import EXPLAINED, NOUGHT
+from nonsmooth.engine.flow.self_check import ALLOWED, NEGLIGIBLE
 from nonsmooth.engine.memory.layout import NORMAL_ROW
 from nonsmooth.engine.memory.modes import NO_RELEASE, Cause, Mode, Truncation
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
-_RESTS = 1.0 - 1e-6
+_PART_AT_REST = 1.0 - 1e-6
 """What comes to rest this near the end of an averaging, in parts of it, is not told from what does not."""
 
 
 @kernel("void(ws, i8)")
-def provisional_mode(ws: Workspace, c: int) -> None:
+def set_provisional_mode(ws: Workspace, c: int) -> None:
     """Give contact ``c`` the mode that its rates tell, until the instant is settled."""
     contact = ws.contacts[c]
     rigid = not contact.is_compliant
@@ -38,7 +38,7 @@ def provisional_mode(ws: Workspace, c: int) -> None:
         contact.mode = Mode.OPEN
         return
     if contact.mode == Mode.OPEN:
-        begin_contact(ws, c)
+        start_inner_states(ws, c)
     speed = slip_speed(ws, c)
     contact.mode = Mode.SLIDE if speed > ws.tolerance.velocity else Mode.STICK
     if speed > ws.tolerance.velocity:
@@ -60,11 +60,11 @@ def _is_short(ws: Workspace, c: int, time: float) -> bool:
     ws.island.first_step = min(ws.island.first_step, 3.0 * rate / approach)
     # (a gap that is left closes first)
     short = (rate - approach * time) * time <= -max(0.0, contact.gap)
-    return short and closed_twin(ws, c) < 0
+    return short and closed_coincident(ws, c) < 0
 
 
 @kernel("i8(ws)")
-def close_contacts(ws: Workspace) -> int:
+def end_short_bounces(ws: Workspace) -> int:
     """End the bounces that have become shorter than their contact time; return how many contacts or islands have one.
 
     One of a contact by itself is left out.  Where several touch, the forces of their island are averaged, so that all
@@ -78,15 +78,15 @@ def close_contacts(ws: Workspace) -> int:
         time, fastest = averaging_time(ws), math.inf
         if ws.problem.n_active > 1:
             # what is averaged comes to rest within that time, on its way up, which is none that can be told
-            time *= _RESTS
-            fastest = EXPLAINED * ws.tolerance.gap / max(time, ws.tolerance.time)
+            time *= _PART_AT_REST
+            fastest = ALLOWED * ws.tolerance.gap / max(time, ws.tolerance.time)
         which = -1
         for a in range(ws.problem.n_active):
             c = ws.actives[a].contact
             if ws.contacts[c].rate[0] <= fastest and _is_short(ws, c, time):
                 which = c
         if which >= 0 and ws.problem.n_active == 1:
-            _close(ws, which)
+            _end_bounce(ws, which)
             closing += 1
         elif which >= 0:
             closing += average_active(ws)
@@ -94,18 +94,18 @@ def close_contacts(ws: Workspace) -> int:
 
 
 @kernel("void(ws, i8)")
-def _close(ws: Workspace, c: int) -> None:
+def _end_bounce(ws: Workspace, c: int) -> None:
     """Leave out the last bounce of contact ``c``, the only active one, and record that."""
     remember(ws)
     contact = ws.contacts[c]
     contact.mode = Mode.SLIDE if slip_speed(ws, c) > ws.tolerance.velocity else Mode.STICK
     before = ws.totals.driven_work
-    _book(ws, project_rates(ws, at_event=True), before)
+    _add_loss(ws, project_rates(ws, at_event=True), before)
     record_event(ws, Cause.CLOSING, c, 0)
 
 
 @kernel("void(ws, f8, f8)")
-def _book(ws: Workspace, loss: float, work_before: float) -> None:
+def _add_loss(ws: Workspace, loss: float, work_before: float) -> None:
     """Book what a closing takes."""
     ws.event.head[CLOSING_LOSS] += loss
     ws.event.head[DRIVEN_WORK] += ws.totals.driven_work - work_before
@@ -131,11 +131,11 @@ def _stop_active(ws: Workspace) -> None:
             loss -= 0.5 * impulse * add_product(ws, 2.0 * rate, a, r, ws.problem.forces.start)
             ws.totals.driven_work -= impulse * contact.prescribed_rate[r]
             contact.event_impulse[r] = impulse
-    _book(ws, loss, before)
+    _add_loss(ws, loss, before)
 
 
 @kernel("i8(ws)")
-def _fastest_of_active(ws: Workspace) -> int:
+def _fastest_approach(ws: Workspace) -> int:
     """Return the active contact that approaches most, or -1 where none does."""
     which, worst = -1, -ws.tolerance.velocity
     for a in range(ws.problem.n_active):
@@ -163,18 +163,18 @@ def slow_speed(ws: Workspace) -> float:
 
 
 @kernel("i8(ws)")
-def stop_slow(ws: Workspace) -> int:
+def stop_slow_islands(ws: Workspace) -> int:
     """Stop islands in which what approaches is slow, in place of a collision; return how many.
 
     So it is, however fast, where an impact has been cut short: another one would be, too.
     """
     accelerate_touching(ws)
-    push_compliant(ws)
+    accelerate_by_compliance(ws)
     group_touching(ws)
     stopped, which = 0, -1
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
-        fastest = _fastest_of_active(ws)
+        fastest = _fastest_approach(ws)
         if fastest < 0:
             continue
         if ws.event.truncation == Truncation.NONE and -ws.contacts[fastest].rate[0] > slow_speed(ws):
@@ -186,25 +186,25 @@ def stop_slow(ws: Workspace) -> int:
     if stopped > 0:
         touch(ws)
         for c in range(ws.island.n_contacts):
-            provisional_mode(ws, c)
-        _rest_closed(ws)
+            set_provisional_mode(ws, c)
+        _stop_slow_closed(ws)
         record_event(ws, Cause.CLOSING, which, 0)
     return stopped
 
 
 @kernel("b1(ws)")
-def average_slow(ws: Workspace) -> bool:
+def average_slow_islands(ws: Workspace) -> bool:
     """Let the forces of islands be averaged that approach slowly though they were stopped; return 1 if others approach.
 
     Where contacts had to give way for impulses to be found, these may leave an approach for ever.
     """
     accelerate_touching(ws)
-    push_compliant(ws)
+    accelerate_by_compliance(ws)
     group_touching(ws)
     others = False
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
-        fastest = _fastest_of_active(ws)
+        fastest = _fastest_approach(ws)
         if fastest < 0:
             continue
         slow = -ws.contacts[fastest].rate[0] <= slow_speed(ws)
@@ -214,15 +214,15 @@ def average_slow(ws: Workspace) -> bool:
 
 
 @kernel()
-def _rest_closed(ws: Workspace) -> None:
+def _stop_slow_closed(ws: Workspace) -> None:
     """Take the approach that impulses leave where contacts had to give way a little for any to be found."""
     group_closed(ws)
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
-        fastest = _fastest_of_active(ws)
+        fastest = _fastest_approach(ws)
         if fastest >= 0 and -ws.contacts[fastest].rate[0] <= slow_speed(ws):
             before = ws.totals.driven_work
-            _book(ws, project_rates(ws, at_event=True), before)
+            _add_loss(ws, project_rates(ws, at_event=True), before)
 
 
 @kernel("f8(ws)")
@@ -236,7 +236,7 @@ def stop_creeping(ws: Workspace) -> float:
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         rests = contact.is_touching and not contact.is_compliant and contact.mode == Mode.OPEN
-        if rests and contact.rate[0] < -NOUGHT * ws.tolerance.velocity:
+        if rests and contact.rate[0] < -NEGLIGIBLE * ws.tolerance.velocity:
             creeping += 1
     if creeping == 0:
         return 0.0
@@ -269,25 +269,25 @@ def stop_creeping(ws: Workspace) -> float:
 
 
 @kernel("b1(ws)")
-def hand_over(ws: Workspace) -> bool:
+def replace_coincident_contacts(ws: Workspace) -> bool:
     """Let contacts that approach take the place of closed ones where they are; return 1, or 0 where others collide."""
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         rigid = not contact.is_compliant
         approaches = rigid and contact.is_touching and contact.rate[0] < -ws.tolerance.velocity
         contact.takes_over = approaches
-        if approaches and closed_twin(ws, c) < 0:
+        if approaches and closed_coincident(ws, c) < 0:
             return False
     remember(ws)
     which = -1
     for c in range(ws.island.n_contacts):
-        if ws.contacts[c].takes_over and take_over(ws, c):
+        if ws.contacts[c].takes_over and replace_coincident(ws, c):
             # unless another one that approaches more has taken its twin's place
             which = c
     group_touching(ws)
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
-        if _fastest_of_active(ws) >= 0:
+        if _fastest_approach(ws) >= 0:
             _stop_active(ws)
     record_event(ws, Cause.FEATURE_CHANGE, which, 0)
     return True

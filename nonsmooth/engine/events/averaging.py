@@ -11,14 +11,14 @@ from nonsmooth.engine.contact.mean_forces import (
     is_settled,
 )
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
-from nonsmooth.engine.flow.mean_motion import find_mean_forces
-from nonsmooth.engine.flow.mean_work import book_mean_forces
+from nonsmooth.engine.flow.averaging_time import find_mean_forces
+from nonsmooth.engine.flow.mean_work import account_for_mean_forces
 from nonsmooth.engine.flow.projection import project_closed
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.vectors import length
 
-_BURST = 20000.0
+_LARGEST_BURST = 20000.0
 """Evaluations of forces beyond one in a contact time: so many are the stop of a slip, not yet a crowd of them."""
 
 
@@ -54,7 +54,7 @@ def average_island_of(ws: Workspace, c: int) -> bool:
 
 
 @kernel("b1(ws, b1)")
-def keeps_averaging(ws: Workspace, ends: bool) -> bool:
+def stays_averaged(ws: Workspace, ends: bool) -> bool:
     """Return 1 if the forces of the active contacts are averaged, and stay so where the last ones end (1)."""
     if not is_averaged(ws):
         return False
@@ -79,13 +79,13 @@ def end_averaging(ws: Workspace) -> None:
     What it pushed too much is taken back by that, and what its forces did on the way is booked.
     """
     touch(ws)
-    book_mean_forces(ws)
+    account_for_mean_forces(ws)
     ws.totals.closing_loss += project_closed(ws, at_event=True, averaged=True)
     ws.island.averaged_until = math.inf
 
 
 @kernel("void(ws, b1)")
-def average(ws: Workspace, follows: bool) -> None:
+def agree_on_averaged_modes(ws: Workspace, follows: bool) -> None:
     """Agree on the modes of the active contacts, whose forces are averaged: slips are those at hand."""
     find_mean_forces(ws, follows)
     for a in range(ws.problem.n_active):
@@ -100,7 +100,7 @@ def average(ws: Workspace, follows: bool) -> None:
 
 
 @kernel("i8(ws)")
-def holds_time_up(ws: Workspace) -> int:
+def contact_of_burst(ws: Workspace) -> int:
     """Return the contact whose slow slip, or else whose events, let time hardly pass, or -1.
 
     Evaluations of forces fill a store that empties with time.
@@ -114,7 +114,7 @@ def holds_time_up(ws: Workspace) -> int:
         ws.totals.n_evaluations - ws.island.burst_evaluations
     )
     ws.island.burst_time, ws.island.burst_evaluations = ws.island.time, ws.totals.n_evaluations
-    if ws.island.burst <= _BURST:
+    if ws.island.burst <= _LARGEST_BURST:
         return -1
     which, fastest = -1, 1.0
     busiest, events = -1, 1

@@ -8,7 +8,7 @@ from nonsmooth.engine.native.kernel import Workspace, kernel
 
 
 @kernel("Cause(ws, i8)")
-def _closing(ws: Workspace, c: int) -> Cause:
+def _cause_of_closing(ws: Workspace, c: int) -> Cause:
     """Return what it is when contact ``c`` closes."""
     return Cause.IMPACT if not ws.contacts[c].is_compliant else Cause.TOUCH
 
@@ -19,7 +19,7 @@ def cause_of(ws: Workspace, guard: int) -> Cause:
     c = contact_of(ws, guard)
     contact = ws.contacts[c]
     if not is_friction_guard(ws, guard):
-        return _closing(ws, c) if contact.mode == Mode.OPEN else Cause.LIFT_OFF
+        return _cause_of_closing(ws, c) if contact.mode == Mode.OPEN else Cause.LIFT_OFF
     if contact.mode != Mode.STICK:
         return Cause.SLIP_TO_STICK
     # the static bound vanishes with the normal force
@@ -31,7 +31,7 @@ def cause_of(ws: Workspace, guard: int) -> Cause:
 def cause_at_start(ws: Workspace, which: int) -> Cause:
     """Return the cause of the event that is due of contact ``which`` before any step."""
     if ws.contacts[which].mode == Mode.OPEN:
-        return _closing(ws, which)
+        return _cause_of_closing(ws, which)
     if ws.guards[first_end_guard(ws) + which].at_end < 0.0:
         return Cause.FEATURE_END
     pulls = ws.guards[normal_guard(which)].at_end < 0.0

@@ -33,7 +33,7 @@ MOST_EVENTS = 204
 
 
 @kernel("i8(ws, i8)")
-def code(ws: Workspace, c: int) -> int:
+def mode_code(ws: Workspace, c: int) -> int:
     """Return the bits a + 2 b + 4 c of Eq. (29) of contact ``c`` in its present mode."""
     mode = ws.contacts[c].mode
     if mode == Mode.OPEN:
@@ -60,7 +60,7 @@ def remember(ws: Workspace) -> None:
     """Keep modes and velocities as they are before an event, and clear its account."""
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
-        contact.code_before = code(ws, c)
+        contact.code_before = mode_code(ws, c)
         contact.code_during = contact.code_before
         contact.was_averaged = contact.is_averaged
         for r in range(3):
@@ -72,26 +72,26 @@ def remember(ws: Workspace) -> None:
 
 
 @kernel("i8(ws, i8)")
-def _list_event(ws: Workspace, which: int) -> int:
+def _list_contacts(ws: Workspace, which: int) -> int:
     """List the contacts that an event is about: all that are or were closed, and the one that caused it."""
     n = 0
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
-        if c == which or contact.code_before + contact.code_during + code(ws, c) > 0:
+        if c == which or contact.code_before + contact.code_during + mode_code(ws, c) > 0:
             ws.event.listed[n] = c
             n += 1
     return n
 
 
 @kernel("void(ws, i8)")
-def _write_booked(ws: Workspace, out: int) -> None:
+def _write_accounts(ws: Workspace, out: int) -> None:
     """Write the energies booked so far that are not integrated with the state."""
     ws.floats[out], ws.floats[out + 1] = ws.totals.driven_work, ws.totals.restitution_loss
     ws.floats[out + 2], ws.floats[out + 3] = ws.totals.friction_loss, ws.totals.closing_loss
 
 
 @kernel("void(ws, i8, i8)")
-def _list_contact(ws: Workspace, c: int, out: int) -> None:
+def _write_contact(ws: Workspace, c: int, out: int) -> None:
     """Write the impulses of contact ``c`` and what it needs to go on from here."""
     contact = ws.contacts[c]
     for r in range(3):
@@ -108,7 +108,7 @@ def _list_contact(ws: Workspace, c: int, out: int) -> None:
 def record_event(ws: Workspace, cause: Cause, which: int, phases: int) -> None:
     """Append an event with what was remembered before it and the modes after it."""
     ws.event.n_recorded += 1
-    n = _list_event(ws, -1 if cause == Cause.GUARD else which)
+    n = _list_contacts(ws, -1 if cause == Cause.GUARD else which)
     width = EVENT_HEAD + ws.model.n_u + ws.model.n_y + BOOKED + LISTED * n
     ws.output.last_floats, ws.output.last_integers = ws.output.floats_used, ws.output.integers_used
     row = ws.output.event_numbers.start + ws.output.floats_used
@@ -126,7 +126,7 @@ def record_event(ws: Workspace, cause: Cause, which: int, phases: int) -> None:
     for i in range(ws.model.n_q + ws.model.n_u, ws.model.n_y):
         ws.floats[row] = ws.island.y[i]
         row += 1
-    _write_booked(ws, row)
+    _write_accounts(ws, row)
     row += BOOKED
     codes = ws.output.event_codes.start + ws.output.integers_used
     ws.integers[codes + CAUSE], ws.integers[codes + CONTACT], ws.integers[codes + PHASES] = cause, which, phases
@@ -137,9 +137,9 @@ def record_event(ws: Workspace, cause: Cause, which: int, phases: int) -> None:
     for i in range(n):
         c = ws.event.listed[i]
         contact = ws.contacts[c]
-        _list_contact(ws, c, row + LISTED * i)
+        _write_contact(ws, c, row + LISTED * i)
         ws.integers[codes + CODE_HEAD + 2 * i] = contact.declared
-        before, during, after = contact.code_before << BEFORE, contact.code_during << DURING, code(ws, c) << AFTER
+        before, during, after = contact.code_before << BEFORE, contact.code_during << DURING, mode_code(ws, c) << AFTER
         ws.integers[codes + CODE_HEAD + 2 * i + 1] = before | during | after
     ws.output.last_cause, ws.output.last_contact, ws.output.last_phases = cause, which, phases
     if ws.request.n_known_events > 0:
@@ -167,7 +167,7 @@ def begin_sample(ws: Workspace) -> int:
     """Append a sample of the time ``next_sample``, and set the next; return where in ``w`` its state is to be put."""
     row = ws.output.samples.start + ws.output.n_samples * (1 + ws.model.n_y + BOOKED)
     ws.floats[row] = ws.output.next_sample
-    _write_booked(ws, row + 1 + ws.model.n_y)
+    _write_accounts(ws, row + 1 + ws.model.n_y)
     ws.output.n_samples += 1
     ws.output.sample_index += 1
     ws.output.next_sample = ws.request.sample_start + ws.output.sample_index * ws.request.sample_interval

@@ -11,7 +11,7 @@ _TIME = 1e-2
 
 
 @kernel("b1(ws, i8)")
-def stalls(ws: Workspace, c: int) -> bool:
+def is_stalled(ws: Workspace, c: int) -> bool:
     """Count an event of contact ``c``; return 1 if it has so many that time hardly passes.
 
     Counted are those of each contact for itself, so that what happens elsewhere tells nothing of it.

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.flow.guard_numbers import friction_guard
-from nonsmooth.engine.flow.self_check import NOUGHT
-from nonsmooth.engine.flow.step import STIFF
+from nonsmooth.engine.flow.self_check import NEGLIGIBLE
+from nonsmooth.engine.flow.step import LARGEST_EXPLICIT
 from nonsmooth.engine.memory.layout import FIRST_ROW, SECOND_ROW
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, kernel
@@ -22,7 +22,7 @@ _BLIND = 0.25
 
 
 @kernel("f8(ws, i8, f8)")
-def _share(ws: Workspace, c: int, h: float) -> float:
+def _part_before_stop_of(ws: Workspace, c: int, h: float) -> float:
     """Return to what part the implicit step of ``h`` is cut in which the slip of contact ``c`` stops."""
     contact = ws.contacts[c]
     first = length(contact.slip_at_end)
@@ -33,7 +33,7 @@ def _share(ws: Workspace, c: int, h: float) -> float:
     part, least = _BLIND, 2.0 * ws.tolerance.time
     if slowing > 0.0:
         part = first / slowing
-        if _BEYOND * part * h * ws.step.relaxation <= STIFF:
+        if _BEYOND * part * h * ws.step.relaxation <= LARGEST_EXPLICIT:
             part *= _BEYOND
         elif first > ws.tolerance.velocity:
             part *= _ALMOST
@@ -44,22 +44,22 @@ def _share(ws: Workspace, c: int, h: float) -> float:
 
 
 @kernel("f8(ws, f8)")
-def share_before_stop(ws: Workspace, h: float) -> float:
+def part_before_stop(ws: Workspace, h: float) -> float:
     """Return to what part an implicit step of ``h`` is cut as it holds a slip at its end that moved at its start, or 1.
 
     When the slip stopped within the step is not told.  What stops where it ends is ``halting``.
     """
-    share, none = 1.0, NOUGHT * ws.tolerance.velocity
+    share, none = 1.0, NEGLIGIBLE * ws.tolerance.velocity
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         rubs = contact.mode == Mode.SLIDE and not contact.has_traction_law and not contact.is_averaged
         if rubs and length(contact.slip) <= none and length(contact.slip_at_end) > none:
-            share = min(share, _share(ws, c, h))
+            share = min(share, _part_before_stop_of(ws, c, h))
     return share
 
 
 @kernel("i8(ws)")
-def stopping(ws: Workspace) -> int:
+def stopped_contact(ws: Workspace) -> int:
     """Return a contact whose slip has stopped where an implicit step ends, or -1.
 
     Where none can be made, one that has come next to rest and slows down: its direction is stiff, and what is left of

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nonsmooth.engine.bodies.anisotropy import facing_force
+from nonsmooth.engine.bodies.anisotropy import force_in_facing
 from nonsmooth.engine.bodies.bodies import (
     evaluate_bodies,
     evaluate_driven_bodies,
@@ -11,9 +11,9 @@ from nonsmooth.engine.bodies.bodies import (
 )
 from nonsmooth.engine.bodies.compliance import (
     evaluate_compliant_force,
-    refresh_states,
-    rub_by_traction,
-    write_state_rates,
+    copy_inner_states,
+    apply_traction_law,
+    write_inner_rates,
 )
 from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.bodies.kinematics import evaluate_bias, evaluate_geometry, evaluate_rates
@@ -58,13 +58,13 @@ def right_hand_side(ws: Workspace, t: float, y: int, may_choose: bool, of_all_bo
     if ws.island.n_grouped == 0:
         return keeps
     evaluate_driven_bodies(ws, t, y)
-    refresh_states(ws, y)
+    copy_inner_states(ws, y)
     for group in range(ws.island.n_groups):
         c = lone_slip(ws, group)
         if c >= 0 and hold_lone_slip(ws, c):
             continue
         activate_group(ws, group)
-        implicit = ws.problem.stage_time > 0.0 and _slides(ws)
+        implicit = ws.problem.stage_time > 0.0 and _is_implicit_slip(ws)
         for a in range(ws.problem.n_active):
             active = ws.actives[a]
             c = active.contact
@@ -75,7 +75,7 @@ def right_hand_side(ws: Workspace, t: float, y: int, may_choose: bool, of_all_bo
             evaluate_rates(ws, c)
             if contact.is_compliant:
                 evaluate_compliant_force(ws, c)
-            _set_friction(ws, a, y)
+            _set_unknowns(ws, a, y)
             evaluate_bias(ws, c, 1 + 2 * active.sticks)
             write_rows(ws, a)
         if implicit:
@@ -96,7 +96,7 @@ def right_hand_side(ws: Workspace, t: float, y: int, may_choose: bool, of_all_bo
 
 
 @kernel("b1(ws)")
-def _slides(ws: Workspace) -> bool:
+def _is_implicit_slip(ws: Workspace) -> bool:
     """Return 1 if one of the active contacts slides, and their forces are none that are averaged."""
     slides = False
     for a in range(ws.problem.n_active):
@@ -118,13 +118,13 @@ def _static_margin(ws: Workspace, a: int) -> float:
         return 1.0
     if not active.sticks:
         return float(ws.tolerance.velocity - length(contact.slip))
-    friction = facing_force(ws, c, active.force[1]), active.force[2]
+    friction = force_in_facing(ws, c, active.force[1]), active.force[2]
     slack = contact.slack * active.has_redundant_force
     return float(active.static_coefficient * active.normal_force - length(friction) + slack)
 
 
 @kernel("void(ws, i8, i8)")
-def _set_friction(ws: Workspace, a: int, y: int) -> None:
+def _set_unknowns(ws: Workspace, a: int, y: int) -> None:
     """Set what the active contact ``a`` holds, and its slip direction and friction where it slides."""
     active = ws.actives[a]
     c = active.contact
@@ -136,7 +136,7 @@ def _set_friction(ws: Workspace, a: int, y: int) -> None:
         active.is_normal_force_unknown = False
         active.normal_force = contact.compliant_force
         if contact.has_traction_law:
-            rub_by_traction(ws, c, active.force, y)
+            apply_traction_law(ws, c, active.force, y)
             return
     elif contact.is_averaged:
         active.is_normal_force_unknown = False
@@ -157,7 +157,7 @@ def _set_friction(ws: Workspace, a: int, y: int) -> None:
 
 
 @kernel("f8(ws, i8)")
-def hold_guard(ws: Workspace, c: int) -> float:
+def value_of_normal_guard(ws: Workspace, c: int) -> float:
     """Return what is positive while contact ``c`` stays closed: its normal force, if compliant the way to its reach.
 
     Forces that are averaged end nothing, nor does what stands for a gap past the end of features, which is an event of
@@ -175,14 +175,14 @@ def hold_guard(ws: Workspace, c: int) -> float:
 def is_violated(ws: Workspace, c: int) -> bool:
     """Return 1 if the force of closed contact ``c`` violates its mode by more than what it takes for zero."""
     contact = ws.contacts[c]
-    least = hold_guard(ws, c)
+    least = value_of_normal_guard(ws, c)
     if contact.is_held_by_friction:
         least = min(least, contact.static_margin)
     return least < WRONG_FORCE * contact.force_round_off
 
 
 @kernel("f8(ws, i8)")
-def slip_guard(ws: Workspace, c: int) -> float:
+def value_of_slip_guard(ws: Workspace, c: int) -> float:
     """Return the slip along its direction at the start of the step, or 1 where nothing depends on its sign.
 
     In an implicit step, which stops and turns slips itself, it is the slip.
@@ -230,9 +230,9 @@ def slope(ws: Workspace, t: float, y: int, out: int, may_choose: bool, of_all_bo
             for r in range(1, 3):
                 lost -= contact.force[r] * contact.rate[r]
         lost -= contact.dissipated_by_spin
-        hold = hold_guard(ws, c)
+        hold = value_of_normal_guard(ws, c)
         contact.least_force = min(contact.least_force, hold)
-        if sticks or hold < 0.0 or slip_guard(ws, c) < 0.0:
+        if sticks or hold < 0.0 or value_of_slip_guard(ws, c) < 0.0:
             ws.step.has_doubtful_force = True
     powers = out + ws.model.n_q + ws.model.n_u
     ws.floats[powers + DRIVEN], ws.floats[powers + FRICTION_LOSS], ws.floats[powers + LOADS] = (
@@ -241,11 +241,11 @@ def slope(ws: Workspace, t: float, y: int, out: int, may_choose: bool, of_all_bo
         ws.step.load_power,
     )
     ws.floats[powers + EXCHANGED] = abs(own) + abs(ws.step.driven_power) + abs(lost)
-    write_state_rates(ws, y, out)
+    write_inner_rates(ws, y, out)
 
 
 @kernel("i8(ws, b1)")
-def hardest_pressed(ws: Workspace, sliding: bool) -> int:
+def most_loaded_contact(ws: Workspace, sliding: bool) -> int:
     """Return the closed contact of the greatest normal force, or -1; of those only that slide (1), or all (0)."""
     group_closed(ws)
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)

@@ -13,13 +13,13 @@ from nonsmooth.engine.bodies.kinematics import evaluate_contact
 from nonsmooth.engine.contact.trial import slope_of_slip
 from nonsmooth.engine.delassus.delassus import assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
-from nonsmooth.engine.flow.averaged import reach_end, renew_mean_forces
+from nonsmooth.engine.flow.averaged import end_averaging_span, start_averaging_span
 from nonsmooth.engine.flow.flight import choose_integrated, take_off
-from nonsmooth.engine.flow.flow import hold_guard, right_hand_side, slip_guard, slope
+from nonsmooth.engine.flow.flow import value_of_normal_guard, right_hand_side, value_of_slip_guard, slope
 from nonsmooth.engine.flow.guard_numbers import friction_guard
-from nonsmooth.engine.flow.leap import leap
+from nonsmooth.engine.flow.point_jump import jump_contact_points
 from nonsmooth.engine.flow.projection import normalise_quaternions, project_closed, project_joints
-from nonsmooth.engine.flow.step import relaxation, try_length
+from nonsmooth.engine.flow.step import relaxation_rate, try_length
 from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.engine.native.kernel import (
     Workspace,
@@ -29,7 +29,7 @@ from nonsmooth.engine.native.kernel import (
 from nonsmooth.engine.numerics.runge_kutta import SAFETY, SHRINK, step_factor
 from nonsmooth.engine.numerics.vectors import length
 
-_EXCESS = 1e-8
+_ROUND_OFF = 1e-8
 """Forces past their bounds by this part of the largest are so by more than round-off."""
 
 
@@ -46,7 +46,7 @@ def orient_slips(ws: Workspace, at_end: bool) -> None:
 
 
 @kernel("b1(ws)")
-def _turned_round(ws: Workspace) -> bool:
+def _has_reversed_slip(ws: Workspace) -> bool:
     """Orient the slips by the rates at hand; return 1 if one goes against the direction that friction took it to go.
 
     A slip may turn round without an event, as where a belt pulls on.
@@ -55,14 +55,14 @@ def _turned_round(ws: Workspace) -> bool:
     for i in range(ws.island.n_grouped):
         c = ws.island.grouped[i]
         contact = ws.contacts[c]
-        if contact.mode == Mode.SLIDE and slip_guard(ws, c) < -ws.tolerance.velocity:
+        if contact.mode == Mode.SLIDE and value_of_slip_guard(ws, c) < -ws.tolerance.velocity:
             against = True
     orient_slips(ws, at_end=False)
     return against
 
 
 @kernel("f8(ws)")
-def _up_to_turn(ws: Workspace) -> float:
+def _part_before_reversal(ws: Workspace) -> float:
     """Return the part of the step that was tried up to where a slip turns round, 1 if none does.
 
     A slip from rest that has gone the other way has had the wrong direction; it is turned, and 0 returned.
@@ -71,7 +71,7 @@ def _up_to_turn(ws: Workspace) -> float:
     for i in range(ws.island.n_grouped):
         c = ws.island.grouped[i]
         contact = ws.contacts[c]
-        last = slip_guard(ws, c)
+        last = value_of_slip_guard(ws, c)
         if contact.mode != Mode.SLIDE or last >= -ws.tolerance.velocity:
             continue
         first = ws.guards[friction_guard(ws, c)].initial
@@ -85,7 +85,7 @@ def _up_to_turn(ws: Workspace) -> float:
 
 
 @kernel("f8(ws, f8)")
-def _found_step(ws: Workspace, h: float) -> float:
+def _find_step(ws: Workspace, h: float) -> float:
     """Try steps of ``h`` and less until one meets the tolerance and no slip turns within it; return it, or -1."""
     while True:
         error = try_length(ws, h)
@@ -93,7 +93,7 @@ def _found_step(ws: Workspace, h: float) -> float:
             return -1.0
         part = 1.0
         if error <= 1.0:
-            part = _up_to_turn(ws)
+            part = _part_before_reversal(ws)
             if part == 1.0 or h <= ws.tolerance.time:
                 return h
         elif not h > ws.tolerance.time:
@@ -107,7 +107,7 @@ def _found_step(ws: Workspace, h: float) -> float:
 
 
 @kernel()
-def _measure_mobilities(ws: Workspace) -> None:
+def _evaluate_slip_per_force(ws: Workspace) -> None:
     """Write how fast each closed contact slips under a unit of friction, as an event does."""
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     for group in range(ws.island.n_groups):
@@ -124,25 +124,25 @@ def follow(ws: Workspace, t: float) -> Status:
     """Go on to time ``t`` in the present modes, by steps of the run's tolerance; return the status."""
     group_closed(ws)
     choose_integrated(ws)
-    _measure_mobilities(ws)
+    _evaluate_slip_per_force(ws)
     wanted = ws.tolerance.largest_step
     if ws.island.averaged_until <= ws.island.time:
-        renew_mean_forces(ws, follows=False)
+        start_averaging_span(ws, follows=False)
     while ws.island.time < t:
         ws.island.stage_time, ws.step.uses_last_slope, ws.step.has_replaced_slope = 0.0, False, False
         slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=False, of_all_bodies=True)
-        if _turned_round(ws):
+        if _has_reversed_slip(ws):
             slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=False, of_all_bodies=True)
         take_off(ws)
         for i in range(ws.island.n_grouped):
             c = ws.island.grouped[i]
-            ws.guards[friction_guard(ws, c)].initial = slip_guard(ws, c)
+            ws.guards[friction_guard(ws, c)].initial = value_of_slip_guard(ws, c)
             contact = ws.contacts[c]
             contact.velocity_at_end = contact.velocity
-        ws.step.relaxation = relaxation(ws)
+        ws.step.relaxation = relaxation_rate(ws)
         left = t - ws.island.time
-        h = _found_step(ws, min(wanted, left, ws.island.averaged_until - ws.island.time))
-        if h < 0.0 and not ws.request.is_interrupted and leap(ws, ws.tolerance.time):
+        h = _find_step(ws, min(wanted, left, ws.island.averaged_until - ws.island.time))
+        if h < 0.0 and not ws.request.is_interrupted and jump_contact_points(ws, ws.tolerance.time):
             h = ws.tolerance.time
         if h < 0.0:
             return Status.NOT_FINITE if ws.request.is_interrupted else Status.STEP_TOO_SMALL
@@ -154,8 +154,8 @@ def follow(ws: Workspace, t: float) -> Status:
         if ws.model.n_joints > 0:
             project_joints(ws)
         if ws.island.averaged_until - ws.island.time <= ws.tolerance.time:
-            reach_end(ws)
-            renew_mean_forces(ws, follows=True)
+            end_averaging_span(ws)
+            start_averaging_span(ws, follows=True)
         else:
             ws.totals.closing_loss += project_closed(ws, at_event=False, averaged=False)
         if ws.run.failure != Status.RUNNING:
@@ -165,7 +165,7 @@ def follow(ws: Workspace, t: float) -> Status:
 
 
 @kernel("b1(ws)")
-def _past_bounds(ws: Workspace) -> bool:
+def _exceed_bounds(ws: Workspace) -> bool:
     """Return 1 if forces that are not unique pull, or pass the bound of their friction."""
     least = largest = 0.0
     for i in range(ws.island.n_grouped):
@@ -173,10 +173,10 @@ def _past_bounds(ws: Workspace) -> bool:
         contact = ws.contacts[c]
         if contact.has_redundant_force:
             largest = max(largest, abs(contact.force[0]))
-            least = min(least, hold_guard(ws, c))
+            least = min(least, value_of_normal_guard(ws, c))
             if contact.is_held_by_friction:
                 least = min(least, contact.static_margin)
-    return least < -_EXCESS * largest
+    return least < -_ROUND_OFF * largest
 
 
 @entry_point("void(ws, b1)")
@@ -189,11 +189,11 @@ def evaluate_forces(ws: Workspace, may_choose: bool) -> None:
     group_closed(ws)
     ws.island.stage_time = 0.0
     if may_choose or ws.island.averaged_until <= ws.island.time:
-        renew_mean_forces(ws, follows=False)
+        start_averaging_span(ws, follows=False)
     evaluate_driven_bodies(ws, ws.island.time, ws.island.y.start)
     right_hand_side(ws, ws.island.time, ws.island.y.start, may_choose, of_all_bodies=True)
-    has_turned = _turned_round(ws)
-    is_past_bounds = not may_choose and _past_bounds(ws)
+    has_turned = _has_reversed_slip(ws)
+    is_past_bounds = not may_choose and _exceed_bounds(ws)
     if has_turned or is_past_bounds:
         right_hand_side(ws, ws.island.time, ws.island.y.start, may_choose or is_past_bounds, of_all_bodies=True)
     if ws.model.n_joints > 0:

@@ -6,7 +6,7 @@ from nonsmooth.engine.native.kernel import Workspace, kernel
 
 
 @kernel()
-def book_mean_forces(ws: Workspace) -> None:
+def account_for_mean_forces(ws: Workspace) -> None:
     """Book the work of averaged normal forces so far, geometry being at hand: as gaps close it is taken back."""
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]

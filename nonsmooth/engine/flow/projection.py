@@ -18,7 +18,7 @@ from nonsmooth.engine.contact.held_contacts import coupling
 from nonsmooth.engine.contact.mean_forces import is_averaged
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus, diagonal_block
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
-from nonsmooth.engine.flow.self_check import EXPLAINED, NOUGHT, blame, energies_of_bodies, explained_gap, held_gap
+from nonsmooth.engine.flow.self_check import ALLOWED, NEGLIGIBLE, fail_check, energies_of_bodies, allowed_gap, held_gap
 from nonsmooth.engine.memory.layout import NORMAL_ROW
 from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.engine.native.kernel import (
@@ -34,7 +34,7 @@ _ROUND_OFF = 8.0 * 2.0**-52
 _DAMPING = 1e-8
 """Of the diagonal of G, added to it: contacts that nearly repeat each other need not be closed exactly, where that
 would move a body by more than half the gap over the root of this.  A contact alone repeats none."""
-_FARTHEST = 10.0
+_LARGEST_CORRECTION = 10.0
 """Corrections move bodies by no more than so many times what the tolerances explain of a gap."""
 _MOST_ITERATIONS = 5
 """Of Newton's method, which is quadratic: two or three do within the tolerances of a step."""
@@ -104,8 +104,8 @@ def _add_gaps(ws: Workspace) -> bool:
         contact = ws.contacts[c]
         gap = abs(held_gap(ws, c)) if not contact.is_compliant else 0.0
         worst = max(worst, gap)
-        share = max(share, gap / explained_gap(ws, c))
-    if worst <= NOUGHT * ws.tolerance.gap or share > 1.0:
+        share = max(share, gap / allowed_gap(ws, c))
+    if worst <= NEGLIGIBLE * ws.tolerance.gap or share > 1.0:
         return False
     assemble_delassus(ws)
     for a in range(m):
@@ -118,14 +118,14 @@ def _add_gaps(ws: Workspace) -> bool:
         active.direction = contact.direction
         active.free[0] = held_gap(ws, c)
     if m > 1:
-        _damp(ws, max(_DAMPING, (0.5 * share / _FARTHEST) ** 2))
+        _damp(ws, max(_DAMPING, (0.5 * share / _LARGEST_CORRECTION) ** 2))
     resolve(ws)
     add_response(ws, ws.problem.forces.start, ws.step.y_stage.start + ws.model.n_q)
     return True
 
 
 @kernel("f8(ws)")
-def _stop_alone(ws: Workspace) -> float:
+def _project_lone_slip(ws: Workspace) -> float:
     """Take gap and gap rate of an island of one rigid contact that slides, whose geometry and rates are at hand.
 
     The gap's velocity is added to ``y_stage``; return the kinetic energy that the other takes [J].
@@ -137,7 +137,7 @@ def _stop_alone(ws: Workspace) -> float:
     own, gap, rate = coupling(ws, c, NORMAL_ROW, c, NORMAL_ROW), held_gap(ws, c), contact.rate[0]
     if own <= 0.0:
         return 0.0
-    if NOUGHT * ws.tolerance.gap < abs(gap) <= explained_gap(ws, c):
+    if NEGLIGIBLE * ws.tolerance.gap < abs(gap) <= allowed_gap(ws, c):
         push_response(ws, c, NORMAL_ROW, -gap / own, ws.step.y_stage.start + ws.model.n_q)
     impulse, prescribed = -rate / own, rate - row(ws, c, NORMAL_ROW, ws.island.velocities)
     push_response(ws, c, NORMAL_ROW, impulse, ws.island.y.start + ws.model.n_q)
@@ -146,7 +146,7 @@ def _stop_alone(ws: Workspace) -> float:
 
 
 @kernel("b1(ws)")
-def _slides_alone(ws: Workspace) -> bool:
+def _is_lone_slip(ws: Workspace) -> bool:
     """Return 1 if the active contact is one, rigid, and slides."""
     contact = ws.contacts[ws.actives[0].contact]
     return ws.problem.n_active == 1 and not contact.is_compliant and contact.mode == Mode.SLIDE
@@ -166,13 +166,13 @@ def normalise_quaternions(ws: Workspace) -> None:
             square += ws.floats[q + i] * ws.floats[q + i]
         if abs(square - 1.0) <= _ROUND_OFF:
             continue
-        if abs(square - 1.0) > EXPLAINED * 4.0 * ws.tolerance.relative:
-            blame(
+        if abs(square - 1.0) > ALLOWED * 4.0 * ws.tolerance.relative:
+            fail_check(
                 ws,
                 Status.QUATERNION_UNEXPLAINED,
                 number,
                 math.sqrt(square) - 1.0,
-                EXPLAINED * 2.0 * ws.tolerance.relative,
+                ALLOWED * 2.0 * ws.tolerance.relative,
             )
         factor = 1.0 / math.sqrt(square)
         for i in range(4):
@@ -180,10 +180,10 @@ def normalise_quaternions(ws: Workspace) -> None:
 
 
 @kernel("f8(ws, i8)")
-def _explained_motion(ws: Workspace, i: int) -> float:
+def _allowed_motion(ws: Workspace, i: int) -> float:
     """Return how far a correction may move coordinate ``i``, by the tolerances of steps, gaps and event times."""
     step = ws.tolerance.relative * (ws.step.y_scale[i] + abs(ws.island.y[i]))
-    return float(_FARTHEST * EXPLAINED * (step + ws.tolerance.gap + ws.tolerance.time * abs(ws.island.slopes[i])))
+    return float(_LARGEST_CORRECTION * ALLOWED * (step + ws.tolerance.gap + ws.tolerance.time * abs(ws.island.slopes[i])))
 
 
 @kernel("f8(ws, i8, i8)")
@@ -200,7 +200,7 @@ def _speed_at(ws: Workspace, c: int, number: int) -> float:
 
 
 @kernel("f8(ws, i8, i8)")
-def _motion_by_gaps(ws: Workspace, number: int, i: int) -> float:
+def _allowed_motion_by_gaps(ws: Workspace, number: int, i: int) -> float:
     """Return how far coordinate ``i`` of a body may move as its closed contacts lose what is explained of their gaps.
 
     What a tolerance of lengths says of angles depends on the levers: each contact alone is let push the body until its
@@ -217,9 +217,9 @@ def _motion_by_gaps(ws: Workspace, number: int, i: int) -> float:
         evaluate_body(ws, ws.island.time, ws.step.y_guess.start, number)
         speed = _speed_at(ws, c, number)
         if speed > 0.0:
-            total += abs(ws.floats[body.tail + i]) * explained_gap(ws, c) / speed
+            total += abs(ws.floats[body.tail + i]) * allowed_gap(ws, c) / speed
     evaluate_body(ws, ws.island.time, ws.step.y_stage.start, number)
-    return float(_FARTHEST * total)
+    return float(_LARGEST_CORRECTION * total)
 
 
 @kernel("b1(ws, i8)")
@@ -243,12 +243,12 @@ def _displace(ws: Workspace) -> None:
             continue
         evaluate_body(ws, ws.island.time, ws.step.y_stage.start, number)
         for i in range(body.n_q):
-            motion, most = ws.floats[body.tail + i], _explained_motion(ws, body.q + i)
+            motion, most = ws.floats[body.tail + i], _allowed_motion(ws, body.q + i)
             # asked only where it matters
             if abs(motion) > most:
-                most += _motion_by_gaps(ws, number, i)
+                most += _allowed_motion_by_gaps(ws, number, i)
             if abs(motion) > most:
-                blame(ws, Status.MOTION_UNEXPLAINED, number, motion, most)
+                fail_check(ws, Status.MOTION_UNEXPLAINED, number, motion, most)
                 return
     for number in range(ws.model.n_bodies):
         body = ws.bodies[number]
@@ -288,8 +288,8 @@ def project_closed(ws: Workspace, at_event: bool, averaged: bool) -> float:
         if past > ws.tolerance.gap:
             # behind the end of a feature its rate is that of another one; the event that comes drops the contact
             continue
-        if not at_event and _slides_alone(ws):
-            loss += _stop_alone(ws)
+        if not at_event and _is_lone_slip(ws):
+            loss += _project_lone_slip(ws)
             moved += 1
             continue
         for a in range(ws.problem.n_active):
@@ -317,26 +317,26 @@ def project_joints(ws: Workspace) -> None:
         for number in range(ws.model.n_articulations):
             residuals = ws.articulations[number].residual
             worst = max(worst, _add_correction(ws, number, residuals, ws.step.y_stage.start + ws.model.n_q))
-        if iteration == 0 and worst > _explained_residual(ws):
+        if iteration == 0 and worst > _allowed_residual(ws):
             break
         # far from the origin round-off alone is more than the tolerance, and no iteration helps
-        if worst <= NOUGHT * ws.tolerance.gap or worst > 0.5 * before or iteration == _MOST_ITERATIONS - 1:
+        if worst <= NEGLIGIBLE * ws.tolerance.gap or worst > 0.5 * before or iteration == _MOST_ITERATIONS - 1:
             break
         before = worst
         _displace(ws)
-    if not worst <= EXPLAINED * ws.tolerance.gap and ws.run.failure == Status.RUNNING:
-        blame(ws, Status.JOINTS_APART, -1, worst, EXPLAINED * ws.tolerance.gap)
+    if not worst <= ALLOWED * ws.tolerance.gap and ws.run.failure == Status.RUNNING:
+        fail_check(ws, Status.JOINTS_APART, -1, worst, ALLOWED * ws.tolerance.gap)
     for number in range(ws.model.n_articulations):
         _add_correction(ws, number, ws.articulations[number].rate, ws.island.y.start + ws.model.n_q)
 
 
 @kernel("f8(ws)")
-def _explained_residual(ws: Workspace) -> float:
+def _allowed_residual(ws: Workspace) -> float:
     """Return the residual of a joint that the tolerances of steps explain [m or 1]."""
     size = 0.0
     for i in range(ws.model.n_q):
         size = max(size, ws.step.y_scale[i] + abs(ws.island.y[i]))
-    return float(max(EXPLAINED * ws.tolerance.gap, EXPLAINED * ws.tolerance.relative * size))
+    return float(max(ALLOWED * ws.tolerance.gap, ALLOWED * ws.tolerance.relative * size))
 
 
 @kernel("f8(ws, i8, i8, i8)")

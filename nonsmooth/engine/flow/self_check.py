@@ -6,7 +6,7 @@ import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry
-from nonsmooth.engine.flow.mean_work import book_mean_forces
+from nonsmooth.engine.flow.mean_work import account_for_mean_forces
 from nonsmooth.engine.memory.layout import EXCHANGED
 from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.engine.native.kernel import (
@@ -17,20 +17,20 @@ from nonsmooth.engine.native.kernel import (
     kernel,
 )
 from nonsmooth.engine.numerics.vectors import Pair, minus
-from nonsmooth.engine.pairs.look import look_at_pairs
+from nonsmooth.engine.pairs.overlaps import check_pairs
 
-EXPLAINED = 1e3
+ALLOWED = 1e3
 """What steps and events within their tolerances leave adds up to no more than so many of them."""
-NOUGHT = 1.0 / EXPLAINED
+NEGLIGIBLE = 1.0 / ALLOWED
 """Gaps, rates, times and residuals below this part of their tolerance are none: all of them together stay within it."""
-NEAR = 10.0
+ADJACENT = 10.0
 """Gaps and rates of so many tolerances are those of surfaces next to each other, as neighbours at rest are."""
 _ROUND_OFF = 1e-12
 """Part of an energy that sums over a run do not tell from none."""
 
 
 @kernel("void(ws, Status, i8, f8, f8)")
-def blame(ws: Workspace, status: Status, number: int, found: float, allowed: float) -> None:
+def fail_check(ws: Workspace, status: Status, number: int, found: float, allowed: float) -> None:
     """End the run by ``status``, with the number of the body or contact, what was found there and what is explained."""
     if ws.run.failure == Status.RUNNING:
         ws.run.failure, ws.run.failed_number, ws.run.found, ws.run.allowed = status, number, found, allowed
@@ -59,11 +59,11 @@ def tolerated_gap(ws: Workspace, c: int) -> float:
             far += abs(point[i]) + abs(arm[i])
         farthest = max(farthest, far)
     late = ws.tolerance.time * abs(contact.gap_rate_at_start)
-    return float(EXPLAINED * (ws.tolerance.gap + ws.tolerance.relative * farthest + late))
+    return float(ALLOWED * (ws.tolerance.gap + ws.tolerance.relative * farthest + late))
 
 
 @kernel("f8(ws, i8)")
-def explained_gap(ws: Workspace, c: int) -> float:
+def allowed_gap(ws: Workspace, c: int) -> float:
     """Return the same [m], and the way on which a gap comes to rest where forces are averaged."""
     contact = ws.contacts[c]
     way = contact.mean_gap_change if contact.is_averaged else 0.0
@@ -71,7 +71,7 @@ def explained_gap(ws: Workspace, c: int) -> float:
 
 
 @kernel("b1(ws, i8)")
-def _presses(ws: Workspace, c: int) -> bool:
+def _has_closed_contact(ws: Workspace, c: int) -> bool:
     """Return 1 if some contact of the same two frames as contact ``c`` is closed."""
     contact = ws.contacts[c]
     for other in range(ws.island.n_contacts):
@@ -82,14 +82,14 @@ def _presses(ws: Workspace, c: int) -> bool:
 
 
 @kernel("f8(ws, i8)")
-def _tolerated_overlap(ws: Workspace, number: int) -> float:
+def _allowed_overlap(ws: Workspace, number: int) -> float:
     """Return by how much a pair of convex parts may overlap by the tolerances of gaps and of steps [m]."""
     pair = ws.pairs[number]
     farthest = 0.0
     for side in range(2):
         origin = frame_at(ws.floats, pair.frame_a if side == 0 else pair.frame_b).origin
         farthest = max(farthest, abs(origin[0]) + abs(origin[1]) + abs(origin[2]))
-    return float(EXPLAINED * (ws.tolerance.gap + ws.tolerance.relative * (farthest + pair.size)))
+    return float(ALLOWED * (ws.tolerance.gap + ws.tolerance.relative * (farthest + pair.size)))
 
 
 @kernel()
@@ -99,27 +99,27 @@ def check_gaps(ws: Workspace) -> None:
     Bodies that springs let into each other overlap at other features, too, as long as one contact of theirs is closed.
     """
     if ws.model.n_pairs > 0:
-        look_at_pairs(ws)
+        check_pairs(ws)
     if ws.run.passed_pair >= 0:
-        explained = ws.run.passed_allowed + _tolerated_overlap(ws, ws.run.passed_pair)
+        explained = ws.run.passed_allowed + _allowed_overlap(ws, ws.run.passed_pair)
         if ws.run.passed_depth > explained:
-            blame(ws, Status.PASSED, ws.pairs[ws.run.passed_pair].contact, ws.run.passed_depth, explained)
+            fail_check(ws, Status.PASSED, ws.pairs[ws.run.passed_pair].contact, ws.run.passed_depth, explained)
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
         gap = contact.gap_at_end
         if contact.mode == Mode.OPEN:
             gap = min(0.0, gap)
-            if contact.overlap_at_end < 0.0 and not _presses(ws, c):
+            if contact.overlap_at_end < 0.0 and not _has_closed_contact(ws, c):
                 gap = contact.overlap_at_end
         elif contact.is_compliant or contact.past_feature > 0.0:
             continue
         # looked at closely only where it is not plainly explained
-        if abs(gap) > EXPLAINED * ws.tolerance.gap and abs(gap) > explained_gap(ws, c):
-            blame(ws, Status.GAP_UNEXPLAINED, c, gap, explained_gap(ws, c))
+        if abs(gap) > ALLOWED * ws.tolerance.gap and abs(gap) > allowed_gap(ws, c):
+            fail_check(ws, Status.GAP_UNEXPLAINED, c, gap, allowed_gap(ws, c))
 
 
 @kernel("f8(ws, i8, f8)")
-def _stored(ws: Workspace, c: int, depth: float) -> float:
+def _stored_energy(ws: Workspace, c: int, depth: float) -> float:
     """Return the energy of a spring at a depth [J]: of its force at rest, by Gauss's rule."""
     contact, total = ws.contacts[c], 0.0
     for i in range(-1, 2):
@@ -143,7 +143,7 @@ def _deepest_other(ws: Workspace, c: int, after: bool) -> float:
 
 
 @kernel()
-def check_begun(ws: Workspace) -> None:
+def check_new_springs(ws: Workspace) -> None:
     """Look at springs that begin or end inside of a body at an event, before modes are taken over.
 
     One contact may take over from another at the depth that this has; what springs gain or lose beside that is energy
@@ -156,20 +156,20 @@ def check_begun(ws: Workspace) -> None:
         if contact.mode != Mode.OPEN:
             # past its end only what takes over knows the depth
             if contact.past_feature > 0.0:
-                ws.run.jumped_energy -= _stored(ws, c, -_deepest_other(ws, c, after=True))
+                ws.run.jumped_energy -= _stored_energy(ws, c, -_deepest_other(ws, c, after=True))
             continue
-        tolerated = explained_gap(ws, c)
+        tolerated = allowed_gap(ws, c)
         if contact.gap >= -tolerated:
             continue
-        ws.run.jumped_energy += _stored(ws, c, -contact.gap)
+        ws.run.jumped_energy += _stored_energy(ws, c, -contact.gap)
         ws.run.jump_time = ws.island.time
         explained = tolerated - _deepest_other(ws, c, after=False)
         if contact.gap < -explained:
-            blame(ws, Status.GAP_UNEXPLAINED, c, contact.gap, explained)
+            fail_check(ws, Status.GAP_UNEXPLAINED, c, contact.gap, explained)
 
 
 @kernel("f8(ws)")
-def _booked(ws: Workspace) -> float:
+def _accounted_energy(ws: Workspace) -> float:
     """Return what the account says of the energy that events gave and took so far [J]."""
     return float(ws.totals.driven_work - ws.totals.restitution_loss - ws.totals.friction_loss - ws.totals.closing_loss)
 
@@ -189,15 +189,15 @@ def energies_of_bodies(ws: Workspace) -> Pair:
 
 
 @kernel()
-def open_account(ws: Workspace) -> None:
+def open_energy_account(ws: Workspace) -> None:
     """Keep the energy and the account as they are before an event, the bodies being evaluated."""
     ws.island.has_energy_account = True
     ws.island.kinetic_before, ws.island.potential_before = energies_of_bodies(ws)
-    ws.island.accounted_before = _booked(ws)
+    ws.island.accounted_before = _accounted_energy(ws)
 
 
 @kernel()
-def close_account(ws: Workspace) -> None:
+def close_energy_account(ws: Workspace) -> None:
     """Compare the energy after an event, the bodies being evaluated, with its account; keep the worst of all events.
 
     Impacts are integrated within their tolerance of the energies in them; next to none are those below round-off of the
@@ -207,10 +207,10 @@ def close_account(ws: Workspace) -> None:
         return
     ws.island.has_energy_account = False
     kinetic, potential = energies_of_bodies(ws)
-    booked = _booked(ws) - ws.island.accounted_before
+    booked = _accounted_energy(ws) - ws.island.accounted_before
     change = kinetic - ws.island.kinetic_before + (potential - ws.island.potential_before)
     exchanged = abs(ws.island.y[ws.model.n_q + ws.model.n_u + EXCHANGED])
-    explained = EXPLAINED * ws.tolerance.impact * (ws.island.kinetic_before + kinetic + abs(booked))
+    explained = ALLOWED * ws.tolerance.impact * (ws.island.kinetic_before + kinetic + abs(booked))
     explained += _ROUND_OFF * (exchanged + abs(potential) + abs(ws.island.potential_before))
     share = abs(change - booked) / explained if explained > 0.0 else 0.0
     if share > ws.run.worst_energy_ratio:
@@ -241,7 +241,7 @@ def check_end(ws: Workspace) -> None:
         contact = ws.contacts[c]
         evaluate_geometry(ws, c)
         contact.gap_at_end, contact.overlap_at_end = contact.gap, contact.overlap
-    book_mean_forces(ws)
+    account_for_mean_forces(ws)
     ws.run.energy_scale = scale_energy(ws)
-    close_account(ws)
+    close_energy_account(ws)
     check_gaps(ws)

@@ -18,13 +18,13 @@ from nonsmooth.engine.numerics.vectors import Vector, cross, dot
 
 _TO_SPACE, _TO_BODY = 1.0, -1.0
 """Sign of the scalar part of the quaternion that turns a vector there."""
-_KEPT = 1e-9
+_SMALLEST_SINE = 1e-9
 """Sine of the angle between a spin and its rate, along the body, up to which it keeps its direction: that of motion in
 a plane is round-off, 1e-16, and a step in which a spin turns by so much of its change is as long in either axes."""
 
 
 @kernel("void(F, i8, i8, f8, i8)")
-def _turn(w: Floats, q: int, v: int, way: float, out: int) -> None:
+def _rotate(w: Floats, q: int, v: int, way: float, out: int) -> None:
     """Write the vector at ``v`` turned by the quaternion at ``q``, of any length, to space (1) or back (-1)."""
     a, axis = way * w[q], (w[q + 1], w[q + 2], w[q + 3])
     x, y, z = w[v], w[v + 1], w[v + 2]
@@ -37,21 +37,21 @@ def _turn(w: Floats, q: int, v: int, way: float, out: int) -> None:
 
 
 @kernel("i8(ws, i8)")
-def _slopes(ws: Workspace, number: int) -> int:
+def _slopes_of(ws: Workspace, number: int) -> int:
     """Return where the slopes in space of one body's spin stand, those of one stage behind those of another."""
     return int(ws.island.spin_slopes.start + 3 * N_STAGES * number)
 
 
 @kernel("b1(F, i8, i8)")
-def _turns(w: Floats, spin: int, rate: int) -> bool:
+def _changes_direction(w: Floats, spin: int, rate: int) -> bool:
     """Return 1 if a spin does not keep its direction."""
     u, v = (w[spin], w[spin + 1], w[spin + 2]), (w[rate], w[rate + 1], w[rate + 2])
     across = cross(u, v)
-    return dot(across, across) > _KEPT * _KEPT * dot(u, u) * dot(v, v)
+    return dot(across, across) > _SMALLEST_SINE * _SMALLEST_SINE * dot(u, u) * dot(v, v)
 
 
 @kernel()
-def choose_spins(ws: Workspace) -> None:
+def choose_spins_in_space(ws: Workspace) -> None:
     """List the bodies whose spin turns from where the step begins: it is integrated along axes in space."""
     ws.island.n_spinning = 0
     for i in range(ws.island.n_integrated):
@@ -59,7 +59,7 @@ def choose_spins(ws: Workspace) -> None:
         body = ws.bodies[number]
         u = ws.model.n_q + body.u + body.spin
         body.spins_apart = (
-            _turns(ws.floats, ws.island.y.start + u, ws.island.slopes.start + u) if body.spin >= 0 else False
+            _changes_direction(ws.floats, ws.island.y.start + u, ws.island.slopes.start + u) if body.spin >= 0 else False
         )
         if body.spins_apart:
             ws.island.spinning[ws.island.n_spinning] = number
@@ -67,7 +67,7 @@ def choose_spins(ws: Workspace) -> None:
 
 
 @kernel("void(ws, i8, i8)")
-def keep_spins(ws: Workspace, stage: int, state: int) -> None:
+def store_spin_slope(ws: Workspace, stage: int, state: int) -> None:
     """Keep the slopes of a stage, evaluated at ``state``, along axes in space; before the first one the spins, too.
 
     Those of its quaternions become what they are at the length that these had.
@@ -77,16 +77,16 @@ def keep_spins(ws: Workspace, stage: int, state: int) -> None:
         body = ws.bodies[number]
         q, u = body.q + body.quaternion, ws.model.n_q + body.u + body.spin
         slope = ws.island.slopes.start + stage * ws.model.n_y
-        _turn(ws.floats, state + q, slope + u, _TO_SPACE, _slopes(ws, number) + 3 * stage)
+        _rotate(ws.floats, state + q, slope + u, _TO_SPACE, _slopes_of(ws, number) + 3 * stage)
         if stage == 0:
-            _turn(ws.floats, state + q, state + u, _TO_SPACE, ws.island.spin_start.start + 3 * number)
+            _rotate(ws.floats, state + q, state + u, _TO_SPACE, ws.island.spin_start.start + 3 * number)
         elif stage < LAST_STAGE:
             for j in range(4):
                 ws.floats[slope + q + j] *= ws.island.quaternion_length[number]
 
 
 @kernel("void(ws, i8, f8, i8)")
-def stage_spins(ws: Workspace, stage: int, h: float, out: int) -> None:
+def write_spins_of_stage(ws: Workspace, stage: int, h: float, out: int) -> None:
     """Write the spins of a stage to the state at ``out``, whose quaternions are those of the stage.
 
     They are brought to unit length where the step does not end: as long as they are the body would spin faster by
@@ -100,14 +100,14 @@ def stage_spins(ws: Workspace, stage: int, h: float, out: int) -> None:
             ws,
             ws.coefficients.stages.start,
             ws.island.spin_start.start + 3 * number,
-            _slopes(ws, number),
+            _slopes_of(ws, number),
             3,
             3,
             stage,
             h,
             u,
         )
-        _turn(ws.floats, q, u, _TO_BODY, u)
+        _rotate(ws.floats, q, u, _TO_BODY, u)
         if stage < LAST_STAGE:
             square = (
                 ws.floats[q] * ws.floats[q]
@@ -123,18 +123,18 @@ def stage_spins(ws: Workspace, stage: int, h: float, out: int) -> None:
 
 
 @kernel("void(ws, f8, i8)")
-def weigh_spins(ws: Workspace, h: float, out: int) -> None:
+def write_spin_errors(ws: Workspace, h: float, out: int) -> None:
     """Write the errors of the spins in a step of ``h`` to ``out``, along the bodies where the step ends."""
     for i in range(ws.island.n_spinning):
         number = ws.island.spinning[i]
         body = ws.bodies[number]
         u = out + ws.model.n_q + body.u + body.spin
-        weigh_part(ws, ws.coefficients.error_weights.start, _slopes(ws, number), 3, 3, h, u)
-        _turn(ws.floats, ws.step.y_new.start + body.q + body.quaternion, u, _TO_BODY, u)
+        weigh_part(ws, ws.coefficients.error_weights.start, _slopes_of(ws, number), 3, 3, h, u)
+        _rotate(ws.floats, ws.step.y_new.start + body.q + body.quaternion, u, _TO_BODY, u)
 
 
 @kernel("void(ws, i8, v3, v3, i8)")
-def spin_within(ws: Workspace, number: int, early: Vector, late: Vector, out: int) -> None:
+def write_spin_within(ws: Workspace, number: int, early: Vector, late: Vector, out: int) -> None:
     """Write the spin of one body within the step to the state at ``out``, whose quaternion is the one there.
 
     An implicit step has its interpolant along the bodies.
@@ -143,5 +143,5 @@ def spin_within(ws: Workspace, number: int, early: Vector, late: Vector, out: in
     if not body.spins_apart or ws.island.stage_time > 0.0:
         return
     u = out + ws.model.n_q + body.u + body.spin
-    dense_part(ws.floats, ws.island.spin_start.start + 3 * number, _slopes(ws, number), 3, 3, early, late, u)
-    _turn(ws.floats, out + body.q + body.quaternion, u, _TO_BODY, u)
+    dense_part(ws.floats, ws.island.spin_start.start + 3 * number, _slopes_of(ws, number), 3, 3, early, late, u)
+    _rotate(ws.floats, out + body.q + body.quaternion, u, _TO_BODY, u)

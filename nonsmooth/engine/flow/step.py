@@ -11,7 +11,7 @@ import math
 
 from nonsmooth.engine.flow.flight import land
 from nonsmooth.engine.flow.flow import is_violated, slope
-from nonsmooth.engine.flow.spins import choose_spins, keep_spins, stage_spins, weigh_spins
+from nonsmooth.engine.flow.spins import choose_spins_in_space, store_spin_slope, write_spins_of_stage, write_spin_errors
 from nonsmooth.engine.memory import implicit_tableau, tableau
 from nonsmooth.engine.memory.layout import LAST_STAGE, N_ACCOUNTS, N_STAGES
 from nonsmooth.engine.memory.modes import Mode
@@ -30,16 +30,16 @@ from nonsmooth.engine.numerics.runge_kutta import (
 )
 from nonsmooth.engine.numerics.vectors import length
 
-STIFF = 2.0
+LARGEST_EXPLICIT = 2.0
 """Relaxations within a step that an explicit one bears."""
-_SLOWEST = 1e-3
+_SMALLEST_SLIP = 1e-3
 """Slips below this part of what counts as zero relax no faster."""
-_SHARE = tableau.NODES[1] / tableau.NODES[2]
+_SECOND_NODE = tableau.NODES[1] / tableau.NODES[2]
 """Where the second stage lies between the first and the third."""
 
 
 @kernel("f8(ws, i8, i8, f8)")
-def _worst_error(ws: Workspace, first: int, end: int, worst: float) -> float:
+def _largest_error(ws: Workspace, first: int, end: int, worst: float) -> float:
     """Return the largest error of some components relative to the tolerance, or ``worst`` if that is larger."""
     for i in range(first, end):
         explained = ws.tolerance.relative * (ws.step.y_scale[i] + max(abs(ws.island.y[i]), abs(ws.step.y_new[i])))
@@ -56,14 +56,14 @@ def _relative_error(ws: Workspace) -> float:
     n, worst = ws.model.n_y, 0.0
     for span in range(ws.island.n_spans):
         first = ws.island.span_first[span]
-        worst = _worst_error(ws, first, min(first + ws.island.span_length[span], ws.model.n_q + ws.model.n_u), worst)
+        worst = _largest_error(ws, first, min(first + ws.island.span_length[span], ws.model.n_q + ws.model.n_u), worst)
     if ws.model.n_states > 0:
-        worst = _worst_error(ws, ws.model.n_q + ws.model.n_u + N_ACCOUNTS, n, worst)
+        worst = _largest_error(ws, ws.model.n_q + ws.model.n_u + N_ACCOUNTS, n, worst)
     return worst
 
 
 @kernel("f8(ws, f8)")
-def _unseen(ws: Workspace, h: float) -> float:
+def _error_of_second_stage(ws: Workspace, h: float) -> float:
     """Return how far the second stage is from the first and third, relative to what a step of the tolerance explains.
 
     It has no weight in the result, nor in the error: a force that only it meets, as where it throws the later stages
@@ -82,7 +82,7 @@ def _unseen(ws: Workspace, h: float) -> float:
         body = ws.bodies[ws.island.integrated[number]]
         for i in range(body.u, body.u + body.n_u):
             change = h * abs(
-                ws.floats[second + i] - (1.0 - _SHARE) * ws.floats[first + i] - _SHARE * ws.floats[third + i]
+                ws.floats[second + i] - (1.0 - _SECOND_NODE) * ws.floats[first + i] - _SECOND_NODE * ws.floats[third + i]
             )
             explained = rtol * (ws.floats[y_scale + i] + max(abs(ws.floats[y + i]), abs(ws.floats[y_new + i])))
             if change > worst * explained:
@@ -91,7 +91,7 @@ def _unseen(ws: Workspace, h: float) -> float:
 
 
 @kernel("f8(ws)")
-def relaxation(ws: Workspace) -> float:
+def relaxation_rate(ws: Workspace) -> float:
     """Return how fast slip directions relax where the step starts [1/s]; 0 where an implicit step is none.
 
     For that some closed contact must slide, and all must be rigid.
@@ -104,12 +104,12 @@ def relaxation(ws: Workspace) -> float:
             return 0.0
         if contact.mode == Mode.SLIDE and not contact.is_averaged:
             friction, speed = length((contact.force[1], contact.force[2])), length(contact.slip_at_end)
-            fastest = max(fastest, contact.slip_per_force * friction / max(speed, _SLOWEST * ws.tolerance.velocity))
+            fastest = max(fastest, contact.slip_per_force * friction / max(speed, _SMALLEST_SLIP * ws.tolerance.velocity))
     return fastest
 
 
 @kernel("b1(ws)")
-def _holds(ws: Workspace) -> bool:
+def _are_modes_valid(ws: Workspace) -> bool:
     """Return 1 if no force of a closed contact violates its mode: when it begins to is for explicit steps to find."""
     for i in range(ws.island.n_grouped):
         c = ws.island.grouped[i]
@@ -170,13 +170,13 @@ def _solve_stage(ws: Workspace, h: float, stage: int) -> bool:
         # where the step ends what was evaluated is to be that of its end
         left = worst * worst / (before - worst) if before > worst and stage < LAST_STAGE else worst
         if left <= implicit_tableau.SETTLED:
-            return _holds(ws)
+            return _are_modes_valid(ws)
         before = worst
     return False
 
 
 @kernel("b1(ws)")
-def _settle(ws: Workspace) -> bool:
+def _find_first_slope(ws: Workspace) -> bool:
     """Write the slope at the start with friction against the slip that a stage makes of it; return 1 if it is found."""
     for i in range(ws.model.n_y):
         ws.step.y_guess[i] = 0.0
@@ -191,7 +191,7 @@ def _settle(ws: Workspace) -> bool:
         of_all_bodies=False,
     )
     ws.problem.stage_time = 0.0
-    return False if ws.problem.is_unsettled else _holds(ws)
+    return False if ws.problem.is_unsettled else _are_modes_valid(ws)
 
 
 @kernel("f8(ws, f8)")
@@ -205,7 +205,7 @@ def _try_implicit_step(ws: Workspace, h: float) -> float:
     ws.island.stage_time = implicit_tableau.DIAGONAL * h
     for i in range(n):
         ws.island.slopes[n + i] = ws.island.slopes[i]
-    if not ws.step.uses_last_slope and not _settle(ws):
+    if not ws.step.uses_last_slope and not _find_first_slope(ws):
         return math.inf
     for stage in range(2, N_STAGES):
         if not _solve_stage(ws, h, stage):
@@ -226,13 +226,13 @@ def explicit_step(ws: Workspace, h: float) -> float:
     """Take one explicit step of ``h`` of what is integrated; return its relative error."""
     n = ws.model.n_y
     ws.island.stage_time = 0.0
-    choose_spins(ws)
+    choose_spins_in_space(ws)
     if ws.island.n_integrated == 0:
         for i in range(ws.model.n_q + ws.model.n_u, n):
             ws.step.y_new[i] = ws.island.y[i]
             ws.island.slopes[LAST_STAGE * n + i] = 0.0
         return 0.0
-    keep_spins(ws, 0, ws.island.y.start)
+    store_spin_slope(ws, 0, ws.island.y.start)
     for stage in range(1, N_STAGES):
         out = ws.step.y_new.start if stage == LAST_STAGE else ws.step.y_stage.start
         for span in range(ws.island.n_spans):
@@ -248,7 +248,7 @@ def explicit_step(ws: Workspace, h: float) -> float:
                 h,
                 out + i,
             )
-        stage_spins(ws, stage, h, out)
+        write_spins_of_stage(ws, stage, h, out)
         slope(
             ws,
             ws.island.time + tableau.NODES[stage] * h,
@@ -257,24 +257,24 @@ def explicit_step(ws: Workspace, h: float) -> float:
             may_choose=False,
             of_all_bodies=False,
         )
-        keep_spins(ws, stage, out)
+        store_spin_slope(ws, stage, out)
     for span in range(ws.island.n_spans):
         i, length = ws.island.span_first[span], ws.island.span_length[span]
         weigh_part(
             ws, ws.coefficients.error_weights.start, ws.island.slopes.start + i, length, n, h, ws.step.y_stage.start + i
         )
-    weigh_spins(ws, h, ws.step.y_stage.start)
-    return max(_relative_error(ws), _unseen(ws, h))
+    write_spin_errors(ws, h, ws.step.y_stage.start)
+    return max(_relative_error(ws), _error_of_second_stage(ws, h))
 
 
 @kernel("f8(ws, f8)")
-def _integrated(ws: Workspace, h: float) -> float:
+def _step_integrated(ws: Workspace, h: float) -> float:
     """Take one step of ``h`` of what is integrated; return its relative error."""
     if ws.island.stage_time > 0.0:
         error = _try_implicit_step(ws, h)
         return error if error < math.inf else explicit_step(ws, h)
     error = explicit_step(ws, h)
-    if error > 1.0 and h * ws.step.relaxation > STIFF:
+    if error > 1.0 and h * ws.step.relaxation > LARGEST_EXPLICIT:
         implicit = _try_implicit_step(ws, h)
         return implicit if implicit < math.inf else explicit_step(ws, h)
     return error
@@ -295,7 +295,7 @@ def try_step(ws: Workspace, h: float) -> float:
             ws.island.slopes[i] = ws.step.first_slope[i]
     for c in range(ws.island.n_contacts):
         ws.contacts[c].least_force = math.inf
-    error = _integrated(ws, h)
+    error = _step_integrated(ws, h)
     # where nobody trusts the step, it is not asked where the others are
     return error + land(ws, h) if ws.island.n_ballistic > 0 and error <= TRUSTED else error
 
@@ -303,6 +303,6 @@ def try_step(ws: Workspace, h: float) -> float:
 @kernel("f8(ws, f8)")
 def try_length(ws: Workspace, h: float) -> float:
     """Take one step of ``h``, implicit where an explicit one does not do; return its relative error."""
-    if h * ws.step.relaxation <= STIFF:
+    if h * ws.step.relaxation <= LARGEST_EXPLICIT:
         ws.island.stage_time = 0.0
     return float(try_step(ws, h))

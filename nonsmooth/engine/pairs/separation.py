@@ -15,15 +15,15 @@ import math
 from nonsmooth.engine.native.kernel import Floats, Workspace, frame_at, kernel
 from nonsmooth.engine.numerics.vectors import Vector, dot, minus, scaled
 from nonsmooth.engine.pairs.simplex import corner, nearest_point, put_corner, reduce_to_nearest
-from nonsmooth.engine.pairs.support import difference, middle_of, separation_along
+from nonsmooth.engine.pairs.support import closest_difference, middle_of, separation_along
 
-_MOST = 100
+_MOST_STEPS = 100
 """Steps of a search; flat ellipsoids take some sixty."""
-_CLIMBS = 8
+_MOST_SHIFTS = 8
 """Times that the second part is moved away; each at least doubles the correct digits of an angle."""
-_AWAY = 1e-3
+_SHIFT = 1e-3
 """By this part of the size the second part is moved away at least."""
-_EXACT = 1e-13
+_ROUND_OFF = 1e-13
 """Separations nearer than this part of the size are the same."""
 
 
@@ -39,8 +39,8 @@ def _search(ws: Workspace, number: int, start: Vector, shift: Vector, size: floa
     """Return the unit vector along which the parts are farthest apart, the second being moved by ``shift``."""
     n = best = start
     bound, upper, held, far = -math.inf, math.inf, 0, 0.0
-    for _ in range(_MOST):
-        x, y, z = difference(ws, number, n)
+    for _ in range(_MOST_STEPS):
+        x, y, z = closest_difference(ws, number, n)
         found = x + shift[0], y + shift[1], z + shift[2]
         height = dot(n, found)
         if height > bound:
@@ -50,7 +50,7 @@ def _search(ws: Workspace, number: int, start: Vector, shift: Vector, size: floa
         for i in range(held):
             off = minus(corner(ws, i), found)
             known += 1 if dot(off, off) == 0.0 else 0
-        if known > 0 or upper - bound <= _EXACT * size:
+        if known > 0 or upper - bound <= _ROUND_OFF * size:
             break
         put_corner(ws, held, found)
         held = reduce_to_nearest(ws, held + 1, far)
@@ -69,18 +69,18 @@ def _search(ws: Workspace, number: int, start: Vector, shift: Vector, size: floa
 def _climb(ws: Workspace, number: int, start: Vector, size: float) -> Vector:
     """Return the direction of largest separation among the neighbours of ``start``."""
     n, best = start, separation_along(ws, number, start)
-    for _ in range(_CLIMBS):
-        shift = scaled(max(-2.0 * best, _AWAY * size), n)
+    for _ in range(_MOST_SHIFTS):
+        shift = scaled(max(-2.0 * best, _SHIFT * size), n)
         other = _search(ws, number, n, shift, size)
         found = separation_along(ws, number, other)
-        if found <= best + _EXACT * size:
+        if found <= best + _ROUND_OFF * size:
             break
         n, best = other, found
     return n
 
 
 @kernel("v3(F, i8, i8)")
-def _axis(w: Floats, frame_place: int, axis: int) -> Vector:
+def _axis_of_frame(w: Floats, frame_place: int, axis: int) -> Vector:
     """Return an axis of a frame; from the fourth on they point the other way."""
     frame, column = frame_at(w, frame_place), axis % 3
     sign = 1.0 if axis < 3 else -1.0
@@ -88,7 +88,7 @@ def _axis(w: Floats, frame_place: int, axis: int) -> Vector:
 
 
 @kernel("v3(ws, i8)")
-def _across(ws: Workspace, number: int) -> Vector:
+def _between_middles(ws: Workspace, number: int) -> Vector:
     """Return the direction from the middle of the first part of a pair to that of the second."""
     pair = ws.pairs[number]
     between = minus(middle_of(ws.floats, pair.frame_b, pair.part_b), middle_of(ws.floats, pair.frame_a, pair.part_a))
@@ -96,22 +96,22 @@ def _across(ws: Workspace, number: int) -> Vector:
 
 
 @kernel("v3(ws, i8, v3)")
-def parting_direction(ws: Workspace, number: int, known: Vector) -> Vector:
+def separating_direction(ws: Workspace, number: int, known: Vector) -> Vector:
     """Return a unit vector along which a pair is farthest apart, if it is apart, as far as one search tells.
 
     ``known`` is one to begin with, of length 0 if there is none.
     """
     pair = ws.pairs[number]
-    return _search(ws, number, _unit(known, _across(ws, number)), (0.0, 0.0, 0.0), pair.size)
+    return _search(ws, number, _unit(known, _between_middles(ws, number)), (0.0, 0.0, 0.0), pair.size)
 
 
 @kernel("v3(ws, i8, v3, f8)")
-def direction_of(ws: Workspace, number: int, known: Vector, enough: float) -> Vector:
+def best_direction(ws: Workspace, number: int, known: Vector, enough: float) -> Vector:
     """Return a unit vector along which the separation of a pair is at least ``enough``, or else the largest found.
 
     ``known`` is one to begin with, of length 0 if there is none.
     """
-    pair, across = ws.pairs[number], _across(ws, number)
+    pair, across = ws.pairs[number], _between_middles(ws, number)
     start = _unit(known, across)
     n = _search(ws, number, start, (0.0, 0.0, 0.0), pair.size)
     best = separation_along(ws, number, n)
@@ -123,7 +123,7 @@ def direction_of(ws: Workspace, number: int, known: Vector, enough: float) -> Ve
         if trial == 2:
             begin = across
         elif trial > 2:
-            begin = _axis(ws.floats, pair.frame_a if trial < 9 else pair.frame_b, (trial - 3) % 6)
+            begin = _axis_of_frame(ws.floats, pair.frame_a if trial < 9 else pair.frame_b, (trial - 3) % 6)
         other = _climb(ws, number, begin, pair.size)
         found = separation_along(ws, number, other)
         if found > best:

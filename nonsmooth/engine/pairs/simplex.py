@@ -11,11 +11,11 @@ from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.vectors import Vector, cross, dot, minus, scaled
 
 CORNERS = 4
-PARTS = 3 * CORNERS
+WEIGHTS = 3 * CORNERS
 """Where the parts begin."""
-_FLAT = 1e-24
+_FLAT_TRIANGLE = 1e-24
 """Of a triangle with less than this square of the sine between two edges only the edges are looked at."""
-_EMPTY = 1e-15
+_FLAT_TETRAHEDRON = 1e-15
 """A tetrahedron with less than this part of the cube of its size has no inside."""
 
 
@@ -34,9 +34,9 @@ def put_corner(ws: Workspace, i: int, place: Vector) -> None:
 
 
 @kernel()
-def _clear(ws: Workspace) -> None:
+def _clear_weights(ws: Workspace) -> None:
     for i in range(CORNERS):
-        ws.problem.simplex[PARTS + i] = 0.0
+        ws.problem.simplex[WEIGHTS + i] = 0.0
 
 
 @kernel("f8(ws, i8, i8, f8)")
@@ -51,8 +51,8 @@ def _try_edge(ws: Workspace, i: int, j: int, best: float) -> float:
     found = dot(point, point)
     if found >= best:
         return best
-    _clear(ws)
-    ws.problem.simplex[PARTS + i], ws.problem.simplex[PARTS + j] = 1.0 - part, part
+    _clear_weights(ws)
+    ws.problem.simplex[WEIGHTS + i], ws.problem.simplex[WEIGHTS + j] = 1.0 - part, part
     return float(found)
 
 
@@ -63,7 +63,7 @@ def _try_face(ws: Workspace, i: int, j: int, m: int, best: float) -> float:
     u, v = minus(b, a), minus(c, a)
     normal = cross(u, v)
     square = dot(normal, normal)
-    if square > _FLAT * dot(u, u) * dot(v, v):
+    if square > _FLAT_TRIANGLE * dot(u, u) * dot(v, v):
         height = dot(normal, a) / square
         foot = scaled(height, normal)
         a, b, c = minus(a, foot), minus(b, foot), minus(c, foot)
@@ -71,9 +71,9 @@ def _try_face(ws: Workspace, i: int, j: int, m: int, best: float) -> float:
         if of_a >= 0.0 and of_b >= 0.0 and of_c >= 0.0:
             if height * height * square >= best:
                 return best
-            _clear(ws)
+            _clear_weights(ws)
             whole = of_a + of_b + of_c
-            parts = ws.problem.simplex.start + PARTS
+            parts = ws.problem.simplex.start + WEIGHTS
             ws.floats[parts + i], ws.floats[parts + j], ws.floats[parts + m] = of_a / whole, of_b / whole, of_c / whole
             return float(height * height * square)
     best = _try_edge(ws, i, j, best)
@@ -89,7 +89,7 @@ def _volume(ws: Workspace, i: int, j: int, m: int, top: int) -> float:
 
 
 @kernel("f8(ws, i8, i8, i8)")
-def _side(ws: Workspace, i: int, j: int, m: int) -> float:
+def _volume_to_origin(ws: Workspace, i: int, j: int, m: int) -> float:
     """Return six times the signed volume of a triangle with the origin for a top."""
     a = corner(ws, i)
     return -dot(cross(minus(corner(ws, j), a), minus(corner(ws, m), a)), a)
@@ -98,11 +98,11 @@ def _side(ws: Workspace, i: int, j: int, m: int) -> float:
 @kernel("f8(ws, f8)")
 def _try_tetrahedron(ws: Workspace, size: float) -> float:
     """Take the nearest point of a tetrahedron; return its square, 0 where the origin is inside."""
-    flat = abs(_volume(ws, 0, 1, 2, 3)) <= _EMPTY * size * size * size
+    flat = abs(_volume(ws, 0, 1, 2, 3)) <= _FLAT_TETRAHEDRON * size * size * size
     best = math.inf
     for top in range(CORNERS):
         i, j, m = (top + 1) % CORNERS, (top + 2) % CORNERS, (top + 3) % CORNERS
-        if flat or _side(ws, i, j, m) * _volume(ws, i, j, m, top) <= 0.0:
+        if flat or _volume_to_origin(ws, i, j, m) * _volume(ws, i, j, m, top) <= 0.0:
             best = _try_face(ws, i, j, m, best)
     return 0.0 if best == math.inf else best
 
@@ -110,8 +110,8 @@ def _try_tetrahedron(ws: Workspace, size: float) -> float:
 @kernel("i8(ws, i8, f8)")
 def reduce_to_nearest(ws: Workspace, n: int, size: float) -> int:
     """Keep of ``n`` corners those that hold the point nearest to the origin; return how many; 0 if that is inside."""
-    _clear(ws)
-    parts = ws.problem.simplex.start + PARTS
+    _clear_weights(ws)
+    parts = ws.problem.simplex.start + WEIGHTS
     if n == 1:
         ws.floats[parts] = 1.0
     elif n == 2:
@@ -135,6 +135,6 @@ def nearest_point(ws: Workspace, n: int) -> Vector:
     x, y, z = 0.0, 0.0, 0.0
     for i in range(n):
         a = corner(ws, i)
-        part = ws.problem.simplex[PARTS + i]
+        part = ws.problem.simplex[WEIGHTS + i]
         x, y, z = x + part * a[0], y + part * a[1], z + part * a[2]
     return x, y, z

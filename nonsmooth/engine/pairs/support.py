@@ -46,7 +46,7 @@ def turned_back(axes: Floats, v: Vector) -> Vector:
 
 
 @kernel("v3(F, i8, v3)")
-def _on_rings(w: Floats, place: int, n: Vector) -> Vector:
+def _farthest_on_circles(w: Floats, place: int, n: Vector) -> Vector:
     """Return the point of the hull of a part's circles that lies farthest along ``n``; none is the origin."""
     rings = at(w, place + PART_RINGS)
     x, y, z = n
@@ -64,7 +64,7 @@ def _on_rings(w: Floats, place: int, n: Vector) -> Vector:
 
 
 @kernel("v3(F, i8, v3)")
-def _on_norm(w: Floats, place: int, n: Vector) -> Vector:
+def _gradient_of_norm(w: Floats, place: int, n: Vector) -> Vector:
     """Return the gradient of ((|a n_x|^q + |b n_y|^q)^(p/q) + |c n_z|^p)^(1/p) at ``n``."""
     part = part_at(w, place)
     a, b, c = part.semi
@@ -84,7 +84,7 @@ def _on_norm(w: Floats, place: int, n: Vector) -> Vector:
 
 
 @kernel("v3(F, i8, v3)")
-def _added(w: Floats, place: int, n: Vector) -> Vector:
+def _farthest_of_summands(w: Floats, place: int, n: Vector) -> Vector:
     """Return the point of what is added to a part's circles that lies farthest along a unit vector."""
     part = part_at(w, place)
     x, y, z = 0.0, 0.0, 0.0
@@ -96,7 +96,7 @@ def _added(w: Floats, place: int, n: Vector) -> Vector:
             size = math.sqrt(ax * ax + by * by + cz * cz)
             x, y, z = part.semi[0] * ax / size, part.semi[1] * by / size, part.semi[2] * cz / size
         else:
-            x, y, z = _on_norm(w, place, n)
+            x, y, z = _gradient_of_norm(w, place, n)
     return x + part.ball * n[0], y + part.ball * n[1], z + part.ball * n[2]
 
 
@@ -113,15 +113,15 @@ def _farthest(w: Floats, frame_place: int, place: int, n: Vector) -> Vector:
     """Return the point of a part that lies farthest along a unit vector of the world."""
     frame, part = frame_at(w, frame_place), part_at(w, place)
     own = turned_back(part.axes, turned_back(frame.rotation, n))
-    rx, ry, rz = _on_rings(w, place, own)
-    ax, ay, az = _added(w, place, own)
+    rx, ry, rz = _farthest_on_circles(w, place, own)
+    ax, ay, az = _farthest_of_summands(w, place, own)
     x, y, z = turned(frame.rotation, turned(part.axes, (rx + ax, ry + ay, rz + az)))
     mx, my, mz = middle_of(w, frame_place, place)
     return mx + x, my + y, mz + z
 
 
 @kernel("v3(ws, i8, v3)")
-def difference(ws: Workspace, number: int, n: Vector) -> Vector:
+def closest_difference(ws: Workspace, number: int, n: Vector) -> Vector:
     """Return the vector between points of both parts of a pair that is shortest along a unit vector."""
     pair = ws.pairs[number]
     return minus(
@@ -132,11 +132,11 @@ def difference(ws: Workspace, number: int, n: Vector) -> Vector:
 @kernel("f8(ws, i8, v3)")
 def separation_along(ws: Workspace, number: int, n: Vector) -> float:
     """Return s(n) of a pair of bounded parts [m]."""
-    return dot(n, difference(ws, number, n))
+    return dot(n, closest_difference(ws, number, n))
 
 
 @kernel("f8(ws, i8)")
-def height_over(ws: Workspace, number: int) -> float:
+def height_above_plane(ws: Workspace, number: int) -> float:
     """Return the separation of a pair of which the first part is a half-space, exactly [m]."""
     pair = ws.pairs[number]
     frame = frame_at(ws.floats, pair.frame_a)

@@ -20,18 +20,18 @@ from nonsmooth.engine.native.kernel import (
     part_at,
 )
 from nonsmooth.engine.numerics.vectors import distance, dot
-from nonsmooth.engine.pairs.circles import crossing_overlap
-from nonsmooth.engine.pairs.separation import direction_of, parting_direction
-from nonsmooth.engine.pairs.support import height_over, middle_of, separation_along
+from nonsmooth.engine.pairs.discs import crossing_overlap
+from nonsmooth.engine.pairs.separation import best_direction, separating_direction
+from nonsmooth.engine.pairs.support import height_above_plane, middle_of, separation_along
 
 NO_PAIR = -1
 """A contact between shapes that are not looked at."""
-_FAR = 1e3
+_LARGEST_DISPLACEMENT = 1e3
 """After this way [m] ways are counted anew, long before their round-off counts; half-spaces that turn go farther."""
 
 
 @kernel()
-def _ask_contacts(ws: Workspace) -> None:
+def _write_depths_of_contacts(ws: Workspace) -> None:
     """Write how deep the closed contacts of a pair let it overlap, with the normal of the deepest."""
     for number in range(ws.model.n_pairs):
         pair = ws.pairs[number]
@@ -46,7 +46,7 @@ def _ask_contacts(ws: Workspace) -> None:
 
 
 @kernel()
-def _move_carriers(ws: Workspace) -> None:
+def _add_displacements(ws: Workspace) -> None:
     """Add to the way of each carrier how far any point of its parts can be from where it was at the last look."""
     farthest = 0.0
     for number in range(ws.model.n_carriers):
@@ -58,7 +58,7 @@ def _move_carriers(ws: Workspace) -> None:
         carrier.distance += distance(frame.origin, carrier.place) + carrier.radius * math.sqrt(0.5 * square)
         carrier.place = frame.origin
         farthest = max(farthest, carrier.distance)
-    if farthest > _FAR:
+    if farthest > _LARGEST_DISPLACEMENT:
         for number in range(ws.model.n_carriers):
             ws.carriers[number].distance = 0.0
         for number in range(ws.model.n_pairs):
@@ -66,7 +66,7 @@ def _move_carriers(ws: Workspace) -> None:
 
 
 @kernel("f8(ws, i8)")
-def _way(ws: Workspace, number: int) -> float:
+def _displacement_bound(ws: Workspace, number: int) -> float:
     """Return the way of both carriers of a pair [m]: its separation changes by no more."""
     pair = ws.pairs[number]
     return float(ws.carriers[pair.carrier_a].distance + ws.carriers[pair.carrier_b].distance)
@@ -77,7 +77,7 @@ def _known_separation(ws: Workspace, number: int) -> float:
     """Return how far apart a pair is at least, as far as what is known of it tells [m]."""
     pair = ws.pairs[number]
     if part_at(ws.floats, pair.part_a).rings < 0.0:
-        return height_over(ws, number)
+        return height_above_plane(ws, number)
     between = distance(middle_of(ws.floats, pair.frame_b, pair.part_b), middle_of(ws.floats, pair.frame_a, pair.part_a))
     apart = between - part_at(ws.floats, pair.part_a).radius - part_at(ws.floats, pair.part_b).radius
     n = pair.direction
@@ -91,39 +91,39 @@ def _separation(ws: Workspace, number: int, enough: float) -> float:
     """Return the separation of a pair if it is below ``enough``, else a number that is not."""
     pair = ws.pairs[number]
     if part_at(ws.floats, pair.part_a).rings < 0.0:
-        return height_over(ws, number)
+        return height_above_plane(ws, number)
     group = ws.pairs[pair.group]
     if group.is_closed:
         found = separation_along(ws, number, group.normal)
         if found >= enough:
             pair.direction = group.normal
             return float(found)
-    pair.direction = direction_of(ws, number, pair.direction, enough)
+    pair.direction = best_direction(ws, number, pair.direction, enough)
     return float(separation_along(ws, number, pair.direction))
 
 
 @entry_point()
-def look_at_pairs(ws: Workspace) -> None:
+def check_pairs(ws: Workspace) -> None:
     """Find a pair that overlaps by more than its closed contacts say, bodies and contacts being evaluated.
 
     What these say is asked only of a pair that one search does not find apart.
     """
     ws.run.passed_pair, asked, most = -1, False, 0.0
-    _move_carriers(ws)
+    _add_displacements(ws)
     for number in range(ws.model.n_pairs):
-        pair, way = ws.pairs[number], _way(ws, number)
+        pair, way = ws.pairs[number], _displacement_bound(ws, number)
         if way < pair.margin:
             continue
         apart = _known_separation(ws, number)
         if apart < -pair.allowed and part_at(ws.floats, pair.part_a).rings >= 0.0:
-            pair.direction = parting_direction(ws, number, pair.direction)
+            pair.direction = separating_direction(ws, number, pair.direction)
             apart = separation_along(ws, number, pair.direction)
         inside = crossing_overlap(ws, number) if pair.flat == 1 else -apart
         pair.margin = way + apart + (0.0 if pair.flat == 1 else pair.allowed)
         if inside <= pair.allowed:
             continue
         if not asked:
-            _ask_contacts(ws)
+            _write_depths_of_contacts(ws)
             asked = True
         group = ws.pairs[pair.group]
         if pair.flat == 1 and group.is_closed:

@@ -11,29 +11,29 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
-from nonsmooth.engine.bodies.kinematics import UNSEEN, evaluate_geometry, evaluate_jacobian, evaluate_rates
+from nonsmooth.engine.bodies.kinematics import NOT_EVALUATED, evaluate_geometry, evaluate_jacobian, evaluate_rates
 from nonsmooth.engine.contact.forces import resolve
 from nonsmooth.engine.contact.problem import friction_coefficient, slip_coefficient
 from nonsmooth.engine.contact.trial import NO_FORCE, small_force
 from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group
 from nonsmooth.engine.flow.flow import right_hand_side
-from nonsmooth.engine.flow.self_check import EXPLAINED
+from nonsmooth.engine.flow.self_check import ALLOWED
 from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS
 from nonsmooth.engine.memory.modes import NO_RELEASE, Cause, Mode
 from nonsmooth.engine.native.kernel import Workspace, frame_at, kernel
 from nonsmooth.engine.numerics.vectors import dot, length, minus
 
-_PART = 0.01
+_STRETCH = 0.01
 """Way of a contact point in one stretch, in units of the smaller body;"""
-_MOST = 100
+_MOST_STRETCHES = 100
 """so many stretches at most."""
-_FASTER = 3.0
+_LEAST_SPEED_RATIO = 3.0
 """A point that runs is so many times as fast as the bodies at least."""
 
 
 @kernel("i8(ws)")
-def _stretches(ws: Workspace) -> int:
+def _store_displacements(ws: Workspace) -> int:
     """Keep the ways of the contact points from where they were to where they are; return in how many stretches."""
     longest = 0.0
     for i in range(ws.island.n_grouped):
@@ -42,11 +42,11 @@ def _stretches(ws: Workspace) -> int:
         way_b = minus(contact.point_b, contact.leap_start_b)
         contact.leap_a, contact.leap_b = way_a, way_b
         longest = max(longest, dot(way_a, way_a) / contact.size**2, dot(way_b, way_b) / contact.size**2)
-    return min(_MOST, 1 + int(longest**0.5 / _PART))
+    return min(_MOST_STRETCHES, 1 + int(longest**0.5 / _STRETCH))
 
 
 @kernel("void(ws, f8)")
-def _set_up(ws: Workspace, part: float) -> None:
+def _set_up_problem(ws: Workspace, part: float) -> None:
     """Put the active contacts at a ``part`` of their ways, and write what they hold, how they rub, and the rates."""
     ws.problem.acceleration_scale = 0.0
     for a in range(ws.problem.n_active):
@@ -64,7 +64,7 @@ def _set_up(ws: Workspace, part: float) -> None:
             contact.leap_start_b[1] + part * by,
             contact.leap_start_b[2] + part * bz,
         )
-        contact.version_a = UNSEEN
+        contact.version_a = NOT_EVALUATED
         evaluate_rates(ws, c)
         evaluate_jacobian(ws, c)
         speed = length(contact.slip)
@@ -102,12 +102,12 @@ def _release(ws: Workspace) -> int:
 
 
 @kernel("void(ws, f8)")
-def _reflect(ws: Workspace, part: float) -> None:
+def _apply_impulses(ws: Workspace, part: float) -> None:
     """Let the active contacts act at a ``part`` of their ways, without loss but by friction.
 
     What they hold of the velocities changes its sign in the middle of a stretch, at whose ends nothing is left of it.
     """
-    _set_up(ws, part)
+    _set_up_problem(ws, part)
     for _round in range(2 * ws.problem.n_active + 1):
         for i in range(3 * ws.problem.n_active):
             ws.problem.forces[i] = 0.0
@@ -132,7 +132,7 @@ def _reflect(ws: Workspace, part: float) -> None:
 
 
 @kernel()
-def _keep_points(ws: Workspace) -> None:
+def _store_points(ws: Workspace) -> None:
     """Keep where the contact points are at ``y``."""
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     for i in range(ws.island.n_grouped):
@@ -143,7 +143,7 @@ def _keep_points(ws: Workspace) -> None:
 
 
 @kernel("i8(ws, f8, f8)")
-def _runs(ws: Workspace, h: float, rate: float) -> int:
+def _jumping_contact(ws: Workspace, h: float, rate: float) -> int:
     """Return a contact whose point has run in the time ``h``, faster than the bodies go, to where they approach, or -1.
 
     That is by more than a gap ``rate``, the bodies being evaluated at its end.
@@ -157,13 +157,13 @@ def _runs(ws: Workspace, h: float, rate: float) -> int:
         spin_a, spin_b = frame_at(ws.floats, contact.frame_a).spin, frame_at(ws.floats, contact.frame_b).spin
         turning, way = minus(spin_b, spin_a), minus(contact.point_b, contact.leap_start_b)
         speed = length(contact.slip) + contact.size * math.sqrt(dot(turning, turning))
-        if contact.rate[0] < rate and dot(way, way) > (_FASTER * h * speed) ** 2:
+        if contact.rate[0] < rate and dot(way, way) > (_LEAST_SPEED_RATIO * h * speed) ** 2:
             runs = c
     return runs
 
 
 @kernel()
-def measure_noise(ws: Workspace) -> None:
+def evaluate_force_round_off(ws: Workspace) -> None:
     """Write what counts as no force behind a leap: before it, next to the flat place, forces may have had no bound."""
     right_hand_side(ws, ws.island.time, ws.island.y.start, may_choose=False, of_all_bodies=True)
     largest = 0.0
@@ -177,7 +177,7 @@ def measure_noise(ws: Workspace) -> None:
 
 
 @kernel("b1(ws, f8)")
-def leap(ws: Workspace, h: float) -> bool:
+def jump_contact_points(ws: Workspace, h: float) -> bool:
     """Write the state after the time ``h``, too short for steps, to ``y_new``; return 1 if contact points run in it.
 
     ``slopes`` must hold the slope at ``y``, and the closed contacts be grouped.  What the impulses let go is
@@ -188,29 +188,29 @@ def leap(ws: Workspace, h: float) -> bool:
         if contact.is_compliant:
             return False
         contact.release = NO_RELEASE
-    _keep_points(ws)
+    _store_points(ws)
     for i in range(ws.model.n_y):
         ws.step.y_new[i] = ws.island.y[i] + (h * ws.island.slopes[i] if i < ws.model.n_q else 0.0)
     evaluate_bodies(ws, ws.island.time + h, ws.step.y_new.start)
-    if _runs(ws, h, 0.0) < 0:
+    if _jumping_contact(ws, h, 0.0) < 0:
         return False
-    n = _stretches(ws)
+    n = _store_displacements(ws)
     for stretch in range(n):
         for group in range(ws.island.n_groups):
             activate_group(ws, group)
-            _reflect(ws, (stretch + 0.5) / n)
+            _apply_impulses(ws, (stretch + 0.5) / n)
         evaluate_bodies(ws, ws.island.time + h, ws.step.y_new.start)
     return True
 
 
 @kernel("i8(ws)")
-def passed_flat(ws: Workspace) -> int:
+def contact_past_flat_place(ws: Workspace) -> int:
     """Return a held contact whose point ran along a body within the step that was taken, or -1.
 
     Behind it they approach faster than tolerances explain of what is held: a face has fallen flat, and the other side
     of its rim is the lower one.
     """
-    approaches, explained = False, EXPLAINED * ws.tolerance.velocity
+    approaches, explained = False, ALLOWED * ws.tolerance.velocity
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]
         held = not contact.is_compliant and not contact.is_averaged and contact.past_feature_at_end <= 0.0
@@ -218,6 +218,6 @@ def passed_flat(ws: Workspace) -> int:
             approaches = True
     if not approaches:
         return -1
-    _keep_points(ws)
+    _store_points(ws)
     evaluate_bodies(ws, ws.island.time + ws.step.h, ws.step.y_new.start)
-    return _runs(ws, ws.step.h, -explained)
+    return _jumping_contact(ws, ws.step.h, -explained)

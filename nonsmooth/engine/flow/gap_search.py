@@ -13,10 +13,10 @@ from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
 from nonsmooth.engine.flow.clearance import arm_of, fall_of, too_far
 from nonsmooth.engine.flow.deflation import deflated
 from nonsmooth.engine.flow.flight import body_within
-from nonsmooth.engine.flow.flow import slip_guard
+from nonsmooth.engine.flow.flow import value_of_slip_guard
 from nonsmooth.engine.flow.guard_numbers import friction_guard, normal_guard
 from nonsmooth.engine.flow.guards import has_fired
-from nonsmooth.engine.flow.self_check import NEAR, NOUGHT, blame
+from nonsmooth.engine.flow.self_check import ADJACENT, NEGLIGIBLE, fail_check
 from nonsmooth.engine.memory.layout import PARTS
 from nonsmooth.engine.memory.modes import Status
 from nonsmooth.engine.native.kernel import (
@@ -28,16 +28,16 @@ from nonsmooth.engine.native.kernel import (
 )
 from nonsmooth.engine.numerics.vectors import distance
 
-WAY = 0.02
+LARGEST_DISPLACEMENT = 0.02
 """Part of the size of the smaller body that features may move unseen where they do not face each other."""
-_COARSE = 0.125
+_LARGEST_PART = 0.125
 """Part of a step to which the gap of neighbours at rest is looked at."""
-_MOST_LOOKS = 10_000
+_MOST_EVALUATIONS = 10_000
 """Looks at one gap within one step; halving ends long before where a gap closes or is proved to stay open."""
 
 
 @kernel("void(ws, f8, f8, i8)")
-def _put(ws: Workspace, h: float, theta: float, c: int) -> None:
+def _evaluate_geometry_at(ws: Workspace, h: float, theta: float, c: int) -> None:
     """Put the two bodies of a contact where they are at a fraction of the step, and evaluate its geometry."""
     contact = ws.contacts[c]
     ws.step.is_evaluated = True
@@ -56,11 +56,11 @@ def _put(ws: Workspace, h: float, theta: float, c: int) -> None:
 
 
 @kernel("f8(ws, f8, i8)")
-def _largest_fall(ws: Workspace, h: float, c: int) -> float:
+def _acceleration_bound(ws: Workspace, h: float, c: int) -> float:
     """Return how fast the rate of the gap of ``c`` can fall within the step, from how fast it can at its ends."""
     contact = ws.contacts[c]
     if contact.acceleration_bound_at_start[0] < 0.0:
-        _put(ws, h, 0.0, c)
+        _evaluate_geometry_at(ws, h, 0.0, c)
         contact.acceleration_bound_at_start = fall_of(ws, c, ws.island.slopes.start + ws.model.n_q)
     (first, grows_first, _), (last, grows_last, _) = (
         contact.acceleration_bound_at_start,
@@ -71,7 +71,7 @@ def _largest_fall(ws: Workspace, h: float, c: int) -> float:
 
 
 @kernel("f8(ws, i8, f8)")
-def _above_start(ws: Workspace, c: int, gap: float) -> float:
+def _gap_above_start(ws: Workspace, c: int, gap: float) -> float:
     """Return the gap, less what it started from if that was zero."""
     guard = ws.guards[normal_guard(c)]
     return float(gap - guard.base) if guard.is_deflated else gap
@@ -86,38 +86,38 @@ def _write_gap_guard(ws: Workspace, c: int, elapsed: float) -> None:
 
 
 @kernel("void(ws, f8, f8, i8)")
-def look_at_gap(ws: Workspace, h: float, theta: float, c: int) -> None:
+def evaluate_gap_guard(ws: Workspace, h: float, theta: float, c: int) -> None:
     """Evaluate the gap of ``c`` alone at a fraction of the step, and write its guard."""
-    _put(ws, h, theta, c)
+    _evaluate_geometry_at(ws, h, theta, c)
     evaluate_rates(ws, c)
     _write_gap_guard(ws, c, theta * h)
 
 
 @kernel("void(ws, f8, f8, i8)")
-def look_at_slip(ws: Workspace, h: float, theta: float, c: int) -> None:
+def evaluate_slip_guard(ws: Workspace, h: float, theta: float, c: int) -> None:
     """Evaluate the slip of the rigid contact ``c`` alone at a fraction of the step, and write its guard."""
-    _put(ws, h, theta, c)
+    _evaluate_geometry_at(ws, h, theta, c)
     evaluate_rates(ws, c)
     i = friction_guard(ws, c)
-    ws.guards[i].value = deflated(ws, i, slip_guard(ws, c), theta * h)
+    ws.guards[i].value = deflated(ws, i, value_of_slip_guard(ws, c), theta * h)
 
 
 @kernel("void(ws, f8, f8, i8, i8)")
-def _keep(ws: Workspace, h: float, theta: float, c: int, n: int) -> None:
+def _store_end(ws: Workspace, h: float, theta: float, c: int, n: int) -> None:
     """Keep end ``n`` of the parts of the step, at whose fraction ``theta`` the gap of ``c`` has been evaluated."""
     contact, guard, end = ws.contacts[c], ws.guards[normal_guard(c)], part_end(ws.floats, ws.step.part_ends.start, n)
     _write_gap_guard(ws, c, theta * h)
     if guard.value > 0.0:
         guard.is_armed = True
-    end.theta, end.gap, end.rate = theta, _above_start(ws, c, contact.gap), contact.gap_rate
+    end.theta, end.gap, end.rate = theta, _gap_above_start(ws, c, contact.gap), contact.gap_rate
     end.past, end.arm = contact.past_feature, arm_of(ws, c)
 
 
 @kernel("void(ws, f8, f8, i8, i8)")
-def _look(ws: Workspace, h: float, theta: float, c: int, n: int) -> None:
+def _evaluate_end(ws: Workspace, h: float, theta: float, c: int, n: int) -> None:
     """Evaluate the gap of ``c`` at a fraction of the step and keep it as end ``n`` of the parts of it."""
-    look_at_gap(ws, h, theta, c)
-    _keep(ws, h, theta, c, n)
+    evaluate_gap_guard(ws, h, theta, c)
+    _store_end(ws, h, theta, c, n)
 
 
 @kernel("b1(F, i8, i8, f8, f8, f8, f8, f8, f8)")
@@ -164,20 +164,20 @@ def _first_dip(ws: Workspace, h: float, c: int, high: float, stands: bool) -> fl
         1,
         0,
     )
-    left.theta, left.gap = 0.0, _above_start(ws, c, contact.gap_at_start)
+    left.theta, left.gap = 0.0, _gap_above_start(ws, c, contact.gap_at_start)
     left.rate, left.past, left.arm = contact.gap_rate_at_start, contact.past_feature_at_start, contact.offset_at_start
     speed = contact.speed_at_start + contact.speed_at_end
     if high < 1.0:
         if stands:
-            _keep(ws, h, high, c, 1)
+            _store_end(ws, h, high, c, 1)
         else:
-            _look(ws, h, high, c, 1)
+            _evaluate_end(ws, h, high, c, 1)
         if too_far(left.gap, left.past, right.gap, right.past, high * h * speed):
             return 0.0
     else:
-        right.theta, right.gap = 1.0, _above_start(ws, c, contact.gap_at_end)
+        right.theta, right.gap = 1.0, _gap_above_start(ws, c, contact.gap_at_end)
         right.rate, right.past, right.arm = contact.gap_rate_at_end, contact.past_feature_at_end, contact.offset_at_end
-    fall = _largest_fall(ws, h, c)
+    fall = _acceleration_bound(ws, h, c)
     lever = min(contact.support_radius_a, contact.support_radius_b)
     turning = contact.turning_bound_at_start + contact.turning_bound_at_end if lever > 0.0 else 0.0
     while n > 0:
@@ -188,20 +188,20 @@ def _first_dip(ws: Workspace, h: float, c: int, high: float, stands: bool) -> fl
             and n < PARTS
         ):
             gaps, rates = max(abs(left.gap), abs(right.gap)), max(abs(left.rate), abs(right.rate))
-            rests = gaps <= NEAR * ws.tolerance.gap and rates <= NEAR * ws.tolerance.velocity
+            rests = gaps <= ADJACENT * ws.tolerance.gap and rates <= ADJACENT * ws.tolerance.velocity
             # closed from the start and moving with what holds the bodies: judged as has_fired judges it
             closed = ws.guards[normal_guard(c)].is_deflated
-            rests = rests or (closed and rates <= NOUGHT * ws.tolerance.velocity)
+            rests = rests or (closed and rates <= NEGLIGIBLE * ws.tolerance.velocity)
             astray = left.past > 0.0 or right.past > 0.0
-            enough = span <= _COARSE and (rests or (astray and span * h * speed <= WAY * contact.size))
+            enough = span <= _LARGEST_PART and (rests or (astray and span * h * speed <= LARGEST_DISPLACEMENT * contact.size))
             if span * h > ws.tolerance.time and not enough:
                 n += 1
                 ws.totals.n_gap_evaluations += 1
                 looks += 1
-                if looks > _MOST_LOOKS:
-                    blame(ws, Status.GAP_UNDECIDED, c, left.gap, ws.tolerance.gap)
+                if looks > _MOST_EVALUATIONS:
+                    fail_check(ws, Status.GAP_UNDECIDED, c, left.gap, ws.tolerance.gap)
                     return 0.0
-                _look(ws, h, left.theta + 0.5 * span, c, n)
+                _evaluate_end(ws, h, left.theta + 0.5 * span, c, n)
                 if has_fired(ws, normal_guard(c)):
                     return float(part_end(ws.floats, ws.step.part_ends.start, n).theta)
                 continue
@@ -228,5 +228,5 @@ def first_closing(ws: Workspace, h: float, high: float, asked: int) -> float:
             found = high = theta
             stands = False
         elif ws.step.is_evaluated and (high == 1.0 or c == asked):
-            _look(ws, h, high, c, 0)
+            _evaluate_end(ws, h, high, c, 0)
     return found

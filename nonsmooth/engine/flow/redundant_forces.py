@@ -18,7 +18,7 @@ from nonsmooth.engine.native.kernel import Workspace, kernel
 
 
 @kernel("b1(ws)")
-def choose_anew(ws: Workspace) -> bool:
+def choose_forces_again(ws: Workspace) -> bool:
     """Choose the forces that are not unique anew; true if all closed contacts can keep their bounds.
 
     A second time within the time tolerance there is no choice: then all forces vanish.
@@ -31,7 +31,7 @@ def choose_anew(ws: Workspace) -> bool:
 
 
 @kernel("void(ws, f8)")
-def blend_choices(ws: Workspace, theta: float) -> None:
+def blend_chosen_forces(ws: Workspace, theta: float) -> None:
     """Take the forces between those chosen at the start and the end of the step at the fraction ``theta`` of it."""
     if not ws.step.is_blended:
         return
@@ -56,7 +56,7 @@ def _choose_at(ws: Workspace, elapsed: float, y: int) -> bool:
 
 
 @kernel("b1(ws)")
-def _passes_bound(ws: Workspace) -> bool:
+def _exceeds_bound(ws: Workspace) -> bool:
     """Return 1 if a force that is chosen has passed its bound."""
     for i in range(first_own_guard(ws)):
         if is_of_redundant_force(ws, i) and has_fired(ws, i):
@@ -71,7 +71,7 @@ def choose_at_end(ws: Workspace, h: float) -> None:
     The guards must be written there, and are for the choice.
     """
     ws.step.is_blended = False
-    if ws.island.last_choice != ws.island.time or ws.island.stage_time > 0.0 or not _passes_bound(ws):
+    if ws.island.last_choice != ws.island.time or ws.island.stage_time > 0.0 or not _exceeds_bound(ws):
         return
     for c in range(ws.island.n_contacts):
         contact = ws.contacts[c]
@@ -88,7 +88,7 @@ def choose_at_end(ws: Workspace, h: float) -> None:
 
 
 @kernel("b1(ws, f8)")
-def choices_bend(ws: Workspace, high: float) -> bool:
+def can_choose_within(ws: Workspace, high: float) -> bool:
     """Return 1 if forces can be chosen at the fraction ``high`` of the step though those in between pass a bound there.
 
     Where they have no room but that of one value the motion bends it, the less the shorter the step is; within the time

@@ -7,18 +7,18 @@ are one, and the one that approaches more stands for it.
 
 from __future__ import annotations
 
-from nonsmooth.engine.bodies.compliance import begin_contact
+from nonsmooth.engine.bodies.compliance import start_inner_states
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.vectors import dot, minus
 
-_SAME = 1e-5
+_LARGEST_DIFFERENCE = 1e-5
 """Difference of normals, and of places in units of the smaller body, up to which contacts are one: the share of an
 approach that its square is of an energy is less than what is promised of one."""
 
 
 @kernel("b1(ws, i8, i8)")
-def _is_twin(ws: Workspace, c: int, other: int) -> bool:
+def _coincide(ws: Workspace, c: int, other: int) -> bool:
     """Return 1 if two rigid contacts of the same frames are at one place."""
     one, two = ws.contacts[c], ws.contacts[other]
     if c == other or one.frame_a != two.frame_a or one.frame_b != two.frame_b:
@@ -26,16 +26,16 @@ def _is_twin(ws: Workspace, c: int, other: int) -> bool:
     if one.is_compliant or two.is_compliant:
         return False
     turned, moved = minus(one.normal, two.normal), minus(one.point_b, two.point_b)
-    return dot(turned, turned) <= _SAME**2 and dot(moved, moved) <= (_SAME * one.size) ** 2
+    return dot(turned, turned) <= _LARGEST_DIFFERENCE**2 and dot(moved, moved) <= (_LARGEST_DIFFERENCE * one.size) ** 2
 
 
 @kernel("i8(ws, i8)")
-def closed_twin(ws: Workspace, c: int) -> int:
+def closed_coincident(ws: Workspace, c: int) -> int:
     """Return a closed contact at the place of ``c`` that does not approach, or -1."""
     for other in range(ws.island.n_contacts):
         contact = ws.contacts[other]
         closed = contact.mode != Mode.OPEN and contact.rate[0] >= -ws.tolerance.velocity
-        if closed and _is_twin(ws, c, other):
+        if closed and _coincide(ws, c, other):
             return other
     return -1
 
@@ -49,24 +49,24 @@ def has_replaced(ws: Workspace, c: int) -> bool:
     stood, stands = False, False
     for other in range(ws.island.n_contacts):
         contact = ws.contacts[other]
-        if other == c or _is_twin(ws, c, other):
+        if other == c or _coincide(ws, c, other):
             stands = stands or contact.mode != Mode.OPEN
             stood = stood or contact.code_before != 0
     return stood and stands
 
 
 @kernel("b1(ws, i8)")
-def take_over(ws: Workspace, c: int) -> bool:
+def replace_coincident(ws: Workspace, c: int) -> bool:
     """Close a contact in place of those at its place; return 1, or 0 if there are none."""
     contact = ws.contacts[c]
-    twin, taken = closed_twin(ws, c), False
+    twin, taken = closed_coincident(ws, c), False
     while twin >= 0:
         if not taken:
             if contact.mode == Mode.OPEN:
-                begin_contact(ws, c)
+                start_inner_states(ws, c)
             contact.mode = ws.contacts[twin].mode
             taken = True
         ws.contacts[twin].mode = Mode.OPEN
         ws.contacts[twin].is_in_problem = False
-        twin = closed_twin(ws, c)
+        twin = closed_coincident(ws, c)
     return taken

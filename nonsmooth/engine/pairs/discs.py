@@ -25,7 +25,7 @@ def _centre(w: Floats, frame_place: int, place: int) -> Vector:
 
 
 @kernel("v3(F, i8, i8, v3)")
-def _seen_from(w: Floats, frame_place: int, place: int, v: Vector) -> Vector:
+def _in_axes_of(w: Floats, frame_place: int, place: int, v: Vector) -> Vector:
     """Return a vector of the world in the axes of a part."""
     return turned_back(part_at(w, place).axes, turned_back(frame_at(w, frame_place).rotation, v))
 
@@ -58,7 +58,7 @@ def crossing_overlap(ws: Workspace, number: int) -> float:
     """
     pair = ws.pairs[number]
     between = minus(_centre(ws.floats, pair.frame_b, pair.part_b), _centre(ws.floats, pair.frame_a, pair.part_a))
-    current = _seen_from(ws.floats, pair.frame_a, pair.part_a, between)
+    current = _in_axes_of(ws.floats, pair.frame_a, pair.part_a, between)
     previous = pair.between if pair.margin > 0.0 else current
     pair.between = current
     offset = _offset_in_plane(previous, current, pair.allowed)
@@ -67,7 +67,7 @@ def crossing_overlap(ws: Workspace, number: int) -> float:
     normal = turned(
         frame_at(ws.floats, pair.frame_b).rotation, turned(part_at(ws.floats, pair.part_b).axes, (0.0, 0.0, 1.0))
     )
-    tilt = _seen_from(ws.floats, pair.frame_a, pair.part_a, normal)
+    tilt = _in_axes_of(ws.floats, pair.frame_a, pair.part_a, normal)
     radius_a, radius_b = at(ws.floats, pair.part_a + PART_RINGS)[3], at(ws.floats, pair.part_b + PART_RINGS)[3]
     parallel = math.hypot(tilt[0], tilt[1]) * radius_b <= pair.allowed
     return float(max(0.0, radius_a + (radius_b if parallel else 0.0) - offset))

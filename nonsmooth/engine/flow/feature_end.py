@@ -18,7 +18,7 @@ _DOUBLINGS = 3
 
 
 @kernel("i8(ws)")
-def end_features(ws: Workspace) -> int:
+def find_feature_end(ws: Workspace) -> int:
     """Return a closed contact whose features end or change within the least times, the state there ``y_new``, or -1.
 
     So short a way, the time ``h``, is straight.  ``slopes`` must hold the slope at ``y``, and the closed contacts be
