@@ -166,7 +166,7 @@ def lay_part_pairs(memory: Memory, heap: Heap, pairs: Sequence[PartPair], places
             "part_b": starts[pair.shapes[1]],
             "group": pair.group,
             "contact": pair.contacts[0],
-            "flat": all(part.is_flat for part in pair.parts),
+            "are_both_flat": all(part.is_flat for part in pair.parts),
             "allowed": _PASSED * pair.size,
             "size": pair.size,
         }

@@ -140,7 +140,7 @@ def side_entries(w: Floats, frame: int, first: int, axis: Vector, moment: Vector
 
 @kernel("void(F, i8, v3, v3, i8, i8)")
 def side_row(w: Floats, frame: int, point: Vector, axis: Vector, n_u: int, out: int) -> None:
-    """Write the row of one body to ``out``: (axis, rho x axis) . J, with rho from the origin of its frame to the point."""
+    """Write the row of one body to ``out``: (axis, rho x axis) . J, where rho leads from its frame to the point."""
     if n_u == 0:
         return
     moment, first = cross(minus(point, frame_at(w, frame).origin), axis), frame + FRAME
@@ -154,7 +154,10 @@ def side_row(w: Floats, frame: int, point: Vector, axis: Vector, n_u: int, out: 
 
 @kernel("void(F, i8, v3, v3, v3, i8, i8)")
 def side_wrench(w: Floats, frame: int, point: Vector, force: Vector, moment: Vector, n_u: int, out: int) -> None:
-    """Write the row of one body to ``out``: the generalised force of a force at a point and a moment, in world components."""
+    """Write the row of one body to ``out``: the generalised force of a force at a point and a moment.
+
+    Force, moment and point are in world components.
+    """
     side_row(w, frame, point, force, n_u, out)
     for j in range(n_u):
         o = frame + FRAME + j + 3 * n_u
@@ -223,7 +226,7 @@ def push_response(ws: Workspace, c: int, s: int, force: float, du: int) -> None:
 
 @kernel("f8(ws, i8, i8, i8)")
 def row(ws: Workspace, c: int, r: int, du: int) -> float:
-    """Product of row ``r`` (n, t1, t2) of the Jacobians of contact ``c`` with the velocities or accelerations at ``du``."""
+    """Product of row ``r`` (n, t1, t2) of the Jacobians of contact ``c`` with velocities or accelerations ``du``."""
     contact = ws.contacts[c]
     a, b = ws.articulations[contact.articulation_a], ws.articulations[contact.articulation_b]
     total = product(ws.floats, 0.0, contact.jacobian_a + r * a.n_u, du + a.u, a.n_u)

@@ -1,10 +1,16 @@
-"""The look at pairs: whether bodies between which contacts are declared have passed into each other.
+"""Overlap check: whether bodies between which contacts are declared have passed into each other.
 
-Features of bodies can miss each other; their pair cannot.  Where a step begins, for each pair of convex parts whose
-balls meet, the separation along the direction that parted them last is taken first, then that which one search finds.
-Only of a pair that overlaps are its contacts asked how deep they let it, and is the largest separation looked for.  A
-pair that was found apart is not looked at again before its parts have moved so far that they may meet.  Discs without
-thickness overlap by no depth: of these it is asked whether one went through the other.
+The contacts of two shapes can miss each other if a feature is wrong or a step too long. The separation of two convex
+parts cannot. So at the start of each step every pair of convex parts is checked, from cheap to costly:
+
+1. A pair that was apart is not evaluated again until its parts have moved so far that they may meet. Each carrier
+   accumulates a bound of the displacement of its points.
+2. The separation along the last direction, or of the bounding spheres, is a lower bound.
+3. One search gives a better direction (:mod:`nonsmooth.engine.pairs.separation`).
+4. If the parts still overlap, the closed contacts of the pair give the depth that is allowed, and the direction of
+   largest separation is searched for.
+
+Discs without thickness have no depth of overlap (:mod:`nonsmooth.engine.pairs.discs`).
 """
 
 from __future__ import annotations
@@ -13,6 +19,7 @@ import math
 
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import (
+    Pair,
     Workspace,
     entry_point,
     frame_at,
@@ -25,19 +32,17 @@ from nonsmooth.engine.pairs.separation import best_direction, separating_directi
 from nonsmooth.engine.pairs.support import height_above_plane, middle_of, separation_along
 
 NO_PAIR = -1
-"""A contact between shapes that are not looked at."""
+"""Number in place of a pair for a contact between shapes whose overlap is not checked."""
 _LARGEST_DISPLACEMENT = 1e3
-"""After this way [m] ways are counted anew, long before their round-off counts; half-spaces that turn go farther."""
+"""Displacement bound [m] at which all bounds restart from zero, so that round-off of their sum stays small."""
 
 
 @kernel()
 def _write_depths_of_contacts(ws: Workspace) -> None:
-    """Write how deep the closed contacts of a pair let it overlap, with the normal of the deepest."""
-    for number in range(ws.model.n_pairs):
-        pair = ws.pairs[number]
+    """Write the depth [m] and the normal of the deepest closed contact of every pair."""
+    for pair in ws.pairs:
         pair.is_closed, pair.deepest = False, 0.0
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
+    for contact in ws.contacts:
         if contact.mode == Mode.OPEN or contact.pair == NO_PAIR:
             continue
         pair = ws.pairs[contact.pair]
@@ -47,10 +52,13 @@ def _write_depths_of_contacts(ws: Workspace) -> None:
 
 @kernel()
 def _add_displacements(ws: Workspace) -> None:
-    """Add to the way of each carrier how far any point of its parts can be from where it was at the last look."""
+    """Add to the distance of each carrier a bound of the displacement of its points since the last evaluation [m].
+
+    A rotation by the angle a displaces a point at the radius r by 2 r sin(a / 2). This is r over the square root of two
+    times the Frobenius norm of the change of the axes.
+    """
     farthest = 0.0
-    for number in range(ws.model.n_carriers):
-        carrier = ws.carriers[number]
+    for carrier in ws.carriers:
         frame, square = frame_at(ws.floats, carrier.frame), 0.0
         for i in range(9):
             square += (frame.rotation[i] - carrier.axes[i]) ** 2
@@ -59,24 +67,23 @@ def _add_displacements(ws: Workspace) -> None:
         carrier.place = frame.origin
         farthest = max(farthest, carrier.distance)
     if farthest > _LARGEST_DISPLACEMENT:
-        for number in range(ws.model.n_carriers):
-            ws.carriers[number].distance = 0.0
-        for number in range(ws.model.n_pairs):
-            ws.pairs[number].margin = 0.0
+        for carrier in ws.carriers:
+            carrier.distance = 0.0
+        for pair in ws.pairs:
+            pair.margin = 0.0
 
 
-@kernel("f8(ws, i8)")
-def _displacement_bound(ws: Workspace, number: int) -> float:
-    """Return the way of both carriers of a pair [m]: its separation changes by no more."""
-    pair = ws.pairs[number]
+@kernel("f8(ws, Pair)")
+def _displacement_bound(ws: Workspace, pair: Pair) -> float:
+    """Bound of the displacement of both parts of a pair [m]. Its separation changes by no more."""
     return float(ws.carriers[pair.carrier_a].distance + ws.carriers[pair.carrier_b].distance)
 
 
 @kernel("f8(ws, i8)")
 def _known_separation(ws: Workspace, number: int) -> float:
-    """Return how far apart a pair is at least, as far as what is known of it tells [m]."""
+    """Lower bound of the separation of a pair [m], without a search."""
     pair = ws.pairs[number]
-    if part_at(ws.floats, pair.part_a).rings < 0.0:
+    if _has_half_space(ws, pair):
         return height_above_plane(ws, number)
     between = distance(middle_of(ws.floats, pair.frame_b, pair.part_b), middle_of(ws.floats, pair.frame_a, pair.part_a))
     apart = between - part_at(ws.floats, pair.part_a).radius - part_at(ws.floats, pair.part_b).radius
@@ -86,11 +93,17 @@ def _known_separation(ws: Workspace, number: int) -> float:
     return float(separation_along(ws, number, n))
 
 
+@kernel("b1(ws, Pair)")
+def _has_half_space(ws: Workspace, pair: Pair) -> bool:
+    """True if the first part of a pair is a half-space."""
+    return part_at(ws.floats, pair.part_a).rings < 0.0
+
+
 @kernel("f8(ws, i8, f8)")
 def _separation(ws: Workspace, number: int, enough: float) -> float:
-    """Return the separation of a pair if it is below ``enough``, else a number that is not."""
+    """Largest separation found of a pair [m]. The search stops at a value of ``enough`` or more."""
     pair = ws.pairs[number]
-    if part_at(ws.floats, pair.part_a).rings < 0.0:
+    if _has_half_space(ws, pair):
         return height_above_plane(ws, number)
     group = ws.pairs[pair.group]
     if group.is_closed:
@@ -104,32 +117,40 @@ def _separation(ws: Workspace, number: int, enough: float) -> float:
 
 @entry_point()
 def check_pairs(ws: Workspace) -> None:
-    """Find a pair that overlaps by more than its closed contacts say, bodies and contacts being evaluated.
+    """Find the pair that overlaps by most beyond the depth of its closed contacts, after bodies and contacts.
 
-    What these say is asked only of a pair that one search does not find apart.
+    Writes its number to ``run.passed_pair``, or ``NO_PAIR``, and its depth and the depth that is allowed [m].
     """
-    ws.run.passed_pair, asked, most = -1, False, 0.0
+    ws.run.passed_pair, are_depths_known, most = NO_PAIR, False, 0.0
     _add_displacements(ws)
-    for number in range(ws.model.n_pairs):
-        pair, way = ws.pairs[number], _displacement_bound(ws, number)
-        if way < pair.margin:
+    for pair in ws.pairs:
+        if _displacement_bound(ws, pair) < pair.margin:
             continue
-        apart = _known_separation(ws, number)
-        if apart < -pair.allowed and part_at(ws.floats, pair.part_a).rings >= 0.0:
-            pair.direction = separating_direction(ws, number, pair.direction)
-            apart = separation_along(ws, number, pair.direction)
-        inside = crossing_overlap(ws, number) if pair.flat == 1 else -apart
-        pair.margin = way + apart + (0.0 if pair.flat == 1 else pair.allowed)
-        if inside <= pair.allowed:
+        depth = _depth(ws, pair)
+        if depth <= pair.allowed:
             continue
-        if not asked:
+        if not are_depths_known:
             _write_depths_of_contacts(ws)
-            asked = True
-        group = ws.pairs[pair.group]
-        if pair.flat == 1 and group.is_closed:
+            are_depths_known = True
+        group, are_discs = ws.pairs[pair.group], pair.are_both_flat
+        if are_discs and group.is_closed:
             continue
-        explained = group.deepest - pair.allowed
-        found = -inside if pair.flat == 1 else _separation(ws, number, explained)
-        if explained - found > most:
-            most = explained - found
-            ws.run.passed_pair, ws.run.passed_depth, ws.run.passed_allowed = number, -found, -explained
+        allowed = group.deepest - pair.allowed
+        found = -depth if are_discs else _separation(ws, pair.index, allowed)
+        if allowed - found > most:
+            most = allowed - found
+            ws.run.passed_pair, ws.run.passed_depth, ws.run.passed_allowed = pair.index, -found, -allowed
+
+
+@kernel("f8(ws, Pair)")
+def _depth(ws: Workspace, pair: Pair) -> float:
+    """Depth of the overlap of a pair after one search [m], negative if it is apart. Writes the margin of the pair."""
+    number = pair.index
+    apart = _known_separation(ws, number)
+    if apart < -pair.allowed and not _has_half_space(ws, pair):
+        pair.direction = separating_direction(ws, number, pair.direction)
+        apart = separation_along(ws, number, pair.direction)
+    are_discs = pair.are_both_flat
+    depth = crossing_overlap(ws, number) if are_discs else -apart
+    pair.margin = _displacement_bound(ws, pair) + apart + (0.0 if are_discs else pair.allowed)
+    return float(depth)
