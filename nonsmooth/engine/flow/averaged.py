@@ -1,4 +1,9 @@
-"""Averaged forces as time passes: where an averaging ends, and the next one of the same contacts begins."""
+"""Averaged forces over time: the end of one averaging span, and the start of the next.
+
+Averaged forces are a time-stepping fallback for an island whose instantaneous forces lead to an accumulation of events.
+They are constant over a span of about one contact time (:mod:`nonsmooth.engine.contact.mean_forces`). At its end the
+contacts get the modes that the step of the fallback predicts, and the next span starts.
+"""
 
 from __future__ import annotations
 
@@ -19,20 +24,25 @@ from nonsmooth.engine.native.kernel import Workspace, kernel
 
 @kernel()
 def end_averaging_span(ws: Workspace) -> None:
-    """Take the modes that averaged forces were to end in, where they end, the rates there being at hand."""
+    """Give the contacts of averaged forces the modes at the end of their span, and put them on their constraints.
+
+    Their rates must be those at the end of the span.
+    """
     measure_spans(ws)
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
+    for contact in ws.contacts:
         if contact.is_averaged and contact.mode != Mode.OPEN:
             contact.mode = contact.mode_after_averaging
     ws.totals.closing_loss += project_closed(ws, at_event=True, averaged=True)
-    for c in range(ws.island.n_contacts):
-        ws.contacts[c].mean_gap_change = 0.0
+    for contact in ws.contacts:
+        contact.mean_gap_change = 0.0
 
 
 @kernel("void(ws, b1)")
 def start_averaging_span(ws: Workspace, follows: bool) -> None:
-    """Find the mean forces of the closed contacts that are averaged, from now on; after the end of the last (1)."""
+    """Find the mean forces of the islands that are averaged, from the present time on.
+
+    A span that follows another one may be longer than a first one.
+    """
     ws.island.averaged_until = math.inf
     group_closed(ws)
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)

@@ -1,9 +1,10 @@
-"""The instant in which the features of a closed contact end, or change, where no step leads.
+"""End or change of the features of a closed contact, if no step leads there.
 
-A contact is at the nearest points of two features, a local minimum of their distance.  Where that minimum merges with
-another one and vanishes, its point runs ever faster, and what the features report behind jumps by the size of the
-bodies.  So does the depth of a corner where it leaves another body by its cap in place of its side, and with it the
-force of a spring.  No step crosses that: a stage behind it meets another force.
+A contact is at the nearest points of two features, a local minimum of their distance. If that minimum merges with
+another one and vanishes, its point becomes infinitely fast, and the gap of the features behind it jumps by the size of
+the bodies. The depth of a corner jumps in the same way if it leaves another body by its cap instead of its side, and so
+does the force of a spring. No step crosses such a jump, because its stages beyond it meet another force. So steps
+shrink to the time tolerance in front of it. Then straight lines over a few time tolerances find the features that end.
 """
 
 from __future__ import annotations
@@ -11,18 +12,19 @@ from __future__ import annotations
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry
 from nonsmooth.engine.flow.guard_values import feature_guard
+from nonsmooth.engine.memory.modes import NO_CONTACT
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
 _DOUBLINGS = 3
-"""Steps shrink by a factor of five at once, so that the last one that failed is up to five tolerances long."""
+"""Doublings of the time tolerance that are tried. A step shrinks by at most five at once, so one of five has failed."""
 
 
 @kernel("i8(ws)")
 def find_feature_end(ws: Workspace) -> int:
-    """Return a closed contact whose features end or change within the least times, the state there ``y_new``, or -1.
+    """Closed contact whose features end or change within a few time tolerances, or ``NO_CONTACT``.
 
-    So short a way, the time ``h``, is straight.  ``slopes`` must hold the slope at ``y``, and the closed contacts be
-    grouped.
+    The time to the end is written to ``step.h`` [s], the state there to ``y_new``. ``slopes`` must hold the slope at
+    ``y``, and the closed contacts must be grouped.
     """
     ws.step.h = ws.tolerance.time
     for _doubling in range(_DOUBLINGS + 1):
@@ -35,4 +37,4 @@ def find_feature_end(ws: Workspace) -> int:
             if feature_guard(ws, ws.contacts[c]) < 0.0:
                 return c
         ws.step.h *= 2.0
-    return -1
+    return NO_CONTACT
