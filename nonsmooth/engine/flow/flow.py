@@ -53,8 +53,8 @@ WRONG_FORCE = -2.0
 def right_hand_side(ws: Workspace, t: float, y: int, may_choose: bool, of_all_bodies: bool) -> bool:
     """Evaluate bodies, closed contacts, their forces and the accelerations ``du``, at time ``t`` [s] and state ``y``.
 
-    These are those of all bodies, or of those that the integrator steps. The closed contacts must be grouped. If it
-    ``may_choose``, redundant forces are chosen anew. False if in some island no choice keeps every bound.
+    The bodies are all, or those that the integrator steps. The closed contacts must be grouped. If it ``may_choose``,
+    redundant forces are chosen anew. False if in some island no choice keeps every bound.
     """
     keeps_bounds = True
     ws.island.singular_contact = -1
@@ -172,7 +172,7 @@ def _set_unknowns(ws: Workspace, active: ActiveContact, y: int) -> None:
 
 @kernel("f8(ws, i8)")
 def value_of_normal_guard(ws: Workspace, c: int) -> float:
-    """Normal guard of the closed contact ``c``: its normal force [N], or the distance of a compliant one to its reach [m].
+    """Normal guard of the closed contact ``c``: normal force [N], or distance of a compliant one to its reach [m].
 
     Averaged forces end no mode, so their guard is 1. So is that of a compliant contact past the end of its features:
     its gap is a substitute there, and bodies may still overlap. The end of features is an event of its own.
@@ -238,7 +238,10 @@ def slope(ws: Workspace, t: float, y: int, out: int, may_choose: bool, of_all_bo
 
 @kernel("f8(ws, i8, i8, b1)")
 def _write_slope_of_bodies(ws: Workspace, y: int, out: int, of_all_bodies: bool) -> float:
-    """Write coordinate rates and accelerations of the bodies to ``out``. Power of the forces on integrated bodies [W]."""
+    """Write coordinate rates and accelerations of the bodies to ``out``. Power of the forces on them [W].
+
+    Bodies in ballistic motion have no part in the power. Theirs is known in closed form.
+    """
     power = 0.0
     for i in range(ws.model.n_bodies if of_all_bodies else ws.island.n_integrated):
         body = ws.bodies[i if of_all_bodies else ws.island.integrated[i]]

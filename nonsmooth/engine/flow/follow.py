@@ -90,7 +90,7 @@ def _part_before_reversal(ws: Workspace) -> float:
 
 @kernel("f8(ws, f8)")
 def _find_step(ws: Workspace, h: float) -> float:
-    """Try steps of ``h`` [s] and less until one meets the tolerance and reverses no slip. Its length, or ``_NO_STEP``."""
+    """Try steps of ``h`` [s] and less until one meets the tolerance and reverses no slip. Its length, or -1."""
     while True:
         error = try_length(ws, h)
         if ws.request.is_interrupted:

@@ -10,11 +10,15 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.flow.arming import arm_further, keep_end
-from nonsmooth.engine.flow.redundant_forces import blend_chosen_forces, choose_at_end
 from nonsmooth.engine.flow.clearance import bound_speeds, find_doubtful
 from nonsmooth.engine.flow.deflation import deflate
-from nonsmooth.engine.flow.gap_search import LARGEST_DISPLACEMENT, first_closing, evaluate_gap_guard, evaluate_slip_guard
 from nonsmooth.engine.flow.flight import state_within
+from nonsmooth.engine.flow.gap_search import (
+    LARGEST_DISPLACEMENT,
+    evaluate_gap_guard,
+    evaluate_slip_guard,
+    first_closing,
+)
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
     first_own_guard,
@@ -25,7 +29,8 @@ from nonsmooth.engine.flow.guard_numbers import (
 )
 from nonsmooth.engine.flow.guard_values import evaluate_guards, evaluate_motion, write_guards
 from nonsmooth.engine.flow.guards import NO_GUARD, DependsOn, first_fired, is_gap, sign_depends_on
-from nonsmooth.engine.flow.self_check import ALLOWED, ADJACENT, allowed_gap
+from nonsmooth.engine.flow.redundant_forces import blend_chosen_forces, choose_at_end
+from nonsmooth.engine.flow.self_check import ADJACENT, ALLOWED, allowed_gap
 from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.layout import LAST_STAGE, PARTS
 from nonsmooth.engine.memory.modes import Mode

@@ -36,7 +36,7 @@ _LEAST_SPEED_RATIO = 3.0
 
 @kernel("i8(ws)")
 def _store_displacements(ws: Workspace) -> int:
-    """Store the displacements of the contact points from their old to their new places. Number of stretches of the jump."""
+    """Store the displacements of the contact points from their old to their new places. Number of stretches."""
     longest = 0.0
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]
@@ -174,7 +174,10 @@ def _jumping_contact(ws: Workspace, h: float, rate: float) -> int:
 
 @kernel()
 def evaluate_force_round_off(ws: Workspace) -> None:
-    """Write the force that counts as zero after a jump [N]. Before it, close to the flat place, forces may be unbounded."""
+    """Write the force that counts as zero after a jump [N].
+
+    Forces before the jump are no measure of it: close to the flat place they may be unbounded.
+    """
     right_hand_side(ws, ws.island.time, ws.island.y.start, may_choose=False, of_all_bodies=True)
     largest = 0.0
     for i in range(ws.island.n_grouped):
@@ -188,7 +191,7 @@ def evaluate_force_round_off(ws: Workspace) -> None:
 
 @kernel("b1(ws, f8)")
 def jump_contact_points(ws: Workspace, h: float) -> bool:
-    """Write the state after the time ``h`` [s], which is too short for steps, to ``y_new``. True if contact points jump.
+    """Write the state after the time ``h`` [s], too short for steps, to ``y_new``. True if contact points jump.
 
     ``slopes`` must hold the slope at ``y``, and the closed contacts must be grouped. ``release`` becomes the cause by
     which the impulses released a contact.
