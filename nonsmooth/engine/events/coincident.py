@@ -1,72 +1,73 @@
-"""Contacts at one place: features of two bodies that hold together for a moment while one gives way to the other.
+"""Coincident contacts: two pairs of features of the same bodies at one place, while one replaces the other.
 
-Where a body rolls from an edge onto a face, both are touched as long as the margins about their border overlap, and the
-rates of their gaps differ by the turning over the way between the points.  No impulse tells such contacts apart: they
-are one, and the one that approaches more stands for it.
+A body that rolls from an edge onto a face touches with both as long as their margins overlap. Their gap rates differ by
+the turning times the distance of their points, which is tiny. No impulse can distinguish such contacts, and a collision
+of one against the other would be an artefact. So they are treated as one contact: the one that approaches replaces the
+other.
 """
 
 from __future__ import annotations
 
 from nonsmooth.engine.bodies.compliance import start_inner_states
-from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.native.kernel import Workspace, kernel
+from nonsmooth.engine.memory.modes import NO_CONTACT, Mode
+from nonsmooth.engine.native.kernel import Contact, Workspace, kernel
 from nonsmooth.engine.numerics.vectors import dot, minus
 
 _LARGEST_DIFFERENCE = 1e-5
-"""Difference of normals, and of places in units of the smaller body, up to which contacts are one: the share of an
-approach that its square is of an energy is less than what is promised of one."""
+"""Difference of normals, and of places relative to the smaller body, up to which contacts coincide.
+
+The energy error of an approach is its square, which is below the energy tolerances.
+"""
 
 
-@kernel("b1(ws, i8, i8)")
-def _coincide(ws: Workspace, c: int, other: int) -> bool:
-    """Return 1 if two rigid contacts of the same frames are at one place."""
-    one, two = ws.contacts[c], ws.contacts[other]
-    if c == other or one.frame_a != two.frame_a or one.frame_b != two.frame_b:
+@kernel("b1(Contact, Contact)")
+def _coincide(one: Contact, other: Contact) -> bool:
+    """True if two rigid contacts of the same frames are at one place with the same normal."""
+    if one.index == other.index or one.frame_a != other.frame_a or one.frame_b != other.frame_b:
         return False
-    if one.is_compliant or two.is_compliant:
+    if one.is_compliant or other.is_compliant:
         return False
-    turned, moved = minus(one.normal, two.normal), minus(one.point_b, two.point_b)
-    return dot(turned, turned) <= _LARGEST_DIFFERENCE**2 and dot(moved, moved) <= (_LARGEST_DIFFERENCE * one.size) ** 2
+    turned, moved = minus(one.normal, other.normal), minus(one.point_b, other.point_b)
+    is_close = dot(moved, moved) <= (_LARGEST_DIFFERENCE * one.size) ** 2
+    return dot(turned, turned) <= _LARGEST_DIFFERENCE**2 and is_close
 
 
 @kernel("i8(ws, i8)")
 def closed_coincident(ws: Workspace, c: int) -> int:
-    """Return a closed contact at the place of ``c`` that does not approach, or -1."""
-    for other in range(ws.island.n_contacts):
-        contact = ws.contacts[other]
-        closed = contact.mode != Mode.OPEN and contact.rate[0] >= -ws.tolerance.velocity
-        if closed and _coincide(ws, c, other):
-            return other
-    return -1
+    """Closed contact that coincides with ``c`` and does not approach, or ``NO_CONTACT``."""
+    for other in ws.contacts:
+        is_closed = other.mode != Mode.OPEN and other.normal_rate >= -ws.tolerance.velocity
+        if is_closed and _coincide(ws.contacts[c], other):
+            return other.index
+    return NO_CONTACT
 
 
 @kernel("b1(ws, i8)")
 def has_replaced(ws: Workspace, c: int) -> bool:
-    """True if ``c``, or another at its place, is closed where one was before, without a collision.
+    """True if contact ``c``, or one that coincides with it, was closed before the event, and one of them is now.
 
-    That one may stand on: where margins overlap, both do for a moment.
+    Both may be closed for a moment, while their margins overlap.
     """
-    stood, stands = False, False
-    for other in range(ws.island.n_contacts):
-        contact = ws.contacts[other]
-        if other == c or _coincide(ws, c, other):
-            stands = stands or contact.mode != Mode.OPEN
-            stood = stood or contact.code_before != 0
-    return stood and stands
+    was_closed, is_closed = False, False
+    for other in ws.contacts:
+        if other.index == c or _coincide(ws.contacts[c], other):
+            is_closed = is_closed or other.mode != Mode.OPEN
+            was_closed = was_closed or other.code_before != 0
+    return was_closed and is_closed
 
 
 @kernel("b1(ws, i8)")
 def replace_coincident(ws: Workspace, c: int) -> bool:
-    """Close a contact in place of those at its place; return 1, or 0 if there are none."""
+    """Close contact ``c`` in place of the closed contacts that coincide with it. False if there are none."""
     contact = ws.contacts[c]
-    twin, taken = closed_coincident(ws, c), False
-    while twin >= 0:
-        if not taken:
+    replaced, has_taken_over = closed_coincident(ws, c), False
+    while replaced != NO_CONTACT:
+        if not has_taken_over:
             if contact.mode == Mode.OPEN:
                 start_inner_states(ws, c)
-            contact.mode = ws.contacts[twin].mode
-            taken = True
-        ws.contacts[twin].mode = Mode.OPEN
-        ws.contacts[twin].is_in_problem = False
-        twin = closed_coincident(ws, c)
-    return taken
+            contact.mode = ws.contacts[replaced].mode
+            has_taken_over = True
+        ws.contacts[replaced].mode = Mode.OPEN
+        ws.contacts[replaced].is_in_problem = False
+        replaced = closed_coincident(ws, c)
+    return has_taken_over

@@ -176,6 +176,6 @@ def adopt_modes(ws: Workspace) -> None:
 def modes_have_changed(ws: Workspace) -> bool:
     """True if a contact has another mode than before the event, or has begun or ended averaging its forces."""
     for contact in ws.contacts:
-        if mode_code(ws, contact.index) != contact.code_before or contact.is_averaged != contact.was_averaged:
+        if mode_code(contact) != contact.code_before or contact.is_averaged != contact.was_averaged:
             return True
     return False
