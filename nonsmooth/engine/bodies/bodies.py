@@ -98,9 +98,9 @@ def evaluate_driven_bodies(ws: Workspace, t: float, y: int) -> None:
     if t == ws.island.driven_time:
         return
     ws.island.driven_time = t
-    for number in range(ws.model.n_bodies):
-        if ws.bodies[number].n_u == 0:
-            evaluate_body(ws, t, y, number)
+    for body in ws.bodies:
+        if body.n_u == 0:
+            evaluate_body(ws, t, y, body.index)
 
 
 @kernel("void(ws, f8, i8)")

@@ -35,8 +35,7 @@ from nonsmooth.engine.memory.modes import NO_CONTACT, NO_RELEASE, Cause, Mode, T
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
 _PART_AT_REST = 1.0 - 1e-6
-"""Part of an averaging span after which its contacts count as at rest. They come to rest at its end, but for round-off.
-"""
+"""Part of an averaging span after which its contacts count as at rest. Up to round-off they come to rest at its end."""
 
 
 @kernel("void(ws, i8)")
@@ -128,7 +127,10 @@ def _end_bounce(ws: Workspace, c: int) -> None:
 
 @kernel("void(ws, f8, f8)")
 def _add_loss(ws: Workspace, loss: float, work_before: float) -> None:
-    """Add the energy that a closing removes [J], and the work of driven bodies since ``work_before`` [J], to the event."""
+    """Add the energy that a closing removed [J], and the work of driven bodies since ``work_before`` [J], to the event.
+
+    The work of driven bodies is in the totals already.
+    """
     ws.event.head[CLOSING_LOSS] += loss
     ws.event.head[DRIVEN_WORK] += ws.totals.driven_work - work_before
     ws.totals.closing_loss += loss

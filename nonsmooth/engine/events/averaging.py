@@ -25,8 +25,7 @@ from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.vectors import length
 
 _LARGEST_BURST = 20000.0
-"""Evaluations of forces, beyond one per contact time, above which events accumulate. The stop of one slip takes fewer.
-"""
+"""Evaluations of forces beyond one per contact time that are no accumulation. The stop of one slip takes fewer."""
 
 
 @kernel("b1(ws)")

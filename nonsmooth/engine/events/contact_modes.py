@@ -9,7 +9,7 @@ import math
 from enum import IntEnum
 
 from nonsmooth.engine.bodies.anisotropy import turn_facing
-from nonsmooth.engine.bodies.compliance import start_inner_states, accelerate_by_compliance, has_known_friction
+from nonsmooth.engine.bodies.compliance import accelerate_by_compliance, has_known_friction, start_inner_states
 from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.bodies.touching import slip_speed
 from nonsmooth.engine.contact.problem import accelerate, accelerate_touching, set_up, solve_contact

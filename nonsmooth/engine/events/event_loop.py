@@ -9,7 +9,7 @@ from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.bodies.listing import list_contacts, longest_step
 from nonsmooth.engine.delassus.islands import group_closed
-from nonsmooth.engine.events.averaging import average_island_of, end_averaging, contact_of_burst
+from nonsmooth.engine.events.averaging import average_island_of, contact_of_burst, end_averaging
 from nonsmooth.engine.events.causes import cause_at_start, cause_of
 from nonsmooth.engine.events.event_update import update_at_event
 from nonsmooth.engine.events.record import (
@@ -17,6 +17,7 @@ from nonsmooth.engine.events.record import (
     EVENT_HEAD,
     LISTED,
     MOST_EVENTS,
+    NO_PHASES,
     record_event,
     record_samples,
     remember,
@@ -25,12 +26,10 @@ from nonsmooth.engine.events.stall import is_stalled
 from nonsmooth.engine.events.step_length import accepted_step, is_held, longest_wanted
 from nonsmooth.engine.events.stopping import stopped_contact
 from nonsmooth.engine.flow.arming import arm_guards, keep_end, keep_start
-from nonsmooth.engine.flow.redundant_forces import can_choose_within, choose_forces_again
 from nonsmooth.engine.flow.clearance import bound_speeds
-from nonsmooth.engine.flow.own_steps import has_drifted, end_own_steps, begin_own_steps
 from nonsmooth.engine.flow.feature_end import find_feature_end
 from nonsmooth.engine.flow.flight import choose_integrated, take_off
-from nonsmooth.engine.flow.flow import most_loaded_contact, is_violated, slope
+from nonsmooth.engine.flow.flow import is_violated, most_loaded_contact, slope
 from nonsmooth.engine.flow.follow import orient_slips
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
@@ -40,13 +39,15 @@ from nonsmooth.engine.flow.guard_numbers import (
 )
 from nonsmooth.engine.flow.guard_values import has_other_features, watch_features, write_guards
 from nonsmooth.engine.flow.guards import is_of_redundant_force
-from nonsmooth.engine.flow.point_jump import jump_contact_points, evaluate_force_round_off, contact_past_flat_place
 from nonsmooth.engine.flow.location import first_crossing, locate
+from nonsmooth.engine.flow.own_steps import begin_own_steps, end_own_steps, has_drifted
+from nonsmooth.engine.flow.point_jump import contact_past_flat_place, evaluate_force_round_off, jump_contact_points
 from nonsmooth.engine.flow.projection import (
     normalise_quaternions,
     project_closed,
     project_joints,
 )
+from nonsmooth.engine.flow.redundant_forces import can_choose_within, choose_forces_again
 from nonsmooth.engine.flow.self_check import NEGLIGIBLE, check_end, check_gaps, close_energy_account
 from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.layout import BOOKED, LAST_STAGE
@@ -351,7 +352,7 @@ def _pass_on(ws: Workspace, which: int, has_changed: bool) -> Status:
 def _own_event(ws: Workspace, number: int) -> Status:
     """Record the event of a guard of the scenario's own; return the status."""
     remember(ws)
-    record_event(ws, Cause.GUARD, number, 0)
+    record_event(ws, Cause.GUARD, number, NO_PHASES)
     guard = ws.own_guards[number]
     guard.has_just_fired = True
     return Status.STOPPED if guard.ends_the_run else Status.RUNNING

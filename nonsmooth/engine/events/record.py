@@ -184,7 +184,10 @@ def amend_last(ws: Workspace) -> None:
 
 @entry_point("i8(ws)")
 def begin_sample(ws: Workspace) -> int:
-    """Append a sample at the time ``next_sample``, and set the next one. Returns the place of its state in the floats."""
+    """Append a sample at the time ``next_sample``, and set the next one. Returns the place of its state.
+
+    The place is an offset in the floats of the workspace, where the caller writes q, u and what else is integrated.
+    """
     row = ws.output.samples.start + ws.output.n_samples * (1 + ws.model.n_y + BOOKED)
     ws.floats[row] = ws.output.next_sample
     _write_accounts(ws, row + 1 + ws.model.n_y)

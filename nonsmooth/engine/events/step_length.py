@@ -7,10 +7,10 @@ import math
 from nonsmooth.engine.bodies.bodies import evaluate_driven_bodies
 from nonsmooth.engine.bodies.listing import overran_list
 from nonsmooth.engine.events.stopping import part_before_stop
+from nonsmooth.engine.flow.averaging_time import deviation_of_gaps
 from nonsmooth.engine.flow.clearance import ABOUT, first_of_flying, foresee, keep_falls
 from nonsmooth.engine.flow.guard_numbers import normal_guard
 from nonsmooth.engine.flow.location import NEGLIGIBLE
-from nonsmooth.engine.flow.averaging_time import deviation_of_gaps
 from nonsmooth.engine.flow.self_check import ADJACENT
 from nonsmooth.engine.flow.step import relaxation_rate, try_length
 from nonsmooth.engine.memory.limits import (

@@ -2,8 +2,8 @@
 
 Such a body (:attr:`nonsmooth.interfaces.Body.flight`) is not integrated: its state within a step is that of its closed
 form, whatever the length of the step, and of its forces nothing is asked before the end.  So it is with bodies on their
-courses (:mod:`nonsmooth.engine.flow.own_steps`), whose closed form is the interpolant of a step of their own.  All others
-are integrated, those that fly among them as soon as one of their contacts closes.
+courses (:mod:`nonsmooth.engine.flow.own_steps`), whose closed form is the interpolant of a step of their own.  All
+others are integrated, those that fly among them as soon as one of their contacts closes.
 """
 
 from __future__ import annotations

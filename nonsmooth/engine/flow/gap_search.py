@@ -126,7 +126,7 @@ def _store_end(ws: Workspace, h: float, theta: float, contact: Contact, n: int) 
     if guard.value > 0.0:
         guard.is_armed = True
     end.theta, end.gap, end.rate = theta, _gap_above_start(ws, contact, contact.gap), contact.gap_rate
-    end.past, end.arm = contact.past_feature, arm_of(ws, contact.index)
+    end.past, end.offset = contact.past_feature, arm_of(ws, contact.index)
 
 
 @kernel("void(ws, f8, f8, Contact, i8)")
@@ -155,7 +155,7 @@ def _stays_open(ws: Workspace, n: int, h: float, bounds: GapBounds) -> bool:
         return False
     acceleration, turning = bounds.acceleration, bounds.turning
     if turning > 0.0:
-        moved = distance(two.arm, one.arm) / span
+        moved = distance(two.offset, one.offset) / span
         acceleration += 2.0 * turning * max(0.0, moved - turning * bounds.support_radius)
     closing = acceleration * span + r1 - r0
     ahead = g0 - g1 + r1 * span + 0.5 * acceleration * span * span
@@ -166,7 +166,7 @@ def _stays_open(ws: Workspace, n: int, h: float, bounds: GapBounds) -> bool:
     if closing <= 0.0 or min(ahead, back) <= 0.0:
         return True
     s = min(ahead / closing, span)
-    return g0 + s * (r0 - 0.5 * acceleration * s) >= -ws.tolerance.gap
+    return bool(g0 + s * (r0 - 0.5 * acceleration * s) >= -ws.tolerance.gap)
 
 
 @kernel("f8(ws, f8, Contact, f8, b1)")
@@ -198,7 +198,8 @@ def _first_closing_of(ws: Workspace, h: float, contact: Contact, high: float, is
             if has_fired(ws, normal_guard(contact.index)):
                 return float(part_end(ws.floats, ws.step.part_ends.start, n).theta)
             continue
-        left.theta, left.gap, left.rate, left.past, left.arm = right.theta, right.gap, right.rate, right.past, right.arm
+        left.theta, left.gap, left.rate = right.theta, right.gap, right.rate
+        left.past, left.offset = right.past, right.offset
         n -= 1
     return 0.0
 
@@ -208,7 +209,8 @@ def _write_first_end(ws: Workspace, contact: Contact) -> None:
     """Write the start of the step as end 0 of its parts."""
     left = part_end(ws.floats, ws.step.part_ends.start, 0)
     left.theta, left.gap = 0.0, _gap_above_start(ws, contact, contact.gap_at_start)
-    left.rate, left.past, left.arm = contact.gap_rate_at_start, contact.past_feature_at_start, contact.offset_at_start
+    left.rate, left.past = contact.gap_rate_at_start, contact.past_feature_at_start
+    left.offset = contact.offset_at_start
 
 
 @kernel("void(ws, f8, Contact, f8, b1)")
@@ -217,7 +219,8 @@ def _write_last_end(ws: Workspace, h: float, contact: Contact, high: float, is_e
     if high == 1.0:
         right = part_end(ws.floats, ws.step.part_ends.start, 1)
         right.theta, right.gap = 1.0, _gap_above_start(ws, contact, contact.gap_at_end)
-        right.rate, right.past, right.arm = contact.gap_rate_at_end, contact.past_feature_at_end, contact.offset_at_end
+        right.rate, right.past = contact.gap_rate_at_end, contact.past_feature_at_end
+        right.offset = contact.offset_at_end
     elif is_evaluated:
         _store_end(ws, h, high, contact, 1)
     else:
@@ -252,12 +255,12 @@ def _is_undecided(ws: Workspace, h: float, contact: Contact, n: int, speed: floa
 
 
 @entry_point("f8(ws, f8, f8, i8)")
-def first_closing(ws: Workspace, h: float, high: float, asked: int) -> float:
+def first_closing(ws: Workspace, h: float, high: float, needed: int) -> float:
     """Fraction of the step, up to ``high``, by which a gap that may close has closed, or 0 if all stay open.
 
     Contacts must be evaluated at ``high``, unless the features of some do not face each other. If no gap closes, the
     contacts that were evaluated within the step are evaluated at ``high`` again if that is the end of the step. So is
-    the contact ``asked`` in any case.
+    the contact ``needed`` in any case.
     """
     found, is_evaluated = 0.0, ws.step.n_not_facing == 0
     for i in range(ws.step.n_may_close):
@@ -267,6 +270,6 @@ def first_closing(ws: Workspace, h: float, high: float, asked: int) -> float:
         if theta > 0.0:
             found = high = theta
             is_evaluated = False
-        elif ws.step.is_evaluated and (high == 1.0 or contact.index == asked):
+        elif ws.step.is_evaluated and (high == 1.0 or contact.index == needed):
             _evaluate_end(ws, h, high, contact, 0)
     return found

@@ -96,7 +96,7 @@ def _known_separation(ws: Workspace, number: int) -> float:
 @kernel("b1(ws, Pair)")
 def _has_half_space(ws: Workspace, pair: Pair) -> bool:
     """True if the first part of a pair is a half-space."""
-    return part_at(ws.floats, pair.part_a).rings < 0.0
+    return bool(part_at(ws.floats, pair.part_a).rings < 0.0)
 
 
 @kernel("f8(ws, i8, f8)")
