@@ -76,7 +76,7 @@ def find_candidates(ws: Workspace) -> Status:
 
 @kernel("i8(ws, Search)")
 def _find(ws: Workspace, search: Search) -> int:
-    """Call a search if its shapes are near each other. Number of pairs of features that it found, or a negative code.
+    """Call a search if its shapes are near each other. Number of pairs that it found, or ``_NOT_A_NUMBER``.
 
     The function reads the margin [m] at the place where it writes their number. The pairs follow.
     """

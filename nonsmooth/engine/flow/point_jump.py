@@ -40,9 +40,9 @@ def _store_displacements(ws: Workspace) -> int:
     longest = 0.0
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]
-        a = minus(contact.point_a, contact.leap_start_a)
-        b = minus(contact.point_b, contact.leap_start_b)
-        contact.leap_a, contact.leap_b = a, b
+        a = minus(contact.point_a, contact.point_a_before_jump)
+        b = minus(contact.point_b, contact.point_b_before_jump)
+        contact.jump_a, contact.jump_b = a, b
         longest = max(longest, dot(a, a) / contact.size**2, dot(b, b) / contact.size**2)
     return min(_MOST_STRETCHES, 1 + int(longest**0.5 / _STRETCH))
 
@@ -77,16 +77,16 @@ def _set_up_problem(ws: Workspace, part: float) -> None:
 @kernel("void(Contact, f8)")
 def _move_points(contact: Contact, part: float) -> None:
     """Move the witness points of a contact by a ``part`` of their displacements."""
-    (ax, ay, az), (bx, by, bz) = contact.leap_a, contact.leap_b
+    (ax, ay, az), (bx, by, bz) = contact.jump_a, contact.jump_b
     contact.point_a = (
-        contact.leap_start_a[0] + part * ax,
-        contact.leap_start_a[1] + part * ay,
-        contact.leap_start_a[2] + part * az,
+        contact.point_a_before_jump[0] + part * ax,
+        contact.point_a_before_jump[1] + part * ay,
+        contact.point_a_before_jump[2] + part * az,
     )
     contact.point_b = (
-        contact.leap_start_b[0] + part * bx,
-        contact.leap_start_b[1] + part * by,
-        contact.leap_start_b[2] + part * bz,
+        contact.point_b_before_jump[0] + part * bx,
+        contact.point_b_before_jump[1] + part * by,
+        contact.point_b_before_jump[2] + part * bz,
     )
     contact.version_a = NOT_EVALUATED
 
@@ -148,7 +148,7 @@ def _store_points(ws: Workspace) -> None:
         c = ws.island.grouped[i]
         contact = ws.contacts[c]
         evaluate_geometry(ws, c)
-        contact.leap_start_a, contact.leap_start_b = contact.point_a, contact.point_b
+        contact.point_a_before_jump, contact.point_b_before_jump = contact.point_a, contact.point_b
 
 
 @kernel("i8(ws, f8, f8)")
@@ -165,7 +165,7 @@ def _jumping_contact(ws: Workspace, h: float, rate: float) -> int:
         evaluate_rates(ws, c)
         contact = ws.contacts[c]
         spin_a, spin_b = frame_at(ws.floats, contact.frame_a).spin, frame_at(ws.floats, contact.frame_b).spin
-        turning, moved = minus(spin_b, spin_a), minus(contact.point_b, contact.leap_start_b)
+        turning, moved = minus(spin_b, spin_a), minus(contact.point_b, contact.point_b_before_jump)
         speed = length(contact.slip) + contact.size * math.sqrt(dot(turning, turning))
         if contact.normal_rate < rate and dot(moved, moved) > (_LEAST_SPEED_RATIO * h * speed) ** 2:
             which = c
