@@ -16,7 +16,7 @@ import numpy as np
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import PART_RINGS, RING
 from nonsmooth.engine.memory.memory import Heap, Memory
-from nonsmooth.engine.pairs.look import NO_PAIR
+from nonsmooth.engine.pairs.overlaps import NO_PAIR
 from nonsmooth.interfaces import ConvexPart
 from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.system.contact import Contact
@@ -173,7 +173,7 @@ def lay_part_pairs(
             "part_b": starts[pair.shapes[1]],
             "group": pair.group,
             "contact": pair.contacts[0],
-            "flat": all(part.is_flat for part in pair.parts),
+            "are_both_flat": all(part.is_flat for part in pair.parts),
             "allowed": _ALLOWED * pair.size,
             "size": pair.size,
         }

@@ -276,7 +276,7 @@ def test_an_overlap_is_told_where_there_is_one_and_nowhere_else(kinds: tuple[str
             lower, upper = (0.0, 0.0) if found is None else (found.lower, found.upper)
             memory[owners.Pair.direction][:n] = 0.0
             memory[owners.Run.passed_depth] = 0.0
-            call_entry("look_at_pairs", memory)
+            call_entry("check_pairs", memory)
             allowed = memory[owners.Pair.allowed][:n][0]
             told = memory[owners.Run.passed_depth] if memory[owners.Run.passed_pair] >= 0 else 0.0
             assert told <= 1.002 * upper + 1e-12

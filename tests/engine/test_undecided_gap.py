@@ -12,9 +12,9 @@ PROGRAM = """
 import nonsmooth as ns
 from bodies import BoxBody
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth.engine.flow import dips
+from nonsmooth.engine.flow import gap_search
 
-dips._MOST_LOOKS = {most}
+gap_search._MOST_EVALUATIONS = {most}
 one, two = BoxBody(0.05, 0.05, 0.05), BoxBody(0.05, 0.05, 0.05)
 system = ns.System([one, two], gravity=0.0)
 system.contact(one, two, normal=Unilateral(), friction=Coulomb(0.3), impact=EnergeticImpact(0.5))

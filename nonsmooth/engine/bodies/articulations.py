@@ -1,7 +1,14 @@
-"""Articulations: bodies tied by joints, which the rest of the engine sees as one body with fewer ways to move.
+"""Articulations: bodies that joints tie together. The rest of the engine sees each as one body with an inverse mass K.
 
-With the joints' rows A (A u + prescribed = 0) the accelerations that forces give are K = M^-1 - R^T Y,
-R = A M^-1, Y = (A R^T)^-1 R, so that contact forces, impulses and projections respect the joints at all times.
+The joints require A u = w with prescribed rates w. Their forces are eliminated from M u' = h + A^T mu, which gives
+u' = K h - Y^T b with
+
+    K = M^-1 - R^T Y,    R = A M^-1,    Y = (A R^T)^-1 R,
+
+where b is the acceleration of the rows while u' = 0. Contact forces, impulses and projections act through K, so they
+respect the joints at all times. The alternative, the joints as rows of the contact problem, would put equations of
+every joint into every contact problem. K is evaluated once per state. Rows that others imply get a zero pivot in the
+factor of A R^T, hence no force.
 """
 
 from __future__ import annotations
@@ -10,7 +17,9 @@ import math
 
 from nonsmooth.engine.bodies.kinematics import side_wrench
 from nonsmooth.engine.native.kernel import (
+    Articulation,
     Floats,
+    Joint,
     Workspace,
     at,
     call_pair,
@@ -23,8 +32,8 @@ from nonsmooth.engine.numerics.vectors import Vector, minus, opposite
 
 
 @kernel("f8(F, i8, v3, v3, v3)")
-def _speed(w: Floats, place: int, axis: Vector, point: Vector, moment: Vector) -> float:
-    """Return how fast a frame moves along a row: axis . velocity of the point + moment . angular velocity."""
+def _speed_along_row(w: Floats, place: int, axis: Vector, point: Vector, moment: Vector) -> float:
+    """Rate of a row for one of its frames [m/s]: axis . velocity of the point + moment . angular velocity."""
     frame = frame_at(w, place)
     x, y, z = minus(point, frame.origin)
     ox, oy, oz = frame.spin
@@ -39,10 +48,9 @@ def _speed(w: Floats, place: int, axis: Vector, point: Vector, moment: Vector) -
     )
 
 
-@kernel("void(ws, i8, i8)")
-def _write_rows(ws: Workspace, joint_number: int, number: int) -> None:
-    """Write rows, residuals, rates and biases of a joint of an articulation, behind those of the joints before."""
-    joint, articulation = ws.joints[joint_number], ws.articulations[number]
+@kernel("void(ws, Joint, Articulation)")
+def _write_rows(ws: Workspace, joint: Joint, articulation: Articulation) -> None:
+    """Write Jacobian rows, residuals, rates and biases of a joint to the blocks of its articulation."""
     frame_a, frame_b = joint.frame_a, joint.frame_b
     call_pair(
         joint.function,
@@ -60,23 +68,22 @@ def _write_rows(ws: Workspace, joint_number: int, number: int) -> None:
         side_wrench(ws.floats, frame_b, row.point_b, axis, moment, joint.n_u_b, side_b)
         ws.floats[articulation.residual + i] = row.residual
         ws.floats[articulation.bias + i] = row.bias
-        ws.floats[articulation.rate + i] = _speed(ws.floats, frame_b, axis, row.point_b, moment) - _speed(
-            ws.floats, frame_a, axis, row.point_a, moment
-        )
+        ws.floats[articulation.rate + i] = _speed_along_row(
+            ws.floats, frame_b, axis, row.point_b, moment
+        ) - _speed_along_row(ws.floats, frame_a, axis, row.point_a, moment)
 
 
-@kernel("void(ws, i8)")
-def _inverse_masses(ws: Workspace, number: int) -> None:
-    """Write M^-1 of the articulation's bodies to K and R = A M^-1."""
-    articulation = ws.articulations[number]
+@kernel("void(ws, Articulation)")
+def _write_responses(ws: Workspace, articulation: Articulation) -> None:
+    """Write the block-diagonal M^-1 of the bodies to the place of K, and R = A M^-1."""
     n, m = articulation.n_u, articulation.n_rows
     matrix, jacobian, r = articulation.inverse, articulation.jacobian, articulation.response
     for i in range(n * n):
         ws.floats[matrix + i] = 0.0
     for i in range(n * m):
         ws.floats[r + i] = 0.0
-    for one in range(articulation.first_body, articulation.first_body + articulation.n_bodies):
-        body = ws.bodies[one]
+    for number in range(articulation.first_body, articulation.first_body + articulation.n_bodies):
+        body = ws.bodies[number]
         n_u = body.n_u
         shift = body.u - articulation.u
         inverse = body.tail + body.n_q + n_u
@@ -90,8 +97,8 @@ def _inverse_masses(ws: Workspace, number: int) -> None:
 
 
 @kernel("void(F, i8, i8)")
-def _factorise(w: Floats, a: int, n: int) -> None:
-    """Overwrite the symmetric matrix at ``a`` by its Cholesky factor; rows that others imply get a zero pivot."""
+def _write_factor(w: Floats, a: int, n: int) -> None:
+    """Overwrite the symmetric n x n matrix at ``a`` by its Cholesky factor. Rows that others imply get a zero pivot."""
     for j in range(n):
         own = w[a + j * n + j]
         pivot = own
@@ -111,8 +118,11 @@ def _factorise(w: Floats, a: int, n: int) -> None:
 
 
 @kernel("void(F, i8, i8, i8, i8)")
-def substitute(w: Floats, a: int, n: int, x: int, stride: int) -> None:
-    """Solve with the factor at ``a`` in place, the right-hand side at ``x`` in steps of ``stride``."""
+def solve_factorised(w: Floats, a: int, n: int, x: int, stride: int) -> None:
+    """Solve with the Cholesky factor at ``a``, in place of the right-hand side at ``x`` with entries ``stride`` apart.
+
+    Unknowns of zero pivots are zero.
+    """
     for i in range(n):
         total = w[x + i * stride]
         for c in range(i):
@@ -125,73 +135,73 @@ def substitute(w: Floats, a: int, n: int, x: int, stride: int) -> None:
         w[x + i * stride] = total / w[a + i * n + i] if w[a + i * n + i] > 0.0 else 0.0
 
 
-@kernel("void(ws, i8)")
-def evaluate_articulation(ws: Workspace, number: int) -> None:
+@kernel("void(ws, Articulation)")
+def evaluate_articulation(ws: Workspace, articulation: Articulation) -> None:
     """Write K, Y, residuals and rates of the joints, the part of u that is not prescribed, and the driven power."""
-    articulation = ws.articulations[number]
-    for joint in range(articulation.first_joint, articulation.first_joint + articulation.n_joints):
-        _write_rows(ws, joint, number)
-    _inverse_masses(ws, number)
+    for number in range(articulation.first_joint, articulation.first_joint + articulation.n_joints):
+        _write_rows(ws, ws.joints[number], articulation)
+    _write_responses(ws, articulation)
     n, m = articulation.n_u, articulation.n_rows
     jacobian, r, y = articulation.jacobian, articulation.response, articulation.solved_response
     matrix, factor = articulation.inverse, articulation.factor
     for i in range(m):
         for j in range(i + 1):
             total = 0.0
-            for c in range(n):
-                total += ws.floats[jacobian + i * n + c] * ws.floats[r + j * n + c]
+            for k in range(n):
+                total += ws.floats[jacobian + i * n + k] * ws.floats[r + j * n + k]
             ws.floats[factor + i * m + j] = total
-    _factorise(ws.floats, factor, m)
+    _write_factor(ws.floats, factor, m)
     for i in range(m * n):
         ws.floats[y + i] = ws.floats[r + i]
-    for c in range(n):
-        substitute(ws.floats, factor, m, y + c, n)
+    for k in range(n):
+        solve_factorised(ws.floats, factor, m, y + k, n)
     for i in range(n):
         for line in range(m):
             entry = ws.floats[r + line * n + i]
             if entry != 0.0:
                 for j in range(n):
                     ws.floats[matrix + i * n + j] -= entry * ws.floats[y + line * n + j]
-    _prescribe(ws, number)
+    if articulation.is_driven:
+        _remove_prescribed_velocities(ws, articulation)
 
 
-@kernel("f8(ws, i8)")
-def _power(ws: Workspace, number: int) -> float:
-    """Return the power of the bodies' own forces on the velocities ``u_free``."""
-    articulation, power = ws.articulations[number], 0.0
-    for one in range(articulation.first_body, articulation.first_body + articulation.n_bodies):
-        body = ws.bodies[one]
+@kernel("f8(ws, Articulation)")
+def _power(ws: Workspace, articulation: Articulation) -> float:
+    """Power of the forces that act on the bodies, other than those of contacts, on the velocities ``u_free`` [W]."""
+    power = 0.0
+    for number in range(articulation.first_body, articulation.first_body + articulation.n_bodies):
+        body = ws.bodies[number]
         for i in range(body.n_u):
             power += ws.floats[body.tail + body.n_q + i] * ws.island.u_free[body.u + i]
     return power
 
 
-@kernel("void(ws, i8)")
-def _prescribe(ws: Workspace, number: int) -> None:
-    """Take off the velocities that driven bodies impose through joints, and book their power but for contact forces."""
-    articulation = ws.articulations[number]
-    if not articulation.is_driven:
-        return
+@kernel("void(ws, Articulation)")
+def _remove_prescribed_velocities(ws: Workspace, articulation: Articulation) -> None:
+    """Subtract from ``u_free`` the velocities that driven bodies impose through joints, Y^T A u.
+
+    Add the power of these driven bodies to that of the step, except for the part of contact forces.
+    """
     n, m = articulation.n_u, articulation.n_rows
     u, x = ws.island.u_free.start + articulation.u, articulation.forces
-    ws.step.driven_power -= _power(ws, number)
+    ws.step.driven_power -= _power(ws, articulation)
     for line in range(m):
         total = 0.0
-        for c in range(n):
-            total += ws.floats[articulation.jacobian + line * n + c] * ws.floats[u + c]
+        for k in range(n):
+            total += ws.floats[articulation.jacobian + line * n + k] * ws.floats[u + k]
         ws.floats[x + line] = total
     for line in range(m):
-        for c in range(n):
-            ws.floats[u + c] -= ws.floats[articulation.solved_response + line * n + c] * ws.floats[x + line]
-    ws.step.driven_power += _power(ws, number)
-    substitute(ws.floats, articulation.factor, m, x, 1)
+        for k in range(n):
+            ws.floats[u + k] -= ws.floats[articulation.solved_response + line * n + k] * ws.floats[x + line]
+    ws.step.driven_power += _power(ws, articulation)
+    solve_factorised(ws.floats, articulation.factor, m, x, 1)
     for line in range(m):
         ws.step.driven_power -= ws.floats[x + line] * ws.floats[articulation.bias + line]
 
 
 @kernel("void(ws, i8)")
 def constrain(ws: Workspace, number: int) -> None:
-    """Subtract from the accelerations ``du`` of an articulation what its joints do not allow: Y^T (A du + bias)."""
+    """Subtract from the accelerations ``du`` the part that the joints do not allow: Y^T (A du + bias)."""
     articulation = ws.articulations[number]
     n, m = articulation.n_u, articulation.n_rows
     du, x = ws.island.du.start + articulation.u, articulation.forces

@@ -1,4 +1,9 @@
-"""Bodies, loads and articulations at a state: frames, forces, inverse masses."""
+"""Bodies, loads and articulations at a state: their frames, forces and inverse masses.
+
+Every body writes its own output block. Each evaluation gets a new version number, by which contacts recognise that they
+were evaluated at the same motion. An instant evaluates most bodies several times at the same state. Then only the
+bodies whose state changed are evaluated.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +13,7 @@ from nonsmooth.engine.bodies.articulations import evaluate_articulation
 from nonsmooth.engine.bodies.kinematics import evaluate_contact
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.native.kernel import (
+    Body,
     Workspace,
     at,
     call_body,
@@ -21,28 +27,26 @@ from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.vectors import minus, opposite
 
 
-@kernel("void(ws, f8, i8, i8)")
-def _write(ws: Workspace, t: float, y: int, number: int) -> None:
-    """Let one body write its output block at time ``t`` and the state at offset ``y``."""
-    body = ws.bodies[number]
+@kernel("void(ws, f8, i8, Body)")
+def _call_body(ws: Workspace, t: float, y: int, body: Body) -> None:
+    """Call the function of a body: it writes its output block at time ``t`` [s] and the state at offset ``y``."""
     q, u = at(ws.floats, y + body.q), at(ws.floats, y + ws.model.n_q + body.u)
     call_body(body.function, t, q, u, at(ws.floats, body.parameters), at(ws.floats, body.out))
 
 
 @kernel("void(ws, f8, i8, i8)")
 def evaluate_body(ws: Workspace, t: float, y: int, number: int) -> None:
-    """Let one body write its output block at time ``t`` and the state at offset ``y``, which is a new version of it."""
+    """Evaluate a body at time ``t`` [s] and the state at offset ``y``. Its block gets a new version."""
     body = ws.bodies[number]
-    _write(ws, t, y, number)
+    _call_body(ws, t, y, body)
     body.version += 1
     if body.n_u > 0:
         ws.island.free_time = math.nan
 
 
-@kernel("b1(ws, f8, i8, i8)")
-def _stands(ws: Workspace, t: float, y: int, number: int) -> bool:
-    """Return 1 if a body was evaluated last at this time and state."""
-    body = ws.bodies[number]
+@kernel("b1(ws, f8, i8, Body)")
+def _is_evaluated_at(ws: Workspace, t: float, y: int, body: Body) -> bool:
+    """True if the last evaluation of a body was at time ``t`` [s] and the state at ``y``."""
     if body.version == 0 or body.evaluated_version != body.version or body.evaluated_time != t:
         return False
     for i in range(body.q, body.q + body.n_q):
@@ -55,15 +59,16 @@ def _stands(ws: Workspace, t: float, y: int, number: int) -> bool:
 
 
 @kernel("void(ws, f8, i8, i8)")
-def evaluate_once(ws: Workspace, t: float, y: int, number: int) -> None:
-    """Do the same, but leave the version that stands if it is that already.
+def evaluate_if_changed(ws: Workspace, t: float, y: int, number: int) -> None:
+    """Evaluate a body at time ``t`` [s] and the state at offset ``y``, unless that was its last evaluation.
 
-    What joints and loads do to a block is undone: it is written again, unless the body has none of them.
+    The version is then the same. Loads and joints add to the block of a body. So the block is written again, except for
+    a ballistic body, which has none of them.
     """
     body = ws.bodies[number]
-    if _stands(ws, t, y, number):
+    if _is_evaluated_at(ws, t, y, body):
         if body.ballistic_function == 0:
-            _write(ws, t, y, number)
+            _call_body(ws, t, y, body)
         return
     evaluate_body(ws, t, y, number)
     body.evaluated_version, body.evaluated_time = body.version, t
@@ -74,10 +79,10 @@ def evaluate_once(ws: Workspace, t: float, y: int, number: int) -> None:
 
 
 @kernel("b1(ws, f8, i8)")
-def _all_stand(ws: Workspace, t: float, y: int) -> bool:
-    """Return 1 if all bodies with coordinates were evaluated last at this time and state, and nothing acts on them.
+def _are_all_evaluated_at(ws: Workspace, t: float, y: int) -> bool:
+    """True if all bodies with coordinates were evaluated last at time ``t`` [s] and state ``y``.
 
-    Most of what an instant asks for is asked of bodies that stand.
+    It is never true with loads or joints, which add to the blocks of the bodies.
     """
     if ws.island.free_time != t or ws.model.n_loads + ws.model.n_joints > 0:
         return False
@@ -89,80 +94,93 @@ def _all_stand(ws: Workspace, t: float, y: int) -> bool:
 
 @kernel("void(ws, f8, i8)")
 def evaluate_driven_bodies(ws: Workspace, t: float, y: int) -> None:
-    """Let the bodies without coordinates write their output blocks, unless they stand there already."""
+    """Evaluate the driven bodies at time ``t`` [s], unless that was done already."""
     if t == ws.island.driven_time:
         return
     ws.island.driven_time = t
-    for number in range(ws.model.n_bodies):
-        if ws.bodies[number].n_u == 0:
-            evaluate_body(ws, t, y, number)
+    for body in ws.bodies:
+        if body.n_u == 0:
+            evaluate_body(ws, t, y, body.index)
 
 
 @kernel("void(ws, f8, i8)")
 def evaluate_integrated_bodies(ws: Workspace, t: float, y: int) -> None:
-    """Let the bodies that are integrated write their output blocks, where there are neither loads nor joints."""
-    interrupted(ws, ws.island.n_contacts + ws.model.n_bodies)
-    ws.island.velocities = y + ws.model.n_q
-    ws.step.driven_power = 0.0
-    ws.step.load_power = 0.0
+    """Evaluate the bodies that the integrator steps, of a system without loads and joints."""
+    _start_evaluation(ws, y)
     for i in range(ws.island.n_integrated):
         evaluate_body(ws, t, y, ws.island.integrated[i])
 
 
-@entry_point("void(ws, f8, i8, b1)")
-def evaluate_free_bodies(ws: Workspace, t: float, y: int, of_all_bodies: bool) -> None:
-    """Let the bodies that have coordinates write their output blocks, then loads and joints act on them.
-
-    That is every one of them (1), or those that are integrated.
-    """
-    if not of_all_bodies and ws.model.n_loads + ws.model.n_joints == 0:
-        evaluate_integrated_bodies(ws, t, y)
-        return
+@kernel("void(ws, i8)")
+def _start_evaluation(ws: Workspace, y: int) -> None:
+    """Set the powers of driven bodies and loads to zero, and let kinematics use the velocities of the state ``y``."""
     interrupted(ws, ws.island.n_contacts + ws.model.n_bodies)
     ws.island.velocities = y + ws.model.n_q
     ws.step.driven_power = 0.0
     ws.step.load_power = 0.0
+
+
+@entry_point("void(ws, f8, i8, b1)")
+def evaluate_free_bodies(ws: Workspace, t: float, y: int, of_all_bodies: bool) -> None:
+    """Evaluate the bodies with coordinates at time ``t`` [s] and state ``y``, then the loads and joints on them.
+
+    These are all bodies with coordinates, or only those that the integrator steps.
+    """
+    if not of_all_bodies and ws.model.n_loads + ws.model.n_joints == 0:
+        evaluate_integrated_bodies(ws, t, y)
+        return
+    _start_evaluation(ws, y)
     if ws.model.n_loads + ws.model.n_joints > 0:
         evaluate_driven_bodies(ws, t, y)
-    if of_all_bodies and _all_stand(ws, t, y):
+    if of_all_bodies and _are_all_evaluated_at(ws, t, y):
         return
     for i in range(ws.model.n_bodies if of_all_bodies else ws.island.n_integrated):
         number = i if of_all_bodies else ws.island.integrated[i]
-        body = ws.bodies[number]
-        if body.n_u == 0:
+        if ws.bodies[number].n_u == 0:
             continue
-        if ws.model.n_loads > 0 and body.ballistic_function == 0:
-            # loads add to what a body may leave unwritten
-            force = body.tail + body.n_q
-            for j in range(body.n_u):
-                ws.floats[force + j] = 0.0
+        _clear_forces(ws, ws.bodies[number])
         if of_all_bodies:
-            evaluate_once(ws, t, y, number)
+            evaluate_if_changed(ws, t, y, number)
         else:
             evaluate_body(ws, t, y, number)
     if of_all_bodies:
         ws.island.free_time = t
     for load in range(ws.model.n_loads):
-        _apply(ws, load, t, y)
+        _apply_load(ws, load, t, y)
     if ws.model.n_joints > 0:
-        for i in range(ws.model.n_u):
-            ws.island.u_free[i] = ws.floats[y + ws.model.n_q + i]
-        ws.island.velocities = ws.island.u_free.start
-        for number in range(ws.model.n_articulations):
-            if ws.articulations[number].n_rows > 0:
-                evaluate_articulation(ws, number)
+        _evaluate_articulations(ws, y)
+
+
+@kernel("void(ws, Body)")
+def _clear_forces(ws: Workspace, body: Body) -> None:
+    """Set the generalised forces of a body to zero: loads add to them, and a body may leave them unwritten."""
+    if ws.model.n_loads > 0 and body.ballistic_function == 0:
+        force = body.tail + body.n_q
+        for j in range(body.n_u):
+            ws.floats[force + j] = 0.0
+
+
+@kernel("void(ws, i8)")
+def _evaluate_articulations(ws: Workspace, y: int) -> None:
+    """Evaluate the articulations with joints at the state ``y``. Kinematics then uses the velocities ``u_free``."""
+    for i in range(ws.model.n_u):
+        ws.island.u_free[i] = ws.floats[y + ws.model.n_q + i]
+    ws.island.velocities = ws.island.u_free.start
+    for articulation in ws.articulations:
+        if articulation.n_rows > 0:
+            evaluate_articulation(ws, articulation)
 
 
 @kernel("void(ws, f8, i8)")
 def evaluate_bodies(ws: Workspace, t: float, y: int) -> None:
-    """Let every body write its output block at time ``t`` and the state at offset ``y``."""
+    """Evaluate all bodies, loads and joints at time ``t`` [s] and the state at offset ``y``."""
     evaluate_driven_bodies(ws, t, y)
     evaluate_free_bodies(ws, t, y, of_all_bodies=True)
 
 
 @kernel("void(ws, i8, f8, i8)")
-def _apply(ws: Workspace, number: int, t: float, y: int) -> None:
-    """Add the generalised forces of one load to those of its bodies, and its power."""
+def _apply_load(ws: Workspace, number: int, t: float, y: int) -> None:
+    """Add the generalised forces of a load at time ``t`` [s] to those of its bodies, and its power to the step."""
     load = ws.loads[number]
     frame_a, frame_b = at(ws.floats, load.frame_a), at(ws.floats, load.frame_b)
     call_load(load.function, t, frame_a, frame_b, at(ws.floats, load.parameters), at(ws.floats, load.out))
@@ -174,11 +192,11 @@ def _apply(ws: Workspace, number: int, t: float, y: int) -> None:
         generalised = body.tail + body.n_q
         force = opposite(wrench.force) if side == 0 else wrench.force
         moment = opposite(wrench.moment) if side == 0 else wrench.moment
-        x, y_, z = minus(wrench.point, frame_at(ws.floats, frame).origin)
+        rx, ry, rz = minus(wrench.point, frame_at(ws.floats, frame).origin)
         fx, fy, fz = force
-        mx = moment[0] + y_ * fz - z * fy
-        my = moment[1] + z * fx - x * fz
-        mz = moment[2] + x * fy - y_ * fx
+        mx = moment[0] + ry * fz - rz * fy
+        my = moment[1] + rz * fx - rx * fz
+        mz = moment[2] + rx * fy - ry * fx
         for j in range(n_u):
             v = frame + FRAME + j
             o = v + 3 * n_u
@@ -198,5 +216,5 @@ def _apply(ws: Workspace, number: int, t: float, y: int) -> None:
 def evaluate_at(ws: Workspace) -> None:
     """Evaluate all bodies and contacts at the present time and state."""
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
-    for c in range(ws.island.n_contacts):
-        evaluate_contact(ws, c, 3)
+    for contact in ws.contacts:
+        evaluate_contact(ws, contact.index, 3)

@@ -1,7 +1,10 @@
-"""Compliant contacts: their normal force is given by gap and gap rate, and the rest of it by laws of traction.
+"""Compliant contacts: their normal force is a function of gap and gap rate, so it is known before the contact problem.
 
-A compliant contact is open or closed as any other, but closed it holds no gap: it pushes.  Its friction may hold it
-(STICK), against the bound that the given normal force sets, or rub; a law of traction rubs always.
+A compliant contact is open or closed as any other. Closed, it does not keep its gap: it applies a force. Its friction
+obeys Coulomb's law with the bound that the given normal force sets, or a traction law. A traction law gives friction
+force and moment from the slip, with inner states of its own. It never sticks.
+
+Laws may have inner states, which are integrated with the motion behind the energy accounts.
 """
 
 from __future__ import annotations
@@ -11,6 +14,7 @@ from nonsmooth.engine.memory.blocks import DELASSUS, FORCE_AND_MOMENT, TRACTION,
 from nonsmooth.engine.memory.layout import FIRST_ROW, N_ACCOUNTS, NORMAL_ROW
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import (
+    Contact,
     Floats,
     Workspace,
     at,
@@ -25,7 +29,7 @@ from nonsmooth.engine.numerics.vectors import Vector, dot, length, minus
 
 @kernel("void(ws, i8)")
 def evaluate_compliant_force(ws: Workspace, c: int) -> None:
-    """Write the normal force of the compliant contact ``c``, its geometry and rates being known."""
+    """Write the normal force of the compliant contact ``c`` [N], after its geometry and rates."""
     contact = ws.contacts[c]
     contact.compliant_force = call_compliance(
         contact.normal_function,
@@ -36,10 +40,10 @@ def evaluate_compliant_force(ws: Workspace, c: int) -> None:
     )
 
 
-@kernel("void(ws, i8)")
-def _evaluate_motion(ws: Workspace, c: int) -> None:
-    """Write slip velocity and relative angular velocity of contact ``c`` along its unit tangents and normal."""
-    contact, motion = ws.contacts[c], at(ws.floats, ws.problem.motion.start)
+@kernel("void(ws, Contact)")
+def _evaluate_motion(ws: Workspace, contact: Contact) -> None:
+    """Write the slip velocity [m/s] and the relative angular velocity [1/s] along t1, t2 and n for a traction law."""
+    motion = at(ws.floats, ws.problem.motion.start)
     turning = minus(frame_at(ws.floats, contact.frame_b).spin, frame_at(ws.floats, contact.frame_a).spin)
     motion[0], motion[1] = contact.slip
     motion[2] = dot(contact.axis_1, turning)
@@ -49,15 +53,18 @@ def _evaluate_motion(ws: Workspace, c: int) -> None:
 
 @kernel("void(ws, i8, i8)")
 def evaluate_traction(ws: Workspace, c: int, y: int) -> None:
-    """Let the law of traction of contact ``c`` write force, moment and rates of its states."""
+    """Evaluate the traction law of contact ``c`` at the state ``y``.
+
+    It writes force [N], moment [N m], and the rates of its inner states.
+    """
     contact = ws.contacts[c]
-    _evaluate_motion(ws, c)
+    _evaluate_motion(ws, contact)
     out = contact.traction_out
     call_traction(
         contact.traction_function,
         contact.compliant_force,
         at(ws.floats, ws.problem.motion.start),
-        at(ws.floats, state_at(ws, c, y)),
+        at(ws.floats, inner_states_at(ws, c, y)),
         at(ws.floats, contact.traction_parameters),
         at(ws.floats, out),
     )
@@ -67,84 +74,85 @@ def evaluate_traction(ws: Workspace, c: int, y: int) -> None:
 
 
 @kernel("i8(ws, i8, i8)")
-def state_at(ws: Workspace, c: int, y: int) -> int:
-    """Return where the inner states of the laws of contact ``c`` stand."""
+def inner_states_at(ws: Workspace, c: int, y: int) -> int:
+    """Place of the inner states of the laws of contact ``c`` in the state at ``y``."""
     return int(y + ws.model.n_q + ws.model.n_u + N_ACCOUNTS + ws.contacts[c].inner_states)
 
 
 @kernel("void(ws, i8)")
-def refresh_states(ws: Workspace, y: int) -> None:
-    """Let the friction coefficients see the inner states as they are at ``y``."""
+def copy_inner_states(ws: Workspace, y: int) -> None:
+    """Copy the inner states in the state at ``y`` to where the friction laws read them."""
     if ws.model.n_states == 0:
         return
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
+    for contact in ws.contacts:
         if contact.inner_states_copy > 0:
             for i in range(contact.n_inner_states):
-                ws.floats[contact.inner_states_copy + i] = ws.floats[state_at(ws, c, y) + i]
+                ws.floats[contact.inner_states_copy + i] = ws.floats[inner_states_at(ws, contact.index, y) + i]
 
 
 @kernel("void(ws, i8)")
-def begin_contact(ws: Workspace, c: int) -> None:
-    """Let the inner states of contact ``c``, which closes, start anew, and keep the rate at which it does.
+def start_inner_states(ws: Workspace, c: int) -> None:
+    """Set the inner states of contact ``c``, which closes, to their initial values, and store its closing rate [m/s].
 
-    Of one that is closed from the start that rate is none: by what round-off leaves of it no damping is scaled.
+    Damping laws divide by the closing rate. A rate within the velocity tolerance is zero: a contact that is closed from
+    the start has no closing rate.
     """
     contact = ws.contacts[c]
     contact.closing_rate = -contact.rate[0] if contact.rate[0] < -ws.tolerance.velocity else 0.0
     for i in range(contact.n_inner_states):
-        ws.floats[state_at(ws, c, ws.island.y.start) + i] = ws.floats[contact.inner_states_at_start + i]
+        ws.floats[inner_states_at(ws, c, ws.island.y.start) + i] = ws.floats[contact.inner_states_at_start + i]
 
 
 @kernel("void(ws, i8, i8)")
-def write_state_rates(ws: Workspace, y: int, out: int) -> None:
-    """Write the rates of the inner states of all contacts to the slope ``out``; those of open contacts are zero."""
+def write_inner_rates(ws: Workspace, y: int, out: int) -> None:
+    """Write the rates of the inner states of all contacts to the slope ``out``. Those of open contacts are zero."""
     if ws.model.n_states == 0:
         return
     for i in range(ws.model.n_states):
         ws.floats[out + ws.model.n_q + ws.model.n_u + N_ACCOUNTS + i] = 0.0
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
-        n = contact.n_inner_states
-        if n == 0 or contact.mode == Mode.OPEN:
+    for contact in ws.contacts:
+        if contact.n_inner_states == 0 or contact.mode == Mode.OPEN:
             continue
         source = contact.traction_out + FORCE_AND_MOMENT
         if contact.inner_states_copy > 0:
             source = contact.rates_out
             speed = 0.0 if contact.mode == Mode.STICK else length(contact.slip)
-            states, parameters = at(ws.floats, state_at(ws, c, y)), at(ws.floats, contact.rates_parameters)
+            states = at(ws.floats, inner_states_at(ws, contact.index, y))
+            parameters = at(ws.floats, contact.rates_parameters)
             call_rates(contact.rates_function, speed, states, parameters, at(ws.floats, source))
-        for i in range(n):
-            ws.floats[state_at(ws, c, out) + i] = ws.floats[source + i]
+        for i in range(contact.n_inner_states):
+            ws.floats[inner_states_at(ws, contact.index, out) + i] = ws.floats[source + i]
 
 
-@kernel("v3(ws, i8, f8, f8, f8)")
-def _in_world(ws: Workspace, c: int, x: float, y: float, z: float) -> Vector:
-    """Return the world components of a vector given along the axes n, t1, t2 of contact ``c``."""
-    contact = ws.contacts[c]
+@kernel("v3(Contact, f8, f8, f8)")
+def _in_world(contact: Contact, along_n: float, along_1: float, along_2: float) -> Vector:
+    """World components of a vector that is given along the axes n, t1 and t2 of a contact."""
     n, t1, t2 = contact.axis_n, contact.axis_1, contact.axis_2
     return (
-        x * n[0] + y * t1[0] + z * t2[0],
-        x * n[1] + y * t1[1] + z * t2[1],
-        x * n[2] + y * t1[2] + z * t2[2],
+        along_n * n[0] + along_1 * t1[0] + along_2 * t2[0],
+        along_n * n[1] + along_1 * t1[1] + along_2 * t2[1],
+        along_n * n[2] + along_1 * t1[2] + along_2 * t2[2],
     )
 
 
 @kernel("void(ws, i8, F)")
 def write_wrench(ws: Workspace, c: int, f: Floats) -> None:
-    """Write row 1 and response 0 of all that the compliant contact ``c`` does, its forces being ``active_forces``."""
+    """Write the row of the total force and moment of contact ``c`` to row 1, and its response to response 0.
+
+    ``f`` is the contact force along n, t1, t2 [N]. The response is the acceleration that the wrench gives.
+    """
     contact = ws.contacts[c]
-    force, moment = _in_world(ws, c, f[0], f[1], f[2]), (0.0, 0.0, 0.0)
+    force, moment = _in_world(contact, f[0], f[1], f[2]), (0.0, 0.0, 0.0)
     if contact.has_traction_law:
         m = at(ws.floats, contact.traction_out + TRACTION_MOMENT)
-        moment = _in_world(ws, c, m[2], m[0], m[1])
+        moment = _in_world(contact, m[2], m[0], m[1])
     wrench_row(ws, c, FIRST_ROW, force, moment)
     evaluate_row_response(ws, c, FIRST_ROW, NORMAL_ROW)
 
 
 @kernel("void(ws, i8, F, i8)")
-def rub_by_traction(ws: Workspace, c: int, f: Floats, y: int) -> None:
-    """Write the forces of a contact with a law of traction to ``active_forces``."""
+def apply_traction_law(ws: Workspace, c: int, f: Floats, y: int) -> None:
+    """Write the force of contact ``c``, which has a traction law, at the state ``y`` to ``f``: along n, t1, t2 [N]."""
     evaluate_traction(ws, c, y)
     contact = ws.contacts[c]
     traction = at(ws.floats, contact.traction_out + TRACTION)
@@ -152,50 +160,50 @@ def rub_by_traction(ws: Workspace, c: int, f: Floats, y: int) -> None:
 
 
 @kernel()
-def push_compliant(ws: Workspace) -> None:
-    """Add to ``du`` what the touching compliant contacts are known to do, all of it or the normal force alone."""
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
+def accelerate_by_compliance(ws: Workspace) -> None:
+    """Add the accelerations by the known forces of touching compliant contacts to ``du``.
+
+    These are the forces of traction laws, and otherwise the normal forces alone: Coulomb friction is not known yet.
+    """
+    for contact in ws.contacts:
         if not contact.is_compliant or not contact.is_touching:
             continue
         if contact.has_traction_law:
-            rub_by_traction(ws, c, contact.force, ws.island.y.start)
-            write_wrench(ws, c, contact.force)
-            push_response(ws, c, NORMAL_ROW, 1.0, ws.island.du.start)
+            apply_traction_law(ws, contact.index, contact.force, ws.island.y.start)
+            write_wrench(ws, contact.index, contact.force)
+            push_response(ws, contact.index, NORMAL_ROW, 1.0, ws.island.du.start)
         else:
-            push_response(ws, c, NORMAL_ROW, contact.compliant_force, ws.island.du.start)
+            push_response(ws, contact.index, NORMAL_ROW, contact.compliant_force, ws.island.du.start)
 
 
 @kernel("b1(ws, i8)")
-def rubs_unasked(ws: Workspace, c: int) -> bool:
-    """Return 1 if the friction of the compliant contact ``c`` is no question: by a law of traction, or without load."""
+def has_known_friction(ws: Workspace, c: int) -> bool:
+    """True if the friction of the compliant contact ``c`` is no unknown, due to a traction law or to a zero load."""
     contact = ws.contacts[c]
     return contact.has_traction_law or contact.compliant_force <= 0.0
 
 
 @kernel()
 def decouple_normals(ws: Workspace) -> None:
-    """Leave of the normal forces of the active compliant contacts what the friction sees: a given load.
+    """Make the normal forces of the active compliant contacts given numbers in the contact problem.
 
-    What they do is in the free accelerations already.  Their rows and columns of G become those of contacts that
-    nothing couples, whose forces come out as given.
+    Their accelerations are in the free accelerations already. So their normal rows and columns of G are replaced by
+    uncoupled ones, g_nn x = g_nn f, whose solution is the given force f. The solvers then need no case of their own.
     """
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
+    for active in ws.actives:
         contact = ws.contacts[active.contact]
-        rigid = not contact.is_compliant
         for block in range(active.first_block, active.end_block):
             g, d = at(ws.floats, ws.island.delassus.start + DELASSUS * block), ws.island.block_column[block]
-            if d == a and not rigid:
+            if d == active.index and contact.is_compliant:
                 own = g[0] if g[0] > 0.0 else 1.0
                 active.free[0] = -own * contact.compliant_force
                 for i in range(1, 3):
                     g[i] = g[3 * i] = 0.0
                 g[0] = own
                 continue
-            pushes = ws.contacts[ws.actives[d].contact].is_compliant
+            is_column_given = ws.contacts[ws.actives[d].contact].is_compliant
             for i in range(3):
-                if not rigid:
+                if contact.is_compliant:
                     g[i] = 0.0
-                if pushes:
+                if is_column_given:
                     g[3 * i] = 0.0

@@ -1,7 +1,8 @@
-"""Courses: bodies that stick to one at rest by one contact go on past events that are none of theirs.
+"""Bodies with a step of their own (multirate): they are not integrated with the rest of the system.
 
-Such a body has had a step of its own (:mod:`nonsmooth.engine.flow.courses`), whose end is known; until then it is where
-the interpolant of that step says, as long as nothing else touches it.
+Such a body sticks to a body at rest by a single contact. It has taken a step whose end is known
+(:mod:`nonsmooth.engine.flow.own_steps`). Until that end it moves along the interpolant of the step, whatever happens
+elsewhere, as long as no other body touches it.
 """
 
 from __future__ import annotations
@@ -20,10 +21,10 @@ def has_own_step(ws: Workspace, c: int) -> bool:
 
 
 @kernel("i8(ws, i8)")
-def end_courses_of(ws: Workspace, c: int) -> int:
-    """End the courses of the bodies of contact ``c``, which stay where they are; return how many."""
+def end_own_steps_of(ws: Workspace, c: int) -> int:
+    """End the own steps of the bodies of contact ``c`` at the present motion. Number of steps that ended."""
     contact = ws.contacts[c]
-    one, two = ws.bodies[contact.body_a], ws.bodies[contact.body_b]
-    ended = one.has_own_step + two.has_own_step
-    one.has_own_step = two.has_own_step = False
-    return int(ended)
+    body_a, body_b = ws.bodies[contact.body_a], ws.bodies[contact.body_b]
+    n_ended = body_a.has_own_step + body_b.has_own_step
+    body_a.has_own_step = body_b.has_own_step = False
+    return int(n_ended)

@@ -1,13 +1,25 @@
-"""Contacts at a state: gaps, relative rates, Jacobians, second-order terms."""
+"""Kinematics of a contact: gap, relative rates, Jacobians, and accelerations at constant velocities.
+
+The geometry function of a pair of shapes writes gap, normal and witness points. With the axes n, t1, t2 follow
+
+    g' = w_n . u + p_n           gap rate                    Eq. (11)
+    v  = w_t . u + p_t           slip velocity               Eq. (12)
+    (g'', v') = W^T u' + S       their derivatives           Eq. (13)
+
+where p is prescribed by driven bodies, and S, the bias, collects the second-order terms. Rows are products of an axis
+with the Jacobian of a frame, so the engine needs no Jacobian of the gap from the geometry function.
+"""
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from nonsmooth.engine.bodies.anisotropy import stretch_bias, stretch_tangents
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
 from nonsmooth.engine.native.kernel import (
+    Contact,
     Floats,
     Workspace,
     at,
@@ -15,17 +27,40 @@ from nonsmooth.engine.native.kernel import (
     entry_point,
     frame_at,
     kernel,
+    result,
 )
 from nonsmooth.engine.numerics.linear import multiply, product
-from nonsmooth.engine.numerics.vectors import Vector, cross, dot, length, minus, opposite, scaled
+from nonsmooth.engine.numerics.vectors import Pair, Vector, cross, dot, length, minus, opposite, scaled
 
-UNSEEN = -1
-"""A contact that nothing was evaluated of has seen this version of its bodies, which none has."""
+NOT_EVALUATED = -1
+"""Version of its bodies that a contact has which was never evaluated. No body has this version."""
+
+
+@result
+class WitnessMotion(NamedTuple):
+    """Motion of the witness points of a contact over their bodies, along the unit tangents."""
+
+    u1: float
+    """Sliding of the first witness point along t1 [m/s]."""
+    u2: float
+    """Sliding of the first witness point along t2 [m/s]."""
+    w1: float
+    """Sliding of the second witness point along t1 [m/s]."""
+    w2: float
+    """Sliding of the second witness point along t2 [m/s]."""
+    nu1: float
+    """Rate of the normal along t1 relative to the first body [1/s]."""
+    nu2: float
+    """Rate of the normal along t2 relative to the first body [1/s]."""
 
 
 @kernel("void(ws, i8)")
 def evaluate_geometry(ws: Workspace, c: int) -> None:
-    """Write gap, witness points, curvature and the axes n, t1, t2 of contact ``c``."""
+    """Write gap [m], witness points, curvature and the axes n, t1, t2 of contact ``c``.
+
+    If compliant bodies overlap past the end of the features, the gap is replaced by the distance to that end, and the
+    overlap is stored. Such an overlap is allowed as long as another contact of the two bodies is closed.
+    """
     contact = ws.contacts[c]
     call_pair(
         contact.geometry_function,
@@ -39,14 +74,13 @@ def evaluate_geometry(ws: Workspace, c: int) -> None:
     if contact.is_compliant:
         contact.overlap = 0.0
         if contact.gap < 0.0 < contact.past_feature:
-            # bodies that press into each other are no sign that a contact was passed, as long as another one presses
             contact.overlap = contact.gap
             contact.gap = length((contact.gap, contact.past_feature))
 
 
 @kernel("v3(F, i8, v3)")
-def _velocity(w: Floats, place: int, point: Vector) -> Vector:
-    """Return the velocity of a point fixed to a frame."""
+def _velocity_of_point(w: Floats, place: int, point: Vector) -> Vector:
+    """Velocity of a point that is fixed to a frame [m/s]."""
     frame = frame_at(w, place)
     x, y, z = minus(point, frame.origin)
     ox, oy, oz = frame.spin
@@ -56,11 +90,10 @@ def _velocity(w: Floats, place: int, point: Vector) -> Vector:
 
 @kernel("void(ws, i8)")
 def evaluate_rates(ws: Workspace, c: int) -> None:
-    """Write the gap rate and slip velocity of contact ``c``, Eqs. (11) and (12)."""
+    """Write the gap rate and the slip velocity of contact ``c`` [m/s], Eqs. (11) and (12)."""
     contact = ws.contacts[c]
-    v = minus(
-        _velocity(ws.floats, contact.frame_b, contact.point_b), _velocity(ws.floats, contact.frame_a, contact.point_a)
-    )
+    velocity_b = _velocity_of_point(ws.floats, contact.frame_b, contact.point_b)
+    v = minus(velocity_b, _velocity_of_point(ws.floats, contact.frame_a, contact.point_a))
     if contact.is_anisotropic:
         t1, t2 = contact.tangent, cross(contact.normal, contact.tangent)
         contact.slip_of_tangents = dot(t1, v), dot(t2, v)
@@ -70,7 +103,10 @@ def evaluate_rates(ws: Workspace, c: int) -> None:
 
 @kernel("void(ws, i8)")
 def evaluate_kinematics(ws: Workspace, c: int) -> None:
-    """Write geometry and rates of contact ``c``, unless they are those of its bodies as these stand."""
+    """Write geometry and rates of contact ``c``, unless its bodies have not been evaluated since.
+
+    The facing of an anisotropic contact depends on more than its bodies, so it is always evaluated.
+    """
     contact = ws.contacts[c]
     version_a = ws.bodies[contact.body_a].version
     version_b = ws.bodies[contact.body_b].version
@@ -78,14 +114,14 @@ def evaluate_kinematics(ws: Workspace, c: int) -> None:
         return
     evaluate_geometry(ws, c)
     evaluate_rates(ws, c)
-    # which way one faces hangs on more than its bodies
-    contact.version_a = version_a if not contact.is_anisotropic else UNSEEN
+
+    contact.version_a = version_a if not contact.is_anisotropic else NOT_EVALUATED
     contact.version_b = version_b
 
 
 @kernel("f8(F, i8, i8, v3, v3)")
-def _entry(w: Floats, column: int, n_u: int, axis: Vector, moment: Vector) -> float:
-    """Return what a column of a frame's Jacobian has along an axis and a moment."""
+def _entry_of_column(w: Floats, column: int, n_u: int, axis: Vector, moment: Vector) -> float:
+    """Entry of a contact row: the product of an axis and a moment with one column of a frame's Jacobian."""
     v, o = column, column + 3 * n_u
     linear = axis[0] * w[v] + axis[1] * w[v + n_u] + axis[2] * w[v + 2 * n_u]
     return linear + moment[0] * w[o] + moment[1] * w[o + n_u] + moment[2] * w[o + 2 * n_u]
@@ -93,32 +129,35 @@ def _entry(w: Floats, column: int, n_u: int, axis: Vector, moment: Vector) -> fl
 
 @kernel("v3(F, i8, i8, v3, v3)")
 def side_entries(w: Floats, frame: int, first: int, axis: Vector, moment: Vector) -> Vector:
-    """Return three entries, from the ``first`` on, of the row of a body of six velocities."""
+    """Three entries of the row of a body with six velocities, from entry ``first`` on."""
     column = frame + FRAME + first
     return (
-        _entry(w, column, 6, axis, moment),
-        _entry(w, column + 1, 6, axis, moment),
-        _entry(w, column + 2, 6, axis, moment),
+        _entry_of_column(w, column, 6, axis, moment),
+        _entry_of_column(w, column + 1, 6, axis, moment),
+        _entry_of_column(w, column + 2, 6, axis, moment),
     )
 
 
 @kernel("void(F, i8, v3, v3, i8, i8)")
 def side_row(w: Floats, frame: int, point: Vector, axis: Vector, n_u: int, out: int) -> None:
-    """Write the row of one body: (axis, rho x axis) . frame Jacobian."""
+    """Write the row of one body to ``out``: (axis, rho x axis) . J, where rho leads from its frame to the point."""
     if n_u == 0:
         return
     moment, first = cross(minus(point, frame_at(w, frame).origin), axis), frame + FRAME
     if n_u == 6:
         for j in range(6):
-            w[out + j] = _entry(w, first + j, 6, axis, moment)
+            w[out + j] = _entry_of_column(w, first + j, 6, axis, moment)
         return
     for j in range(n_u):
-        w[out + j] = _entry(w, first + j, n_u, axis, moment)
+        w[out + j] = _entry_of_column(w, first + j, n_u, axis, moment)
 
 
 @kernel("void(F, i8, v3, v3, v3, i8, i8)")
 def side_wrench(w: Floats, frame: int, point: Vector, force: Vector, moment: Vector, n_u: int, out: int) -> None:
-    """Write the row of one body: of a force at a point and a moment, in world components."""
+    """Write the row of one body to ``out``: the generalised force of a force at a point and a moment.
+
+    Force, moment and point are in world components.
+    """
     side_row(w, frame, point, force, n_u, out)
     for j in range(n_u):
         o = frame + FRAME + j + 3 * n_u
@@ -127,21 +166,24 @@ def side_wrench(w: Floats, frame: int, point: Vector, force: Vector, moment: Vec
 
 @kernel("i8(ws, i8, i8)")
 def _row_a(ws: Workspace, c: int, r: int) -> int:
-    """Return where row ``r`` of the first Jacobian of contact ``c`` has the coordinates of the body in contact."""
+    """Place of the entries of the first body in row ``r`` of the first Jacobian of contact ``c``."""
     contact = ws.contacts[c]
     return int(contact.jacobian_a + r * ws.articulations[contact.articulation_a].n_u + contact.column_a)
 
 
 @kernel("i8(ws, i8, i8)")
 def _row_b(ws: Workspace, c: int, r: int) -> int:
-    """Return the same of the second Jacobian."""
+    """Place of the entries of the second body in row ``r`` of the second Jacobian of contact ``c``."""
     contact = ws.contacts[c]
     return int(contact.jacobian_b + r * ws.articulations[contact.articulation_b].n_u + contact.column_b)
 
 
 @kernel("void(ws, i8, i8, v3, v3)")
 def wrench_row(ws: Workspace, c: int, r: int, force: Vector, moment: Vector) -> None:
-    """Write row ``r`` of contact ``c``: what a force and a moment on the second body do, in world components."""
+    """Write row ``r`` of contact ``c``: the generalised forces of a force and a moment on the second body.
+
+    They act on the first body with the opposite sign. Force and moment are in world components.
+    """
     contact, row_a, row_b = ws.contacts[c], _row_a(ws, c, r), _row_b(ws, c, r)
     side_wrench(ws.floats, contact.frame_a, contact.point_a, opposite(force), opposite(moment), contact.n_u_a, row_a)
     side_wrench(ws.floats, contact.frame_b, contact.point_b, force, moment, contact.n_u_b, row_b)
@@ -149,7 +191,7 @@ def wrench_row(ws: Workspace, c: int, r: int, force: Vector, moment: Vector) -> 
 
 @kernel("void(ws, i8, i8, v3)")
 def evaluate_row(ws: Workspace, c: int, r: int, axis: Vector) -> None:
-    """Write row ``r`` of the Jacobians of contact ``c``: of the relative velocity along the axis given."""
+    """Write row ``r`` of the Jacobians of contact ``c``, of the relative velocity along ``axis``."""
     contact = ws.contacts[c]
     side_row(ws.floats, contact.frame_a, contact.point_a, opposite(axis), contact.n_u_a, _row_a(ws, c, r))
     side_row(ws.floats, contact.frame_b, contact.point_b, axis, contact.n_u_b, _row_b(ws, c, r))
@@ -157,9 +199,9 @@ def evaluate_row(ws: Workspace, c: int, r: int, axis: Vector) -> None:
 
 @kernel("void(ws, i8, i8, i8)")
 def evaluate_row_response(ws: Workspace, c: int, r: int, s: int) -> None:
-    """Write response ``s`` of contact ``c``: K times row ``r`` of its Jacobians, whose zeros are skipped.
+    """Write response ``s`` of contact ``c``: K times row ``r`` of its Jacobians.
 
-    K is M^-1, less what the joints take.
+    K is the inverse mass matrix of the articulation, in which its joints are eliminated.
     """
     contact = ws.contacts[c]
     for side in range(2):
@@ -172,7 +214,7 @@ def evaluate_row_response(ws: Workspace, c: int, r: int, s: int) -> None:
 
 @kernel("void(ws, i8, i8, f8, i8)")
 def push_response(ws: Workspace, c: int, s: int, force: float, du: int) -> None:
-    """Add the accelerations that a force in column ``s`` of contact ``c`` gives to ``du``."""
+    """Add to ``du`` the accelerations that a ``force`` [N] along response ``s`` of contact ``c`` gives."""
     contact = ws.contacts[c]
     for side in range(2):
         articulation = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b]
@@ -184,7 +226,7 @@ def push_response(ws: Workspace, c: int, s: int, force: float, du: int) -> None:
 
 @kernel("f8(ws, i8, i8, i8)")
 def row(ws: Workspace, c: int, r: int, du: int) -> float:
-    """Return row ``r`` (n, t1, t2) of [W N]^T du of contact ``c``."""
+    """Product of row ``r`` (n, t1, t2) of the Jacobians of contact ``c`` with velocities or accelerations ``du``."""
     contact = ws.contacts[c]
     a, b = ws.articulations[contact.articulation_a], ws.articulations[contact.articulation_b]
     total = product(ws.floats, 0.0, contact.jacobian_a + r * a.n_u, du + a.u, a.n_u)
@@ -193,7 +235,7 @@ def row(ws: Workspace, c: int, r: int, du: int) -> float:
 
 @kernel("void(ws, i8)")
 def evaluate_jacobian(ws: Workspace, c: int) -> None:
-    """Write W^T and N^T of contact ``c`` (rows n, t1, t2), K times them, and the prescribed rates."""
+    """Write the rows n, t1, t2 of the Jacobians of contact ``c``, their responses, and the prescribed rates [m/s]."""
     contact = ws.contacts[c]
     evaluate_row(ws, c, NORMAL_ROW, contact.axis_n)
     evaluate_row(ws, c, FIRST_ROW, contact.axis_1)
@@ -205,7 +247,10 @@ def evaluate_jacobian(ws: Workspace, c: int) -> None:
 
 @kernel("v3(F, i8, v3, v3, v3)")
 def _acceleration(w: Floats, place: int, point: Vector, slide_1: Vector, slide_2: Vector) -> Vector:
-    """Return the acceleration of a point that slides along a frame, at the sum of two velocities, as it is carried."""
+    """Acceleration of a witness point at constant velocities of its body [m/s^2].
+
+    The point slides along the frame at the sum of two velocities, while the frame moves.
+    """
     frame = frame_at(w, place)
     x, y, z = minus(point, frame.origin)
     ox, oy, oz = frame.spin
@@ -223,27 +268,55 @@ def _acceleration(w: Floats, place: int, point: Vector, slide_1: Vector, slide_2
 
 @kernel("void(ws, i8, i8)")
 def evaluate_bias(ws: Workspace, c: int, rows: int) -> None:
-    """Write S_N and S_T of Eq. (13) with the prescribed accelerations: g'' and v' of contact ``c`` while u' = 0.
+    """Write the bias of contact ``c``: the second derivatives g'' and v' while u' = 0 [m/s^2], S of Eq. (13).
 
-    Only the normal one with ``rows`` 1, all with 3.
+    With ``rows`` = 1 only the normal one is written, with 3 all.
 
-    The witness points slide over their bodies at u and w, and the normal turns by nu relative to the
-    first one: slide_a u = turn_a nu, slide_b w = -turn_b (nu - rho), w = u + g nu - d, with rho the
-    relative turning of the bodies and d their relative velocity at the witness points, both in the
-    tangent plane (physics of general shapes; for plane and sphere it gives the S terms of Eq. (13)).
+    The witness points slide over their bodies at u and w, and the normal turns by nu relative to the first body. In the
+    tangent plane, with d the relative velocity of the bodies there and rho their relative turning,
+
+        slide_a u = turn_a nu,    slide_b w = -turn_b (nu - rho),    w = u + g nu - d.
+
+    ``slide`` and ``turn`` describe each surface. For a plane and a sphere this gives the S terms of Eq. (13).
     """
     contact = ws.contacts[c]
     n, t1, t2, slip = contact.axis_n, contact.axis_1, contact.axis_2, contact.slip
     if contact.is_anisotropic:
         t1, t2, slip = contact.tangent, cross(contact.normal, contact.tangent), contact.slip_of_tangents
+    a = frame_at(ws.floats, contact.frame_a)
+    # turning of the normal with the first body, omega_A x n in the tangent plane
+    turn_1, turn_2 = dot(a.spin, t2), -dot(a.spin, t1)
+    v1, v2 = slip
+    motion = _witness_motion(ws, contact, t1, t2, slip)
+    # accelerations of the witness points, second minus first, as the turning bodies carry the sliding points
+    acceleration = minus(
+        _acceleration(ws.floats, contact.frame_b, contact.point_b, scaled(motion.w1, t1), scaled(motion.w2, t2)),
+        _acceleration(ws.floats, contact.frame_a, contact.point_a, scaled(motion.u1, t1), scaled(motion.u2, t2)),
+    )
+    # the axes turn: n' = omega_A x n + nu, and the tangents spin about n with the first body
+    n1, n2 = turn_1 + motion.nu1, turn_2 + motion.nu2
+    spin, rate = dot(a.spin, n), contact.rate[0]
+    contact.bias[0] = dot(n, acceleration) + (n1 * v1 + n2 * v2)
+    if rows == 3:
+        contact.bias[1] = dot(t1, acceleration) + spin * v2 - n1 * rate
+        contact.bias[2] = dot(t2, acceleration) - spin * v1 - n2 * rate
+        if contact.is_anisotropic:
+            stretch_bias(ws, c)
+
+
+@kernel("WitnessMotion(ws, Contact, v3, v3, v2)")
+def _witness_motion(ws: Workspace, contact: Contact, t1: Vector, t2: Vector, slip: Pair) -> WitnessMotion:
+    """Sliding of the witness points and turning of the normal of a contact, in components along its unit tangents.
+
+    ``slide`` and ``turn`` of one surface commute. So u = turn_a x and nu = slide_a x solve the first equation of
+    :func:`evaluate_bias`, and two equations for x are left.
+    """
     a, b = frame_at(ws.floats, contact.frame_a), frame_at(ws.floats, contact.frame_b)
     gap = contact.gap
-    # turning of the normal with the first body, (omega_A x n) in the tangent plane; rho likewise for B - A
     turn_a1, turn_a2 = dot(a.spin, t2), -dot(a.spin, t1)
     rho1, rho2 = dot(b.spin, t2) - turn_a1, -dot(b.spin, t1) - turn_a2
     v1, v2 = slip
     d1, d2 = v1 - gap * turn_a1, v2 - gap * turn_a2
-    # slide and turn of one surface commute, so u = turn_a x, nu = slide_a x leaves two unknowns
     slide_a, turn_a, slide_b, turn_b = contact.slide_a, contact.turn_a, contact.slide_b, contact.turn_b
     r1 = slide_b[0] * d1 + slide_b[1] * d2 + turn_b[0] * rho1 + turn_b[1] * rho2
     r2 = slide_b[2] * d1 + slide_b[3] * d2 + turn_b[2] * rho1 + turn_b[3] * rho2
@@ -256,31 +329,17 @@ def evaluate_bias(ws: Workspace, c: int, rows: int) -> None:
     m22 = (g21 * reach_12 + h21 * s12) + (g22 * reach_22 + h22 * s22)
     determinant = m11 * m22 - m12 * m21
     if determinant == 0.0:
-        # a trial step far too long; what is not a number rejects it, where plain Python would raise
+        # a trial step that is far too long: NaN rejects it, where plain Python would raise
         determinant = math.nan
     x1, x2 = (m22 * r1 - m12 * r2) / determinant, (m11 * r2 - m21 * r1) / determinant
     u1, u2 = turn_a[0] * x1 + turn_a[1] * x2, turn_a[2] * x1 + turn_a[3] * x2
     nu1, nu2 = slide_a[0] * x1 + slide_a[1] * x2, slide_a[2] * x1 + slide_a[3] * x2
-    w1, w2 = u1 + gap * nu1 - d1, u2 + gap * nu2 - d2
-    # the witness points' accelerations, second minus first, as the turning bodies carry the sliding points
-    acceleration = minus(
-        _acceleration(ws.floats, contact.frame_b, contact.point_b, scaled(w1, t1), scaled(w2, t2)),
-        _acceleration(ws.floats, contact.frame_a, contact.point_a, scaled(u1, t1), scaled(u2, t2)),
-    )
-    # the axes themselves turn: n' = omega_A x n + nu, and the tangents spin about n with the first body
-    n1, n2 = turn_a1 + nu1, turn_a2 + nu2
-    spin, rate = dot(a.spin, n), contact.rate[0]
-    contact.bias[0] = dot(n, acceleration) + (n1 * v1 + n2 * v2)
-    if rows == 3:
-        contact.bias[1] = dot(t1, acceleration) + spin * v2 - n1 * rate
-        contact.bias[2] = dot(t2, acceleration) - spin * v1 - n2 * rate
-        if contact.is_anisotropic:
-            stretch_bias(ws, c)
+    return WitnessMotion(u1, u2, u1 + gap * nu1 - d1, u2 + gap * nu2 - d2, nu1, nu2)
 
 
 @entry_point("void(ws, i8, i8)")
 def evaluate_contact(ws: Workspace, c: int, rows: int) -> None:
-    """Write everything about contact ``c``, the bodies being evaluated; ``rows`` of the bias."""
+    """Write geometry, rates, Jacobians and bias of contact ``c``, whose bodies were evaluated; ``rows`` of the bias."""
     evaluate_geometry(ws, c)
     evaluate_rates(ws, c)
     evaluate_jacobian(ws, c)

@@ -4,7 +4,7 @@ A unit is a frame that carries bounded shapes, all within a ball about its origi
 whose balls are nearer than a margin, found by sorting the balls along an axis and sweeping over them, and contacts with
 unbounded shapes, walls: those of units whose balls are nearer than the margin where the wall is below a plane at rest,
 all of others.  It stands until some unit has moved by half the margin; of a unit with pools of features
-(:mod:`nonsmooth.engine.bodies.pools`), until some point of it has.
+(:mod:`nonsmooth.engine.bodies.candidates`), until some point of it has.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
-from nonsmooth.engine.bodies.kinematics import UNSEEN
-from nonsmooth.engine.bodies.pools import are_near, fill_pools, is_empty
+from nonsmooth.engine.bodies.candidates import are_near, find_candidates, has_no_features
+from nonsmooth.engine.bodies.kinematics import NOT_EVALUATED
 from nonsmooth.engine.memory.blocks import PAIR
 from nonsmooth.engine.memory.modes import Status
 from nonsmooth.engine.native.kernel import (
@@ -37,7 +37,7 @@ _ACCELERATION = 2.0
 @kernel("b1(ws, i8)")
 def _enter(ws: Workspace, declared: int) -> bool:
     """Put a declared contact into the next slot, unless it is empty; return 0 if there is no slot."""
-    if is_empty(ws, declared):
+    if has_no_features(ws, declared):
         return True
     if ws.island.n_contacts == ws.model.n_slots:
         return False
@@ -46,7 +46,7 @@ def _enter(ws: Workspace, declared: int) -> bool:
     copy_fields(ws.declared_contacts[declared], contact)
     contact.facing = 1
     contact.is_touching = False
-    contact.version_a = UNSEEN
+    contact.version_a = NOT_EVALUATED
     contact.declared = declared
     # a pair writes what of its block can be other than zero; the contact that had the slot may have left more
     for i in range(PAIR):
@@ -163,10 +163,10 @@ def list_contacts(ws: Workspace) -> Status:
         for i in range(9):
             unit.axes[i] = frame.rotation[i]
     ws.island.list_margin = min(ws.options.widest_margin, 2.0 * ws.island.list_margin)
-    status = fill_pools(ws)
+    status = find_candidates(ws)
     while status == Status.NO_SLOT and ws.island.list_margin > _NARROWEST * ws.options.widest_margin:
         ws.island.list_margin *= 0.5
-        status = fill_pools(ws)
+        status = find_candidates(ws)
     if status != Status.RUNNING:
         return status
     frame = still = -1

@@ -1,10 +1,21 @@
-"""The end of an accumulation of ever shorter bounces, Eq. (33): of one contact by itself, and of an island."""
+"""End of an accumulation of ever shorter bounces (Zeno sequence), Eq. (33): of a single contact, and of an island.
+
+A ball that bounces with a restitution below 1 comes to rest after infinitely many impacts in finite time. The sequence
+is cut off as soon as a bounce is shorter than the contact time, because rigid impacts mean nothing in less. The rest of
+the sequence is left out: the contact closes, and the small energy that is left counts as closing loss. So the error is
+bounded by the physical contact time, not by a numerical tolerance.
+
+A single contact is closed by a projection of its rate. If several contacts of an island touch, their bounces depend on
+each other, so the forces of the island are averaged over a contact time instead
+(:mod:`nonsmooth.engine.contact.mean_forces`). An approach slower than a contact could reach within one contact time is
+stopped by an inelastic impact in place of a collision.
+"""
 
 from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.bodies.compliance import begin_contact, push_compliant
+from nonsmooth.engine.bodies.compliance import accelerate_by_compliance, start_inner_states
 from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.bodies.touching import slip_speed, touch
@@ -15,30 +26,30 @@ from nonsmooth.engine.contact.problem import accelerate_touching
 from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_closed, group_touching
 from nonsmooth.engine.events.averaging import average_active
-from nonsmooth.engine.events.record import CLOSING_LOSS, DRIVEN_WORK, record_event, remember
-from nonsmooth.engine.events.twins import closed_twin, take_over
+from nonsmooth.engine.events.coincident import closed_coincident, replace_coincident
+from nonsmooth.engine.events.record import CLOSING_LOSS, DRIVEN_WORK, NO_PHASES, record_event, remember
 from nonsmooth.engine.flow.projection import project_rates
-from nonsmooth.engine.flow.self_check import EXPLAINED, NOUGHT
+from nonsmooth.engine.flow.self_check import ALLOWED, NEGLIGIBLE
 from nonsmooth.engine.memory.layout import NORMAL_ROW
-from nonsmooth.engine.memory.modes import NO_RELEASE, Cause, Mode, Truncation
+from nonsmooth.engine.memory.modes import NO_CONTACT, NO_RELEASE, Cause, Mode, Truncation
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
-_RESTS = 1.0 - 1e-6
-"""What comes to rest this near the end of an averaging, in parts of it, is not told from what does not."""
+_PART_AT_REST = 1.0 - 1e-6
+"""Part of an averaging span after which its contacts count as at rest. Up to round-off they come to rest at its end."""
 
 
 @kernel("void(ws, i8)")
-def provisional_mode(ws: Workspace, c: int) -> None:
-    """Give contact ``c`` the mode that its rates tell, until the instant is settled."""
+def set_provisional_mode(ws: Workspace, c: int) -> None:
+    """Give contact ``c`` the mode that its rates suggest, until the instant is settled."""
     contact = ws.contacts[c]
-    rigid = not contact.is_compliant
     if has_own_step(ws, c):
         return
-    if not contact.is_touching or contact.release != NO_RELEASE or (rigid and contact.rate[0] > ws.tolerance.velocity):
+    separates = not contact.is_compliant and contact.normal_rate > ws.tolerance.velocity
+    if not contact.is_touching or contact.release != NO_RELEASE or separates:
         contact.mode = Mode.OPEN
         return
     if contact.mode == Mode.OPEN:
-        begin_contact(ws, c)
+        start_inner_states(ws, c)
     speed = slip_speed(ws, c)
     contact.mode = Mode.SLIDE if speed > ws.tolerance.velocity else Mode.STICK
     if speed > ws.tolerance.velocity:
@@ -47,66 +58,79 @@ def provisional_mode(ws: Workspace, c: int) -> None:
 
 @kernel("b1(ws, i8, f8)")
 def _is_short(ws: Workspace, c: int, time: float) -> bool:
-    """Return 1 if contact ``c`` separates, but no faster than it approaches after a ``time``.
+    """True if contact ``c`` bounces, but will come back within a ``time`` [s].
 
-    How fast the next step may not be, lest it fly over the touch-down, is kept.
+    With the rate v and the acceleration -a, it comes back after 2 v / a. The next step must not be much longer, or it
+    would miss the return. A gap that is left must close first.
     """
     contact = ws.contacts[c]
-    rate = contact.rate[0]
-    approach = -(contact.bias[0] + row(ws, c, NORMAL_ROW, ws.island.du.start))
-    if rate <= ws.tolerance.velocity or approach <= 0.0:
+    rate = contact.normal_rate
+    acceleration = -(contact.bias[0] + row(ws, c, NORMAL_ROW, ws.island.du.start))
+    if rate <= ws.tolerance.velocity or acceleration <= 0.0:
         return False
-    # the touch-down is due after 2 rate / approach
-    ws.island.first_step = min(ws.island.first_step, 3.0 * rate / approach)
-    # (a gap that is left closes first)
-    short = (rate - approach * time) * time <= -max(0.0, contact.gap)
-    return short and closed_twin(ws, c) < 0
+    ws.island.first_step = min(ws.island.first_step, 3.0 * rate / acceleration)
+    is_back = (rate - acceleration * time) * time <= -max(0.0, contact.gap)
+    return is_back and closed_coincident(ws, c) == NO_CONTACT
 
 
 @kernel("i8(ws)")
-def close_contacts(ws: Workspace) -> int:
-    """End the bounces that have become shorter than their contact time; return how many contacts or islands have one.
+def end_short_bounces(ws: Workspace) -> int:
+    """End the bounces that have become shorter than their contact time. Number of contacts and islands that end one.
 
-    One of a contact by itself is left out.  Where several touch, the forces of their island are averaged, so that all
-    land together.  The modes must be those agreed on for this instant.
+    The last bounce of a single contact is left out. If several contacts touch, the forces of their island are averaged,
+    so that all come to rest together. The modes must be those agreed on for this instant.
     """
     ws.island.first_step = math.inf
     group_touching(ws)
-    closing = 0
+    n_ended = 0
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
-        time, fastest = averaging_time(ws), math.inf
-        if ws.problem.n_active > 1:
-            # what is averaged comes to rest within that time, on its way up, which is none that can be told
-            time *= _RESTS
-            fastest = EXPLAINED * ws.tolerance.gap / max(time, ws.tolerance.time)
-        which = -1
-        for a in range(ws.problem.n_active):
-            c = ws.actives[a].contact
-            if ws.contacts[c].rate[0] <= fastest and _is_short(ws, c, time):
-                which = c
-        if which >= 0 and ws.problem.n_active == 1:
-            _close(ws, which)
-            closing += 1
-        elif which >= 0:
-            closing += average_active(ws)
-    return closing
+        which = _short_bounce(ws)
+        if which == NO_CONTACT:
+            continue
+        if ws.problem.n_active == 1:
+            _end_bounce(ws, which)
+            n_ended += 1
+        else:
+            n_ended += average_active(ws)
+    return n_ended
+
+
+@kernel("i8(ws)")
+def _short_bounce(ws: Workspace) -> int:
+    """Active contact whose bounce is shorter than the contact time, or ``NO_CONTACT``.
+
+    Averaged forces may leave a rate by which a gap stays within the allowed one over their span. A faster contact of an
+    island is not short.
+    """
+    time, fastest = averaging_time(ws), math.inf
+    if ws.problem.n_active > 1:
+        time *= _PART_AT_REST
+        fastest = ALLOWED * ws.tolerance.gap / max(time, ws.tolerance.time)
+    which = NO_CONTACT
+    for active in ws.actives:
+        if ws.contacts[active.contact].normal_rate <= fastest and _is_short(ws, active.contact, time):
+            which = active.contact
+    return which
 
 
 @kernel("void(ws, i8)")
-def _close(ws: Workspace, c: int) -> None:
-    """Leave out the last bounce of contact ``c``, the only active one, and record that."""
+def _end_bounce(ws: Workspace, c: int) -> None:
+    """Close contact ``c``, the only active one, without its last bounce, and record that."""
     remember(ws)
     contact = ws.contacts[c]
     contact.mode = Mode.SLIDE if slip_speed(ws, c) > ws.tolerance.velocity else Mode.STICK
     before = ws.totals.driven_work
-    _book(ws, project_rates(ws, at_event=True), before)
-    record_event(ws, Cause.CLOSING, c, 0)
+    _add_loss(ws, project_rates(ws, at_event=True), before)
+    record_event(ws, Cause.CLOSING, c, NO_PHASES)
 
 
 @kernel("void(ws, f8, f8)")
-def _book(ws: Workspace, loss: float, work_before: float) -> None:
-    """Book what a closing takes."""
+def _add_loss(ws: Workspace, loss: float, work_before: float) -> None:
+    """Add the energy that a closing removed [J], and the work of driven bodies since ``work_before`` [J], to the event.
+
+    The work of driven bodies is in the totals already.
+    """
     ws.event.head[CLOSING_LOSS] += loss
     ws.event.head[DRIVEN_WORK] += ws.totals.driven_work - work_before
     ws.totals.closing_loss += loss
@@ -114,131 +138,127 @@ def _book(ws: Workspace, loss: float, work_before: float) -> None:
 
 @kernel()
 def _stop_active(ws: Workspace) -> None:
-    """Give the active contacts the impulses of an inelastic impact, of which none pulls, and book what they take."""
+    """Stop the approaches of the active contacts by an inelastic impact, and add its loss to the event."""
     assemble_delassus(ws)
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
+    for active in ws.actives:
         for r in range(3):
             active.free[r] = active.force[r] = 0.0
     inelastic_impulses(ws, 0.0)
     add_response(ws, ws.problem.forces.start, ws.island.y.start + ws.model.n_q)
     loss, before = 0.0, ws.totals.driven_work
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
+    for active in ws.actives:
         contact = ws.contacts[active.contact]
         for r in range(3):
             impulse, rate = active.force[r], contact.rate[r]
-            loss -= 0.5 * impulse * add_product(ws, 2.0 * rate, a, r, ws.problem.forces.start)
+            loss -= 0.5 * impulse * add_product(ws, 2.0 * rate, active.index, r, ws.problem.forces.start)
             ws.totals.driven_work -= impulse * contact.prescribed_rate[r]
             contact.event_impulse[r] = impulse
-    _book(ws, loss, before)
+    _add_loss(ws, loss, before)
 
 
 @kernel("i8(ws)")
-def _fastest_of_active(ws: Workspace) -> int:
-    """Return the active contact that approaches most, or -1 where none does."""
-    which, worst = -1, -ws.tolerance.velocity
-    for a in range(ws.problem.n_active):
-        c = ws.actives[a].contact
-        rate = ws.contacts[c].rate[0]
-        if rate < worst:
-            which, worst = c, rate
+def _fastest_approach(ws: Workspace) -> int:
+    """Active contact that approaches fastest, or ``NO_CONTACT`` if none does."""
+    which, least = NO_CONTACT, -ws.tolerance.velocity
+    for active in ws.actives:
+        rate = ws.contacts[active.contact].normal_rate
+        if rate < least:
+            which, least = active.contact, rate
     return which
+
+
+@kernel("b1(ws, i8)")
+def _is_slow(ws: Workspace, c: int) -> bool:
+    """True if contact ``c`` approaches no faster than the slow speed of the active contacts."""
+    return -ws.contacts[c].normal_rate <= slow_speed(ws)
 
 
 @kernel("f8(ws)")
 def slow_speed(ws: Workspace) -> float:
-    """Return the speed of a gap below which nothing bounces among the active contacts [m/s].
+    """Speed of a gap of the active contacts below which bounces are shorter than their contact time [m/s].
 
-    It is what the greatest approach of the free accelerations, which must be written, makes of it in the shortest
-    contact time: Eq. (33), of an island in place of a contact.
+    It is the speed that the largest free acceleration of approach reaches in the shortest contact time: Eq. (33) of an
+    island in place of a contact. The free accelerations must be written.
     """
-    time, approach = math.inf, 0.0
-    for a in range(ws.problem.n_active):
-        c = ws.actives[a].contact
-        contact = ws.contacts[c]
+    time, largest = math.inf, 0.0
+    for active in ws.actives:
+        contact = ws.contacts[active.contact]
         time = min(time, contact.contact_time)
-        approach = max(approach, -(contact.bias[0] + row(ws, c, NORMAL_ROW, ws.island.du.start)))
-    return float(approach * time)
+        largest = max(largest, -(contact.bias[0] + row(ws, active.contact, NORMAL_ROW, ws.island.du.start)))
+    return float(largest * time)
 
 
 @kernel("i8(ws)")
-def stop_slow(ws: Workspace) -> int:
-    """Stop islands in which what approaches is slow, in place of a collision; return how many.
+def stop_slow_islands(ws: Workspace) -> int:
+    """Stop islands whose approaches are slow, in place of a collision. Number of these islands.
 
-    So it is, however fast, where an impact has been cut short: another one would be, too.
+    After an impact that was cut short, islands are stopped at any speed: another impact would be cut short too.
     """
     accelerate_touching(ws)
-    push_compliant(ws)
+    accelerate_by_compliance(ws)
     group_touching(ws)
-    stopped, which = 0, -1
+    n_stopped, which = 0, NO_CONTACT
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
-        fastest = _fastest_of_active(ws)
-        if fastest < 0:
+        fastest = _fastest_approach(ws)
+        if fastest == NO_CONTACT:
             continue
-        if ws.event.truncation == Truncation.NONE and -ws.contacts[fastest].rate[0] > slow_speed(ws):
+        if ws.event.truncation == Truncation.NONE and not _is_slow(ws, fastest):
             continue
-        if stopped == 0:
+        if n_stopped == 0:
             remember(ws)
-        stopped, which = stopped + 1, fastest
+        n_stopped, which = n_stopped + 1, fastest
         _stop_active(ws)
-    if stopped > 0:
+    if n_stopped > 0:
         touch(ws)
-        for c in range(ws.island.n_contacts):
-            provisional_mode(ws, c)
-        _rest_closed(ws)
-        record_event(ws, Cause.CLOSING, which, 0)
-    return stopped
+        for contact in ws.contacts:
+            set_provisional_mode(ws, contact.index)
+        _stop_slow_closed(ws)
+        record_event(ws, Cause.CLOSING, which, NO_PHASES)
+    return n_stopped
 
 
 @kernel("b1(ws)")
-def average_slow(ws: Workspace) -> bool:
-    """Let the forces of islands be averaged that approach slowly though they were stopped; return 1 if others approach.
+def average_slow_islands(ws: Workspace) -> bool:
+    """Average the forces of islands that still approach slowly after they were stopped. True if others approach.
 
-    Where contacts had to give way for impulses to be found, these may leave an approach for ever.
+    An inelastic impact has no exact solution if contacts contradict each other. Then its impulses leave an approach
+    for ever.
     """
     accelerate_touching(ws)
-    push_compliant(ws)
+    accelerate_by_compliance(ws)
     group_touching(ws)
-    others = False
+    has_others = False
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
-        fastest = _fastest_of_active(ws)
-        if fastest < 0:
+        fastest = _fastest_approach(ws)
+        if fastest == NO_CONTACT:
             continue
-        slow = -ws.contacts[fastest].rate[0] <= slow_speed(ws)
-        if not slow or (not is_averaged(ws) and not average_active(ws)):
-            others = True
-    return others
+        if not _is_slow(ws, fastest) or (not is_averaged(ws) and not average_active(ws)):
+            has_others = True
+    return has_others
 
 
 @kernel()
-def _rest_closed(ws: Workspace) -> None:
-    """Take the approach that impulses leave where contacts had to give way a little for any to be found."""
+def _stop_slow_closed(ws: Workspace) -> None:
+    """Project the slow approaches of closed contacts that an inelastic impact left."""
     group_closed(ws)
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
-        fastest = _fastest_of_active(ws)
-        if fastest >= 0 and -ws.contacts[fastest].rate[0] <= slow_speed(ws):
+        fastest = _fastest_approach(ws)
+        if fastest != NO_CONTACT and _is_slow(ws, fastest):
             before = ws.totals.driven_work
-            _book(ws, project_rates(ws, at_event=True), before)
+            _add_loss(ws, project_rates(ws, at_event=True), before)
 
 
 @kernel("f8(ws)")
 def stop_creeping(ws: Workspace) -> float:
-    """Stop the open contacts that touch and approach, if no faster than what counts as zero; return the energy [J].
+    """Stop the touching open contacts that approach within the velocity tolerance. Energy that this removes [J].
 
-    Nothing collides so slowly, but in time the bodies would overlap.  The impulses press and do not rub: so little is
-    no friction.
+    Such an approach is no collision, but in time the bodies would overlap. The impulses press only: their friction is
+    negligible.
     """
-    creeping = 0
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
-        rests = contact.is_touching and not contact.is_compliant and contact.mode == Mode.OPEN
-        if rests and contact.rate[0] < -NOUGHT * ws.tolerance.velocity:
-            creeping += 1
-    if creeping == 0:
+    if not _has_creeping_contact(ws):
         return 0.0
     loss = 0.0
     touch(ws)
@@ -246,8 +266,7 @@ def stop_creeping(ws: Workspace) -> float:
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
         assemble_delassus(ws)
-        for a in range(ws.problem.n_active):
-            active = ws.actives[a]
+        for active in ws.actives:
             contact = ws.contacts[active.contact]
             active.is_at_rest, active.is_normal_force_unknown = False, True
             active.friction_coefficient = active.normal_force = 0.0
@@ -256,38 +275,44 @@ def stop_creeping(ws: Workspace) -> float:
                 active.free[r] = contact.rate[r]
         gauss_seidel(ws, SWEEPS)
         add_response(ws, ws.problem.forces.start, ws.island.y.start + ws.model.n_q)
-        for a in range(ws.problem.n_active):
-            active = ws.actives[a]
-            contact = ws.contacts[active.contact]
-            loss -= (
-                0.5
-                * active.normal_force
-                * add_product(ws, 2.0 * contact.rate[0], a, NORMAL_ROW, ws.problem.forces.start)
-            )
-            ws.totals.driven_work -= active.normal_force * contact.prescribed_rate[0]
+        for active in ws.actives:
+            contact, impulse = ws.contacts[active.contact], active.normal_force
+            twice = add_product(ws, 2.0 * contact.normal_rate, active.index, NORMAL_ROW, ws.problem.forces.start)
+            loss -= 0.5 * impulse * twice
+            ws.totals.driven_work -= impulse * contact.prescribed_rate[0]
     return loss
 
 
 @kernel("b1(ws)")
-def hand_over(ws: Workspace) -> bool:
-    """Let contacts that approach take the place of closed ones where they are; return 1, or 0 where others collide."""
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
-        rigid = not contact.is_compliant
-        approaches = rigid and contact.is_touching and contact.rate[0] < -ws.tolerance.velocity
+def _has_creeping_contact(ws: Workspace) -> bool:
+    """True if an open rigid contact touches and approaches, by more than a negligible rate."""
+    for contact in ws.contacts:
+        rests = contact.is_touching and not contact.is_compliant and contact.mode == Mode.OPEN
+        if rests and contact.normal_rate < -NEGLIGIBLE * ws.tolerance.velocity:
+            return True
+    return False
+
+
+@kernel("b1(ws)")
+def replace_coincident_contacts(ws: Workspace) -> bool:
+    """Let approaching contacts replace the closed contacts that coincide with them. False if others collide.
+
+    Of several approaching contacts at one place the last one that replaces another is recorded.
+    """
+    for contact in ws.contacts:
+        approaches = not contact.is_compliant and contact.is_touching and contact.normal_rate < -ws.tolerance.velocity
         contact.takes_over = approaches
-        if approaches and closed_twin(ws, c) < 0:
+        if approaches and closed_coincident(ws, contact.index) == NO_CONTACT:
             return False
     remember(ws)
-    which = -1
-    for c in range(ws.island.n_contacts):
-        if ws.contacts[c].takes_over and take_over(ws, c):
-            # unless another one that approaches more has taken its twin's place
-            which = c
+    which = NO_CONTACT
+    for contact in ws.contacts:
+        if contact.takes_over and replace_coincident(ws, contact.index):
+            which = contact.index
     group_touching(ws)
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
-        if _fastest_of_active(ws) >= 0:
+        if _fastest_approach(ws) != NO_CONTACT:
             _stop_active(ws)
-    record_event(ws, Cause.FEATURE_CHANGE, which, 0)
+    record_event(ws, Cause.FEATURE_CHANGE, which, NO_PHASES)
     return True

@@ -1,4 +1,10 @@
-"""Islands whose forces are averaged over a contact time: when that begins, and when it ends."""
+"""Averaged forces of an island: when this time-stepping fallback begins, and when it ends.
+
+The forces of an island are averaged over a contact time (:mod:`nonsmooth.engine.contact.mean_forces`) if events or
+evaluations accumulate there: bounces shorter than the contact time, a contact problem without a solution, or a slip
+whose direction turns too fast. Averaging ends when the instantaneous forces have a solution again. If they soon fail
+again, the waiting time before the next attempt doubles, so that failing attempts cost little.
+"""
 
 from __future__ import annotations
 
@@ -11,31 +17,31 @@ from nonsmooth.engine.contact.mean_forces import (
     is_averaged,
 )
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
-from nonsmooth.engine.flow.mean_motion import find_mean_forces
-from nonsmooth.engine.flow.mean_work import book_mean_forces
+from nonsmooth.engine.flow.averaging_time import find_mean_forces
+from nonsmooth.engine.flow.mean_work import account_for_mean_forces
 from nonsmooth.engine.flow.projection import project_closed
-from nonsmooth.engine.memory.modes import Mode
+from nonsmooth.engine.memory.modes import NO_CONTACT, Mode
 from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.vectors import length
 
-_BURST = 20000.0
-"""Evaluations of forces beyond one in a contact time: so many are the stop of a slip, not yet a crowd of them."""
+_LARGEST_BURST = 20000.0
+"""Evaluations of forces beyond one per contact time that are no accumulation. The stop of one slip takes fewer."""
 
 
 @kernel("b1(ws)")
 def average_active(ws: Workspace) -> bool:
-    """Let the forces of the active contacts be averaged from now on; return 0 where they cannot be, or are.
+    """Let the forces of the active contacts be averaged from now on. False if they cannot be, or already are.
 
-    A contact by itself has a solution of its own.  Where forces of the instant led nowhere when they were asked for
-    last, or not for as long as they had not been asked for, they are asked for again after twice that.
+    The contact problem of a single contact always has a solution. If the instantaneous forces of a contact failed soon
+    after their last attempt, the wait before the next attempt is doubled.
     """
     time = averaging_time(ws)
     if ws.problem.n_active == 1 or time == 0.0 or is_averaged(ws):
         return False
-    for a in range(ws.problem.n_active):
-        contact = ws.contacts[ws.actives[a].contact]
-        again = ws.island.time - contact.mean_forces_asked <= max(time, contact.mean_forces_wait)
-        contact.mean_forces_wait = max(time, 2.0 * contact.mean_forces_wait) if again else 0.0
+    for active in ws.actives:
+        contact = ws.contacts[active.contact]
+        fails_again = ws.island.time - contact.mean_forces_asked <= max(time, contact.mean_forces_wait)
+        contact.mean_forces_wait = max(time, 2.0 * contact.mean_forces_wait) if fails_again else 0.0
         contact.mode_after_averaging = Mode.SLIDE
         contact.mean_span = 0.0
         for r in range(3):
@@ -45,7 +51,7 @@ def average_active(ws: Workspace) -> bool:
 
 @kernel("b1(ws, i8)")
 def average_island_of(ws: Workspace, c: int) -> bool:
-    """Let the forces of the island of closed contact ``c`` be averaged from now on; return 0 where they cannot be."""
+    """Let the forces of the island of the closed contact ``c`` be averaged from now on. False if they cannot be."""
     if ws.contacts[c].mode == Mode.OPEN:
         return False
     group_closed(ws)
@@ -54,19 +60,22 @@ def average_island_of(ws: Workspace, c: int) -> bool:
 
 
 @kernel("b1(ws, b1)")
-def keeps_averaging(ws: Workspace, ends: bool) -> bool:
-    """Return 1 if the forces of the active contacts are averaged, and stay so where the last ones end (1)."""
+def stays_averaged(ws: Workspace, ends: bool) -> bool:
+    """True if the forces of the active contacts are averaged and stay so.
+
+    If their span ``ends``, they stay averaged while a slip would soon stop, or while the wait before the next attempt
+    lasts. Those of a single contact end.
+    """
     if not is_averaged(ws):
         return False
     if not ends:
         return True
-    # a contact by itself has forces of its own
     if ws.problem.n_active == 1:
         return False
     if not has_no_stopping_slip(ws):
         return True
-    for a in range(ws.problem.n_active):
-        contact = ws.contacts[ws.actives[a].contact]
+    for active in ws.actives:
+        contact = ws.contacts[active.contact]
         if ws.island.time < contact.mean_forces_asked + contact.mean_forces_wait:
             return True
     return False
@@ -74,22 +83,24 @@ def keeps_averaging(ws: Workspace, ends: bool) -> bool:
 
 @kernel()
 def end_averaging(ws: Workspace) -> None:
-    """Put the contacts whose forces are averaged on their constraints before the averaging is over.
+    """Put the contacts with averaged forces on their constraints before their span is over, and end it.
 
-    What it pushed too much is taken back by that, and what its forces did on the way is booked.
+    The projection takes back what the forces pushed too much. Their work so far is accounted for.
     """
     touch(ws)
-    book_mean_forces(ws)
+    account_for_mean_forces(ws)
     ws.totals.closing_loss += project_closed(ws, at_event=True, averaged=True)
     ws.island.averaged_until = math.inf
 
 
 @kernel("void(ws, b1)")
-def average(ws: Workspace, follows: bool) -> None:
-    """Agree on the modes of the active contacts, whose forces are averaged: slips are those at hand."""
+def agree_on_averaged_modes(ws: Workspace, follows: bool) -> None:
+    """Find the mean forces of the active contacts, and agree on their modes: a contact that slips now slides.
+
+    A span that ``follows`` another one may be longer.
+    """
     find_mean_forces(ws, follows)
-    for a in range(ws.problem.n_active):
-        active = ws.actives[a]
+    for active in ws.actives:
         contact = ws.contacts[active.contact]
         speed = length(contact.slip)
         contact.mode_agreed = active.mode_tried
@@ -100,32 +111,37 @@ def average(ws: Workspace, follows: bool) -> None:
 
 
 @kernel("i8(ws)")
-def holds_time_up(ws: Workspace) -> int:
-    """Return the contact whose slow slip, or else whose events, let time hardly pass, or -1.
+def contact_of_burst(ws: Workspace) -> int:
+    """Contact at which evaluations of forces accumulate so that time hardly passes, or ``NO_CONTACT``.
 
-    Evaluations of forces fill a store that empties with time.
+    The measure grows by one with each evaluation and falls by one per contact time. The contact is the one whose slip
+    turns fastest, or else the one with the most events in its present burst.
     """
+    if not _has_burst(ws):
+        return NO_CONTACT
+    which, fastest = NO_CONTACT, 1.0
+    busiest, n_events = NO_CONTACT, 1
+    for i in range(ws.island.n_grouped):
+        contact = ws.contacts[ws.island.grouped[i]]
+        speed, friction = length(contact.slip_at_end), length((contact.force[1], contact.force[2]))
+        turns = contact.contact_time * contact.slip_per_force * friction / max(speed, ws.tolerance.velocity)
+        if contact.mode == Mode.SLIDE and not contact.is_averaged and turns > fastest:
+            which, fastest = contact.index, turns
+        is_recent = ws.island.time - contact.burst_start <= contact.contact_time
+        if not contact.is_averaged and is_recent and contact.burst_events > n_events:
+            busiest, n_events = contact.index, contact.burst_events
+    return which if which != NO_CONTACT else busiest
+
+
+@kernel("b1(ws)")
+def _has_burst(ws: Workspace) -> bool:
+    """True if evaluations of forces accumulate faster than one per contact time, over a long burst."""
     time = math.inf
     for i in range(ws.island.n_grouped):
         time = min(time, ws.contacts[ws.island.grouped[i]].contact_time)
     if time == 0.0:
-        return -1
-    ws.island.burst = max(0.0, ws.island.burst - (ws.island.time - ws.island.burst_time) / time) + float(
-        ws.totals.n_evaluations - ws.island.burst_evaluations
-    )
+        return False
+    decayed = max(0.0, ws.island.burst - (ws.island.time - ws.island.burst_time) / time)
+    ws.island.burst = decayed + float(ws.totals.n_evaluations - ws.island.burst_evaluations)
     ws.island.burst_time, ws.island.burst_evaluations = ws.island.time, ws.totals.n_evaluations
-    if ws.island.burst <= _BURST:
-        return -1
-    which, fastest = -1, 1.0
-    busiest, events = -1, 1
-    for i in range(ws.island.n_grouped):
-        c = ws.island.grouped[i]
-        contact = ws.contacts[c]
-        speed, friction = length(contact.slip_at_end), length((contact.force[1], contact.force[2]))
-        turns = contact.contact_time * contact.slip_per_force * friction / max(speed, ws.tolerance.velocity)
-        if contact.mode == Mode.SLIDE and not contact.is_averaged and turns > fastest:
-            which, fastest = c, turns
-        recent = ws.island.time - contact.burst_start <= contact.contact_time
-        if not contact.is_averaged and recent and contact.burst_events > events:
-            busiest, events = c, contact.burst_events
-    return which if which >= 0 else busiest
+    return ws.island.burst > _LARGEST_BURST

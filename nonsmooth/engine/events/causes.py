@@ -1,38 +1,47 @@
-"""What an event is called: the cause that a guard or a state tells."""
+"""Cause of an event, from the guard that fired or from the state before the first step.
+
+The guards find a time only. What it means depends on the mode: the normal guard of an open contact is its gap, that of
+a closed one its force.
+"""
 
 from __future__ import annotations
 
-from nonsmooth.engine.flow.guard_numbers import contact_of, first_end_guard, is_friction_guard, normal_guard
+from nonsmooth.engine.flow.guard_numbers import contact_at, end_of, is_friction_guard, normal_of
 from nonsmooth.engine.memory.modes import Cause, Mode
-from nonsmooth.engine.native.kernel import Workspace, kernel
+from nonsmooth.engine.native.kernel import Contact, Workspace, kernel
+
+_VANISHED = 1e-9
+"""Normal force that counts as zero when a static bound is reached, relative to that at the start of the step."""
 
 
-@kernel("Cause(ws, i8)")
-def _closing(ws: Workspace, c: int) -> Cause:
-    """Return what it is when contact ``c`` closes."""
-    return Cause.IMPACT if not ws.contacts[c].is_compliant else Cause.TOUCH
+@kernel("Cause(Contact)")
+def _cause_of_closing(contact: Contact) -> Cause:
+    """Cause of the event in which a contact closes."""
+    return Cause.TOUCH if contact.is_compliant else Cause.IMPACT
 
 
 @kernel("Cause(ws, i8)")
 def cause_of(ws: Workspace, guard: int) -> Cause:
-    """Return what it means that a guard of a contact has fired."""
-    c = contact_of(ws, guard)
-    contact = ws.contacts[c]
+    """Cause of the event in which guard ``guard`` of a contact fires.
+
+    The static bound vanishes with the normal force. So friction that reaches it there is a lift-off.
+    """
+    contact = contact_at(ws, guard)
     if not is_friction_guard(ws, guard):
-        return _closing(ws, c) if contact.mode == Mode.OPEN else Cause.LIFT_OFF
+        return _cause_of_closing(contact) if contact.mode == Mode.OPEN else Cause.LIFT_OFF
     if contact.mode != Mode.STICK:
         return Cause.SLIP_TO_STICK
-    # the static bound vanishes with the normal force
-    force = ws.guards[normal_guard(c)]
-    return Cause.LIFT_OFF if force.value <= 1e-9 * force.initial else Cause.STICK_TO_SLIP
+    normal = normal_of(ws, contact)
+    return Cause.LIFT_OFF if normal.value <= _VANISHED * normal.initial else Cause.STICK_TO_SLIP
 
 
 @kernel("Cause(ws, i8)")
 def cause_at_start(ws: Workspace, which: int) -> Cause:
-    """Return the cause of the event that is due of contact ``which`` before any step."""
-    if ws.contacts[which].mode == Mode.OPEN:
-        return _closing(ws, which)
-    if ws.guards[first_end_guard(ws) + which].at_end < 0.0:
+    """Cause of the event of contact ``which`` that happens before any step."""
+    contact = ws.contacts[which]
+    if contact.mode == Mode.OPEN:
+        return _cause_of_closing(contact)
+    if end_of(ws, contact).at_end < 0.0:
         return Cause.FEATURE_END
-    pulls = ws.guards[normal_guard(which)].at_end < 0.0
+    pulls = normal_of(ws, contact).at_end < 0.0
     return Cause.LIFT_OFF if pulls else Cause.STICK_TO_SLIP

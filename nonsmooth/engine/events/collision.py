@@ -8,15 +8,15 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.bodies.anisotropy import along_tangents, face_slips
-from nonsmooth.engine.bodies.compliance import push_compliant
+from nonsmooth.engine.bodies.anisotropy import on_unit_tangents, release_sticking_anisotropic
+from nonsmooth.engine.bodies.compliance import accelerate_by_compliance
 from nonsmooth.engine.bodies.touching import slip_speed, touch
 from nonsmooth.engine.contact.forces import reduced_coefficient
 from nonsmooth.engine.contact.problem import accelerate_touching
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_touching
 from nonsmooth.engine.events.accumulation import (
-    provisional_mode,
+    set_provisional_mode,
     slow_speed,
 )
 from nonsmooth.engine.events.record import (
@@ -43,7 +43,7 @@ def collide(ws: Workspace, cause: Cause, which: int, seed: float) -> Status:
     """
     remember(ws)
     accelerate_touching(ws)
-    push_compliant(ws)
+    accelerate_by_compliance(ws)
     group_touching(ws)
     n_phases, truncation = 0, Truncation.NONE
     for group in range(ws.island.n_groups):
@@ -143,7 +143,7 @@ def _account_for_impulses(ws: Workspace) -> None:
             contact.event_impulse[r] = impulse
             ws.event.head[DRIVEN_WORK] -= impulse * contact.prescribed_rate[r]
         if contact.is_anisotropic:
-            contact.event_friction = along_tangents(ws, contact.index, contact.event_friction)
+            contact.event_friction = on_unit_tangents(ws, contact.index, contact.event_friction)
 
 
 @kernel()
@@ -165,11 +165,11 @@ def _restore_velocities(ws: Workspace) -> None:
 @kernel()
 def _set_provisional_modes(ws: Workspace) -> None:
     """Give the contacts the modes that their rates after an impact suggest, until the instant is settled."""
-    face_slips(ws)
+    release_sticking_anisotropic(ws)
     touch(ws)
     for contact in ws.contacts:
         if contact.code_during != contact.code_before or contact.mode != Mode.OPEN:
-            provisional_mode(ws, contact.index)
+            set_provisional_mode(ws, contact.index)
         contact.release = NO_RELEASE
 
 

@@ -9,15 +9,15 @@ import math
 from enum import IntEnum
 
 from nonsmooth.engine.bodies.anisotropy import turn_facing
-from nonsmooth.engine.bodies.compliance import begin_contact, push_compliant, rubs_unasked
+from nonsmooth.engine.bodies.compliance import accelerate_by_compliance, has_known_friction, start_inner_states
 from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.bodies.touching import slip_speed
 from nonsmooth.engine.contact.problem import accelerate, accelerate_touching, solve_contact, write_contact_problem
 from nonsmooth.engine.contact.trial import small_force, tangential_inverse_mass
 from nonsmooth.engine.delassus.islands import activate_group, group_members
-from nonsmooth.engine.events.averaging import average, keeps_averaging
+from nonsmooth.engine.events.averaging import agree_on_averaged_modes, stays_averaged
 from nonsmooth.engine.events.record import (
-    code,
+    mode_code,
 )
 from nonsmooth.engine.flow.guard_numbers import normal_guard
 from nonsmooth.engine.memory.modes import Cause, Mode
@@ -80,7 +80,7 @@ def _guess_compliant_mode(ws: Workspace, contact: Contact, cause: Cause, which: 
     breaks_away = cause == Cause.STICK_TO_SLIP and (is_cause or _share_a_bound(ws, contact, which))
     slides = slips or contact.has_traction_law or breaks_away
     contact.mode_agreed = Mode.SLIDE if slides else Mode.STICK
-    contact.is_in_problem = not rubs_unasked(ws, contact.index)
+    contact.is_in_problem = not has_known_friction(ws, contact.index)
     contact.direction_agreed = contact.direction
     if slips:
         contact.direction_agreed = contact.slip[0] / speed, contact.slip[1] / speed
@@ -107,13 +107,13 @@ def _share_a_bound(ws: Workspace, contact: Contact, which: int) -> bool:
 def solve_islands(ws: Workspace, averaging_ends: bool) -> Solution:
     """Find modes and forces of the collected contacts, island by island."""
     accelerate_touching(ws)
-    push_compliant(ws)
+    accelerate_by_compliance(ws)
     ws.island.averaged_until = math.inf
     has_turned = False
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
-        if keeps_averaging(ws, averaging_ends):
-            average(ws, averaging_ends)
+        if stays_averaged(ws, averaging_ends):
+            agree_on_averaged_modes(ws, averaging_ends)
             accelerate(ws)
             continue
         _use_guessed_modes(ws)
@@ -164,7 +164,7 @@ def adopt_modes(ws: Workspace) -> None:
     """Take over the modes and the slip directions that the contact problem found."""
     for contact in ws.contacts:
         if contact.mode == Mode.OPEN and contact.mode_agreed != Mode.OPEN:
-            begin_contact(ws, contact.index)
+            start_inner_states(ws, contact.index)
         contact.mode = contact.mode_agreed
         if contact.mode == Mode.OPEN:
             contact.mode_after_averaging = Mode.OPEN
@@ -176,6 +176,6 @@ def adopt_modes(ws: Workspace) -> None:
 def modes_have_changed(ws: Workspace) -> bool:
     """True if a contact has another mode than before the event, or has begun or ended averaging its forces."""
     for contact in ws.contacts:
-        if code(ws, contact.index) != contact.code_before or contact.is_averaged != contact.was_averaged:
+        if mode_code(contact) != contact.code_before or contact.is_averaged != contact.was_averaged:
             return True
     return False

@@ -9,7 +9,7 @@ from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.bodies.listing import list_contacts, longest_step
 from nonsmooth.engine.delassus.islands import group_closed
-from nonsmooth.engine.events.averaging import average_island_of, end_averaging, holds_time_up
+from nonsmooth.engine.events.averaging import average_island_of, contact_of_burst, end_averaging
 from nonsmooth.engine.events.causes import cause_at_start, cause_of
 from nonsmooth.engine.events.event_update import update_at_event
 from nonsmooth.engine.events.record import (
@@ -17,20 +17,19 @@ from nonsmooth.engine.events.record import (
     EVENT_HEAD,
     LISTED,
     MOST_EVENTS,
+    NO_PHASES,
     record_event,
     record_samples,
     remember,
 )
-from nonsmooth.engine.events.stall import stalls
+from nonsmooth.engine.events.stall import is_stalled
 from nonsmooth.engine.events.step_length import accepted_step, is_held, longest_wanted
-from nonsmooth.engine.events.stopping import stopping
+from nonsmooth.engine.events.stopping import stopped_contact
 from nonsmooth.engine.flow.arming import arm_guards, keep_end, keep_start
-from nonsmooth.engine.flow.choices import choices_bend, choose_anew
 from nonsmooth.engine.flow.clearance import bound_speeds
-from nonsmooth.engine.flow.courses import drifted, end_courses, set_off
-from nonsmooth.engine.flow.ending import end_features
+from nonsmooth.engine.flow.feature_end import find_feature_end
 from nonsmooth.engine.flow.flight import choose_integrated, take_off
-from nonsmooth.engine.flow.flow import hardest_pressed, is_violated, slope
+from nonsmooth.engine.flow.flow import is_violated, most_loaded_contact, slope
 from nonsmooth.engine.flow.follow import orient_slips
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
@@ -40,14 +39,16 @@ from nonsmooth.engine.flow.guard_numbers import (
 )
 from nonsmooth.engine.flow.guard_values import has_other_features, watch_features, write_guards
 from nonsmooth.engine.flow.guards import is_of_redundant_force
-from nonsmooth.engine.flow.leap import leap, measure_noise, passed_flat
 from nonsmooth.engine.flow.location import first_crossing, locate
+from nonsmooth.engine.flow.own_steps import begin_own_steps, end_own_steps, has_drifted
+from nonsmooth.engine.flow.point_jump import contact_past_flat_place, evaluate_force_round_off, jump_contact_points
 from nonsmooth.engine.flow.projection import (
     normalise_quaternions,
     project_closed,
     project_joints,
 )
-from nonsmooth.engine.flow.self_check import NOUGHT, check_end, check_gaps, close_account
+from nonsmooth.engine.flow.redundant_forces import can_choose_within, choose_forces_again
+from nonsmooth.engine.flow.self_check import NEGLIGIBLE, check_end, check_gaps, close_energy_account
 from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.layout import BOOKED, LAST_STAGE
 from nonsmooth.engine.memory.limits import Limit
@@ -79,10 +80,10 @@ def _take_over(ws: Workspace, h: float) -> int:
     normalise_quaternions(ws)
     if ws.model.n_joints > 0:
         project_joints(ws)
-    ended = end_courses(ws)
+    ended = end_own_steps(ws)
     if ended > 0:
         group_closed(ws)
-    if drifted(ws):
+    if has_drifted(ws):
         ws.totals.closing_loss += project_closed(ws, at_event=False, averaged=False)
     return ended
 
@@ -124,7 +125,7 @@ def _end_within(ws: Workspace) -> Status:
 def _carry_out(ws: Workspace, cause: Cause, which: int) -> Status:
     """Carry out an event of contact ``which``: update modes and velocities at its instant; return the status."""
     ws.island.follows_a_step = False
-    if stalls(ws, which):
+    if is_stalled(ws, which):
         if not average_island_of(ws, which):
             return Status.STALLED
         ws.contacts[which].burst_events = 0
@@ -154,7 +155,7 @@ def _step(ws: Workspace) -> Status:
         return list_contacts(ws)
     orient_slips(ws, at_end=True)
     arm_guards(ws)
-    which = holds_time_up(ws) if ws.island.n_grouped > 0 else -1
+    which = contact_of_burst(ws) if ws.island.n_grouped > 0 else -1
     if which >= 0 and average_island_of(ws, which):
         ws.island.follows_a_step = False
         return update_at_event(ws, Cause.AVERAGING, which)
@@ -182,12 +183,12 @@ def _evaluate_start(ws: Workspace) -> None:
         for i in range(ws.model.n_y):
             ws.island.slopes[i] = ws.island.slopes[LAST_STAGE * ws.model.n_y + i]
         return
-    set_off(ws, ws.island.closed_step, ws.island.resumed_step)
+    begin_own_steps(ws, ws.island.closed_step, ws.island.resumed_step)
     group_closed(ws)
     choose_integrated(ws)
     slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=True, of_all_bodies=True)
     take_off(ws)
-    close_account(ws)
+    close_energy_account(ws)
     watch_features(ws)
     write_guards(ws, ws.island.time, ws.island.y.start, forces_are_known=True)
     keep_end(ws)
@@ -220,20 +221,20 @@ def _due_at_start(ws: Workspace) -> int:
 def _without_step(ws: Workspace, status: Status) -> Status:
     """Say what follows where no step was accepted, for the reason ``status``; return the status."""
     ws.step.limit = Limit.NO_STEP
-    if status == Status.STEP_TOO_SMALL and leap(ws, ws.tolerance.time):
+    if status == Status.STEP_TOO_SMALL and jump_contact_points(ws, ws.tolerance.time):
         return _after_leap(ws)
     if status == Status.STEP_TOO_SMALL:
-        which = end_features(ws)
+        which = find_feature_end(ws)
         if which >= 0:
             changed = has_other_features(ws, ws.contacts[which])
             _take_over(ws, ws.step.h)
             return _pass_on(ws, which, changed)
-        which = hardest_pressed(ws, sliding=True)
+        which = most_loaded_contact(ws, sliding=True)
         if which >= 0:
             outcome = _carry_out(ws, Cause.JAM, which)
             if outcome != Status.NO_CONTACT_SOLUTION:
                 return outcome
-        which = hardest_pressed(ws, sliding=False)
+        which = most_loaded_contact(ws, sliding=False)
         if which >= 0 and average_island_of(ws, which):
             ws.island.follows_a_step = False
             return update_at_event(ws, Cause.AVERAGING, which)
@@ -253,7 +254,7 @@ def _after_leap(ws: Workspace) -> Status:
         contact.release = NO_RELEASE
     if which >= 0:
         return _carry_out(ws, cause, which)
-    measure_noise(ws)
+    evaluate_force_round_off(ws)
     return Status.RUNNING
 
 
@@ -263,7 +264,7 @@ def _whole_step(ws: Workspace) -> Status:
     if ws.step.h > ws.request.t_end - ws.island.time:
         ws.step.limit = Limit.END
         return _end_within(ws)
-    which = passed_flat(ws)
+    which = contact_past_flat_place(ws)
     if which >= 0 and ws.step.h > ws.tolerance.time:
         return _in_part(ws)
     ended = _commit(ws, ws.step.h)
@@ -271,7 +272,7 @@ def _whole_step(ws: Workspace) -> Status:
         ws.island.last_choice = ws.island.time
     if which >= 0:
         return _carry_out(ws, Cause.IMPACT, which)
-    which = stopping(ws)
+    which = stopped_contact(ws)
     if which >= 0:
         return _carry_out(ws, Cause.SLIP_TO_STICK, which)
     ws.island.follows_a_step = ended == 0
@@ -292,7 +293,7 @@ def _whole_step(ws: Workspace) -> Status:
 def _step_to_event(ws: Workspace, high: float) -> Status:
     """Locate the first event before the fraction ``high`` of the step and carry it out; return the status."""
     ws.island.follows_a_step, ws.step.limit = False, Limit.EVENT
-    if choices_bend(ws, high):
+    if can_choose_within(ws, high):
         return _in_part(ws)
     h = locate(ws, ws.step.h, high)
     if h < 0.0:
@@ -308,7 +309,7 @@ def _in_part(ws: Workspace) -> Status:
     """Ask for a quarter of the step, which leads past what it should end at; return the status."""
     ws.island.follows_a_step, ws.step.limit = False, Limit.CROWDED_EVENTS
     # crowded guards, an error that grows, or a flat place
-    if ws.step.h < NOUGHT * ws.tolerance.time:
+    if ws.step.h < NEGLIGIBLE * ws.tolerance.time:
         return _without_step(ws, Status.STEP_TOO_SMALL)
     if ws.island.n_integrated == 0 and ws.island.own_steps_end < math.inf:
         ws.island.own_steps_end = ws.island.time + 0.25 * ws.step.h
@@ -334,7 +335,7 @@ def _event(ws: Workspace, h: float, guard: int) -> Status:
     if cause == Cause.STICK_TO_SLIP:
         _break_direction(ws, which)
     _commit(ws, h)
-    if is_of_redundant_force(ws, guard) and choose_anew(ws):
+    if is_of_redundant_force(ws, guard) and choose_forces_again(ws):
         return Status.RUNNING
     return _carry_out(ws, cause, which)
 
@@ -351,7 +352,7 @@ def _pass_on(ws: Workspace, which: int, has_changed: bool) -> Status:
 def _own_event(ws: Workspace, number: int) -> Status:
     """Record the event of a guard of the scenario's own; return the status."""
     remember(ws)
-    record_event(ws, Cause.GUARD, number, 0)
+    record_event(ws, Cause.GUARD, number, NO_PHASES)
     guard = ws.own_guards[number]
     guard.has_just_fired = True
     return Status.STOPPED if guard.ends_the_run else Status.RUNNING

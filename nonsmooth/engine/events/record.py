@@ -1,66 +1,71 @@
-"""Writing samples and events to the buffers that Python empties between calls."""
+"""Recording of events and samples in the buffers that Python empties between calls.
+
+An event is a row of floats and a row of integers. The floats are its head, the state, what was accounted for, and the
+numbers of each contact that takes part. The integers are its head, and number and code of each of these contacts. The
+code holds the bits of Eq. (29) before, during and after the event. An instant may change its modes several times, so
+its last record is written anew when it is settled.
+"""
 
 from __future__ import annotations
 
 from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import BOOKED
-from nonsmooth.engine.memory.modes import AFTER, BEFORE, DURING, Cause, Mode, Truncation
-from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
+from nonsmooth.engine.memory.modes import AFTER, BEFORE, DURING, NO_CONTACT, Cause, Mode, Truncation
+from nonsmooth.engine.native.kernel import Contact, Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
 
 TIME, DRIVEN_WORK, RESTITUTION_LOSS, FRICTION_LOSS, CLOSING_LOSS = range(5)
-"""Which float at the head of an event is which."""
+"""Offsets of the floats at the head of an event: its time [s] and its energies [J]."""
 EVENT_HEAD = 5
-"""Floats at the head of an event.
+"""Number of floats at the head of an event.
 
-Coordinates follow, velocities before and after, what else is integrated, what is booked, and :data:`LISTED` floats of
-each contact listed.
+Coordinates follow, velocities before and after, the energy accounts and inner states, the totals of energies, and
+:data:`LISTED` floats of each contact that takes part.
 """
 IMPULSES, SLIP_DIRECTION, CLOSED_WITH, FACING, AVERAGED, FEATURES = 0, 3, 5, 6, 7, 8
-"""Where what is kept of a contact begins among its floats with an event,"""
+"""Offsets of the parts of a contact's floats in an event."""
 LISTED = FEATURES + CANDIDATE
-"""which are so many."""
+"""Number of floats of a contact in an event."""
 CAUSE, CONTACT, PHASES, TRUNCATED, N_LISTED = range(5)
-"""Which integer at the head of an event is which; truncated is a cascade that was cut short."""
+"""Offsets of the integers at the head of an event. An impact that was cut short is truncated."""
 CODE_HEAD = 5
-"""Integers at the head of an event.
-
-Contact and code of each of these follow, and their impulses at the end of the floats.
-"""
+"""Number of integers at the head of an event. Number and code of each contact that takes part follow."""
 MOST_EVENTS = 204
-"""Events that one instant may record: one for every attempt to settle it, and those before and after."""
+"""Most events that one instant may record: one for every attempt to settle it, and those before and after."""
+NO_PHASES = 0
+"""Number of phases of an event that is no impact."""
+_CLOSED, _APPROACHES, _SLIPS = 1, 2, 4
+"""Bits of a code of Eq. (29)."""
 
 
-@kernel("i8(ws, i8)")
-def code(ws: Workspace, c: int) -> int:
-    """Return the bits a + 2 b + 4 c of Eq. (29) of contact ``c`` in its present mode."""
-    mode = ws.contacts[c].mode
-    if mode == Mode.OPEN:
+@kernel("i8(Contact)")
+def mode_code(contact: Contact) -> int:
+    """Bits of Eq. (29) of a contact in its present mode."""
+    if contact.mode == Mode.OPEN:
         return 0
-    return 5 if mode == Mode.SLIDE else 1
+    return _CLOSED + _SLIPS if contact.mode == Mode.SLIDE else _CLOSED
 
 
 @kernel("i8(ws, i8)")
 def impact_code(ws: Workspace, c: int) -> int:
-    """Return the bits of contact ``c`` at the start of an impact, from its rates."""
+    """Bits of Eq. (29) of contact ``c`` at the start of an impact, from its rates."""
     contact = ws.contacts[c]
     if not contact.is_touching:
         return 0
-    bits = 1
-    if contact.rate[0] < -ws.tolerance.velocity:
-        bits += 2
+    code = _CLOSED
+    if contact.normal_rate < -ws.tolerance.velocity:
+        code += _APPROACHES
     if length(contact.slip) > ws.tolerance.velocity:
-        bits += 4
-    return bits
+        code += _SLIPS
+    return code
 
 
 @entry_point()
 def remember(ws: Workspace) -> None:
-    """Keep modes and velocities as they are before an event, and clear its account."""
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
-        contact.code_before = code(ws, c)
+    """Store modes and velocities before an event, and set the energies and impulses of the event to zero."""
+    for contact in ws.contacts:
+        contact.code_before = mode_code(contact)
         contact.code_during = contact.code_before
         contact.was_averaged = contact.is_averaged
         for r in range(3):
@@ -72,28 +77,26 @@ def remember(ws: Workspace) -> None:
 
 
 @kernel("i8(ws, i8)")
-def _list_event(ws: Workspace, which: int) -> int:
-    """List the contacts that an event is about: all that are or were closed, and the one that caused it."""
+def _list_contacts(ws: Workspace, which: int) -> int:
+    """List the contacts that take part in an event: all that are or were closed, and ``which``. Their number."""
     n = 0
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
-        if c == which or contact.code_before + contact.code_during + code(ws, c) > 0:
-            ws.event.listed[n] = c
+    for contact in ws.contacts:
+        if contact.index == which or contact.code_before + contact.code_during + mode_code(contact) > 0:
+            ws.event.listed[n] = contact.index
             n += 1
     return n
 
 
 @kernel("void(ws, i8)")
-def _write_booked(ws: Workspace, out: int) -> None:
-    """Write the energies booked so far that are not integrated with the state."""
+def _write_accounts(ws: Workspace, out: int) -> None:
+    """Write the totals of the energies that are not integrated with the state to ``out`` [J]."""
     ws.floats[out], ws.floats[out + 1] = ws.totals.driven_work, ws.totals.restitution_loss
     ws.floats[out + 2], ws.floats[out + 3] = ws.totals.friction_loss, ws.totals.closing_loss
 
 
-@kernel("void(ws, i8, i8)")
-def _list_contact(ws: Workspace, c: int, out: int) -> None:
-    """Write the impulses of contact ``c`` and what it needs to go on from here."""
-    contact = ws.contacts[c]
+@kernel("void(ws, Contact, i8)")
+def _write_contact(ws: Workspace, contact: Contact, out: int) -> None:
+    """Write the impulses of a contact in an event, and its state from which a run can resume, to ``out``."""
     for r in range(3):
         ws.floats[out + IMPULSES + r] = contact.event_impulse[r]
     ws.floats[out + SLIP_DIRECTION], ws.floats[out + SLIP_DIRECTION + 1] = contact.direction
@@ -106,54 +109,71 @@ def _list_contact(ws: Workspace, c: int, out: int) -> None:
 
 @entry_point("void(ws, Cause, i8, i8)")
 def record_event(ws: Workspace, cause: Cause, which: int, phases: int) -> None:
-    """Append an event with what was remembered before it and the modes after it."""
+    """Append an event of contact or guard ``which``: what was stored before it, and the state after it.
+
+    A resumed run repeats the events up to its start. They are in the buffers of the earlier run, so they are not kept.
+    """
     ws.event.n_recorded += 1
-    n = _list_event(ws, -1 if cause == Cause.GUARD else which)
-    width = EVENT_HEAD + ws.model.n_u + ws.model.n_y + BOOKED + LISTED * n
+    n_listed = _list_contacts(ws, NO_CONTACT if cause == Cause.GUARD else which)
     ws.output.last_floats, ws.output.last_integers = ws.output.floats_used, ws.output.integers_used
-    row = ws.output.event_numbers.start + ws.output.floats_used
+    ws.output.last_cause, ws.output.last_contact, ws.output.last_phases = cause, which, phases
+    end = _write_event_state(ws, ws.output.event_numbers.start + ws.output.floats_used)
+    codes = ws.output.event_codes.start + ws.output.integers_used
+    _write_event_codes(ws, codes, cause, which, phases)
+    ws.integers[codes + N_LISTED] = n_listed
+    for i in range(n_listed):
+        _write_contact(ws, ws.contacts[ws.event.listed[i]], end + LISTED * i)
+        _write_contact_codes(ws, ws.contacts[ws.event.listed[i]], codes + CODE_HEAD + 2 * i)
+    if ws.request.n_known_events > 0:
+        ws.request.n_known_events -= 1
+        return
+    ws.output.floats_used = end + LISTED * n_listed - ws.output.event_numbers.start
+    ws.output.integers_used += CODE_HEAD + 2 * n_listed
+    ws.output.n_events += 1
+
+
+@kernel("i8(ws, i8)")
+def _write_event_state(ws: Workspace, row: int) -> int:
+    """Write head, state and totals of an event to ``row``. Returns where they end."""
+    n_q, n_u, n_y = ws.model.n_q, ws.model.n_u, ws.model.n_y
     ws.event.head[TIME] = ws.island.time
     for i in range(EVENT_HEAD):
         ws.floats[row + i] = ws.event.head[i]
     row += EVENT_HEAD
-    for i in range(ws.model.n_q):
+    for i in range(n_q):
         ws.floats[row + i] = ws.island.y[i]
-    row += ws.model.n_q
-    for i in range(ws.model.n_u):
+    row += n_q
+    for i in range(n_u):
         ws.floats[row + i] = ws.event.u_before[i]
-        ws.floats[row + ws.model.n_u + i] = ws.island.y[ws.model.n_q + i]
-    row += 2 * ws.model.n_u
-    for i in range(ws.model.n_q + ws.model.n_u, ws.model.n_y):
+        ws.floats[row + n_u + i] = ws.island.y[n_q + i]
+    row += 2 * n_u
+    for i in range(n_q + n_u, n_y):
         ws.floats[row] = ws.island.y[i]
         row += 1
-    _write_booked(ws, row)
-    row += BOOKED
-    codes = ws.output.event_codes.start + ws.output.integers_used
+    _write_accounts(ws, row)
+    return row + BOOKED
+
+
+@kernel("void(ws, i8, Cause, i8, i8)")
+def _write_event_codes(ws: Workspace, codes: int, cause: Cause, which: int, phases: int) -> None:
+    """Write cause, contact or guard, phases, and whether it was cut short, of an event to ``codes``."""
     ws.integers[codes + CAUSE], ws.integers[codes + CONTACT], ws.integers[codes + PHASES] = cause, which, phases
     if which >= 0 and cause != Cause.GUARD:
         ws.integers[codes + CONTACT] = ws.contacts[which].declared
     ws.integers[codes + TRUNCATED] = 1 if ws.event.truncation != Truncation.NONE and phases > 0 else 0
-    ws.integers[codes + N_LISTED] = n
-    for i in range(n):
-        c = ws.event.listed[i]
-        contact = ws.contacts[c]
-        _list_contact(ws, c, row + LISTED * i)
-        ws.integers[codes + CODE_HEAD + 2 * i] = contact.declared
-        before, during, after = contact.code_before << BEFORE, contact.code_during << DURING, code(ws, c) << AFTER
-        ws.integers[codes + CODE_HEAD + 2 * i + 1] = before | during | after
-    ws.output.last_cause, ws.output.last_contact, ws.output.last_phases = cause, which, phases
-    if ws.request.n_known_events > 0:
-        # a run that is continued repeats what led to its state, and has told of it
-        ws.request.n_known_events -= 1
-        return
-    ws.output.floats_used += width
-    ws.output.integers_used += CODE_HEAD + 2 * n
-    ws.output.n_events += 1
+
+
+@kernel("void(ws, Contact, i8)")
+def _write_contact_codes(ws: Workspace, contact: Contact, codes: int) -> None:
+    """Write the number of a declared contact and its code in an event to ``codes``."""
+    before, during, after = contact.code_before << BEFORE, contact.code_during << DURING, mode_code(contact) << AFTER
+    ws.integers[codes] = contact.declared
+    ws.integers[codes + 1] = before | during | after
 
 
 @kernel()
 def amend_last(ws: Workspace) -> None:
-    """Write the last event anew, with the modes that the instant ended in and its final velocities."""
+    """Write the last event anew, with the modes and velocities in which the instant has ended."""
     if ws.output.n_events == 0 or ws.output.floats_used == ws.output.last_floats:
         return
     ws.output.floats_used, ws.output.integers_used = ws.output.last_floats, ws.output.last_integers
@@ -164,10 +184,13 @@ def amend_last(ws: Workspace) -> None:
 
 @entry_point("i8(ws)")
 def begin_sample(ws: Workspace) -> int:
-    """Append a sample of the time ``next_sample``, and set the next; return where in ``w`` its state is to be put."""
+    """Append a sample at the time ``next_sample``, and set the next one. Returns the place of its state.
+
+    The place is an offset in the floats of the workspace, where the caller writes q, u and what else is integrated.
+    """
     row = ws.output.samples.start + ws.output.n_samples * (1 + ws.model.n_y + BOOKED)
     ws.floats[row] = ws.output.next_sample
-    _write_booked(ws, row + 1 + ws.model.n_y)
+    _write_accounts(ws, row + 1 + ws.model.n_y)
     ws.output.n_samples += 1
     ws.output.sample_index += 1
     ws.output.next_sample = ws.request.sample_start + ws.output.sample_index * ws.request.sample_interval
@@ -176,7 +199,7 @@ def begin_sample(ws: Workspace) -> int:
 
 @kernel("void(ws, f8)")
 def record_samples(ws: Workspace, h: float) -> None:
-    """Append the samples that fall into the part ``h`` of the step from ``t`` whose slopes are at hand."""
+    """Append the samples within the first ``h`` [s] of the step that was taken."""
     while ws.output.next_sample <= ws.island.time + h and ws.output.n_samples < ws.model.sample_capacity:
         theta = (ws.output.next_sample - ws.island.time) / ws.step.h
         state_within(ws, ws.step.h, min(1.0, max(0.0, theta)), begin_sample(ws))

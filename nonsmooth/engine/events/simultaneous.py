@@ -1,39 +1,41 @@
-"""Contacts of other bodies that a collision closes before it is over: they collide with it."""
+"""Contacts of other bodies that a collision closes before it is over: they take part in the collision.
+
+An impact lasts for a contact time. Bodies that are so close that they meet within it, as in a row of balls, would
+otherwise collide one after the other, with another result than a shock that runs through the row.
+"""
 
 from __future__ import annotations
 
-from nonsmooth.engine.bodies.courses import end_courses_of, has_own_step
+from nonsmooth.engine.bodies.courses import end_own_steps_of, has_own_step
 from nonsmooth.engine.bodies.kinematics import evaluate_bias, evaluate_jacobian
-from nonsmooth.engine.flow.self_check import EXPLAINED
-from nonsmooth.engine.native.kernel import Workspace, kernel
+from nonsmooth.engine.flow.self_check import ALLOWED
+from nonsmooth.engine.native.kernel import Contact, Workspace, kernel
 
 
-@kernel("b1(ws, i8)")
-def _touches_already(ws: Workspace, c: int) -> bool:
-    """Return 1 if a contact of the same two frames as contact ``c`` touches: their features follow one another."""
-    contact = ws.contacts[c]
-    for other in range(ws.island.n_contacts):
-        another = ws.contacts[other]
-        if another.is_touching and another.frame_a == contact.frame_a and another.frame_b == contact.frame_b:
+@kernel("b1(ws, Contact)")
+def _has_touching_contact(ws: Workspace, contact: Contact) -> bool:
+    """True if a contact of the same two frames touches. Then the features of this one follow only after those."""
+    for other in ws.contacts:
+        if other.is_touching and other.frame_a == contact.frame_a and other.frame_b == contact.frame_b:
             return True
     return False
 
 
 @kernel("i8(ws, f8)")
-def join_near(ws: Workspace, speed: float) -> int:
+def add_closing_contacts(ws: Workspace, speed: float) -> int:
     """Let contacts touch whose gaps a collision at a ``speed`` [m/s] may close within its contact time.
 
-    What tolerances explain is the most of a gap over which friction may act, lest it turns the bodies.  Courses of
-    bodies that touch so end; return how many: where some do, what touches is to be found anew.
+    Their gaps must be within the allowed one. Friction that acts over a larger gap would turn the bodies. Own steps of
+    the bodies that touch end. Number of these steps: if it is not zero, the touching contacts must be found anew.
     """
-    ended = 0
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
-        apart = not contact.is_touching and not contact.is_compliant and contact.past_feature <= 0.0
-        near = min(contact.contact_time * speed, EXPLAINED * ws.tolerance.gap)
-        if apart and contact.gap <= near and not has_own_step(ws, c) and not _touches_already(ws, c):
+    n_ended = 0
+    for contact in ws.contacts:
+        is_apart = not contact.is_touching and not contact.is_compliant and contact.past_feature <= 0.0
+        near = min(contact.contact_time * speed, ALLOWED * ws.tolerance.gap)
+        is_free = is_apart and contact.gap <= near and not has_own_step(ws, contact.index)
+        if is_free and not _has_touching_contact(ws, contact):
             contact.is_touching = True
-            evaluate_jacobian(ws, c)
-            evaluate_bias(ws, c, 3)
-            ended += end_courses_of(ws, c)
-    return ended
+            evaluate_jacobian(ws, contact.index)
+            evaluate_bias(ws, contact.index, 3)
+            n_ended += end_own_steps_of(ws, contact.index)
+    return n_ended

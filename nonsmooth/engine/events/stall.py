@@ -1,23 +1,24 @@
-"""Whether time goes on passing: how many events a contact has within what part of its contact time."""
+"""Event accumulation at a contact: whether so many events come in so little time that the run is stalled.
+
+Bounces end as soon as they are twice as short as the contact time, so a contact should not have many events within a
+part of it. Events are counted per contact. Many events elsewhere in a large system are no accumulation.
+"""
 
 from __future__ import annotations
 
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
-_EVENTS = 100
-"""More events of one contact than these"""
-_TIME = 1e-2
-"""within this part of its contact time are a stall: bounces close where they become as short as twice that time."""
+_MOST_EVENTS = 100
+"""Most events of one contact within a burst that are no accumulation."""
+_BURST = 1e-2
+"""Length of a burst of events, relative to the contact time."""
 
 
 @kernel("b1(ws, i8)")
-def stalls(ws: Workspace, c: int) -> bool:
-    """Count an event of contact ``c``; return 1 if it has so many that time hardly passes.
-
-    Counted are those of each contact for itself, so that what happens elsewhere tells nothing of it.
-    """
+def is_stalled(ws: Workspace, c: int) -> bool:
+    """Count an event of contact ``c``. True if it has so many within a burst that time hardly passes."""
     contact = ws.contacts[c]
-    if abs(ws.island.time - contact.burst_start) > max(ws.tolerance.time, _TIME * contact.contact_time):
+    if abs(ws.island.time - contact.burst_start) > max(ws.tolerance.time, _BURST * contact.contact_time):
         contact.burst_start, contact.burst_events = ws.island.time, 0
     contact.burst_events += 1
-    return contact.burst_events > _EVENTS
+    return contact.burst_events > _MOST_EVENTS

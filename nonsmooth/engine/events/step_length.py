@@ -6,13 +6,13 @@ import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_driven_bodies
 from nonsmooth.engine.bodies.listing import overran_list
-from nonsmooth.engine.events.stopping import share_before_stop
+from nonsmooth.engine.events.stopping import part_before_stop
+from nonsmooth.engine.flow.averaging_time import deviation_of_gaps
 from nonsmooth.engine.flow.clearance import ABOUT, first_of_flying, foresee, keep_falls
 from nonsmooth.engine.flow.guard_numbers import normal_guard
 from nonsmooth.engine.flow.location import NEGLIGIBLE
-from nonsmooth.engine.flow.mean_motion import astray
-from nonsmooth.engine.flow.self_check import NEAR
-from nonsmooth.engine.flow.step import relaxation, try_length
+from nonsmooth.engine.flow.self_check import ADJACENT
+from nonsmooth.engine.flow.step import relaxation_rate, try_length
 from nonsmooth.engine.memory.limits import Limit
 from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.engine.memory.tableau import ORDER
@@ -38,7 +38,7 @@ def _first_of_compliant(ws: Workspace, c: int) -> float:
     Were it over before the second stage of the step, none would meet a force, and the bodies would pass each other.
     """
     contact = ws.contacts[c]
-    if not contact.is_compliant or ws.guards[normal_guard(c)].at_end > NEAR * ws.tolerance.gap:
+    if not contact.is_compliant or ws.guards[normal_guard(c)].at_end > ADJACENT * ws.tolerance.gap:
         return math.inf
     speed = math.sqrt(dot(contact.velocity_at_end, contact.velocity_at_end))
     return float(_FIRST_WAY * contact.size / max(speed, ws.tolerance.velocity))
@@ -159,7 +159,7 @@ def _remember_step(ws: Workspace, h: float, error: float, wanted: float) -> None
 def accepted_step(ws: Workspace) -> Status:
     """Find a step that meets the tolerance, in ``h``; return the status."""
     wanted = _wanted(ws)
-    ws.step.relaxation = relaxation(ws)
+    ws.step.relaxation = relaxation_rate(ws)
     h = _first_attempt(ws, wanted)
     ws.step.limit = _limit(ws, wanted, h)
     explained = 0.0
@@ -168,13 +168,13 @@ def accepted_step(ws: Workspace) -> Status:
             return Status.NOT_FINITE
         ws.step.halting_contact = -1
         error = try_length(ws, h)
-        share = share_before_stop(ws, h) if error <= 1.0 and ws.island.stage_time > 0.0 else 1.0
+        share = part_before_stop(ws, h) if error <= 1.0 and ws.island.stage_time > 0.0 else 1.0
         if error <= 1.0 and ws.island.singular_contact >= 0:
             # beyond the Painleve singularity a sliding contact is balanced on an edge: not a step further
             h *= 0.5
             wanted = 0.0
             ws.step.limit = Limit.SINGULARITY
-        elif error <= 1.0 and ws.island.averaged_until < math.inf and astray(ws) > _ASTRAY:
+        elif error <= 1.0 and ws.island.averaged_until < math.inf and deviation_of_gaps(ws) > _ASTRAY:
             h *= 0.5
             ws.step.limit = Limit.AVERAGING
         elif error <= 1.0 and _overran(ws, h):

@@ -1,76 +1,91 @@
-"""Slips that stop: the instant in which one does is an event."""
+"""Slips that stop within an implicit step: the instant at which a slip stops is an event.
+
+An implicit step keeps a slip at zero that reached zero within it. So the step does not show when the slip stopped. The
+time is predicted from the deceleration at the start of the step, and the step is cut there. If an explicit step is
+possible over the last part, it goes beyond the predicted time and the slip guard locates the stop. Otherwise implicit
+steps approach the stop, and the last one ends there.
+"""
 
 from __future__ import annotations
 
 from nonsmooth.engine.bodies.kinematics import row
-from nonsmooth.engine.flow.guard_numbers import friction_guard
-from nonsmooth.engine.flow.self_check import NOUGHT
-from nonsmooth.engine.flow.step import STIFF
+from nonsmooth.engine.flow.guard_numbers import friction_of
+from nonsmooth.engine.flow.self_check import NEGLIGIBLE
+from nonsmooth.engine.flow.step import LARGEST_EXPLICIT
 from nonsmooth.engine.memory.layout import FIRST_ROW, SECOND_ROW
-from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.native.kernel import Workspace, kernel
+from nonsmooth.engine.memory.modes import NO_CONTACT, Mode
+from nonsmooth.engine.native.kernel import Contact, Workspace, kernel
 from nonsmooth.engine.numerics.vectors import length
 
-_BEYOND = 1.5
-"""Of the way to a stop, as its deceleration foretells it, an explicit step goes so much, and the stop is located;"""
-_ALMOST = 0.98
-"""where none will do an implicit one goes so much, and all of it from within the tolerance of velocities on."""
-_SHARES = 1e-3, 0.9
-"""What a step may be cut to for that, so near its end being at it,"""
-_BLIND = 0.25
-"""and is where nothing is foretold."""
+_EXPLICIT_PART = 1.5
+"""Length of an explicit step relative to the predicted time of a stop. It goes beyond it, and the stop is located."""
+_IMPLICIT_PART = 0.98
+"""Length of an implicit step relative to the predicted time of a stop. The slip must not stop within it."""
+_SMALLEST_PART = 1e-3
+"""Smallest part of a step that is left, and difference of a part from 1 within which the step ends at the stop."""
+_LARGEST_PART = 0.9
+"""Largest part of a step that is left, so that it becomes shorter."""
+_UNKNOWN_PART = 0.25
+"""Part of a step that is left if its slip does not decelerate, so that no stop is predicted."""
 
 
-@kernel("f8(ws, i8, f8)")
-def _share(ws: Workspace, c: int, h: float) -> float:
-    """Return to what part the implicit step of ``h`` is cut in which the slip of contact ``c`` stops."""
-    contact = ws.contacts[c]
+@kernel("f8(ws, Contact, f8)")
+def _part_before_stop_of(ws: Workspace, contact: Contact, h: float) -> float:
+    """Part of the implicit step of ``h`` [s] to take, if the slip of a contact stops within it.
+
+    It is 1 if the slip stops at the end of the step.
+    """
+    c = contact.index
     first = length(contact.slip_at_end)
     v1, v2 = contact.slip_at_end
     du = ws.island.slopes.start + ws.model.n_q
     a1, a2 = row(ws, c, FIRST_ROW, du) + contact.bias[1], row(ws, c, SECOND_ROW, du) + contact.bias[2]
-    slowing = -h * (v1 * a1 + v2 * a2) / first
-    part, least = _BLIND, 2.0 * ws.tolerance.time
-    if slowing > 0.0:
-        part = first / slowing
-        if _BEYOND * part * h * ws.step.relaxation <= STIFF:
-            part *= _BEYOND
+    decrease = -h * (v1 * a1 + v2 * a2) / first
+    part, least = _UNKNOWN_PART, 2.0 * ws.tolerance.time
+    if decrease > 0.0:
+        part = first / decrease
+        if _EXPLICIT_PART * part * h * ws.step.relaxation <= LARGEST_EXPLICIT:
+            part *= _EXPLICIT_PART
         elif first > ws.tolerance.velocity:
-            part *= _ALMOST
-        elif abs(part - 1.0) * h <= _SHARES[0] * h + least:
+            part *= _IMPLICIT_PART
+        elif abs(part - 1.0) * h <= _SMALLEST_PART * h + least:
             ws.step.halting_contact = c
             return 1.0
-    return float(max(_SHARES[0], least / h, min(_SHARES[1], part)))
+    return float(max(_SMALLEST_PART, least / h, min(_LARGEST_PART, part)))
 
 
 @kernel("f8(ws, f8)")
-def share_before_stop(ws: Workspace, h: float) -> float:
-    """Return to what part an implicit step of ``h`` is cut as it holds a slip at its end that moved at its start, or 1.
+def part_before_stop(ws: Workspace, h: float) -> float:
+    """Part of an implicit step of ``h`` [s] to take, 1 if no slip stops before its end.
 
-    When the slip stopped within the step is not told.  What stops where it ends is ``halting``.
+    A contact whose slip stops at the end of the step is written to ``halting_contact``.
     """
-    share, none = 1.0, NOUGHT * ws.tolerance.velocity
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
-        rubs = contact.mode == Mode.SLIDE and not contact.has_traction_law and not contact.is_averaged
-        if rubs and length(contact.slip) <= none and length(contact.slip_at_end) > none:
-            share = min(share, _share(ws, c, h))
-    return share
+    part, negligible = 1.0, NEGLIGIBLE * ws.tolerance.velocity
+    for contact in ws.contacts:
+        has_slip = _has_coulomb_slip(contact)
+        if has_slip and length(contact.slip) <= negligible and length(contact.slip_at_end) > negligible:
+            part = min(part, _part_before_stop_of(ws, contact, h))
+    return part
+
+
+@kernel("b1(Contact)")
+def _has_coulomb_slip(contact: Contact) -> bool:
+    """True if a contact slides with friction that may stop it: by Coulomb's law, with instantaneous forces."""
+    return contact.mode == Mode.SLIDE and not contact.has_traction_law and not contact.is_averaged
 
 
 @kernel("i8(ws)")
-def stopping(ws: Workspace) -> int:
-    """Return a contact whose slip has stopped where an implicit step ends, or -1.
+def stopped_contact(ws: Workspace) -> int:
+    """Contact whose slip has stopped at the end of a step, or ``NO_CONTACT``.
 
-    Where none can be made, one that has come next to rest and slows down: its direction is stiff, and what is left of
-    it below the tolerance.
+    If no implicit step is possible, it is a contact that slows down within the velocity tolerance. The direction of so
+    slow a slip is stiff, and what is left of it is within the tolerance.
     """
     if ws.step.relaxation > 0.0:
         return int(ws.step.halting_contact)
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
-        if contact.mode == Mode.SLIDE and not contact.has_traction_law and not contact.is_averaged:
+    for contact in ws.contacts:
+        if _has_coulomb_slip(contact):
             speed = length(contact.slip_at_end)
-            if speed <= ws.tolerance.velocity and speed < ws.guards[friction_guard(ws, c)].initial:
-                return c
-    return -1
+            if speed <= ws.tolerance.velocity and speed < friction_of(ws, contact).initial:
+                return contact.index
+    return NO_CONTACT

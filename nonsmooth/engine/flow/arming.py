@@ -19,7 +19,7 @@ from nonsmooth.engine.flow.guard_numbers import (
     normal_of,
     number_of_guards,
 )
-from nonsmooth.engine.flow.self_check import NOUGHT
+from nonsmooth.engine.flow.self_check import NEGLIGIBLE
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Contact, Guard, Workspace, kernel
 
@@ -91,7 +91,7 @@ def _deflate_normal(ws: Workspace, contact: Contact) -> None:
 
     A gap that does not separate gets a slack: it may drift within round-off beside contacts that hold the bodies.
     """
-    normal, round_off = normal_of(ws, contact), NOUGHT * ws.tolerance.gap
+    normal, round_off = normal_of(ws, contact), NEGLIGIBLE * ws.tolerance.gap
     starts_closed = normal.initial <= ws.tolerance.gap
     if not starts_closed:
         return
@@ -108,7 +108,7 @@ def _deflate_friction(ws: Workspace, contact: Contact) -> None:
     """Deflate the friction guard if a slip has just begun."""
     friction = friction_of(ws, contact)
     if contact.mode == Mode.SLIDE and friction.initial <= ws.tolerance.velocity:
-        start_from_zero(friction, NOUGHT * ws.tolerance.velocity, 0.0)
+        start_from_zero(friction, NEGLIGIBLE * ws.tolerance.velocity, 0.0)
 
 
 @kernel("void(ws, Contact)")

@@ -3,7 +3,7 @@
 What is known of a gap are its values and rates at both ends of a part of a step, how fast it can change at most, from
 the relative velocity and turning of the bodies and the levers of their shapes, and how fast its rate can fall, from
 their relative accelerations.  Where these do not show that a gap stays open, it is looked at within the step
-(:mod:`nonsmooth.engine.flow.dips`).
+(:mod:`nonsmooth.engine.flow.gap_search`).
 
 The bounds hold if within a step no speed exceeds the sum of those at its ends, as the error control of the step sees
 to.  Features that do not face each other have no rate: theirs are sampled (:mod:`nonsmooth.engine.flow.location`).
@@ -18,7 +18,7 @@ from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
 from nonsmooth.engine.flow.arming import NO_BOUND
 from nonsmooth.engine.flow.flight import fly
 from nonsmooth.engine.flow.guard_numbers import normal_guard
-from nonsmooth.engine.flow.self_check import NOUGHT
+from nonsmooth.engine.flow.self_check import NEGLIGIBLE
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.memory.modes import Mode
@@ -241,7 +241,7 @@ def _closing_of_flying(ws: Workspace, c: int) -> float:
         evaluate_rates(ws, c)
         rate = contact.rate[0]
         # a step that ends at the closing leaves so little of the gap
-        aim = NOUGHT * min(ws.tolerance.gap, ws.tolerance.time * abs(rate))
+        aim = NEGLIGIBLE * min(ws.tolerance.gap, ws.tolerance.time * abs(rate))
         left = contact.gap - aim
         if abs(left) <= 0.5 * aim:
             return float(elapsed)

@@ -13,7 +13,7 @@ from nonsmooth.engine.flow.guard_numbers import (
     first_own_guard,
     is_of_open_contact,
 )
-from nonsmooth.engine.flow.self_check import NOUGHT
+from nonsmooth.engine.flow.self_check import NEGLIGIBLE
 from nonsmooth.engine.native.kernel import Guard, Workspace, kernel
 
 
@@ -28,7 +28,7 @@ def deflated(ws: Workspace, i: int, value: float, elapsed: float) -> float:
         return value
     rate = guard.initial
     separates = i < first_own_guard(ws) and is_of_open_contact(ws, i) and rate > ws.tolerance.velocity
-    if separates and rate * elapsed <= NOUGHT * ws.tolerance.gap:
+    if separates and rate * elapsed <= NEGLIGIBLE * ws.tolerance.gap:
         return rate
     return (value - guard.base) / elapsed
 

@@ -2,17 +2,17 @@
 
 Such a body (:attr:`nonsmooth.interfaces.Body.flight`) is not integrated: its state within a step is that of its closed
 form, whatever the length of the step, and of its forces nothing is asked before the end.  So it is with bodies on their
-courses (:mod:`nonsmooth.engine.flow.courses`), whose closed form is the interpolant of a step of their own.  All others
-are integrated, those that fly among them as soon as one of their contacts closes.
+courses (:mod:`nonsmooth.engine.flow.own_steps`), whose closed form is the interpolant of a step of their own.  All
+others are integrated, those that fly among them as soon as one of their contacts closes.
 """
 
 from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.bodies.bodies import evaluate_once
+from nonsmooth.engine.bodies.bodies import evaluate_if_changed
 from nonsmooth.engine.contact.problem import accelerate_freely
-from nonsmooth.engine.flow.spins import spin_within
+from nonsmooth.engine.flow.spins import write_spin_within
 from nonsmooth.engine.memory.layout import EXCHANGED, LAST_STAGE
 from nonsmooth.engine.native.kernel import (
     Workspace,
@@ -177,7 +177,7 @@ def land(ws: Workspace, h: float) -> float:
         number = ws.island.ballistic[i]
         body = ws.bodies[number]
         fly(ws, h, number, ws.step.y_new.start)
-        evaluate_once(ws, ws.island.time + h, ws.step.y_new.start, number)
+        evaluate_if_changed(ws, ws.island.time + h, ws.step.y_new.start, number)
         accelerate_in_flight(ws, ws.island.time + h, number)
         for j in range(body.n_q):
             ws.floats[end + body.q + j] = ws.floats[body.tail + j]
@@ -208,7 +208,7 @@ def body_within(ws: Workspace, h: float, theta: float, number: int, out: int) ->
     dense_part(
         ws.floats, ws.island.y.start + u, ws.island.slopes.start + u, body.n_u, ws.model.n_y, early, late, out + u
     )
-    spin_within(ws, number, early, late, out)
+    write_spin_within(ws, number, early, late, out)
 
 
 @kernel("void(ws, f8, f8, i8)")
@@ -220,7 +220,7 @@ def state_within(ws: Workspace, h: float, theta: float, out: int) -> None:
         i, n = ws.island.span_first[span], ws.island.span_length[span]
         dense_part(ws.floats, ws.island.y.start + i, ws.island.slopes.start + i, n, ws.model.n_y, early, late, out + i)
     for i in range(ws.island.n_spinning):
-        spin_within(ws, ws.island.spinning[i], early, late, out)
+        write_spin_within(ws, ws.island.spinning[i], early, late, out)
     if ws.island.n_spans == 0:
         for i in range(ws.model.n_q + ws.model.n_u, ws.model.n_y):
             ws.floats[out + i] = ws.island.y[i]

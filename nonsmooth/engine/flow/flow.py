@@ -1,8 +1,18 @@
-"""Smooth motion between events: the right-hand side in the present modes."""
+"""Smooth motion between events: the right-hand side dy/dt in the present modes.
+
+At a time and a state, bodies and closed contacts are evaluated, then the contact forces are found island by island, and
+from them the accelerations. Three kinds of islands are solved differently: a single contact that slides, in closed
+form; an island within an implicit step, with friction against the slip at the end of the stage; and all others, by the
+equations of their sticking and sliding contacts. No inequality is solved here: the guards find the time at which a mode
+ends.
+
+The state ends with four energy accounts, whose rates are powers: of driven bodies, of friction, of all that is
+exchanged, and of loads.
+"""
 
 from __future__ import annotations
 
-from nonsmooth.engine.bodies.anisotropy import facing_force
+from nonsmooth.engine.bodies.anisotropy import force_in_facing
 from nonsmooth.engine.bodies.bodies import (
     evaluate_bodies,
     evaluate_driven_bodies,
@@ -10,10 +20,10 @@ from nonsmooth.engine.bodies.bodies import (
     evaluate_integrated_bodies,
 )
 from nonsmooth.engine.bodies.compliance import (
+    apply_traction_law,
+    copy_inner_states,
     evaluate_compliant_force,
-    refresh_states,
-    rub_by_traction,
-    write_state_rates,
+    write_inner_rates,
 )
 from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.bodies.kinematics import evaluate_bias, evaluate_geometry, evaluate_rates
@@ -25,8 +35,9 @@ from nonsmooth.engine.contact.problem import follow_slip, free_acceleration, fri
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.flight import accelerate_in_flight
 from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS, LOADS
-from nonsmooth.engine.memory.modes import Mode
+from nonsmooth.engine.memory.modes import NO_CONTACT, Mode
 from nonsmooth.engine.native.kernel import (
+    ActiveContact,
     Workspace,
     entry_point,
     kernel,
@@ -35,98 +46,101 @@ from nonsmooth.engine.numerics.linear import product
 from nonsmooth.engine.numerics.vectors import length
 
 WRONG_FORCE = -2.0
-"""A force below so many times what its contact problem took for zero violates its mode."""
+"""Force that violates its mode, relative to the force that its contact problem counts as zero."""
 
 
 @entry_point("b1(ws, f8, i8, b1, b1)")
 def right_hand_side(ws: Workspace, t: float, y: int, may_choose: bool, of_all_bodies: bool) -> bool:
-    """Evaluate bodies, closed contacts, their forces and the accelerations ``du`` at ``t`` and ``y``.
+    """Evaluate bodies, closed contacts, their forces and the accelerations ``du``, at time ``t`` [s] and state ``y``.
 
-    That is of all bodies, or of those that are integrated. The closed contacts are grouped into islands. In free flight
-    the driven bodies are left alone. If it ``may_choose``, the null-space force of contact forces that are not unique
-    is chosen anew: false if somewhere none keeps every bound. Within an implicit step friction opposes the slip that
-    the stage ends with.
+    The bodies are all, or those that the integrator steps. The closed contacts must be grouped. If it ``may_choose``,
+    redundant forces are chosen anew. False if in some island no choice keeps every bound.
     """
-    keeps = True
+    keeps_bounds = True
     ws.island.singular_contact = -1
     if not of_all_bodies and ws.model.n_loads + ws.model.n_joints == 0:
-        # no call: most right-hand sides are of these
+        # this call is inlined, and most right-hand sides are of this kind
         evaluate_integrated_bodies(ws, t, y)
     else:
         evaluate_free_bodies(ws, t, y, of_all_bodies)
     free_acceleration(ws, of_all_bodies)
     if ws.island.n_grouped == 0:
-        return keeps
+        return keeps_bounds
     evaluate_driven_bodies(ws, t, y)
-    refresh_states(ws, y)
+    copy_inner_states(ws, y)
     for group in range(ws.island.n_groups):
         c = lone_sliding_contact(ws, group)
         if c >= 0 and add_lone_slip_force(ws, c):
             continue
         activate_group(ws, group)
-        implicit = ws.problem.stage_time > 0.0 and _slides(ws)
-        for a in range(ws.problem.n_active):
-            active = ws.actives[a]
-            c = active.contact
-            if implicit:
-                continue
-            contact = ws.contacts[c]
-            evaluate_geometry(ws, c)
-            evaluate_rates(ws, c)
-            if contact.is_compliant:
-                evaluate_compliant_force(ws, c)
-            _set_friction(ws, a, y)
-            evaluate_bias(ws, c, 1 + 2 * active.sticks)
-            write_rows(ws, a)
-        if implicit:
+        if ws.problem.stage_time > 0.0 and _is_implicit_slip(ws):
             add_forces_at_stage_end(ws)
         else:
-            keeps = add_contact_forces(ws, may_choose) and keeps
-        for a in range(ws.problem.n_active):
-            active = ws.actives[a]
-            c = active.contact
-            contact = ws.contacts[c]
-            contact.has_redundant_force = active.has_redundant_force
-            contact.is_held_by_friction = active.sticks
-            if contact.mode == Mode.STICK:
-                contact.static_margin = _static_margin(ws, a)
-            for r in range(3):
-                contact.force[r] = active.force[r]
-    return keeps
+            _evaluate_active(ws, y)
+            keeps_bounds = add_contact_forces(ws, may_choose) and keeps_bounds
+        _store_forces(ws)
+    return keeps_bounds
+
+
+@kernel("void(ws, i8)")
+def _evaluate_active(ws: Workspace, y: int) -> None:
+    """Evaluate the active contacts at the state ``y``, and write their unknowns and their rows."""
+    for active in ws.actives:
+        contact = ws.contacts[active.contact]
+        evaluate_geometry(ws, active.contact)
+        evaluate_rates(ws, active.contact)
+        if contact.is_compliant:
+            evaluate_compliant_force(ws, active.contact)
+        _set_unknowns(ws, active, y)
+        evaluate_bias(ws, active.contact, 3 if active.sticks else 1)
+        write_rows(ws, active.index)
+
+
+@kernel()
+def _store_forces(ws: Workspace) -> None:
+    """Store the forces of the active contacts, and whether they are held and unique, in the contacts."""
+    for active in ws.actives:
+        contact = ws.contacts[active.contact]
+        contact.has_redundant_force = active.has_redundant_force
+        contact.is_held_by_friction = active.sticks
+        if contact.mode == Mode.STICK:
+            contact.static_margin = _static_margin(ws, active)
+        for r in range(3):
+            contact.force[r] = active.force[r]
 
 
 @kernel("b1(ws)")
-def _slides(ws: Workspace) -> bool:
-    """Return 1 if one of the active contacts slides, and their forces are none that are averaged."""
-    slides = False
-    for a in range(ws.problem.n_active):
-        contact = ws.contacts[ws.actives[a].contact]
+def _is_implicit_slip(ws: Workspace) -> bool:
+    """True if one of the active contacts slides, and their forces are not averaged."""
+    has_slip = False
+    for active in ws.actives:
+        contact = ws.contacts[active.contact]
         if contact.is_averaged:
             return False
         if contact.mode == Mode.SLIDE:
-            slides = True
-    return slides
+            has_slip = True
+    return has_slip
 
 
-@kernel("f8(ws, i8)")
-def _static_margin(ws: Workspace, a: int) -> float:
-    """Return how far the friction of an active contact is from its bound [N]; without any, its slip from one [m/s]."""
-    active = ws.actives[a]
-    c = active.contact
-    contact = ws.contacts[c]
+@kernel("f8(ws, ActiveContact)")
+def _static_margin(ws: Workspace, active: ActiveContact) -> float:
+    """Distance of the friction of an active contact to its static bound [N].
+
+    If friction cannot hold the contact, it is the distance of its slip to the velocity tolerance [m/s].
+    """
+    contact = ws.contacts[active.contact]
     if contact.is_averaged:
         return 1.0
     if not active.sticks:
         return float(ws.tolerance.velocity - length(contact.slip))
-    friction = facing_force(ws, c, active.force[1]), active.force[2]
+    friction = force_in_facing(ws, active.contact, active.force[1]), active.force[2]
     slack = contact.slack * active.has_redundant_force
     return float(active.static_coefficient * active.normal_force - length(friction) + slack)
 
 
-@kernel("void(ws, i8, i8)")
-def _set_friction(ws: Workspace, a: int, y: int) -> None:
-    """Set what the active contact ``a`` holds, and its slip direction and friction where it slides."""
-    active = ws.actives[a]
+@kernel("void(ws, ActiveContact, i8)")
+def _set_unknowns(ws: Workspace, active: ActiveContact, y: int) -> None:
+    """Set which forces of an active contact are unknown, the given ones, and the direction of its slip."""
     c = active.contact
     contact = ws.contacts[c]
     active.is_normal_force_unknown = True
@@ -136,7 +150,7 @@ def _set_friction(ws: Workspace, a: int, y: int) -> None:
         active.is_normal_force_unknown = False
         active.normal_force = contact.compliant_force
         if contact.has_traction_law:
-            rub_by_traction(ws, c, active.force, y)
+            apply_traction_law(ws, c, active.force, y)
             return
     elif contact.is_averaged:
         active.is_normal_force_unknown = False
@@ -149,19 +163,19 @@ def _set_friction(ws: Workspace, a: int, y: int) -> None:
         if active.static_coefficient > 0.0:
             active.sticks = True
             return
-    follow_slip(ws, a, contact.slip, ws.tolerance.velocity, may_reverse=False)
+    follow_slip(ws, active.index, contact.slip, ws.tolerance.velocity, may_reverse=False)
     if not active.is_normal_force_unknown:
-        # what pulls does not rub
+        # an adhesive force causes no friction
         active.friction_coefficient *= 1.0 if contact.compliant_force > 0.0 else 0.0
-        friction_of_slip(ws, a)
+        friction_of_slip(ws, active.index)
 
 
 @kernel("f8(ws, i8)")
-def hold_guard(ws: Workspace, c: int) -> float:
-    """Return what is positive while contact ``c`` stays closed: its normal force, if compliant the way to its reach.
+def value_of_normal_guard(ws: Workspace, c: int) -> float:
+    """Normal guard of the closed contact ``c``: normal force [N], or distance of a compliant one to its reach [m].
 
-    Forces that are averaged end nothing, nor does what stands for a gap past the end of features, which is an event of
-    its own: bodies may still overlap there.
+    Averaged forces end no mode, so their guard is 1. So is that of a compliant contact past the end of its features:
+    its gap is a substitute there, and bodies may still overlap. The end of features is an event of its own.
     """
     contact = ws.contacts[c]
     if contact.is_averaged or (contact.is_compliant and contact.past_feature > 0.0):
@@ -173,19 +187,19 @@ def hold_guard(ws: Workspace, c: int) -> float:
 
 @kernel("b1(ws, i8)")
 def is_violated(ws: Workspace, c: int) -> bool:
-    """Return 1 if the force of closed contact ``c`` violates its mode by more than what it takes for zero."""
+    """True if the force of the closed contact ``c`` violates its mode by more than round-off of its contact problem."""
     contact = ws.contacts[c]
-    least = hold_guard(ws, c)
+    least = value_of_normal_guard(ws, c)
     if contact.is_held_by_friction:
         least = min(least, contact.static_margin)
     return least < WRONG_FORCE * contact.force_round_off
 
 
 @kernel("f8(ws, i8)")
-def slip_guard(ws: Workspace, c: int) -> float:
-    """Return the slip along its direction at the start of the step, or 1 where nothing depends on its sign.
+def value_of_slip_guard(ws: Workspace, c: int) -> float:
+    """Slip of contact ``c`` along its direction at the start of the step [m/s], or 1 if nothing depends on its sign.
 
-    In an implicit step, which stops and turns slips itself, it is the slip.
+    In an implicit step, which stops and reverses slips itself, it is the slip speed.
     """
     contact = ws.contacts[c]
     if contact.has_traction_law or contact.is_averaged:
@@ -200,10 +214,9 @@ def slip_guard(ws: Workspace, c: int) -> float:
 
 @entry_point("void(ws, f8, i8, i8, b1, b1)")
 def slope(ws: Workspace, t: float, y: int, out: int, may_choose: bool, of_all_bodies: bool) -> None:
-    """Write dy/dt: coordinate rates, accelerations, and four powers.
+    """Write dy/dt at time ``t`` [s] and state ``y`` to ``out``: coordinate rates, accelerations, powers, inner rates.
 
-    These are of the driven bodies, lost to friction, exchanged in all by what is integrated, and of the loads.  For
-    ``may_choose`` and ``of_all_bodies`` see :func:`right_hand_side`.
+    For ``may_choose`` and ``of_all_bodies`` see :func:`right_hand_side`.
     """
     ws.totals.n_evaluations += 1
     right_hand_side(ws, t, y, may_choose, of_all_bodies)
@@ -211,7 +224,25 @@ def slope(ws: Workspace, t: float, y: int, out: int, may_choose: bool, of_all_bo
         for i in range(ws.island.n_ballistic):
             if ws.bodies[ws.island.ballistic[i]].has_own_step:
                 accelerate_in_flight(ws, t, ws.island.ballistic[i])
-    lost = own = 0.0
+    own = _write_slope_of_bodies(ws, y, out, of_all_bodies)
+    lost = _power_of_friction(ws)
+    powers = out + ws.model.n_q + ws.model.n_u
+    ws.floats[powers + DRIVEN], ws.floats[powers + FRICTION_LOSS], ws.floats[powers + LOADS] = (
+        ws.step.driven_power,
+        lost,
+        ws.step.load_power,
+    )
+    ws.floats[powers + EXCHANGED] = abs(own) + abs(ws.step.driven_power) + abs(lost)
+    write_inner_rates(ws, y, out)
+
+
+@kernel("f8(ws, i8, i8, b1)")
+def _write_slope_of_bodies(ws: Workspace, y: int, out: int, of_all_bodies: bool) -> float:
+    """Write coordinate rates and accelerations of the bodies to ``out``. Power of the forces on them [W].
+
+    Bodies in ballistic motion have no part in the power. Theirs is known in closed form.
+    """
+    power = 0.0
     for i in range(ws.model.n_bodies if of_all_bodies else ws.island.n_integrated):
         body = ws.bodies[i if of_all_bodies else ws.island.integrated[i]]
         rates, n_q, n_u = body.tail, body.n_q, body.n_u
@@ -221,7 +252,17 @@ def slope(ws: Workspace, t: float, y: int, out: int, may_choose: bool, of_all_bo
         for j in range(n_u):
             ws.floats[out + velocities + j] = ws.floats[accelerations + j]
         if not body.is_ballistic:
-            own = product(ws.floats, own, rates + n_q, y + velocities, n_u)
+            power = product(ws.floats, power, rates + n_q, y + velocities, n_u)
+    return power
+
+
+@kernel("f8(ws)")
+def _power_of_friction(ws: Workspace) -> float:
+    """Power that the closed contacts dissipate by friction [W].
+
+    Also notes the least normal guard of each contact within the step, and whether a force or slip has the wrong sign.
+    """
+    lost = 0.0
     for i in range(ws.island.n_grouped):
         c = ws.island.grouped[i]
         contact = ws.contacts[c]
@@ -230,32 +271,27 @@ def slope(ws: Workspace, t: float, y: int, out: int, may_choose: bool, of_all_bo
             for r in range(1, 3):
                 lost -= contact.force[r] * contact.rate[r]
         lost -= contact.dissipated_by_spin
-        hold = hold_guard(ws, c)
-        contact.least_force = min(contact.least_force, hold)
-        if sticks or hold < 0.0 or slip_guard(ws, c) < 0.0:
+        normal = value_of_normal_guard(ws, c)
+        contact.least_force = min(contact.least_force, normal)
+        if sticks or normal < 0.0 or value_of_slip_guard(ws, c) < 0.0:
             ws.step.has_doubtful_force = True
-    powers = out + ws.model.n_q + ws.model.n_u
-    ws.floats[powers + DRIVEN], ws.floats[powers + FRICTION_LOSS], ws.floats[powers + LOADS] = (
-        ws.step.driven_power,
-        lost,
-        ws.step.load_power,
-    )
-    ws.floats[powers + EXCHANGED] = abs(own) + abs(ws.step.driven_power) + abs(lost)
-    write_state_rates(ws, y, out)
+    return lost
 
 
 @kernel("i8(ws, b1)")
-def hardest_pressed(ws: Workspace, sliding: bool) -> int:
-    """Return the closed contact of the greatest normal force, or -1; of those only that slide (1), or all (0)."""
+def most_loaded_contact(ws: Workspace, sliding: bool) -> int:
+    """Closed rigid contact with the largest normal force, or ``NO_CONTACT``.
+
+    If ``sliding``, only contacts that slide and whose force pushes count.
+    """
     group_closed(ws)
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     right_hand_side(ws, ws.island.time, ws.island.y.start, may_choose=False, of_all_bodies=True)
-    hardest, most = -1, 0.0
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
+    which, largest = NO_CONTACT, 0.0
+    for contact in ws.contacts:
         takes_part = contact.mode == Mode.SLIDE if sliding else contact.mode != Mode.OPEN
-        takes_part = takes_part and not has_own_step(ws, c)
-        force = contact.force[0] if sliding else abs(contact.force[0])
-        if takes_part and not contact.is_compliant and force > most:
-            hardest, most = c, force
-    return hardest
+        takes_part = takes_part and not has_own_step(ws, contact.index)
+        force = contact.normal_force if sliding else abs(contact.normal_force)
+        if takes_part and not contact.is_compliant and force > largest:
+            which, largest = contact.index, force
+    return which

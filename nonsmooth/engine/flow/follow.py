@@ -1,6 +1,8 @@
-"""Where a run was between the states that it stored: the flow in given modes, and what acts at an instant of it.
+"""Replay of the motion between two stored states, and forces at an instant, in given modes.
 
-Nothing here looks for events: there are none between a stored state and the time asked for.
+A run stores states at events only. A sample in between is found by integrating the motion from the last stored state in
+the modes that were recorded with it. No event is searched for: there is none before the next stored state. So the steps
+need not be those of the run.
 """
 
 from __future__ import annotations
@@ -13,13 +15,13 @@ from nonsmooth.engine.bodies.kinematics import evaluate_contact
 from nonsmooth.engine.contact.trial import tangential_inverse_mass
 from nonsmooth.engine.delassus.delassus import assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
-from nonsmooth.engine.flow.averaged import reach_end, renew_mean_forces
+from nonsmooth.engine.flow.averaged import end_averaging_span, start_averaging_span
 from nonsmooth.engine.flow.flight import choose_integrated, take_off
-from nonsmooth.engine.flow.flow import hold_guard, right_hand_side, slip_guard, slope
-from nonsmooth.engine.flow.guard_numbers import friction_guard
-from nonsmooth.engine.flow.leap import leap
+from nonsmooth.engine.flow.flow import right_hand_side, slope, value_of_normal_guard, value_of_slip_guard
+from nonsmooth.engine.flow.guard_numbers import friction_of
+from nonsmooth.engine.flow.point_jump import jump_contact_points
 from nonsmooth.engine.flow.projection import normalise_quaternions, project_closed, project_joints
-from nonsmooth.engine.flow.step import relaxation, try_length
+from nonsmooth.engine.flow.step import relaxation_rate, try_length
 from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.engine.native.kernel import (
     Workspace,
@@ -29,15 +31,18 @@ from nonsmooth.engine.native.kernel import (
 from nonsmooth.engine.numerics.runge_kutta import SAFETY, SHRINK, step_factor
 from nonsmooth.engine.numerics.vectors import length
 
-_EXCESS = 1e-8
-"""Forces past their bounds by this part of the largest are so by more than round-off."""
+_ROUND_OFF = 1e-8
+"""Excess of a force over its bound that is round-off, relative to the largest force."""
+
+
+_NO_STEP = -1.0
+"""Length in place of a step if none was found."""
 
 
 @kernel("void(ws, b1)")
 def orient_slips(ws: Workspace, at_end: bool) -> None:
-    """Take the directions of slips at hand, or of those at the end of the last step (1), for the step that begins."""
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
+    """Set the slip directions of a step to those of the present slips, or of those at the end of the last step."""
+    for contact in ws.contacts:
         if contact.mode == Mode.SLIDE:
             slip = contact.slip_at_end if at_end else contact.slip
             speed = length(slip)
@@ -46,58 +51,57 @@ def orient_slips(ws: Workspace, at_end: bool) -> None:
 
 
 @kernel("b1(ws)")
-def _turned_round(ws: Workspace) -> bool:
-    """Orient the slips by the rates at hand; return 1 if one goes against the direction that friction took it to go.
+def _has_reversed_slip(ws: Workspace) -> bool:
+    """Orient the slips by the present rates. True if one of them is against the direction that friction assumed.
 
-    A slip may turn round without an event, as where a belt pulls on.
+    A slip may reverse without an event, for example if a belt accelerates past the body.
     """
     against = False
     for i in range(ws.island.n_grouped):
         c = ws.island.grouped[i]
         contact = ws.contacts[c]
-        if contact.mode == Mode.SLIDE and slip_guard(ws, c) < -ws.tolerance.velocity:
+        if contact.mode == Mode.SLIDE and value_of_slip_guard(ws, c) < -ws.tolerance.velocity:
             against = True
     orient_slips(ws, at_end=False)
     return against
 
 
 @kernel("f8(ws)")
-def _up_to_turn(ws: Workspace) -> float:
-    """Return the part of the step that was tried up to where a slip turns round, 1 if none does.
+def _part_before_reversal(ws: Workspace) -> float:
+    """Part of the step that was tried up to the time at which a slip reverses, 1 if none does.
 
-    A slip from rest that has gone the other way has had the wrong direction; it is turned, and 0 returned.
+    A slip from rest that is against its direction had the wrong one. Its direction is reversed, and the part is 0.
     """
     part = 1.0
     for i in range(ws.island.n_grouped):
-        c = ws.island.grouped[i]
-        contact = ws.contacts[c]
-        last = slip_guard(ws, c)
+        contact = ws.contacts[ws.island.grouped[i]]
+        last = value_of_slip_guard(ws, contact.index)
         if contact.mode != Mode.SLIDE or last >= -ws.tolerance.velocity:
             continue
-        first = ws.guards[friction_guard(ws, c)].initial
+        first = friction_of(ws, contact).initial
         if first > ws.tolerance.velocity:
             part = min(part, max(SHRINK, first / (first - last)))
             continue
         part = 0.0
-        ws.guards[friction_guard(ws, c)].initial = -first
+        friction_of(ws, contact).initial = -first
         contact.direction = -contact.direction[0], -contact.direction[1]
     return part
 
 
 @kernel("f8(ws, f8)")
-def _found_step(ws: Workspace, h: float) -> float:
-    """Try steps of ``h`` and less until one meets the tolerance and no slip turns within it; return it, or -1."""
+def _find_step(ws: Workspace, h: float) -> float:
+    """Try steps of ``h`` [s] and less until one meets the tolerance and reverses no slip. Its length, or -1."""
     while True:
         error = try_length(ws, h)
         if ws.request.is_interrupted:
-            return -1.0
+            return _NO_STEP
         part = 1.0
         if error <= 1.0:
-            part = _up_to_turn(ws)
+            part = _part_before_reversal(ws)
             if part == 1.0 or h <= ws.tolerance.time:
                 return h
         elif not h > ws.tolerance.time:
-            return -1.0
+            return _NO_STEP
         if part == 0.0:
             slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=False, of_all_bodies=True)
             part = 0.5
@@ -107,93 +111,104 @@ def _found_step(ws: Workspace, h: float) -> float:
 
 
 @kernel()
-def _measure_mobilities(ws: Workspace) -> None:
-    """Write how fast each closed contact slips under a unit of friction, as an event does."""
+def _evaluate_slip_per_force(ws: Workspace) -> None:
+    """Write the slip acceleration per unit of friction of each closed contact [1/kg], as an event does."""
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
-        for a in range(ws.problem.n_active):
-            evaluate_contact(ws, ws.actives[a].contact, 1)
+        for active in ws.actives:
+            evaluate_contact(ws, active.contact, 1)
         assemble_delassus(ws)
-        for a in range(ws.problem.n_active):
-            ws.contacts[ws.actives[a].contact].slip_per_force = tangential_inverse_mass(ws, ws.actives[a])
+        for active in ws.actives:
+            ws.contacts[active.contact].slip_per_force = tangential_inverse_mass(ws, active)
 
 
 @entry_point("Status(ws, f8)")
 def follow(ws: Workspace, t: float) -> Status:
-    """Go on to time ``t`` in the present modes, by steps of the run's tolerance; return the status."""
+    """Integrate the motion up to time ``t`` [s] in the present modes. Returns the status."""
     group_closed(ws)
     choose_integrated(ws)
-    _measure_mobilities(ws)
+    _evaluate_slip_per_force(ws)
     wanted = ws.tolerance.largest_step
     if ws.island.averaged_until <= ws.island.time:
-        renew_mean_forces(ws, follows=False)
+        start_averaging_span(ws, follows=False)
     while ws.island.time < t:
-        ws.island.stage_time, ws.step.uses_last_slope, ws.step.has_replaced_slope = 0.0, False, False
-        slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=False, of_all_bodies=True)
-        if _turned_round(ws):
-            slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=False, of_all_bodies=True)
-        take_off(ws)
-        for i in range(ws.island.n_grouped):
-            c = ws.island.grouped[i]
-            ws.guards[friction_guard(ws, c)].initial = slip_guard(ws, c)
-            contact = ws.contacts[c]
-            contact.velocity_at_end = contact.velocity
-        ws.step.relaxation = relaxation(ws)
+        _start_step(ws)
         left = t - ws.island.time
-        h = _found_step(ws, min(wanted, left, ws.island.averaged_until - ws.island.time))
-        if h < 0.0 and not ws.request.is_interrupted and leap(ws, ws.tolerance.time):
+        h = _find_step(ws, min(wanted, left, ws.island.averaged_until - ws.island.time))
+        if h < 0.0 and not ws.request.is_interrupted and jump_contact_points(ws, ws.tolerance.time):
             h = ws.tolerance.time
         if h < 0.0:
+            # TODO: an interrupt needs a status of its own: this one says that a law gave a number that is not finite.
             return Status.NOT_FINITE if ws.request.is_interrupted else Status.STEP_TOO_SMALL
         ws.step.h = h
         ws.island.time = t if h == left else ws.island.time + h
-        for i in range(ws.model.n_y):
-            ws.island.y[i] = ws.step.y_new[i]
-        normalise_quaternions(ws)
-        if ws.model.n_joints > 0:
-            project_joints(ws)
-        if ws.island.averaged_until - ws.island.time <= ws.tolerance.time:
-            reach_end(ws)
-            renew_mean_forces(ws, follows=True)
-        else:
-            ws.totals.closing_loss += project_closed(ws, at_event=False, averaged=False)
+        _end_step(ws)
         if ws.run.failure != Status.RUNNING:
             return ws.run.failure
         wanted = min(ws.tolerance.largest_step, 2.0 * h)
     return Status.RUNNING
 
 
+@kernel()
+def _start_step(ws: Workspace) -> None:
+    """Evaluate the slope at the start of a step, and what the step needs of the contacts there."""
+    ws.island.stage_time, ws.step.uses_last_slope, ws.step.has_replaced_slope = 0.0, False, False
+    slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=False, of_all_bodies=True)
+    if _has_reversed_slip(ws):
+        slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=False, of_all_bodies=True)
+    take_off(ws)
+    for i in range(ws.island.n_grouped):
+        contact = ws.contacts[ws.island.grouped[i]]
+        friction_of(ws, contact).initial = value_of_slip_guard(ws, contact.index)
+        contact.velocity_at_end = contact.velocity
+    ws.step.relaxation = relaxation_rate(ws)
+
+
+@kernel()
+def _end_step(ws: Workspace) -> None:
+    """Take over the state at the end of a step, and put it on the constraints."""
+    for i in range(ws.model.n_y):
+        ws.island.y[i] = ws.step.y_new[i]
+    normalise_quaternions(ws)
+    if ws.model.n_joints > 0:
+        project_joints(ws)
+    if ws.island.averaged_until - ws.island.time <= ws.tolerance.time:
+        end_averaging_span(ws)
+        start_averaging_span(ws, follows=True)
+    else:
+        ws.totals.closing_loss += project_closed(ws, at_event=False, averaged=False)
+
+
 @kernel("b1(ws)")
-def _past_bounds(ws: Workspace) -> bool:
-    """Return 1 if forces that are not unique pull, or pass the bound of their friction."""
+def _exceed_bounds(ws: Workspace) -> bool:
+    """True if a redundant force pulls, or exceeds its friction bound."""
     least = largest = 0.0
     for i in range(ws.island.n_grouped):
         c = ws.island.grouped[i]
         contact = ws.contacts[c]
         if contact.has_redundant_force:
             largest = max(largest, abs(contact.force[0]))
-            least = min(least, hold_guard(ws, c))
+            least = min(least, value_of_normal_guard(ws, c))
             if contact.is_held_by_friction:
                 least = min(least, contact.static_margin)
-    return least < -_EXCESS * largest
+    return least < -_ROUND_OFF * largest
 
 
 @entry_point("void(ws, b1)")
 def evaluate_forces(ws: Workspace, may_choose: bool) -> None:
     """Evaluate bodies, closed contacts and joints with their forces at the present state.
 
-    Of forces that are not unique the null-space force is chosen anew if it ``may_choose``, as at an event, or if with
-    that at hand a bound is passed.
+    Redundant forces are chosen anew if it ``may_choose``, as at an event, or if the present choice exceeds a bound.
     """
     group_closed(ws)
     ws.island.stage_time = 0.0
     if may_choose or ws.island.averaged_until <= ws.island.time:
-        renew_mean_forces(ws, follows=False)
+        start_averaging_span(ws, follows=False)
     evaluate_driven_bodies(ws, ws.island.time, ws.island.y.start)
     right_hand_side(ws, ws.island.time, ws.island.y.start, may_choose, of_all_bodies=True)
-    has_turned = _turned_round(ws)
-    is_past_bounds = not may_choose and _past_bounds(ws)
+    has_turned = _has_reversed_slip(ws)
+    is_past_bounds = not may_choose and _exceed_bounds(ws)
     if has_turned or is_past_bounds:
         right_hand_side(ws, ws.island.time, ws.island.y.start, may_choose or is_past_bounds, of_all_bodies=True)
     if ws.model.n_joints > 0:

@@ -1,7 +1,6 @@
-"""The numbers of the guards: which is which, and whose.
+"""Numbers of the guards: the normal guards of all contacts, their friction guards, those of the user, the end guards.
 
-First stand the normal guards of all contacts, then their friction guards, then the scenario's own, and last the end
-guards of the contacts.
+The number of a guard gives its kind and its contact, so a guard that has fired needs no more than its number.
 """
 
 from __future__ import annotations
@@ -12,37 +11,37 @@ from nonsmooth.engine.native.kernel import Contact, Guard, Workspace, kernel
 
 @kernel("i8(i8)")
 def normal_guard(c: int) -> int:
-    """The guard of contact ``c`` that is its gap, its normal force or the way to its reach."""
+    """Number of the normal guard of contact ``c``: its gap, its normal force, or the distance to its reach."""
     return c
 
 
 @kernel("i8(ws, i8)")
 def friction_guard(ws: Workspace, c: int) -> int:
-    """The guard of contact ``c`` that is the distance to its static bound, or its slip."""
+    """Number of the friction guard of contact ``c``: the distance to its static bound, or its slip."""
     return int(ws.island.n_contacts + c)
 
 
 @kernel("b1(ws, i8)")
 def is_friction_guard(ws: Workspace, i: int) -> bool:
-    """Return 1 if guard ``i`` of a contact is that of its friction."""
+    """True if guard ``i`` of a contact is its friction guard."""
     return i >= ws.island.n_contacts
 
 
 @kernel("i8(ws, i8)")
 def contact_of(ws: Workspace, i: int) -> int:
-    """The contact whose normal or friction guard ``i`` is."""
+    """Number of the contact of the normal or friction guard ``i``."""
     return int(i - ws.island.n_contacts) if i >= ws.island.n_contacts else i
 
 
 @kernel("i8(ws)")
 def first_own_guard(ws: Workspace) -> int:
-    """The first guard of the scenario's own; before it are the normal and friction guards."""
+    """Number of the first guard of the user. The normal and friction guards are before it."""
     return int(2 * ws.island.n_contacts)
 
 
 @kernel("i8(ws)")
 def first_end_guard(ws: Workspace) -> int:
-    """The end guard of the first contact; those of the others follow."""
+    """Number of the end guard of the first contact. Those of the other contacts follow."""
     return int(first_own_guard(ws) + ws.model.n_own_guards)
 
 
@@ -54,29 +53,29 @@ def number_of_guards(ws: Workspace) -> int:
 
 @kernel("Guard(ws, Contact)")
 def normal_of(ws: Workspace, contact: Contact) -> Guard:
-    """The normal guard of a contact."""
+    """Normal guard of a contact."""
     return ws.guards[normal_guard(contact.index)]
 
 
 @kernel("Guard(ws, Contact)")
 def friction_of(ws: Workspace, contact: Contact) -> Guard:
-    """The friction guard of a contact."""
+    """Friction guard of a contact."""
     return ws.guards[friction_guard(ws, contact.index)]
 
 
 @kernel("Guard(ws, Contact)")
 def end_of(ws: Workspace, contact: Contact) -> Guard:
-    """The end guard of a contact."""
+    """End guard of a contact."""
     return ws.guards[first_end_guard(ws) + contact.index]
 
 
 @kernel("Contact(ws, i8)")
 def contact_at(ws: Workspace, i: int) -> Contact:
-    """The contact whose normal or friction guard ``i`` is."""
+    """Contact of the normal or friction guard ``i``."""
     return ws.contacts[contact_of(ws, i)]
 
 
 @kernel("b1(ws, i8)")
 def is_of_open_contact(ws: Workspace, i: int) -> bool:
-    """True if the contact whose normal or friction guard ``i`` is, is open."""
+    """True if the contact of the normal or friction guard ``i`` is open."""
     return contact_at(ws, i).mode == Mode.OPEN

@@ -6,7 +6,7 @@ from nonsmooth.engine.bodies.bodies import evaluate_body, evaluate_driven_bodies
 from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.bodies.kinematics import evaluate_kinematics
 from nonsmooth.engine.flow.deflation import deflate
-from nonsmooth.engine.flow.flow import hold_guard, right_hand_side, slip_guard
+from nonsmooth.engine.flow.flow import right_hand_side, value_of_normal_guard, value_of_slip_guard
 from nonsmooth.engine.flow.guard_numbers import (
     end_of,
     first_own_guard,
@@ -102,12 +102,12 @@ def _write_guards_without_gaps(ws: Workspace, t: float, y: int, forces_are_known
 @kernel("void(ws, Contact)")
 def _write_force_guards(ws: Workspace, contact: Contact) -> None:
     """Write the normal and the friction guard of a closed contact, whose force was evaluated."""
-    normal_of(ws, contact).value = hold_guard(ws, contact.index)
+    normal_of(ws, contact).value = value_of_normal_guard(ws, contact.index)
     contact.gap_rate = contact.normal_rate
     if contact.mode == Mode.STICK:
         friction_of(ws, contact).value = contact.static_margin
     else:
-        friction_of(ws, contact).value = slip_guard(ws, contact.index)
+        friction_of(ws, contact).value = value_of_slip_guard(ws, contact.index)
 
 
 @kernel("void(ws, f8, i8)")

@@ -10,11 +10,15 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.flow.arming import arm_further, keep_end
-from nonsmooth.engine.flow.choices import blend_choices, choose_at_end
 from nonsmooth.engine.flow.clearance import bound_speeds, find_doubtful
 from nonsmooth.engine.flow.deflation import deflate
-from nonsmooth.engine.flow.dips import WAY, first_closing, look_at_gap, look_at_slip
 from nonsmooth.engine.flow.flight import state_within
+from nonsmooth.engine.flow.gap_search import (
+    LARGEST_DISPLACEMENT,
+    evaluate_gap_guard,
+    evaluate_slip_guard,
+    first_closing,
+)
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
     first_own_guard,
@@ -25,7 +29,8 @@ from nonsmooth.engine.flow.guard_numbers import (
 )
 from nonsmooth.engine.flow.guard_values import evaluate_guards, evaluate_motion, write_guards
 from nonsmooth.engine.flow.guards import NO_GUARD, DependsOn, first_fired, is_gap, sign_depends_on
-from nonsmooth.engine.flow.self_check import EXPLAINED, NEAR, explained_gap
+from nonsmooth.engine.flow.redundant_forces import blend_chosen_forces, choose_at_end
+from nonsmooth.engine.flow.self_check import ADJACENT, ALLOWED, allowed_gap
 from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.layout import LAST_STAGE, PARTS
 from nonsmooth.engine.memory.modes import Mode
@@ -78,7 +83,7 @@ def _asks_forces(ws: Workspace) -> bool:
 def guards_within(ws: Workspace, h: float, theta: float, needs_forces: bool) -> None:
     """Evaluate the motion and write the guards at the fraction ``theta`` of the step, on the interpolant."""
     state_within(ws, h, theta, ws.step.y_stage.start)
-    blend_choices(ws, theta)
+    blend_chosen_forces(ws, theta)
     evaluate_guards(ws, ws.island.time + theta * h, ws.step.y_stage.start, theta * h, needs_forces)
 
 
@@ -87,9 +92,9 @@ def _guard_at(ws: Workspace, h: float, theta: float, i: int, needs_forces: bool)
     """Return guard ``i`` at the fraction ``theta`` of the step; of a gap and of a slip nothing else is evaluated."""
     alone = sign_depends_on(ws, i)
     if alone == DependsOn.GAP:
-        look_at_gap(ws, h, theta, i)
+        evaluate_gap_guard(ws, h, theta, i)
     elif alone == DependsOn.SLIP:
-        look_at_slip(ws, h, theta, contact_of(ws, i))
+        evaluate_slip_guard(ws, h, theta, contact_of(ws, i))
     else:
         guards_within(ws, h, theta, needs_forces)
     return float(ws.guards[i].value)
@@ -161,7 +166,7 @@ def _advance(ws: Workspace, h: float) -> float:
         c = ws.step.not_facing[i]
         contact = ws.contacts[c]
         speed = contact.speed_at_start + contact.speed_at_end
-        way = min(_FARTHEST * contact.size, max(contact.gap, WAY * contact.size))
+        way = min(_FARTHEST * contact.size, max(contact.gap, LARGEST_DISPLACEMENT * contact.size))
         if way < least * speed:
             least = way / speed
     return float(max(least, _SHORTEST * h))
@@ -249,7 +254,7 @@ def first_crossing(ws: Workspace, h: float) -> float:
         theta = _closed_before(ws, h, 1.0, -1)
         if theta > 0.0:
             return theta
-    blend_choices(ws, 1.0)
+    blend_chosen_forces(ws, 1.0)
     if looks > 0:
         evaluate_motion(ws, ws.island.time + h, ws.step.y_new.start)
         for i in range(number_of_guards(ws)):
@@ -352,7 +357,7 @@ def _behind_jump(ws: Workspace, step: float, i: int) -> float:
     if not try_step(ws, step) <= TRUSTED:
         return -1.0
     way = _FINE * ws.tolerance.time
-    while way <= EXPLAINED * ws.tolerance.time:
+    while way <= ALLOWED * ws.tolerance.time:
         evaluate_guards(ws, ws.island.time + step, ws.step.y_new.start, step, needs_forces=True)
         if ws.guards[i].value < 0.0:
             return step
@@ -373,7 +378,7 @@ def _corrected(ws: Workspace, root: float, i: int) -> float:
     # two or three do unless the guard is not smooth
     for _halving in range(PARTS):
         ws.step.h = step
-        blend_choices(ws, step / h)
+        blend_chosen_forces(ws, step / h)
         if not try_step(ws, step) <= TRUSTED:
             return -1.0
         write_guards(ws, ws.island.time + step, ws.step.y_new.start, forces_are_known=True)
@@ -414,7 +419,7 @@ def _overtaken(ws: Workspace, i: int) -> bool:
         if contact.mode == Mode.OPEN and c != contact_of(ws, i) and contact.past_feature <= 0.0:
             start = min(0.0, ws.guards[normal_guard(c)].base)
             # what closes at one instant does to round-off
-            if contact.gap < start - NEAR * ws.tolerance.gap and contact.gap_rate < 0.0:
+            if contact.gap < start - ADJACENT * ws.tolerance.gap and contact.gap_rate < 0.0:
                 return True
     return False
 
@@ -433,7 +438,7 @@ def _hides_another(ws: Workspace, step: float, i: int) -> bool:
     if contact.mode != Mode.OPEN or contact.is_compliant:
         return False
     reached = step * (contact.speed_at_start + contact.speed_at_end)
-    return explained_gap(ws, c) < -contact.gap < reached
+    return allowed_gap(ws, c) < -contact.gap < reached
 
 
 @entry_point("f8(ws, f8, f8)")

@@ -1,4 +1,4 @@
-"""What averaged forces do to the energy."""
+"""Work of averaged forces: they act while their gaps change, so they exchange energy that an exact motion does not."""
 
 from __future__ import annotations
 
@@ -6,10 +6,12 @@ from nonsmooth.engine.native.kernel import Workspace, kernel
 
 
 @kernel()
-def book_mean_forces(ws: Workspace) -> None:
-    """Book the work of averaged normal forces so far, geometry being at hand: as gaps close it is taken back."""
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
+def account_for_mean_forces(ws: Workspace) -> None:
+    """Subtract the work of averaged normal forces since the last call from the closing loss [J].
+
+    The geometry must be evaluated.
+    """
+    for contact in ws.contacts:
         if contact.is_averaged and not contact.is_compliant:
             ws.totals.closing_loss -= contact.mean_force[0] * (contact.gap - contact.mean_gap)
             contact.mean_gap = contact.gap

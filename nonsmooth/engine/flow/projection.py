@@ -1,8 +1,18 @@
-"""Keep g = 0, g' = 0 and v = 0 of the closed contacts by momentum-consistent corrections."""
+"""Projection: closed contacts and joints are put back on their constraints g = 0, g' = 0, v = 0 after steps and events.
+
+The integrator keeps accelerations only, so gaps and rates drift within its tolerance. The rates are corrected by the
+impulses of least kinetic energy, along K W. The gaps are corrected by displacements of the same form, for unit time. So
+momentum is conserved, and the corrections respect joints. Baumgarte's stabilisation would put stiff springs into the
+motion instead.
+
+Contacts that nearly repeat each other make the problem ill-conditioned. So its diagonal is enlarged slightly (damped
+least squares). A correction that is larger than the tolerances allow ends the run.
+"""
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_body, evaluate_free_bodies
 from nonsmooth.engine.bodies.kinematics import (
@@ -18,126 +28,137 @@ from nonsmooth.engine.contact.forces import resolve
 from nonsmooth.engine.contact.mean_forces import is_averaged
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus, diagonal_block
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
-from nonsmooth.engine.flow.self_check import EXPLAINED, NOUGHT, blame, energies_of_bodies, explained_gap, held_gap
+from nonsmooth.engine.flow.self_check import ALLOWED, NEGLIGIBLE, allowed_gap, energies_of_bodies, fail_check, held_gap
 from nonsmooth.engine.memory.layout import NORMAL_ROW
 from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.engine.native.kernel import (
+    Articulation,
+    Body,
+    Contact,
     Workspace,
     entry_point,
     frame_at,
     kernel,
+    result,
 )
 from nonsmooth.engine.numerics.vectors import cross, dot, minus
 
 _ROUND_OFF = 8.0 * 2.0**-52
-"""The square of a length of one this near to one is one, but for round-off."""
+"""Difference of a squared unit length from 1 that is round-off."""
 _DAMPING = 1e-8
-"""Of the diagonal of G, added to it: contacts that nearly repeat each other need not be closed exactly, where that
-would move a body by more than half the gap over the root of this.  A contact alone repeats none."""
-_FARTHEST = 10.0
-"""Corrections move bodies by no more than so many times what the tolerances explain of a gap."""
+"""Damping of a projection, relative to the diagonal of G.
+
+It limits the displacement of a body to the gap over twice its square root. A single contact needs none.
+"""
+_LARGEST_CORRECTION = 10.0
+"""Largest displacement of a body by a correction, relative to the gap that the tolerances allow."""
 _MOST_ITERATIONS = 5
-"""Of Newton's method, which is quadratic: two or three do within the tolerances of a step."""
+"""Most iterations of Newton's method for joints. It converges quadratically, so two or three suffice."""
+
+
+@result
+class Projected(NamedTuple):
+    """What the projection of an island did."""
+
+    loss: float
+    """Kinetic energy that it removed [J]."""
+    has_moved: bool
+    """It added velocities to ``y_stage``, which close gaps."""
 
 
 @entry_point("f8(ws, b1)")
 def project_rates(ws: Workspace, at_event: bool) -> float:
-    """Bring gap rates of the active contacts, and slip velocities of those that do not slip, to zero.
+    """Bring gap rates of the active contacts, and slips of sticking ones, to zero. Energy that is removed [J].
 
-    At an event (1) a slip that is only about to start counts as none: its direction would be that of round-off.  The
-    correction is the damped impulse of least kinetic energy, without friction on sliding contacts.
-    Returns the kinetic energy it removes [J]; the work of the driven bodies is booked.
+    At an event a slip within the velocity tolerance is removed too, because its direction is round-off. The correction
+    is the damped impulse of least kinetic energy, without friction on sliding contacts. The work of driven bodies is
+    accounted for.
     """
-    m = ws.problem.n_active
-    if m == 0:
+    if ws.problem.n_active == 0:
         return 0.0
     assemble_delassus(ws)
-    for a in range(m):
-        active = ws.actives[a]
-        c = active.contact
-        contact = ws.contacts[c]
+    for active in ws.actives:
+        contact = ws.contacts[active.contact]
         active.is_normal_force_unknown = not contact.is_compliant
         active.normal_force = 0.0
-        slow = max(abs(contact.rate[1]), abs(contact.rate[2])) <= ws.tolerance.velocity
-        rubs = contact.has_traction_law
-        active.sticks = contact.mode == Mode.STICK or (at_event and slow and not rubs)
+        is_slow = max(abs(contact.rate[1]), abs(contact.rate[2])) <= ws.tolerance.velocity
+        active.sticks = contact.mode == Mode.STICK or (at_event and is_slow and not contact.has_traction_law)
         active.friction_coefficient, active.direction = 0.0, contact.direction
         for r in range(3):
             active.free[r] = contact.rate[r]
-    part = _DAMPING if m > 1 else 0.0
-    _damp(ws, part)
+    damping = _DAMPING if ws.problem.n_active > 1 else 0.0
+    _damp(ws, damping)
     resolve(ws)
     add_response(ws, ws.problem.forces.start, ws.island.y.start + ws.model.n_q)
+    return _removed_energy(ws, damping)
+
+
+@kernel("f8(ws, f8)")
+def _removed_energy(ws: Workspace, damping: float) -> float:
+    """Kinetic energy that the impulses of a projection removed [J]. Accounts for the work of driven bodies."""
     loss = 0.0
-    for a in range(m):
-        active = ws.actives[a]
-        c = active.contact
-        contact = ws.contacts[c]
+    for active in ws.actives:
+        contact = ws.contacts[active.contact]
         for r in range(3):
             impulse = active.force[r]
-            damping = diagonal_block(ws, a).entries[4 * r] * part / (1.0 + part)
-            loss -= 0.5 * impulse * (contact.rate[r] - damping * impulse)
+            added = diagonal_block(ws, active.index).entries[4 * r] * damping / (1.0 + damping)
+            loss -= 0.5 * impulse * (contact.rate[r] - added * impulse)
             ws.totals.driven_work -= impulse * contact.prescribed_rate[r]
     return loss
 
 
 @kernel("void(ws, f8)")
-def _damp(ws: Workspace, part: float) -> None:
-    """Add a part of its diagonal to the Delassus matrix of the active contacts."""
-    for a in range(ws.problem.n_active):
+def _damp(ws: Workspace, damping: float) -> None:
+    """Enlarge the diagonal of the Delassus matrix of the active contacts by the part ``damping``."""
+    for active in ws.actives:
         for r in range(3):
-            diagonal_block(ws, a).entries[4 * r] *= 1.0 + part
+            diagonal_block(ws, active.index).entries[4 * r] *= 1.0 + damping
 
 
 @kernel("b1(ws)")
 def _add_gaps(ws: Workspace) -> bool:
-    """Add to ``y_stage`` the velocities that bring the gaps of the active contacts to zero in unit time, along K W.
+    """Add to ``y_stage`` the velocities that bring the gaps of the active contacts to zero in unit time.
 
-    They are those of damped least squares, damped the more the nearer the gaps are to what the tolerances explain.
-    Return 1, or 0 where no gap is left, or one that nothing explains.
+    They are those of damped least squares. The closer a gap is to the allowed one, the more they are damped. False if
+    all gaps are negligible, or if one is larger than allowed: then the check of gaps ends the run.
     """
-    m = ws.problem.n_active
-    worst = share = 0.0
-    for a in range(m):
-        active = ws.actives[a]
-        c = active.contact
-        contact = ws.contacts[c]
-        gap = abs(held_gap(ws, c)) if not contact.is_compliant else 0.0
-        worst = max(worst, gap)
-        share = max(share, gap / explained_gap(ws, c))
-    if worst <= NOUGHT * ws.tolerance.gap or share > 1.0:
+    largest = ratio = 0.0
+    for active in ws.actives:
+        contact = ws.contacts[active.contact]
+        gap = abs(held_gap(contact)) if not contact.is_compliant else 0.0
+        largest = max(largest, gap)
+        ratio = max(ratio, gap / allowed_gap(ws, active.contact))
+    if largest <= NEGLIGIBLE * ws.tolerance.gap or ratio > 1.0:
         return False
     assemble_delassus(ws)
-    for a in range(m):
-        active = ws.actives[a]
-        c = active.contact
-        contact = ws.contacts[c]
+    for active in ws.actives:
+        contact = ws.contacts[active.contact]
         active.is_normal_force_unknown = not contact.is_compliant
         active.sticks = False
         active.normal_force = active.friction_coefficient = 0.0
         active.direction = contact.direction
-        active.free[0] = held_gap(ws, c)
-    if m > 1:
-        _damp(ws, max(_DAMPING, (0.5 * share / _FARTHEST) ** 2))
+        active.free[0] = held_gap(contact)
+    if ws.problem.n_active > 1:
+        _damp(ws, max(_DAMPING, (0.5 * ratio / _LARGEST_CORRECTION) ** 2))
     resolve(ws)
     add_response(ws, ws.problem.forces.start, ws.step.y_stage.start + ws.model.n_q)
     return True
 
 
 @kernel("f8(ws)")
-def _stop_alone(ws: Workspace) -> float:
-    """Take gap and gap rate of an island of one rigid contact that slides, whose geometry and rates are at hand.
+def _project_lone_slip(ws: Workspace) -> float:
+    """Remove gap and gap rate of an island with one rigid contact that slides. Kinetic energy that is removed [J].
 
-    The gap's velocity is added to ``y_stage``; return the kinetic energy that the other takes [J].
+    Its geometry and rates must be evaluated. The velocity that closes the gap in unit time is added to ``y_stage``.
     """
     c = ws.actives[0].contact
     contact = ws.contacts[c]
     evaluate_row(ws, c, NORMAL_ROW, contact.axis_n)
     evaluate_row_response(ws, c, NORMAL_ROW, NORMAL_ROW)
-    own, gap, rate = coupling(ws, c, NORMAL_ROW, c, NORMAL_ROW), held_gap(ws, c), contact.rate[0]
+    own, gap, rate = coupling(ws, c, NORMAL_ROW, c, NORMAL_ROW), held_gap(contact), contact.normal_rate
     if own <= 0.0:
         return 0.0
-    if NOUGHT * ws.tolerance.gap < abs(gap) <= explained_gap(ws, c):
+    if NEGLIGIBLE * ws.tolerance.gap < abs(gap) <= allowed_gap(ws, c):
         push_response(ws, c, NORMAL_ROW, -gap / own, ws.step.y_stage.start + ws.model.n_q)
     impulse, prescribed = -rate / own, rate - row(ws, c, NORMAL_ROW, ws.island.velocities)
     push_response(ws, c, NORMAL_ROW, impulse, ws.island.y.start + ws.model.n_q)
@@ -146,50 +167,45 @@ def _stop_alone(ws: Workspace) -> float:
 
 
 @kernel("b1(ws)")
-def _slides_alone(ws: Workspace) -> bool:
-    """Return 1 if the active contact is one, rigid, and slides."""
+def _is_lone_slip(ws: Workspace) -> bool:
+    """True if a single contact is active, which is rigid and slides."""
     contact = ws.contacts[ws.actives[0].contact]
     return ws.problem.n_active == 1 and not contact.is_compliant and contact.mode == Mode.SLIDE
 
 
 @kernel()
 def normalise_quaternions(ws: Workspace) -> None:
-    """Bring every body's unit quaternion back to unit length; one that is farther off than explained fails the run."""
-    for number in range(ws.model.n_bodies):
-        body = ws.bodies[number]
-        offset = body.quaternion
-        if offset < 0:
+    """Bring the quaternion of every body to unit length. A deviation larger than allowed ends the run."""
+    for body in ws.bodies:
+        if body.quaternion < 0:
             continue
-        q = ws.island.y.start + body.q + offset
+        q = ws.island.y.start + body.q + body.quaternion
         square = 0.0
         for i in range(4):
             square += ws.floats[q + i] * ws.floats[q + i]
         if abs(square - 1.0) <= _ROUND_OFF:
             continue
-        if abs(square - 1.0) > EXPLAINED * 4.0 * ws.tolerance.relative:
-            blame(
-                ws,
-                Status.QUATERNION_UNEXPLAINED,
-                number,
-                math.sqrt(square) - 1.0,
-                EXPLAINED * 2.0 * ws.tolerance.relative,
-            )
+        if abs(square - 1.0) > ALLOWED * 4.0 * ws.tolerance.relative:
+            deviation, allowed = math.sqrt(square) - 1.0, ALLOWED * 2.0 * ws.tolerance.relative
+            fail_check(ws, Status.QUATERNION_UNEXPLAINED, body.index, deviation, allowed)
         factor = 1.0 / math.sqrt(square)
         for i in range(4):
             ws.floats[q + i] *= factor
 
 
 @kernel("f8(ws, i8)")
-def _explained_motion(ws: Workspace, i: int) -> float:
-    """Return how far a correction may move coordinate ``i``, by the tolerances of steps, gaps and event times."""
+def _allowed_motion(ws: Workspace, i: int) -> float:
+    """Displacement of coordinate ``i`` that the tolerances of steps, gaps and times allow a correction, in its unit."""
     step = ws.tolerance.relative * (ws.step.y_scale[i] + abs(ws.island.y[i]))
-    return float(_FARTHEST * EXPLAINED * (step + ws.tolerance.gap + ws.tolerance.time * abs(ws.island.slopes[i])))
+    return float(
+        _LARGEST_CORRECTION * ALLOWED * (step + ws.tolerance.gap + ws.tolerance.time * abs(ws.island.slopes[i]))
+    )
 
 
-@kernel("f8(ws, i8, i8)")
-def _speed_at(ws: Workspace, c: int, number: int) -> float:
-    """Return how fast the witness point of contact ``c`` on a body moves [m/s], 0 where the contact is of others."""
-    contact, fastest = ws.contacts[c], 0.0
+@kernel("f8(ws, Contact, i8)")
+def _speed_at(ws: Workspace, contact: Contact, number: int) -> float:
+    """Speed of the witness point of a contact on body ``number`` [m/s], 0 if the body has no part in the contact."""
+    fastest = 0.0
     for side in range(2):
         if (contact.body_a if side == 0 else contact.body_b) == number:
             frame = frame_at(ws.floats, contact.frame_a if side == 0 else contact.frame_b)
@@ -199,14 +215,14 @@ def _speed_at(ws: Workspace, c: int, number: int) -> float:
     return float(fastest)
 
 
-@kernel("f8(ws, i8, i8)")
-def _motion_by_gaps(ws: Workspace, number: int, i: int) -> float:
-    """Return how far coordinate ``i`` of a body may move as its closed contacts lose what is explained of their gaps.
+@kernel("f8(ws, Body, i8)")
+def _allowed_motion_by_gaps(ws: Workspace, body: Body, i: int) -> float:
+    """Displacement of coordinate ``i`` of a body that closes the allowed gaps of its contacts, in its unit.
 
-    What a tolerance of lengths says of angles depends on the levers: each contact alone is let push the body until its
-    witness point has moved so far.
+    The angle that a length means depends on the offset of the contact point. So each contact alone is let push the body
+    until its witness point has moved by the allowed gap.
     """
-    body, total = ws.bodies[number], 0.0
+    total = 0.0
     for place in range(ws.island.n_grouped):
         c = ws.island.grouped[place]
         if ws.contacts[c].is_compliant:
@@ -214,18 +230,17 @@ def _motion_by_gaps(ws: Workspace, number: int, i: int) -> float:
         for j in range(ws.model.n_y):
             ws.step.y_guess[j] = ws.island.y[j] if j < ws.model.n_q else 0.0
         push_response(ws, c, NORMAL_ROW, 1.0, ws.step.y_guess.start + ws.model.n_q)
-        evaluate_body(ws, ws.island.time, ws.step.y_guess.start, number)
-        speed = _speed_at(ws, c, number)
+        evaluate_body(ws, ws.island.time, ws.step.y_guess.start, body.index)
+        speed = _speed_at(ws, ws.contacts[c], body.index)
         if speed > 0.0:
-            total += abs(ws.floats[body.tail + i]) * explained_gap(ws, c) / speed
-    evaluate_body(ws, ws.island.time, ws.step.y_stage.start, number)
-    return float(_FARTHEST * total)
+            total += abs(ws.floats[body.tail + i]) * allowed_gap(ws, c) / speed
+    evaluate_body(ws, ws.island.time, ws.step.y_stage.start, body.index)
+    return float(_LARGEST_CORRECTION * total)
 
 
-@kernel("b1(ws, i8)")
-def _is_displaced(ws: Workspace, number: int) -> bool:
-    """Return 1 if the velocities in ``y_stage`` move a body."""
-    body = ws.bodies[number]
+@kernel("b1(ws, Body)")
+def _is_displaced(ws: Workspace, body: Body) -> bool:
+    """True if the velocities in ``y_stage`` move a body."""
     first = ws.step.y_stage.start + ws.model.n_q + body.u
     for i in range(first, first + body.n_u):
         if ws.floats[i] != 0.0:
@@ -235,24 +250,24 @@ def _is_displaced(ws: Workspace, number: int) -> bool:
 
 @kernel()
 def _displace(ws: Workspace) -> None:
-    """Move the bodies by the velocities in ``y_stage`` for unit time, unless the tolerances do not explain so much."""
-    # dq = B du: let the bodies turn the displacement into coordinate rates
-    for number in range(ws.model.n_bodies):
-        body = ws.bodies[number]
-        if not _is_displaced(ws, number):
+    """Move the bodies by the velocities in ``y_stage`` for unit time. A motion larger than allowed ends the run.
+
+    The bodies themselves turn these velocities into coordinate rates, dq = B du.
+    """
+    for body in ws.bodies:
+        if not _is_displaced(ws, body):
             continue
-        evaluate_body(ws, ws.island.time, ws.step.y_stage.start, number)
+        evaluate_body(ws, ws.island.time, ws.step.y_stage.start, body.index)
         for i in range(body.n_q):
-            motion, most = ws.floats[body.tail + i], _explained_motion(ws, body.q + i)
-            # asked only where it matters
-            if abs(motion) > most:
-                most += _motion_by_gaps(ws, number, i)
-            if abs(motion) > most:
-                blame(ws, Status.MOTION_UNEXPLAINED, number, motion, most)
+            motion, allowed = ws.floats[body.tail + i], _allowed_motion(ws, body.q + i)
+            # the bound by gaps is costly
+            if abs(motion) > allowed:
+                allowed += _allowed_motion_by_gaps(ws, body, i)
+            if abs(motion) > allowed:
+                fail_check(ws, Status.MOTION_UNEXPLAINED, body.index, motion, allowed)
                 return
-    for number in range(ws.model.n_bodies):
-        body = ws.bodies[number]
-        if _is_displaced(ws, number):
+    for body in ws.bodies:
+        if _is_displaced(ws, body):
             for i in range(body.n_q):
                 ws.island.y[body.q + i] += ws.floats[body.tail + i]
     normalise_quaternions(ws)
@@ -260,10 +275,10 @@ def _displace(ws: Workspace) -> None:
 
 @entry_point("f8(ws, b1, b1)")
 def project_closed(ws: Workspace, at_event: bool, averaged: bool) -> float:
-    """Put the closed contacts on their constraints, island by island; return the energy that this removes [J].
+    """Put the closed contacts on their constraints, island by island. Energy that this removes [J].
 
-    What the gaps take counts at an event (1); within a step it is the error of the step, which no energy paid for.
-    Of islands whose forces are ``averaged`` (1) only these come to rest, where that ends; else only the others (0).
+    The energy of closed gaps counts at an event only. Within a step it is an error of the step, which is in no account.
+    Either the islands with ``averaged`` forces are projected, at the end of their span, or all others.
     """
     if at_event:
         group_closed(ws)
@@ -272,31 +287,15 @@ def project_closed(ws: Workspace, at_event: bool, averaged: bool) -> float:
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     for i in range(ws.model.n_y):
         ws.step.y_stage[i] = ws.island.y[i] if i < ws.model.n_q else 0.0
-    loss = 0.0
-    moved = 0
+    loss, has_moved = 0.0, False
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
         if is_averaged(ws) != averaged:
             continue
-        past = 0.0
-        for a in range(ws.problem.n_active):
-            active = ws.actives[a]
-            c = active.contact
-            contact = ws.contacts[c]
-            evaluate_kinematics(ws, c)
-            past = max(past, contact.past_feature)
-        if past > ws.tolerance.gap:
-            # behind the end of a feature its rate is that of another one; the event that comes drops the contact
-            continue
-        if not at_event and _slides_alone(ws):
-            loss += _stop_alone(ws)
-            moved += 1
-            continue
-        for a in range(ws.problem.n_active):
-            evaluate_jacobian(ws, ws.actives[a].contact)
-        loss += project_rates(ws, at_event)
-        moved += _add_gaps(ws)
-    if moved > 0:
+        projected = _project_active(ws, at_event)
+        loss += projected.loss
+        has_moved = projected.has_moved or has_moved
+    if has_moved:
         before = energies_of_bodies(ws)[1]
         _displace(ws)
         evaluate_free_bodies(ws, ws.island.time, ws.island.y.start, of_all_bodies=True)
@@ -305,47 +304,71 @@ def project_closed(ws: Workspace, at_event: bool, averaged: bool) -> float:
     return loss
 
 
+@kernel("Projected(ws, b1)")
+def _project_active(ws: Workspace, at_event: bool) -> Projected:
+    """Project the rates of the active contacts, and add the velocities that close their gaps to ``y_stage``.
+
+    Nothing is projected past the end of a feature, where the rate is that of another gap. The event that comes next
+    opens the contact.
+    """
+    past = 0.0
+    for active in ws.actives:
+        evaluate_kinematics(ws, active.contact)
+        past = max(past, ws.contacts[active.contact].past_feature)
+    if past > ws.tolerance.gap:
+        return Projected(0.0, False)
+    if not at_event and _is_lone_slip(ws):
+        return Projected(_project_lone_slip(ws), True)
+    for active in ws.actives:
+        evaluate_jacobian(ws, active.contact)
+    loss = project_rates(ws, at_event)
+    return Projected(loss, _add_gaps(ws))
+
+
 @entry_point()
 def project_joints(ws: Workspace) -> None:
-    """Bring residuals and rates of the joints to zero by the least motion, and evaluate the bodies there."""
+    """Bring residuals and rates of the joints to zero by the least motion, and evaluate the bodies there.
+
+    Newton's method ends at a negligible residual, or if round-off stops its progress: far from the origin that is more
+    than the tolerance. A residual that is larger than allowed is not reduced, but ends the run.
+    """
     worst, before = 0.0, math.inf
     for iteration in range(_MOST_ITERATIONS):
         evaluate_bodies(ws, ws.island.time, ws.island.y.start)
         for i in range(ws.model.n_y):
             ws.step.y_stage[i] = ws.island.y[i] if i < ws.model.n_q else 0.0
         worst = 0.0
-        for number in range(ws.model.n_articulations):
-            residuals = ws.articulations[number].residual
-            worst = max(worst, _add_correction(ws, number, residuals, ws.step.y_stage.start + ws.model.n_q))
-        if iteration == 0 and worst > _explained_residual(ws):
+        for articulation in ws.articulations:
+            residuals = articulation.residual
+            worst = max(worst, _subtract(ws, articulation, residuals, ws.step.y_stage.start + ws.model.n_q))
+        if iteration == 0 and worst > _allowed_residual(ws):
             break
-        # far from the origin round-off alone is more than the tolerance, and no iteration helps
-        if worst <= NOUGHT * ws.tolerance.gap or worst > 0.5 * before or iteration == _MOST_ITERATIONS - 1:
+        if worst <= NEGLIGIBLE * ws.tolerance.gap or worst > 0.5 * before or iteration == _MOST_ITERATIONS - 1:
             break
         before = worst
         _displace(ws)
-    if not worst <= EXPLAINED * ws.tolerance.gap and ws.run.failure == Status.RUNNING:
-        blame(ws, Status.JOINTS_APART, -1, worst, EXPLAINED * ws.tolerance.gap)
-    for number in range(ws.model.n_articulations):
-        _add_correction(ws, number, ws.articulations[number].rate, ws.island.y.start + ws.model.n_q)
+    if not worst <= ALLOWED * ws.tolerance.gap and ws.run.failure == Status.RUNNING:
+        fail_check(ws, Status.JOINTS_APART, -1, worst, ALLOWED * ws.tolerance.gap)
+    for articulation in ws.articulations:
+        _subtract(ws, articulation, articulation.rate, ws.island.y.start + ws.model.n_q)
 
 
 @kernel("f8(ws)")
-def _explained_residual(ws: Workspace) -> float:
-    """Return the residual of a joint that the tolerances of steps explain [m or 1]."""
+def _allowed_residual(ws: Workspace) -> float:
+    """Residual of a joint that the tolerance of steps allows [m or 1]."""
     size = 0.0
     for i in range(ws.model.n_q):
         size = max(size, ws.step.y_scale[i] + abs(ws.island.y[i]))
-    return float(max(EXPLAINED * ws.tolerance.gap, EXPLAINED * ws.tolerance.relative * size))
+    return float(max(ALLOWED * ws.tolerance.gap, ALLOWED * ws.tolerance.relative * size))
 
 
-@kernel("f8(ws, i8, i8, i8)")
-def _add_correction(ws: Workspace, number: int, wrong: int, out: int) -> float:
-    """Subtract Y^T times what is ``wrong``, residuals or rates, from the velocities; return the largest of it."""
-    articulation, worst = ws.articulations[number], 0.0
+@kernel("f8(ws, Articulation, i8, i8)")
+def _subtract(ws: Workspace, articulation: Articulation, excess: int, out: int) -> float:
+    """Subtract Y^T times the residuals or rates at ``excess`` from the velocities at ``out``. The largest of them."""
+    worst = 0.0
     n, first = articulation.n_u, out + articulation.u
     for line in range(articulation.n_rows):
-        value = ws.floats[wrong + line]
+        value = ws.floats[excess + line]
         worst = max(worst, abs(value))
         for i in range(n):
             ws.floats[first + i] -= ws.floats[articulation.solved_response + line * n + i] * value

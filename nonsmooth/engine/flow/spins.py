@@ -1,10 +1,12 @@
-"""Angular velocities along axes that turn with their body, integrated along axes that do not.
+"""Spins along axes in space: the angular velocities of fast spinning bodies are integrated along axes that do not turn.
 
-Along its own axes a force on a body that spins turns as fast as the body does, in space as slowly as the motion asks
-for.  The angular velocity w of a body with attitude R is integrated as R w, whose rate is R w', and turned back with
-the attitude of every stage; everything else knows its components along the body.  That is for bodies which ask for it
-(:attr:`nonsmooth.interfaces.Body.spin`): what an asymmetric one has of its own is slower along its axes.  A spin that
-keeps its direction, as in a plane, has it in space and along the body alike, and is left along the body.
+Along its own axes, a force on a spinning body turns as fast as the body does. In space it turns as slowly as the motion
+demands. So the angular velocity w of a body with attitude R is integrated as R w, whose rate is R w', and turned back
+with the attitude of every stage. All other parts of the engine use its components along the body.
+
+Only bodies that ask for it (:attr:`nonsmooth.interfaces.Body.spin`) are integrated so. An asymmetric body has torques
+of its own that are slower along its axes. A spin that keeps its direction, as in a plane, has it in space and along the
+body alike, so it is left along the body.
 """
 
 from __future__ import annotations
@@ -17,16 +19,18 @@ from nonsmooth.engine.numerics.runge_kutta import dense_part, stage_part, weigh_
 from nonsmooth.engine.numerics.vectors import Vector, cross, dot
 
 _TO_SPACE, _TO_BODY = 1.0, -1.0
-"""Sign of the scalar part of the quaternion that turns a vector there."""
-_KEPT = 1e-9
-"""Sine of the angle between a spin and its rate, along the body, up to which it keeps its direction: that of motion in
-a plane is round-off, 1e-16, and a step in which a spin turns by so much of its change is as long in either axes."""
+"""Sign of the scalar part of a quaternion that rotates a vector from the body to space, or from space to the body."""
+_SMALLEST_SINE = 1e-9
+"""Sine of the angle between a spin and its rate below which the spin keeps its direction. Round-off is 1e-16."""
 
 
 @kernel("void(F, i8, i8, f8, i8)")
-def _turn(w: Floats, q: int, v: int, way: float, out: int) -> None:
-    """Write the vector at ``v`` turned by the quaternion at ``q``, of any length, to space (1) or back (-1)."""
-    a, axis = way * w[q], (w[q + 1], w[q + 2], w[q + 3])
+def _rotate(w: Floats, q: int, v: int, sign: float, out: int) -> None:
+    """Write the vector at ``v``, rotated by the quaternion at ``q``, to ``out``. The length of the quaternion is free.
+
+    ``sign`` is ``_TO_SPACE`` or ``_TO_BODY``.
+    """
+    a, axis = sign * w[q], (w[q + 1], w[q + 2], w[q + 3])
     x, y, z = w[v], w[v + 1], w[v + 2]
     tx, ty, tz = cross(axis, (x, y, z))
     sx, sy, sz = cross(axis, (tx, ty, tz))
@@ -37,77 +41,68 @@ def _turn(w: Floats, q: int, v: int, way: float, out: int) -> None:
 
 
 @kernel("i8(ws, i8)")
-def _slopes(ws: Workspace, number: int) -> int:
-    """Return where the slopes in space of one body's spin stand, those of one stage behind those of another."""
+def _slopes_of(ws: Workspace, number: int) -> int:
+    """Place of the slopes in space of the spin of a body, stage after stage [1/s^2]."""
     return int(ws.island.spin_slopes.start + 3 * N_STAGES * number)
 
 
 @kernel("b1(F, i8, i8)")
-def _turns(w: Floats, spin: int, rate: int) -> bool:
+def _changes_direction(w: Floats, spin: int, rate: int) -> bool:
     """True if a spin does not keep its direction."""
     u, v = (w[spin], w[spin + 1], w[spin + 2]), (w[rate], w[rate + 1], w[rate + 2])
     across = cross(u, v)
-    return dot(across, across) > _KEPT * _KEPT * dot(u, u) * dot(v, v)
+    return dot(across, across) > _SMALLEST_SINE * _SMALLEST_SINE * dot(u, u) * dot(v, v)
 
 
 @kernel()
-def choose_spins(ws: Workspace) -> None:
-    """List the bodies whose spin turns from where the step begins: it is integrated along axes in space."""
+def choose_spins_in_space(ws: Workspace) -> None:
+    """List the bodies whose spin changes direction at the start of the step: it is integrated along axes in space."""
     ws.island.n_spinning = 0
     for i in range(ws.island.n_integrated):
         number = ws.island.integrated[i]
         body = ws.bodies[number]
         u = ws.model.n_q + body.u + body.spin
-        body.spins_apart = False
-        if body.spin >= 0:
-            body.spins_apart = _turns(ws.floats, ws.island.y.start + u, ws.island.slopes.start + u)
+        body.spins_apart = body.spin >= 0 and _changes_direction(
+            ws.floats, ws.island.y.start + u, ws.island.slopes.start + u
+        )
         if body.spins_apart:
             ws.island.spinning[ws.island.n_spinning] = number
             ws.island.n_spinning += 1
 
 
 @kernel("void(ws, i8, i8)")
-def keep_spins(ws: Workspace, stage: int, state: int) -> None:
-    """Keep the slopes of a stage, evaluated at ``state``, along axes in space; before the first one the spins, too.
+def store_spin_slope(ws: Workspace, stage: int, state: int) -> None:
+    """Store the spin slopes of a stage, which was evaluated at ``state``, along axes in space.
 
-    Those of its quaternions become what they are at the length that these had.
+    At the first stage the spins at the start are stored too. The slopes of a quaternion that was normalised in
+    :func:`write_spins_of_stage` are scaled back to its length before.
     """
     for i in range(ws.island.n_spinning):
         number = ws.island.spinning[i]
         body = ws.bodies[number]
         q, u = body.q + body.quaternion, ws.model.n_q + body.u + body.spin
         slope = ws.island.slopes.start + stage * ws.model.n_y
-        _turn(ws.floats, state + q, slope + u, _TO_SPACE, _slopes(ws, number) + 3 * stage)
+        _rotate(ws.floats, state + q, slope + u, _TO_SPACE, _slopes_of(ws, number) + 3 * stage)
         if stage == 0:
-            _turn(ws.floats, state + q, state + u, _TO_SPACE, ws.island.spin_start.start + 3 * number)
+            _rotate(ws.floats, state + q, state + u, _TO_SPACE, ws.island.spin_start.start + 3 * number)
         elif stage < LAST_STAGE:
             for j in range(4):
                 ws.floats[slope + q + j] *= ws.island.quaternion_length[number]
 
 
 @kernel("void(ws, i8, f8, i8)")
-def stage_spins(ws: Workspace, stage: int, h: float, out: int) -> None:
+def write_spins_of_stage(ws: Workspace, stage: int, h: float, out: int) -> None:
     """Write the spins of a stage to the state at ``out``, whose quaternions are those of the stage.
 
-    They are brought to unit length where the step does not end: as long as they are the body would spin faster by
-    their square.
+    The quaternions of inner stages are normalised, because the angular velocity grows with the square of their length.
     """
     for i in range(ws.island.n_spinning):
         number = ws.island.spinning[i]
         body = ws.bodies[number]
         q, u = out + body.q + body.quaternion, out + ws.model.n_q + body.u + body.spin
-        stage_part(
-            ws,
-            ws.coefficients.stages.start,
-            ws.island.spin_start.start + 3 * number,
-            _slopes(ws, number),
-            3,
-            3,
-            stage,
-            h,
-            u,
-        )
-        _turn(ws.floats, q, u, _TO_BODY, u)
+        start = ws.island.spin_start.start + 3 * number
+        stage_part(ws, ws.coefficients.stages.start, start, _slopes_of(ws, number), 3, 3, stage, h, u)
+        _rotate(ws.floats, q, u, _TO_BODY, u)
         if stage < LAST_STAGE:
             square = (
                 ws.floats[q] * ws.floats[q]
@@ -123,25 +118,25 @@ def stage_spins(ws: Workspace, stage: int, h: float, out: int) -> None:
 
 
 @kernel("void(ws, f8, i8)")
-def weigh_spins(ws: Workspace, h: float, out: int) -> None:
-    """Write the errors of the spins in a step of ``h`` to ``out``, along the bodies where the step ends."""
+def write_spin_errors(ws: Workspace, h: float, out: int) -> None:
+    """Write the errors of the spins in a step of ``h`` [s] to ``out``, along the bodies at its end [1/s]."""
     for i in range(ws.island.n_spinning):
         number = ws.island.spinning[i]
         body = ws.bodies[number]
         u = out + ws.model.n_q + body.u + body.spin
-        weigh_part(ws, ws.coefficients.error_weights.start, _slopes(ws, number), 3, 3, h, u)
-        _turn(ws.floats, ws.step.y_new.start + body.q + body.quaternion, u, _TO_BODY, u)
+        weigh_part(ws, ws.coefficients.error_weights.start, _slopes_of(ws, number), 3, 3, h, u)
+        _rotate(ws.floats, ws.step.y_new.start + body.q + body.quaternion, u, _TO_BODY, u)
 
 
 @kernel("void(ws, i8, v3, v3, i8)")
-def spin_within(ws: Workspace, number: int, early: Vector, late: Vector, out: int) -> None:
-    """Write the spin of one body within the step to the state at ``out``, whose quaternion is the one there.
+def write_spin_within(ws: Workspace, number: int, early: Vector, late: Vector, out: int) -> None:
+    """Write the spin of a body within the step to the state at ``out``, whose quaternion is the one there.
 
-    An implicit step has its interpolant along the bodies.
+    ``early`` and ``late`` are the weights of the interpolant. That of an implicit step is along the body.
     """
     body = ws.bodies[number]
     if not body.spins_apart or ws.island.stage_time > 0.0:
         return
     u = out + ws.model.n_q + body.u + body.spin
-    dense_part(ws.floats, ws.island.spin_start.start + 3 * number, _slopes(ws, number), 3, 3, early, late, u)
-    _turn(ws.floats, out + body.q + body.quaternion, u, _TO_BODY, u)
+    dense_part(ws.floats, ws.island.spin_start.start + 3 * number, _slopes_of(ws, number), 3, 3, early, late, u)
+    _rotate(ws.floats, out + body.q + body.quaternion, u, _TO_BODY, u)

@@ -1,8 +1,12 @@
-"""One step of the smooth motion: explicit, or implicit where friction turns slips too fast for that.
+"""One step of the smooth motion: explicit, or implicit if friction turns slips too fast for that.
 
-Between events the motion is smooth, but next to rest the direction of a slip relaxes at a rate of mu f_N G / |v|, and
-an explicit step bears no more than some relaxations.  An implicit one, whose stages end with friction against their own
-slip (:mod:`nonsmooth.engine.contact.implicit_slip`), is as long as its accuracy allows.
+Close to rest, the direction of a slip v relaxes at the rate mu f_n G / |v|, with G the effective inverse mass. An
+explicit step is stable for about two such relaxation times only. An implicit step, whose stages end with friction
+against their own slip (:mod:`nonsmooth.engine.contact.implicit_slip`), is as long as its accuracy allows. Only this
+friction is implicit. All other forces are iterated, because they are not stiff.
+
+The explicit pair is of order 5 with an error estimate of order 4 (:mod:`nonsmooth.engine.memory.tableau`). It steps
+only the parts of the state that belong to integrated bodies.
 """
 
 from __future__ import annotations
@@ -11,7 +15,7 @@ import math
 
 from nonsmooth.engine.flow.flight import land
 from nonsmooth.engine.flow.flow import is_violated, slope
-from nonsmooth.engine.flow.spins import choose_spins, keep_spins, stage_spins, weigh_spins
+from nonsmooth.engine.flow.spins import choose_spins_in_space, store_spin_slope, write_spin_errors, write_spins_of_stage
 from nonsmooth.engine.memory import implicit_tableau, tableau
 from nonsmooth.engine.memory.layout import LAST_STAGE, N_ACCOUNTS, N_STAGES
 from nonsmooth.engine.memory.modes import Mode
@@ -30,71 +34,68 @@ from nonsmooth.engine.numerics.runge_kutta import (
 )
 from nonsmooth.engine.numerics.vectors import length
 
-STIFF = 2.0
-"""Relaxations within a step that an explicit one bears."""
-_SLOWEST = 1e-3
-"""Slips below this part of what counts as zero relax no faster."""
-_SHARE = tableau.NODES[1] / tableau.NODES[2]
-"""Where the second stage lies between the first and the third."""
+LARGEST_EXPLICIT = 2.0
+"""Relaxation times within a step up to which an explicit step is used. It is about the limit of its stability."""
+_SMALLEST_SLIP = 1e-3
+"""Slip speed that bounds the relaxation rate, relative to the velocity tolerance."""
+_SECOND_NODE = tableau.NODES[1] / tableau.NODES[2]
+"""Node of the second stage relative to that of the third."""
 
 
 @kernel("f8(ws, i8, i8, f8)")
-def _worst_error(ws: Workspace, first: int, end: int, worst: float) -> float:
-    """Return the largest error of some components relative to the tolerance, or ``worst`` if that is larger."""
+def _largest_error(ws: Workspace, first: int, end: int, worst: float) -> float:
+    """Largest error of the entries ``first`` to ``end`` of the state, relative to the tolerance, at least ``worst``."""
     for i in range(first, end):
-        explained = ws.tolerance.relative * (ws.step.y_scale[i] + max(abs(ws.island.y[i]), abs(ws.step.y_new[i])))
+        allowed = ws.tolerance.relative * (ws.step.y_scale[i] + max(abs(ws.island.y[i]), abs(ws.step.y_new[i])))
         error = abs(ws.step.y_stage[i])
-        # few of them are divided
-        if error > worst * explained or error != error:
-            worst = error / explained
+        # this comparison avoids most divisions
+        if error > worst * allowed or error != error:
+            worst = error / allowed
     return worst
 
 
 @kernel("f8(ws)")
 def _relative_error(ws: Workspace) -> float:
-    """Return the largest of the errors in ``y_stage`` relative to the tolerance, of what is integrated."""
+    """Largest error in ``y_stage`` of all that is integrated, relative to the tolerance."""
     n, worst = ws.model.n_y, 0.0
     for span in range(ws.island.n_spans):
         first = ws.island.span_first[span]
-        worst = _worst_error(ws, first, min(first + ws.island.span_length[span], ws.model.n_q + ws.model.n_u), worst)
+        worst = _largest_error(ws, first, min(first + ws.island.span_length[span], ws.model.n_q + ws.model.n_u), worst)
     if ws.model.n_states > 0:
-        worst = _worst_error(ws, ws.model.n_q + ws.model.n_u + N_ACCOUNTS, n, worst)
+        worst = _largest_error(ws, ws.model.n_q + ws.model.n_u + N_ACCOUNTS, n, worst)
     return worst
 
 
 @kernel("f8(ws, f8)")
-def _unseen(ws: Workspace, h: float) -> float:
-    """Return how far the second stage is from the first and third, relative to what a step of the tolerance explains.
+def _error_of_second_stage(ws: Workspace, h: float) -> float:
+    """Deviation of the second stage from the line between the first and the third, relative to the tolerance.
 
-    It has no weight in the result, nor in the error: a force that only it meets, as where it throws the later stages
-    out of a contact, would count for nothing.  Its own error is of the order (L h)^3 where that of the step is of the
-    order (L h)^5.
+    The second stage has no weight in the result, nor in the error estimate. A force that only this stage meets would be
+    lost, for example if it throws the later stages out of a contact. The deviation is of the order (L h)^3, and the
+    error of the step of the order (L h)^5. So it is compared with the square root of the tolerance, and 0 is returned
+    if it is within.
     """
     first = ws.island.slopes.start + ws.model.n_q
     second, third = first + ws.model.n_y, first + 2 * ws.model.n_y
-    y_scale, y, y_new = (
-        ws.step.y_scale.start + ws.model.n_q,
-        ws.island.y.start + ws.model.n_q,
-        ws.step.y_new.start + ws.model.n_q,
-    )
-    worst, rtol = 0.0, math.sqrt(ws.tolerance.relative)
+    y_scale = ws.step.y_scale.start + ws.model.n_q
+    y, y_new = ws.island.y.start + ws.model.n_q, ws.step.y_new.start + ws.model.n_q
+    worst, tolerance = 0.0, math.sqrt(ws.tolerance.relative)
     for number in range(ws.island.n_integrated):
         body = ws.bodies[ws.island.integrated[number]]
         for i in range(body.u, body.u + body.n_u):
-            change = h * abs(
-                ws.floats[second + i] - (1.0 - _SHARE) * ws.floats[first + i] - _SHARE * ws.floats[third + i]
-            )
-            explained = rtol * (ws.floats[y_scale + i] + max(abs(ws.floats[y + i]), abs(ws.floats[y_new + i])))
-            if change > worst * explained:
-                worst = change / explained
+            on_line = (1.0 - _SECOND_NODE) * ws.floats[first + i]
+            change = h * abs(ws.floats[second + i] - on_line - _SECOND_NODE * ws.floats[third + i])
+            allowed = tolerance * (ws.floats[y_scale + i] + max(abs(ws.floats[y + i]), abs(ws.floats[y_new + i])))
+            if change > worst * allowed:
+                worst = change / allowed
     return worst if worst > 1.0 else 0.0
 
 
 @kernel("f8(ws)")
-def relaxation(ws: Workspace) -> float:
-    """Return how fast slip directions relax where the step starts [1/s]; 0 where an implicit step is none.
+def relaxation_rate(ws: Workspace) -> float:
+    """Largest rate at which a slip direction relaxes at the start of the step [1/s].
 
-    For that some closed contact must slide, and all must be rigid.
+    It is 0 if an implicit step is of no use: it needs a closed contact that slides, and rigid closed contacts only.
     """
     fastest = 0.0
     for i in range(ws.island.n_grouped):
@@ -104,48 +105,39 @@ def relaxation(ws: Workspace) -> float:
             return 0.0
         if contact.mode == Mode.SLIDE and not contact.is_averaged:
             friction, speed = length((contact.force[1], contact.force[2])), length(contact.slip_at_end)
-            fastest = max(fastest, contact.slip_per_force * friction / max(speed, _SLOWEST * ws.tolerance.velocity))
+            fastest = max(
+                fastest, contact.slip_per_force * friction / max(speed, _SMALLEST_SLIP * ws.tolerance.velocity)
+            )
     return fastest
 
 
 @kernel("b1(ws)")
-def _holds(ws: Workspace) -> bool:
-    """Return 1 if no force of a closed contact violates its mode: when it begins to is for explicit steps to find."""
+def _are_modes_valid(ws: Workspace) -> bool:
+    """True if no force of a closed contact violates its mode. Explicit steps find the time at which one begins to."""
     for i in range(ws.island.n_grouped):
-        c = ws.island.grouped[i]
-        if is_violated(ws, c):
+        if is_violated(ws, ws.island.grouped[i]):
             return False
     return True
 
 
 @kernel("void(ws, f8, i8, i8)")
 def _predict_stage(ws: Workspace, h: float, stage: int, out: int) -> None:
-    """Write the state at which a stage is looked for first to ``out``, and the slope that leads there to its place."""
-    n = ws.model.n_y
-    here = ws.island.slopes.start + stage * n
-    stage_state(
-        ws,
-        ws.coefficients.implicit_stages.start,
-        ws.island.y.start,
-        ws.island.slopes.start,
-        n,
-        stage,
-        h,
-        ws.step.y_guess.start,
-    )
-    stage_state(
-        ws, ws.coefficients.implicit_predictor.start, ws.island.y.start, ws.island.slopes.start, n, stage, h, out
-    )
+    """Write the first guess of the state of a stage to ``out``, and the slope that leads there to ``slopes``."""
+    n, stages, predictor = ws.model.n_y, ws.coefficients.implicit_stages.start, ws.coefficients.implicit_predictor.start
+    y, slopes = ws.island.y.start, ws.island.slopes.start
+    here = slopes + stage * n
+    stage_state(ws, stages, y, slopes, n, stage, h, ws.step.y_guess.start)
+    stage_state(ws, predictor, y, slopes, n, stage, h, out)
     for i in range(n):
         ws.floats[here + i] = (ws.floats[out + i] - ws.step.y_guess[i]) / ws.island.stage_time
 
 
 @kernel("b1(ws, f8, i8)")
 def _solve_stage(ws: Workspace, h: float, stage: int) -> bool:
-    """Find the slope of a stage at the state that it leads to itself; return 1 if it is found.
+    """Find the slope of a stage at the state to which it leads. True if it is found and keeps the modes.
 
-    Friction of slips, which is stiff, is solved for; all else is iterated, until what would be left if it fell on as
-    it fell last is small.
+    Friction of slips is solved for. All else is iterated until the estimated remaining change is small: it is that of
+    a geometric sequence. The last stage must have the slope of its own state, so its last change itself must be small.
     """
     n = ws.model.n_y
     out = ws.step.y_new.start if stage == LAST_STAGE else ws.step.y_stage.start
@@ -156,56 +148,67 @@ def _solve_stage(ws: Workspace, h: float, stage: int) -> bool:
     for _iteration in range(implicit_tableau.ITERATIONS):
         for i in range(n):
             ws.step.y_guess[i] = ws.floats[here + i]
-        ws.problem.stage_time, ws.problem.guess = ws.island.stage_time, ws.step.y_guess.start + ws.model.n_q
-        slope(ws, ws.island.time + implicit_tableau.NODES[stage] * h, out, here, may_choose=False, of_all_bodies=False)
-        ws.problem.stage_time = 0.0
+        _evaluate_implicit_slope(ws, ws.island.time + implicit_tableau.NODES[stage] * h, out, here)
         if ws.problem.is_unsettled:
             return False
-        worst = 0.0
-        for i in range(n):
-            change = ws.island.stage_time * (ws.floats[here + i] - ws.step.y_guess[i])
-            ws.floats[out + i] += change
-            if i < ws.model.n_q + ws.model.n_u:
-                worst = max(worst, abs(change) / (ws.tolerance.relative * (ws.step.y_scale[i] + abs(ws.island.y[i]))))
-        # where the step ends what was evaluated is to be that of its end
+        worst = _change_of_stage(ws, here, out)
         left = worst * worst / (before - worst) if before > worst and stage < LAST_STAGE else worst
         if left <= implicit_tableau.SETTLED:
-            return _holds(ws)
+            return _are_modes_valid(ws)
         before = worst
     return False
 
 
+@kernel("void(ws, f8, i8, i8)")
+def _evaluate_implicit_slope(ws: Workspace, t: float, y: int, out: int) -> None:
+    """Write the slope at time ``t`` [s] and state ``y`` to ``out``, with friction against the slip that it leads to.
+
+    ``y_guess`` holds the first guess of the slope.
+    """
+    ws.problem.stage_time, ws.problem.guess = ws.island.stage_time, ws.step.y_guess.start + ws.model.n_q
+    slope(ws, t, y, out, may_choose=False, of_all_bodies=False)
+    ws.problem.stage_time = 0.0
+
+
+@kernel("f8(ws, i8, i8)")
+def _change_of_stage(ws: Workspace, here: int, out: int) -> float:
+    """Add the change of a stage's slope to the state at ``out``. Largest change, relative to the tolerance."""
+    worst = 0.0
+    for i in range(ws.model.n_y):
+        change = ws.island.stage_time * (ws.floats[here + i] - ws.step.y_guess[i])
+        ws.floats[out + i] += change
+        if i < ws.model.n_q + ws.model.n_u:
+            worst = max(worst, abs(change) / (ws.tolerance.relative * (ws.step.y_scale[i] + abs(ws.island.y[i]))))
+    return worst
+
+
 @kernel("b1(ws)")
-def _settle(ws: Workspace) -> bool:
-    """Write the slope at the start with friction against the slip that a stage makes of it; return 1 if it is found."""
+def _find_first_slope(ws: Workspace) -> bool:
+    """Write the slope at the start, with friction against the slip that a stage leads to. True if it is found.
+
+    It becomes the slope of the second stage, which an implicit step does not have.
+    """
     for i in range(ws.model.n_y):
         ws.step.y_guess[i] = 0.0
     ws.problem.is_unsettled = False
-    ws.problem.stage_time, ws.problem.guess = ws.island.stage_time, ws.step.y_guess.start + ws.model.n_q
-    slope(
-        ws,
-        ws.island.time,
-        ws.island.y.start,
-        ws.island.slopes.start + ws.model.n_y,
-        may_choose=False,
-        of_all_bodies=False,
-    )
-    ws.problem.stage_time = 0.0
-    return False if ws.problem.is_unsettled else _holds(ws)
+    out = ws.island.slopes.start + ws.model.n_y
+    _evaluate_implicit_slope(ws, ws.island.time, ws.island.y.start, out)
+    return False if ws.problem.is_unsettled else _are_modes_valid(ws)
 
 
 @kernel("f8(ws, f8)")
 def _try_implicit_step(ws: Workspace, h: float) -> float:
-    """Take one step of ``h`` whose stages end with friction against their own slip; return its relative error.
+    """Take one step of ``h`` [s] whose stages end with friction against their own slip. Its relative error.
 
-    Leaves slopes from which the dense output of the explicit step makes the interpolant of this one.  Where no implicit
-    step went before the slip may not have settled, and the slope on which it will takes the place of that at the start.
+    The error is infinite if a stage is not found. The slopes become those from which the dense output of the explicit
+    step makes the interpolant of this step. If no implicit step came before, the slip may not have settled yet: the
+    slope on which it will settle replaces that at the start.
     """
     n = ws.model.n_y
     ws.island.stage_time = implicit_tableau.DIAGONAL * h
     for i in range(n):
         ws.island.slopes[n + i] = ws.island.slopes[i]
-    if not ws.step.uses_last_slope and not _settle(ws):
+    if not ws.step.uses_last_slope and not _find_first_slope(ws):
         return math.inf
     for stage in range(2, N_STAGES):
         if not _solve_stage(ws, h, stage):
@@ -223,58 +226,56 @@ def _try_implicit_step(ws: Workspace, h: float) -> float:
 
 @kernel("f8(ws, f8)")
 def explicit_step(ws: Workspace, h: float) -> float:
-    """Take one explicit step of ``h`` of what is integrated; return its relative error."""
-    n = ws.model.n_y
+    """Take one explicit step of ``h`` [s] of all that is integrated. Its relative error."""
     ws.island.stage_time = 0.0
-    choose_spins(ws)
+    choose_spins_in_space(ws)
     if ws.island.n_integrated == 0:
-        for i in range(ws.model.n_q + ws.model.n_u, n):
+        for i in range(ws.model.n_q + ws.model.n_u, ws.model.n_y):
             ws.step.y_new[i] = ws.island.y[i]
-            ws.island.slopes[LAST_STAGE * n + i] = 0.0
+            ws.island.slopes[LAST_STAGE * ws.model.n_y + i] = 0.0
         return 0.0
-    keep_spins(ws, 0, ws.island.y.start)
+    store_spin_slope(ws, stage=0, state=ws.island.y.start)
     for stage in range(1, N_STAGES):
         out = ws.step.y_new.start if stage == LAST_STAGE else ws.step.y_stage.start
-        for span in range(ws.island.n_spans):
-            i, length = ws.island.span_first[span], ws.island.span_length[span]
-            stage_part(
-                ws,
-                ws.coefficients.stages.start,
-                ws.island.y.start + i,
-                ws.island.slopes.start + i,
-                length,
-                n,
-                stage,
-                h,
-                out + i,
-            )
-        stage_spins(ws, stage, h, out)
-        slope(
-            ws,
-            ws.island.time + tableau.NODES[stage] * h,
-            out,
-            ws.island.slopes.start + stage * n,
-            may_choose=False,
-            of_all_bodies=False,
-        )
-        keep_spins(ws, stage, out)
+        _write_stage(ws, h, stage, out)
+        slopes = ws.island.slopes.start + stage * ws.model.n_y
+        slope(ws, ws.island.time + tableau.NODES[stage] * h, out, slopes, may_choose=False, of_all_bodies=False)
+        store_spin_slope(ws, stage, out)
+    _write_errors(ws, h)
+    return max(_relative_error(ws), _error_of_second_stage(ws, h))
+
+
+@kernel("void(ws, f8, i8, i8)")
+def _write_stage(ws: Workspace, h: float, stage: int, out: int) -> None:
+    """Write the state of a stage to ``out``, from the slopes of the stages before."""
+    y, slopes = ws.island.y.start, ws.island.slopes.start
     for span in range(ws.island.n_spans):
-        i, length = ws.island.span_first[span], ws.island.span_length[span]
-        weigh_part(
-            ws, ws.coefficients.error_weights.start, ws.island.slopes.start + i, length, n, h, ws.step.y_stage.start + i
-        )
-    weigh_spins(ws, h, ws.step.y_stage.start)
-    return max(_relative_error(ws), _unseen(ws, h))
+        i, n = ws.island.span_first[span], ws.island.span_length[span]
+        stage_part(ws, ws.coefficients.stages.start, y + i, slopes + i, n, ws.model.n_y, stage, h, out + i)
+    write_spins_of_stage(ws, stage, h, out)
+
+
+@kernel("void(ws, f8)")
+def _write_errors(ws: Workspace, h: float) -> None:
+    """Write the error estimate of a step of ``h`` [s] to ``y_stage``."""
+    errors, slopes = ws.step.y_stage.start, ws.island.slopes.start
+    for span in range(ws.island.n_spans):
+        i, n = ws.island.span_first[span], ws.island.span_length[span]
+        weigh_part(ws, ws.coefficients.error_weights.start, slopes + i, n, ws.model.n_y, h, errors + i)
+    write_spin_errors(ws, h, errors)
 
 
 @kernel("f8(ws, f8)")
-def _integrated(ws: Workspace, h: float) -> float:
-    """Take one step of ``h`` of what is integrated; return its relative error."""
+def _step_integrated(ws: Workspace, h: float) -> float:
+    """Take one step of ``h`` [s] of all that is integrated. Its relative error.
+
+    It is implicit if the last one was, or if an explicit one fails that is longer than its stability allows.
+    """
     if ws.island.stage_time > 0.0:
         error = _try_implicit_step(ws, h)
         return error if error < math.inf else explicit_step(ws, h)
     error = explicit_step(ws, h)
-    if error > 1.0 and h * ws.step.relaxation > STIFF:
+    if error > 1.0 and h * ws.step.relaxation > LARGEST_EXPLICIT:
         implicit = _try_implicit_step(ws, h)
         return implicit if implicit < math.inf else explicit_step(ws, h)
     return error
@@ -282,27 +283,27 @@ def _integrated(ws: Workspace, h: float) -> float:
 
 @entry_point("f8(ws, f8)")
 def try_step(ws: Workspace, h: float) -> float:
-    """Take one step of ``h`` from ``y`` to ``y_new``; return its error relative to the tolerance.
+    """Take one step of ``h`` [s] from ``y`` to ``y_new``. Its error relative to the tolerance.
 
-    It is implicit where the one tried before was, as is then a part of it, however short.  ``slopes`` must hold the
-    slope at ``y`` first; its last entry becomes the slope at ``y_new``.  A force or slip that violates its mode at some
-    stage raises ``suspect``.
+    It is implicit if the one that was tried before was implicit. So a part of an implicit step is implicit too, however
+    short. ``slopes`` must hold the slope at ``y`` first. Its last entry becomes the slope at ``y_new``. If a force or
+    slip violates its mode at some stage, ``has_doubtful_force`` is set.
     """
     ws.step.has_doubtful_force = False
     if ws.step.has_replaced_slope:
         ws.step.has_replaced_slope = False
         for i in range(ws.model.n_y):
             ws.island.slopes[i] = ws.step.first_slope[i]
-    for c in range(ws.island.n_contacts):
-        ws.contacts[c].least_force = math.inf
-    error = _integrated(ws, h)
-    # where nobody trusts the step, it is not asked where the others are
+    for contact in ws.contacts:
+        contact.least_force = math.inf
+    error = _step_integrated(ws, h)
+    # a step that is rejected anyway needs no motion of the ballistic bodies
     return error + land(ws, h) if ws.island.n_ballistic > 0 and error <= TRUSTED else error
 
 
 @kernel("f8(ws, f8)")
 def try_length(ws: Workspace, h: float) -> float:
-    """Take one step of ``h``, implicit where an explicit one does not do; return its relative error."""
-    if h * ws.step.relaxation <= STIFF:
+    """Take one step of ``h`` [s], implicit if an explicit one would be unstable. Its relative error."""
+    if h * ws.step.relaxation <= LARGEST_EXPLICIT:
         ws.island.stage_time = 0.0
     return float(try_step(ws, h))

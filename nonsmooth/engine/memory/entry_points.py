@@ -40,7 +40,7 @@ ENTRY_POINTS = (
     "project_joints",
     "project_closed",
     "list_contacts",
-    "look_at_pairs",
+    "check_pairs",
     "write_contact_problem",
     "find_doubtful",
     "first_closing",

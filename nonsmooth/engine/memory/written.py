@@ -87,7 +87,7 @@ PART_OF_STEP: Fields = {
     "gap": packed(1, 1, PART_END),
     "rate": packed(2, 1, PART_END),
     "past": packed(3, 1, PART_END),
-    "arm": packed(4, 3, PART_END),
+    "offset": packed(4, 3, PART_END),
 }
 """Of an end of a part of a step: fraction, gap, gap rate, distance past the features, offset of the witness."""
 

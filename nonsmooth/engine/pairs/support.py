@@ -1,9 +1,11 @@
-"""Supports of convex parts, and the separation of two of them along a direction.
+"""Support points of convex parts, and the separation of two parts along a direction.
 
-A part is the hull of circles about its third axis, points if they have no radius, with an ellipsoid (or a norm of other
-powers, or what a plug-in's function gives) and a ball added: the support of a sum is the sum of the supports.  The
-separation s(n) = min over b of n . b - max over a of n . a says how far all of the second part lies beyond all of the
-first along a unit vector n.  It is a lower bound of the signed distance, whatever n is.
+A part is the sum of three convex sets: the hull of circles about its third axis (points have radius 0), an ellipsoid, a
+norm ball of other powers or the set of a plug-in, and a ball. The support point of a sum is the sum of the support
+points. So the shapes need no meshes.
+
+The separation s(n) = min over b of n . b - max over a of n . a is the distance by which all of the second part is
+beyond all of the first part along the unit vector n. It is a lower bound of the signed distance for every n.
 """
 
 from __future__ import annotations
@@ -25,7 +27,7 @@ from nonsmooth.engine.numerics.vectors import Vector, dot, minus, opposite
 
 @kernel("v3(F, v3)")
 def turned(axes: Floats, v: Vector) -> Vector:
-    """Return R v for a rotation matrix R, row by row: from axes of a body or part to those around it."""
+    """R v for a rotation matrix R, row by row: from the axes of a body or part to those around it."""
     x, y, z = v
     return (
         axes[0] * x + axes[1] * y + axes[2] * z,
@@ -36,7 +38,7 @@ def turned(axes: Floats, v: Vector) -> Vector:
 
 @kernel("v3(F, v3)")
 def turned_back(axes: Floats, v: Vector) -> Vector:
-    """Return R^T v: the way back."""
+    """R^T v: from the surrounding axes to those of a body or part."""
     x, y, z = v
     return (
         axes[0] * x + axes[3] * y + axes[6] * z,
@@ -46,8 +48,8 @@ def turned_back(axes: Floats, v: Vector) -> Vector:
 
 
 @kernel("v3(F, i8, v3)")
-def _on_rings(w: Floats, place: int, n: Vector) -> Vector:
-    """Return the point of the hull of a part's circles that lies farthest along ``n``; none is the origin."""
+def _farthest_on_circles(w: Floats, place: int, n: Vector) -> Vector:
+    """Point of the hull of a part's circles that is farthest along ``n`` [m]; the origin if there are no circles."""
     rings = at(w, place + PART_RINGS)
     x, y, z = n
     across = math.sqrt(x * x + y * y)
@@ -64,8 +66,8 @@ def _on_rings(w: Floats, place: int, n: Vector) -> Vector:
 
 
 @kernel("v3(F, i8, v3)")
-def _on_norm(w: Floats, place: int, n: Vector) -> Vector:
-    """Return the gradient of ((|a n_x|^q + |b n_y|^q)^(p/q) + |c n_z|^p)^(1/p) at ``n``."""
+def _gradient_of_norm(w: Floats, place: int, n: Vector) -> Vector:
+    """Gradient of ((|a n_x|^q + |b n_y|^q)^(p/q) + |c n_z|^p)^(1/p) at ``n``: the support point of a superellipsoid."""
     part = part_at(w, place)
     a, b, c = part.semi
     p, q = part.powers[0], part.powers[1]
@@ -84,8 +86,8 @@ def _on_norm(w: Floats, place: int, n: Vector) -> Vector:
 
 
 @kernel("v3(F, i8, v3)")
-def _added(w: Floats, place: int, n: Vector) -> Vector:
-    """Return the point of what is added to a part's circles that lies farthest along a unit vector."""
+def _farthest_of_summands(w: Floats, place: int, n: Vector) -> Vector:
+    """Support point along a unit vector of all that is added to a part's circles [m]."""
     part = part_at(w, place)
     x, y, z = 0.0, 0.0, 0.0
     if part.function > 0.0:
@@ -96,13 +98,13 @@ def _added(w: Floats, place: int, n: Vector) -> Vector:
             size = math.sqrt(ax * ax + by * by + cz * cz)
             x, y, z = part.semi[0] * ax / size, part.semi[1] * by / size, part.semi[2] * cz / size
         else:
-            x, y, z = _on_norm(w, place, n)
+            x, y, z = _gradient_of_norm(w, place, n)
     return x + part.ball * n[0], y + part.ball * n[1], z + part.ball * n[2]
 
 
 @kernel("v3(F, i8, i8)")
 def middle_of(w: Floats, frame_place: int, place: int) -> Vector:
-    """Return where the origin of a part's axes is, in a frame that stands at ``frame_place``."""
+    """Origin of a part's axes in the world [m]."""
     frame = frame_at(w, frame_place)
     x, y, z = turned(frame.rotation, part_at(w, place).place)
     return frame.origin[0] + x, frame.origin[1] + y, frame.origin[2] + z
@@ -110,19 +112,22 @@ def middle_of(w: Floats, frame_place: int, place: int) -> Vector:
 
 @kernel("v3(F, i8, i8, v3)")
 def _farthest(w: Floats, frame_place: int, place: int, n: Vector) -> Vector:
-    """Return the point of a part that lies farthest along a unit vector of the world."""
+    """Support point of a part along a unit vector of the world [m]."""
     frame, part = frame_at(w, frame_place), part_at(w, place)
     own = turned_back(part.axes, turned_back(frame.rotation, n))
-    rx, ry, rz = _on_rings(w, place, own)
-    ax, ay, az = _added(w, place, own)
+    rx, ry, rz = _farthest_on_circles(w, place, own)
+    ax, ay, az = _farthest_of_summands(w, place, own)
     x, y, z = turned(frame.rotation, turned(part.axes, (rx + ax, ry + ay, rz + az)))
     mx, my, mz = middle_of(w, frame_place, place)
     return mx + x, my + y, mz + z
 
 
 @kernel("v3(ws, i8, v3)")
-def difference(ws: Workspace, number: int, n: Vector) -> Vector:
-    """Return the vector between points of both parts of a pair that is shortest along a unit vector."""
+def closest_difference(ws: Workspace, number: int, n: Vector) -> Vector:
+    """Vector from the support point of the first part along ``n`` to that of the second against ``n`` [m].
+
+    The separation s(n) is its component along ``n``.
+    """
     pair = ws.pairs[number]
     return minus(
         _farthest(ws.floats, pair.frame_b, pair.part_b, opposite(n)), _farthest(ws.floats, pair.frame_a, pair.part_a, n)
@@ -131,13 +136,13 @@ def difference(ws: Workspace, number: int, n: Vector) -> Vector:
 
 @kernel("f8(ws, i8, v3)")
 def separation_along(ws: Workspace, number: int, n: Vector) -> float:
-    """Return s(n) of a pair of bounded parts [m]."""
-    return dot(n, difference(ws, number, n))
+    """Separation s(n) of a pair of bounded parts [m]."""
+    return dot(n, closest_difference(ws, number, n))
 
 
 @kernel("f8(ws, i8)")
-def height_over(ws: Workspace, number: int) -> float:
-    """Return the separation of a pair of which the first part is a half-space, exactly [m]."""
+def height_above_plane(ws: Workspace, number: int) -> float:
+    """Separation of a pair whose first part is a half-space [m]. It is exact."""
     pair = ws.pairs[number]
     frame = frame_at(ws.floats, pair.frame_a)
     up = frame.rotation[2], frame.rotation[5], frame.rotation[8]

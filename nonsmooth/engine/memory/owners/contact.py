@@ -245,16 +245,16 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     takes_over: bool = question(_EVENT, "The contact takes the place of a closed one.")
     has_no_force: bool = question(_EVENT, "Sliding has no contact force (Painleve).")
     release: Cause = one_of(
-        Cause, _STATE, "Cause by which a leap of the contact point released it at this instant, else `NO_RELEASE`."
+        Cause, _STATE, "Cause by which a jump of the contact point released it at this instant, else `NO_RELEASE`."
     )
-    leap_start_a: tuple[float, float, float] = vector(
+    point_a_before_jump: tuple[float, float, float] = vector(
         _EVENT, 3, "m", "Witness point on the first body before the jump."
     )
-    leap_start_b: tuple[float, float, float] = vector(
+    point_b_before_jump: tuple[float, float, float] = vector(
         _EVENT, 3, "m", "Witness point on the second body before the jump."
     )
-    leap_a: tuple[float, float, float] = vector(_EVENT, 3, "m", "Displacement of the first witness point in the jump.")
-    leap_b: tuple[float, float, float] = vector(_EVENT, 3, "m", "Displacement of the second witness point in the jump.")
+    jump_a: tuple[float, float, float] = vector(_EVENT, 3, "m", "Displacement of the first witness point in the jump.")
+    jump_b: tuple[float, float, float] = vector(_EVENT, 3, "m", "Displacement of the second witness point in the jump.")
 
     # --- an impact ----------------------------------------------------------------------------------------------------
     window_phase: Phase = one_of(Phase, _IMPACT, "Phase at the end of the last window.")

@@ -62,7 +62,7 @@ class Pair(Record, key="pairs", capacity="n_pairs", length="model.n_pairs"):
     part_b: int = whole(_PARAMETER, "Place of the numbers of the second part.")
     group: int = whole(_PARAMETER, "First pair of the same shapes.")
     contact: int = whole(_PARAMETER, "First declared contact of the pair.")
-    flat: int = whole(_PARAMETER, "Which of the parts is a sharp disc: neither, the first, the second, or both.")
+    are_both_flat: bool = question(_PARAMETER, "Both parts are discs without thickness.")
     allowed: float = real(_PARAMETER, "m", "Overlap that the laws of the pair allow.")
     size: float = real(_PARAMETER, "m", "Size of the smaller part.")
     margin: float = real(_REUSED, "m", "Distance that the parts may move before the pair is evaluated again.")

@@ -1,9 +1,10 @@
 """Two discs without thickness: whether one passed through the other since the last evaluation of their pair.
 
-Such discs never overlap by a depth, so the separation along a direction cannot show it.  The side can.  The centre of
-the second disc, in the axes of the first one, moves along a straight line between two evaluations.  If that line meets
-the plane z = 0 within the first disc, the discs intersected.  Parallel discs already do if their circles overlap there.
-Discs that are not parallel meet with their rims first, which is what their contacts find.
+Such discs never overlap by a depth, so the separation along a direction cannot show that they passed through each
+other. The side on which they are can. In the axes of the first disc, the centre of the second one is taken to move on a
+straight line between two evaluations. If that line meets the plane z = 0 within the first disc, the discs intersected.
+Parallel discs intersect as soon as their circles overlap there. Discs that are not parallel meet with their rims first,
+which their contacts find.
 """
 
 from __future__ import annotations
@@ -18,15 +19,15 @@ from nonsmooth.engine.pairs.support import middle_of, turned, turned_back
 
 @kernel("v3(F, i8, i8)")
 def _centre(w: Floats, frame_place: int, place: int) -> Vector:
-    """Return the centre of the circle of a part in the world [m]."""
+    """Centre of the circle of a part in the world [m]."""
     rings, middle = at(w, place + PART_RINGS), middle_of(w, frame_place, place)
     x, y, z = turned(frame_at(w, frame_place).rotation, turned(part_at(w, place).axes, (rings[0], rings[1], rings[2])))
     return middle[0] + x, middle[1] + y, middle[2] + z
 
 
 @kernel("v3(F, i8, i8, v3)")
-def _seen_from(w: Floats, frame_place: int, place: int, v: Vector) -> Vector:
-    """Return a vector of the world in the axes of a part."""
+def _in_axes_of(w: Floats, frame_place: int, place: int, v: Vector) -> Vector:
+    """Components of a world vector along the axes of a part."""
     return turned_back(part_at(w, place).axes, turned_back(frame_at(w, frame_place).rotation, v))
 
 
@@ -34,7 +35,7 @@ def _seen_from(w: Floats, frame_place: int, place: int, v: Vector) -> Vector:
 def _offset_in_plane(previous: Vector, current: Vector, tolerance: float) -> float:
     """Distance from the origin at which the line between two points meets the plane z = 0 [m], -1 if it does not.
 
-    Heights up to ``tolerance`` [m] lie in the plane; of a line within the plane it is the least distance.
+    Heights up to ``tolerance`` [m] are in the plane. The offset of a line within the plane is its least distance.
     """
     dx, dy = previous[0] - current[0], previous[1] - current[1]
     if max(abs(current[2]), abs(previous[2])) <= tolerance:
@@ -51,14 +52,14 @@ def _offset_in_plane(previous: Vector, current: Vector, tolerance: float) -> flo
 
 @kernel("f8(ws, i8)")
 def crossing_overlap(ws: Workspace, number: int) -> float:
-    """Overlap of two discs within the plane through which one passed [m], 0 if none did.
+    """Overlap of two discs in the plane through which one of them passed [m], 0 if none did.
 
-    The position of the second centre is kept in the pair for the next evaluation.  At the first one, where the pair has
-    no margin yet, there is none before.
+    The pair stores the position of the second centre for the next evaluation. A pair without a margin has no position
+    yet.
     """
     pair = ws.pairs[number]
     between = minus(_centre(ws.floats, pair.frame_b, pair.part_b), _centre(ws.floats, pair.frame_a, pair.part_a))
-    current = _seen_from(ws.floats, pair.frame_a, pair.part_a, between)
+    current = _in_axes_of(ws.floats, pair.frame_a, pair.part_a, between)
     previous = pair.between if pair.margin > 0.0 else current
     pair.between = current
     offset = _offset_in_plane(previous, current, pair.allowed)
@@ -67,7 +68,7 @@ def crossing_overlap(ws: Workspace, number: int) -> float:
     normal = turned(
         frame_at(ws.floats, pair.frame_b).rotation, turned(part_at(ws.floats, pair.part_b).axes, (0.0, 0.0, 1.0))
     )
-    tilt = _seen_from(ws.floats, pair.frame_a, pair.part_a, normal)
+    tilt = _in_axes_of(ws.floats, pair.frame_a, pair.part_a, normal)
     radius_a, radius_b = at(ws.floats, pair.part_a + PART_RINGS)[3], at(ws.floats, pair.part_b + PART_RINGS)[3]
     parallel = math.hypot(tilt[0], tilt[1]) * radius_b <= pair.allowed
     return float(max(0.0, radius_a + (radius_b if parallel else 0.0) - offset))

@@ -1,9 +1,10 @@
-"""Forces that are not unique, chosen anew where they come to a bound.
+"""Redundant forces over a step: contact forces that are not unique are chosen anew when one of them reaches its bound.
 
-The motion does not depend on the choice, and may ask for one choice after the other, each good for a short time only.
-So behind an instant at which forces were chosen they are chosen at the end of the step, too, if those at hand pass a
-bound there, and in between they go from one choice to the other: as the forces that keep the bounds are a convex set,
-these do so, too, but for the curvature of the motion, which the guards look at.
+The motion does not depend on the choice. But each choice may be valid for a short time only, and a step per choice
+would be slow. So after an instant at which forces were chosen, they are also chosen at the end of the step, if those of
+the start exceed a bound there. Within the step they are blended linearly from one choice to the other. The forces that
+keep all bounds are a convex set, so the blend keeps them too, apart from the curvature of the motion. The guards check
+that.
 """
 
 from __future__ import annotations
@@ -18,10 +19,10 @@ from nonsmooth.engine.native.kernel import Workspace, kernel
 
 
 @kernel("b1(ws)")
-def choose_anew(ws: Workspace) -> bool:
-    """Choose the forces that are not unique anew; true if all closed contacts can keep their bounds.
+def choose_forces_again(ws: Workspace) -> bool:
+    """Choose the redundant forces anew at the present state. True if all closed contacts can keep their bounds.
 
-    A second time within the time tolerance there is no choice: then all forces vanish.
+    A second choice within the time tolerance is not made: then all forces vanish.
     """
     if ws.island.time - ws.island.last_choice <= ws.tolerance.time:
         return False
@@ -31,12 +32,11 @@ def choose_anew(ws: Workspace) -> bool:
 
 
 @kernel("void(ws, f8)")
-def blend_choices(ws: Workspace, theta: float) -> None:
-    """Take the forces between those chosen at the start and the end of the step at the fraction ``theta`` of it."""
+def blend_chosen_forces(ws: Workspace, theta: float) -> None:
+    """Blend the null-space forces chosen at the start and at the end of the step, at its fraction ``theta``."""
     if not ws.step.is_blended:
         return
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
+    for contact in ws.contacts:
         for r in range(3):
             first, end = contact.choice_at_start[r], contact.choice_at_end[r]
             contact.null_space_force[r] = first + theta * (end - first)
@@ -44,20 +44,20 @@ def blend_choices(ws: Workspace, theta: float) -> None:
 
 @kernel("b1(ws, f8, i8)")
 def _choose_at(ws: Workspace, elapsed: float, y: int) -> bool:
-    """Choose forces at the time ``elapsed`` in the step and the state ``y``; true if there are any.
+    """Choose the redundant forces after ``elapsed`` [s] of the step, at the state ``y``. True if all keep their bounds.
 
-    Where there are none, what lets forces hold that were chosen would let their end be late.
+    If none do, the slack of the last choice is removed. Otherwise it would delay the end of the mode.
     """
     if right_hand_side(ws, ws.island.time + elapsed, y, may_choose=True, of_all_bodies=False):
         return True
-    for c in range(ws.island.n_contacts):
-        ws.contacts[c].slack = 0.0
+    for contact in ws.contacts:
+        contact.slack = 0.0
     return False
 
 
 @kernel("b1(ws)")
-def _passes_bound(ws: Workspace) -> bool:
-    """Return 1 if a force that is chosen has passed its bound."""
+def _exceeds_bound(ws: Workspace) -> bool:
+    """True if the guard of a redundant force has fired."""
     for i in range(first_own_guard(ws)):
         if is_of_redundant_force(ws, i) and has_fired(ws, i):
             return True
@@ -66,33 +66,32 @@ def _passes_bound(ws: Workspace) -> bool:
 
 @kernel("void(ws, f8)")
 def choose_at_end(ws: Workspace, h: float) -> None:
-    """Choose forces at the end of the step of ``h`` where those of its start, chosen there, pass a bound.
+    """Choose the redundant forces at the end of the step of ``h`` [s] too, if those of its start exceed a bound there.
 
-    The guards must be written there, and are for the choice.
+    The guards must be written there. They are written anew for the choice.
     """
     ws.step.is_blended = False
-    if ws.island.last_choice != ws.island.time or ws.island.stage_time > 0.0 or not _passes_bound(ws):
+    is_chosen_at_start = ws.island.last_choice == ws.island.time
+    if not is_chosen_at_start or ws.island.stage_time > 0.0 or not _exceeds_bound(ws):
         return
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
+    for contact in ws.contacts:
         for r in range(3):
             contact.choice_at_start[r] = contact.null_space_force[r]
     ws.step.is_blended = True
     if not _choose_at(ws, h, ws.step.y_new.start):
         right_hand_side(ws, ws.island.time + h, ws.step.y_new.start, may_choose=False, of_all_bodies=False)
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
+    for contact in ws.contacts:
         for r in range(3):
             contact.choice_at_end[r] = contact.null_space_force[r]
     write_guards(ws, ws.island.time + h, ws.step.y_new.start, forces_are_known=True)
 
 
 @kernel("b1(ws, f8)")
-def choices_bend(ws: Workspace, high: float) -> bool:
-    """Return 1 if forces can be chosen at the fraction ``high`` of the step though those in between pass a bound there.
+def can_choose_within(ws: Workspace, high: float) -> bool:
+    """True if redundant forces can be chosen at the fraction ``high`` of the step though the blend exceeds a bound.
 
-    Where they have no room but that of one value the motion bends it, the less the shorter the step is; within the time
-    tolerance that is an event.
+    This happens if the bounds allow a single choice only, which the motion curves. A shorter step has less curvature.
+    Within the time tolerance it is an event.
     """
     if not ws.step.is_blended or high == 1.0 or ws.step.h <= ws.tolerance.time:
         return False

@@ -1,0 +1,111 @@
+"""Candidate features: which pairs of features of two shapes have one of the contacts that the shapes share.
+
+Two meshes have far more pairs of features than can touch at once. So they share a number of declared contacts, each of
+which holds one pair of features, or none. When the neighbour list is made, the search function of the two shapes finds
+the pairs that are nearer than the margin of the list. A pair that has a contact keeps it, with mode and slip. An open
+contact whose pair was not found is emptied. The other pairs that were found fill empty contacts.
+
+Behind its features each contact stores by how much their distance may shrink while the list holds.
+"""
+
+from __future__ import annotations
+
+from nonsmooth.engine.memory.blocks import CANDIDATE
+from nonsmooth.engine.memory.modes import Mode, Status
+from nonsmooth.engine.native.kernel import DeclaredContact, Search, Workspace, at, call_pair, kernel
+from nonsmooth.engine.numerics.vectors import dot, minus
+
+_NOT_A_NUMBER = -1
+"""Number of pairs in place of one that is negative or not finite."""
+
+
+@kernel("b1(ws, i8)")
+def has_no_features(ws: Workspace, declared: int) -> bool:
+    """True if a declared contact is for candidate features and holds none."""
+    candidate = ws.declared_contacts[declared].features
+    return candidate > 0 and ws.floats[candidate] == 0.0
+
+
+@kernel("b1(ws, i8, i8)")
+def are_near(ws: Workspace, a: int, b: int) -> bool:
+    """True if the bounding spheres ``a`` and ``b`` are nearer than the margin of the neighbour list."""
+    sphere_a, sphere_b = ws.spheres[a], ws.spheres[b]
+    between = minus(sphere_a.place, sphere_b.place)
+    near = sphere_a.radius + sphere_b.radius + ws.island.list_margin
+    return dot(between, between) <= near * near
+
+
+@kernel("void(ws, DeclaredContact, i8, i8)")
+def _match(ws: Workspace, contact: DeclaredContact, found: int, n_found: int) -> None:
+    """Mark the features of a contact as taken among those that were found. Empty an open contact if they are not there.
+
+    Marked features have a zero in place of their first number.
+    """
+    for i in range(n_found):
+        is_same = True
+        for r in range(CANDIDATE):
+            if ws.floats[found + CANDIDATE * i + r] != ws.floats[contact.features + r]:
+                is_same = False
+        if is_same:
+            ws.floats[found + CANDIDATE * i] = 0.0
+            return
+    if contact.mode == Mode.OPEN:
+        ws.floats[contact.features] = 0.0
+        contact.direction, contact.closing_rate = (1.0, 0.0), 0.0
+
+
+@kernel("Status(ws)")
+def find_candidates(ws: Workspace) -> Status:
+    """Assign the pairs of features nearer than the margin of the list to contacts. Returns the status."""
+    for search in ws.searches:
+        n_found = _find(ws, search)
+        if n_found == _NOT_A_NUMBER:
+            return Status.NOT_FINITE
+        if n_found > search.n_contacts:
+            return Status.NO_SLOT
+        end = search.first_contact + search.n_contacts
+        for declared in range(search.first_contact, end):
+            if not has_no_features(ws, declared):
+                _match(ws, ws.declared_contacts[declared], search.out + 1, n_found)
+        if not _fill_empty(ws, search, n_found):
+            return Status.NO_SLOT
+        for declared in range(search.first_contact, end):
+            ws.floats[ws.declared_contacts[declared].features + CANDIDATE] = 2.0 * ws.island.list_margin
+    return Status.RUNNING
+
+
+@kernel("i8(ws, Search)")
+def _find(ws: Workspace, search: Search) -> int:
+    """Call a search if its shapes are near each other. Number of pairs that it found, or ``_NOT_A_NUMBER``.
+
+    The function reads the margin [m] at the place where it writes their number. The pairs follow.
+    """
+    if not are_near(ws, search.sphere_a, search.sphere_b):
+        return 0
+    ws.floats[search.out] = ws.island.list_margin
+    call_pair(
+        search.function,
+        at(ws.floats, ws.spheres[search.sphere_a].frame),
+        at(ws.floats, ws.spheres[search.sphere_b].frame),
+        at(ws.floats, search.parameters),
+        at(ws.floats, search.out),
+    )
+    return int(ws.floats[search.out]) if ws.floats[search.out] >= 0.0 else _NOT_A_NUMBER
+
+
+@kernel("b1(ws, Search, i8)")
+def _fill_empty(ws: Workspace, search: Search, n_found: int) -> bool:
+    """Fill empty contacts with the pairs of features that have no contact yet. False if there are too few contacts."""
+    declared, end = search.first_contact, search.first_contact + search.n_contacts
+    for i in range(n_found):
+        found = search.out + 1 + CANDIDATE * i
+        if ws.floats[found] == 0.0:
+            continue
+        while declared < end and not has_no_features(ws, declared):
+            declared += 1
+        if declared == end:
+            return False
+        features = ws.declared_contacts[declared].features
+        for r in range(CANDIDATE):
+            ws.floats[features + r] = ws.floats[found + r]
+    return True

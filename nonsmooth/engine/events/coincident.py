@@ -1,0 +1,73 @@
+"""Coincident contacts: two pairs of features of the same bodies at one place, while one replaces the other.
+
+A body that rolls from an edge onto a face touches with both as long as their margins overlap. Their gap rates differ by
+the turning times the distance of their points, which is tiny. No impulse can distinguish such contacts, and a collision
+of one against the other would be an artefact. So they are treated as one contact: the one that approaches replaces the
+other.
+"""
+
+from __future__ import annotations
+
+from nonsmooth.engine.bodies.compliance import start_inner_states
+from nonsmooth.engine.memory.modes import NO_CONTACT, Mode
+from nonsmooth.engine.native.kernel import Contact, Workspace, kernel
+from nonsmooth.engine.numerics.vectors import dot, minus
+
+_LARGEST_DIFFERENCE = 1e-5
+"""Difference of normals, and of places relative to the smaller body, up to which contacts coincide.
+
+The energy error of an approach is its square, which is below the energy tolerances.
+"""
+
+
+@kernel("b1(Contact, Contact)")
+def _coincide(one: Contact, other: Contact) -> bool:
+    """True if two rigid contacts of the same frames are at one place with the same normal."""
+    if one.index == other.index or one.frame_a != other.frame_a or one.frame_b != other.frame_b:
+        return False
+    if one.is_compliant or other.is_compliant:
+        return False
+    turned, moved = minus(one.normal, other.normal), minus(one.point_b, other.point_b)
+    is_close = dot(moved, moved) <= (_LARGEST_DIFFERENCE * one.size) ** 2
+    return dot(turned, turned) <= _LARGEST_DIFFERENCE**2 and is_close
+
+
+@kernel("i8(ws, i8)")
+def closed_coincident(ws: Workspace, c: int) -> int:
+    """Closed contact that coincides with ``c`` and does not approach, or ``NO_CONTACT``."""
+    for other in ws.contacts:
+        is_closed = other.mode != Mode.OPEN and other.normal_rate >= -ws.tolerance.velocity
+        if is_closed and _coincide(ws.contacts[c], other):
+            return other.index
+    return NO_CONTACT
+
+
+@kernel("b1(ws, i8)")
+def has_replaced(ws: Workspace, c: int) -> bool:
+    """True if contact ``c``, or one that coincides with it, was closed before the event, and one of them is now.
+
+    Both may be closed for a moment, while their margins overlap.
+    """
+    was_closed, is_closed = False, False
+    for other in ws.contacts:
+        if other.index == c or _coincide(ws.contacts[c], other):
+            is_closed = is_closed or other.mode != Mode.OPEN
+            was_closed = was_closed or other.code_before != 0
+    return was_closed and is_closed
+
+
+@kernel("b1(ws, i8)")
+def replace_coincident(ws: Workspace, c: int) -> bool:
+    """Close contact ``c`` in place of the closed contacts that coincide with it. False if there are none."""
+    contact = ws.contacts[c]
+    replaced, has_taken_over = closed_coincident(ws, c), False
+    while replaced != NO_CONTACT:
+        if not has_taken_over:
+            if contact.mode == Mode.OPEN:
+                start_inner_states(ws, c)
+            contact.mode = ws.contacts[replaced].mode
+            has_taken_over = True
+        ws.contacts[replaced].mode = Mode.OPEN
+        ws.contacts[replaced].is_in_problem = False
+        replaced = closed_coincident(ws, c)
+    return has_taken_over

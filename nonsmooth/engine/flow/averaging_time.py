@@ -1,0 +1,142 @@
+"""Length of an averaging span: it is shortened if its forces lead bodies apart or into each other.
+
+The mean forces of a span are found with the Jacobians at its start. A contact point that runs along a body, or a wedge
+that turns, changes these Jacobians before the span ends. So the motion under the forces is extrapolated to the end of
+the span, to second order in time, and the true gaps there are compared with those of the linear model. If they deviate
+too much, the span is shortened and its forces are found again. A fixed short span would be as safe, but costs many more
+contact problems.
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_free_bodies
+from nonsmooth.engine.bodies.compliance import copy_inner_states
+from nonsmooth.engine.bodies.kinematics import evaluate_contact, evaluate_geometry
+from nonsmooth.engine.contact.mean_forces import averaging_span, find_mean_impulses, gap_after, set_mean_forces
+from nonsmooth.engine.delassus.delassus import add_response
+from nonsmooth.engine.flow.self_check import ALLOWED, energies_of_bodies, scale_energy, tolerated_gap
+from nonsmooth.engine.native.kernel import Contact, Workspace, kernel
+
+_ALLOWED_PART = 0.1
+"""Deviation of a gap that is allowed, relative to the error of a gap or of its work that the tolerances allow."""
+_LARGEST_DEVIATION = 0.5
+"""Predicted deviation that is accepted, relative to the allowed one. It is predicted to second order only."""
+_SMALLEST_FACTOR = 0.1
+"""Smallest factor by which a span is shortened at once."""
+
+
+@kernel()
+def _normalise(ws: Workspace) -> None:
+    """Bring the quaternions in ``y_stage`` to unit length."""
+    for body in ws.bodies:
+        if body.quaternion < 0:
+            continue
+        q, square = ws.step.y_stage.start + body.q + body.quaternion, 0.0
+        for i in range(4):
+            square += ws.floats[q + i] * ws.floats[q + i]
+        for i in range(4):
+            ws.floats[q + i] /= math.sqrt(square)
+
+
+@kernel("void(ws, f8)")
+def _extrapolate(ws: Workspace, time: float) -> None:
+    """Evaluate the bodies and the gaps of the active contacts after a ``time`` [s] under their impulses.
+
+    The positions are of second order: they follow from the velocities in the middle of that time.
+    """
+    change, velocities = ws.step.y_guess.start + ws.model.n_q, ws.step.y_stage.start + ws.model.n_q
+    for i in range(ws.model.n_u):
+        ws.floats[change + i] = time * ws.island.du[i]
+    add_response(ws, ws.problem.forces.start, change)
+    for i in range(ws.model.n_y):
+        ws.step.y_stage[i] = ws.island.y[i]
+    for i in range(ws.model.n_u):
+        ws.floats[velocities + i] += 0.5 * ws.floats[change + i]
+    evaluate_free_bodies(ws, ws.island.time, ws.step.y_stage.start, of_all_bodies=True)
+    for body in ws.bodies:
+        for i in range(body.n_q):
+            ws.step.y_stage[body.q + i] += time * ws.floats[body.tail + i]
+    _normalise(ws)
+    evaluate_bodies(ws, ws.island.time + time, ws.step.y_stage.start)
+    for active in ws.actives:
+        evaluate_geometry(ws, active.contact)
+
+
+@kernel("f8(ws)")
+def _allowed_work(ws: Workspace) -> float:
+    """Work that a contact force may do by the deviation of its gap [J], from the allowed error of the energy."""
+    return float(_ALLOWED_PART * ALLOWED * ws.tolerance.relative * (energies_of_bodies(ws)[0] + scale_energy(ws)))
+
+
+@kernel("f8(ws, Contact, f8, f8, f8)")
+def _relative_deviation(ws: Workspace, contact: Contact, deviation: float, force: float, work: float) -> float:
+    """Deviation of a gap [m] relative to the allowed one.
+
+    The ``force`` [N] may do no more than ``work`` [J] by it. A gap within the gap tolerance is always allowed.
+    """
+    allowed = _ALLOWED_PART * tolerated_gap(ws, contact.index)
+    if force * allowed > work:
+        allowed = work / force
+    return float(abs(deviation) / max(ws.tolerance.gap, allowed))
+
+
+@kernel("f8(ws, f8)")
+def _largest_deviation(ws: Workspace, time: float) -> float:
+    """Largest deviation of a gap after a ``time`` [s] under the impulses, relative to the allowed one.
+
+    Only contacts with a normal force count. The others may open. A gap that is not finite deviates infinitely.
+    """
+    work = _allowed_work(ws)
+    for active in ws.actives:
+        active.gap_after = gap_after(ws, active.index, time)
+    _extrapolate(ws, time)
+    worst = 0.0
+    for active in ws.actives:
+        contact = ws.contacts[active.contact]
+        if not contact.is_compliant and active.normal_force > 0.0 and contact.past_feature <= 0.0:
+            deviation, force = contact.gap - active.gap_after, active.normal_force / time
+            relative = _relative_deviation(ws, contact, deviation, force, work)
+            worst = max(worst, relative) if relative == relative else math.inf
+    evaluate_bodies(ws, ws.island.time, ws.island.y.start)
+    copy_inner_states(ws, ws.island.y.start)
+    for active in ws.actives:
+        evaluate_contact(ws, active.contact, 3)
+    return worst
+
+
+@kernel("void(ws, b1)")
+def find_mean_forces(ws: Workspace, follows: bool) -> None:
+    """Write the mean forces of the active contacts, and the modes that they lead to at the end of the span.
+
+    Rates and accelerations without forces must be written. A span that ``follows`` another one may be longer.
+    """
+    time = find_mean_impulses(ws, averaging_span(ws, follows))
+    deviation = _largest_deviation(ws, time)
+    while deviation > _LARGEST_DEVIATION and time > ws.tolerance.time:
+        # the deviation grows with the third power of time if a Jacobian turns, else with the second
+        is_finite = deviation < math.inf
+        part = max(_SMALLEST_FACTOR, 0.8 * math.sqrt(_LARGEST_DEVIATION / deviation)) if is_finite else _SMALLEST_FACTOR
+        time = find_mean_impulses(ws, max(ws.tolerance.time, part * time))
+        deviation = _largest_deviation(ws, time)
+    set_mean_forces(ws, time)
+
+
+@kernel("f8(ws)")
+def deviation_of_gaps(ws: Workspace) -> float:
+    """Largest present deviation of a gap under averaged forces, relative to the allowed one.
+
+    Writes it to ``strayed``, and its contact to ``stray_contact``.
+    """
+    work = _allowed_work(ws)
+    ws.island.strayed = 0.0
+    for contact in ws.contacts:
+        if not contact.is_averaged or contact.is_compliant or contact.past_feature > 0.0:
+            continue
+        # a gap that was left may close, and one that opens comes to rest
+        deviation = abs(contact.gap - contact.mean_gap) - abs(contact.mean_gap) - contact.mean_gap_change
+        relative = _relative_deviation(ws, contact, max(0.0, deviation), contact.mean_force[0], work)
+        if relative > ws.island.strayed:
+            ws.island.strayed, ws.island.stray_contact = relative, contact.index
+    return float(ws.island.strayed)

@@ -1,0 +1,275 @@
+"""Search within a step for open gaps that close: proof that a gap stays open, or a time at which it has closed.
+
+For a part of the step, the gap and its rate are known at both ends. Bounds are known of the gap's speed and of its
+acceleration (:mod:`nonsmooth.engine.flow.clearance`). If these prove that the gap stays open, the part is done.
+Otherwise the part is halved. The halving ends if the gap has closed at one of the ends, or if no dip deeper than the
+gap tolerance is possible. Sampling alone would miss short dips, and a search for the minimum has no proof.
+
+A gap that is undecided after very many evaluations ends the run.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from nonsmooth.engine.bodies.bodies import evaluate_body, evaluate_driven_bodies
+from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
+from nonsmooth.engine.flow.clearance import arm_of, fall_of, too_far
+from nonsmooth.engine.flow.deflation import deflated
+from nonsmooth.engine.flow.flight import body_within
+from nonsmooth.engine.flow.flow import value_of_slip_guard
+from nonsmooth.engine.flow.guard_numbers import friction_guard, normal_guard, normal_of
+from nonsmooth.engine.flow.guards import has_fired
+from nonsmooth.engine.flow.self_check import ADJACENT, NEGLIGIBLE, fail_check
+from nonsmooth.engine.memory.layout import PARTS
+from nonsmooth.engine.memory.modes import Status
+from nonsmooth.engine.native.kernel import (
+    Contact,
+    Workspace,
+    entry_point,
+    kernel,
+    part_end,
+    result,
+)
+from nonsmooth.engine.numerics.vectors import distance
+
+LARGEST_DISPLACEMENT = 0.02
+"""Motion between two evaluations of features that do not face each other, relative to the size of the smaller body."""
+_LARGEST_PART = 0.125
+"""Fraction of a step within which the gap of neighbours at rest is always evaluated."""
+_MOST_EVALUATIONS = 10_000
+"""Most evaluations of one gap within one step. Halving down to the time tolerance needs far fewer."""
+
+
+@result
+class GapBounds(NamedTuple):
+    """Bounds of the motion of a gap within a step."""
+
+    speed: float
+    """Of the rate of the gap [m/s]."""
+    acceleration: float
+    """Of the acceleration with which the gap closes [m/s^2]."""
+    turning: float
+    """Of the relative turning of the bodies [1/s], 0 if their witness points are fixed."""
+    support_radius: float
+    """Radius of the smaller shape about its origin [m]."""
+
+
+@kernel("void(ws, f8, f8, Contact)")
+def _evaluate_geometry_at(ws: Workspace, h: float, theta: float, contact: Contact) -> None:
+    """Evaluate the two bodies of a contact at the fraction ``theta`` of the step of ``h`` [s], and its geometry."""
+    ws.step.is_evaluated = True
+    for side in range(2):
+        number = contact.body_a if side == 0 else contact.body_b
+        body = ws.bodies[number]
+        if body.n_u == 0:
+            evaluate_driven_bodies(ws, ws.island.time + theta * h, ws.island.y.start)
+            continue
+        state = ws.island.y.start if theta == 0.0 else ws.step.y_new.start
+        if 0.0 < theta < 1.0:
+            state = ws.step.y_stage.start
+            body_within(ws, h, theta, number, state)
+        evaluate_body(ws, ws.island.time + theta * h, state, number)
+    evaluate_geometry(ws, contact.index)
+
+
+@kernel("f8(ws, f8, Contact)")
+def _acceleration_bound(ws: Workspace, h: float, contact: Contact) -> float:
+    """Bound of the acceleration with which a gap closes within the step [m/s^2], from the bounds at its ends."""
+    if contact.acceleration_bound_at_start[0] < 0.0:
+        _evaluate_geometry_at(ws, h, 0.0, contact)
+        contact.acceleration_bound_at_start = fall_of(ws, contact.index, ws.island.slopes.start + ws.model.n_q)
+    (first, grows_first, _), (last, grows_last, _) = (
+        contact.acceleration_bound_at_start,
+        contact.acceleration_bound_at_end,
+    )
+    start, end = first + h * grows_first, last + h * grows_last
+    return float(max(start, end) + abs(end - start))
+
+
+@kernel("f8(ws, Contact, f8)")
+def _gap_above_start(ws: Workspace, contact: Contact, gap: float) -> float:
+    """A gap, minus the value from which it started if that was about zero [m]."""
+    guard = normal_of(ws, contact)
+    return float(gap - guard.base) if guard.is_deflated else gap
+
+
+@kernel("void(ws, Contact, f8)")
+def _write_gap_guard(ws: Workspace, contact: Contact, elapsed: float) -> None:
+    """Write the guard of a gap that was evaluated after ``elapsed`` [s] of the step."""
+    contact.gap_rate = contact.normal_rate
+    normal_of(ws, contact).value = deflated(ws, normal_guard(contact.index), contact.gap, elapsed)
+
+
+@kernel("void(ws, f8, f8, i8)")
+def evaluate_gap_guard(ws: Workspace, h: float, theta: float, c: int) -> None:
+    """Evaluate the gap of contact ``c`` alone at the fraction ``theta`` of the step, and write its guard."""
+    _evaluate_geometry_at(ws, h, theta, ws.contacts[c])
+    evaluate_rates(ws, c)
+    _write_gap_guard(ws, ws.contacts[c], theta * h)
+
+
+@kernel("void(ws, f8, f8, i8)")
+def evaluate_slip_guard(ws: Workspace, h: float, theta: float, c: int) -> None:
+    """Evaluate the slip of the rigid contact ``c`` alone at the fraction ``theta`` of the step, and write its guard."""
+    _evaluate_geometry_at(ws, h, theta, ws.contacts[c])
+    evaluate_rates(ws, c)
+    i = friction_guard(ws, c)
+    ws.guards[i].value = deflated(ws, i, value_of_slip_guard(ws, c), theta * h)
+
+
+@kernel("void(ws, f8, f8, Contact, i8)")
+def _store_end(ws: Workspace, h: float, theta: float, contact: Contact, n: int) -> None:
+    """Store end ``n`` of the parts of the step, the fraction ``theta``, at which the gap has been evaluated."""
+    guard, end = normal_of(ws, contact), part_end(ws.floats, ws.step.part_ends.start, n)
+    _write_gap_guard(ws, contact, theta * h)
+    if guard.value > 0.0:
+        guard.is_armed = True
+    end.theta, end.gap, end.rate = theta, _gap_above_start(ws, contact, contact.gap), contact.gap_rate
+    end.past, end.offset = contact.past_feature, arm_of(ws, contact.index)
+
+
+@kernel("void(ws, f8, f8, Contact, i8)")
+def _evaluate_end(ws: Workspace, h: float, theta: float, contact: Contact, n: int) -> None:
+    """Evaluate the gap of a contact at the fraction ``theta`` of the step, and store it as end ``n`` of its parts."""
+    evaluate_gap_guard(ws, h, theta, contact.index)
+    _store_end(ws, h, theta, contact, n)
+
+
+@kernel("b1(ws, i8, f8, GapBounds)")
+def _stays_open(ws: Workspace, n: int, h: float, bounds: GapBounds) -> bool:
+    """True if the bounds prove that a gap stays above minus the gap tolerance between ends 0 and ``n``.
+
+    With the acceleration bound a, the gap is above the parabolas g0 + r0 s - a s^2 / 2 from its start and
+    g1 - r1 (T - s) - a (T - s)^2 / 2 from its end. It is lowest where they cross.
+
+    A witness point may move farther on its body than the body turns, as on a rim that is nearly flat. Then the rate
+    changes by up to the difference of the rates of two points at that distance.
+    """
+    one, two = part_end(ws.floats, ws.step.part_ends.start, 0), part_end(ws.floats, ws.step.part_ends.start, n)
+    span = (two.theta - one.theta) * h
+    g0, r0, g1, r1 = one.gap, one.rate, two.gap, two.rate
+    if too_far(g0, one.past, g1, two.past, span * bounds.speed):
+        return True
+    if one.past > 0.0 or two.past > 0.0 or min(g0, g1) < -ws.tolerance.gap:
+        return False
+    acceleration, turning = bounds.acceleration, bounds.turning
+    if turning > 0.0:
+        moved = distance(two.offset, one.offset) / span
+        acceleration += 2.0 * turning * max(0.0, moved - turning * bounds.support_radius)
+    closing = acceleration * span + r1 - r0
+    ahead = g0 - g1 + r1 * span + 0.5 * acceleration * span * span
+    back = g1 - g0 - r0 * span + 0.5 * acceleration * span * span
+    # the bound is wrong if either parabola passes above the other end
+    if min(ahead, back) < -ws.tolerance.gap:
+        return False
+    if closing <= 0.0 or min(ahead, back) <= 0.0:
+        return True
+    s = min(ahead / closing, span)
+    return bool(g0 + s * (r0 - 0.5 * acceleration * s) >= -ws.tolerance.gap)
+
+
+@kernel("f8(ws, f8, Contact, f8, b1)")
+def _first_closing_of(ws: Workspace, h: float, contact: Contact, high: float, is_evaluated: bool) -> float:
+    """Fraction of the step, up to ``high``, at which a gap has closed, or 0 if it stays open.
+
+    ``is_evaluated`` if the contact was evaluated at ``high``. The parts are searched from the left. Ends further to
+    the right wait on a stack, whose top is end ``n``.
+    """
+    _write_first_end(ws, contact)
+    _write_last_end(ws, h, contact, high, is_evaluated)
+    left, right = part_end(ws.floats, ws.step.part_ends.start, 0), part_end(ws.floats, ws.step.part_ends.start, 1)
+    speed = contact.speed_at_start + contact.speed_at_end
+    if high < 1.0 and too_far(left.gap, left.past, right.gap, right.past, high * h * speed):
+        return 0.0
+    bounds, n, n_evaluations = _bounds_of(ws, h, contact), 1, 0
+    while n > 0:
+        right = part_end(ws.floats, ws.step.part_ends.start, n)
+        if not _stays_open(ws, n, h, bounds) and n < PARTS and _is_undecided(ws, h, contact, n, speed):
+            n_evaluations += 1
+            if n_evaluations > _MOST_EVALUATIONS:
+                ws.totals.n_gap_evaluations += 1
+                fail_check(ws, Status.GAP_UNDECIDED, contact.index, left.gap, ws.tolerance.gap)
+                return 0.0
+            middle = left.theta + 0.5 * (right.theta - left.theta)
+            n += 1
+            ws.totals.n_gap_evaluations += 1
+            _evaluate_end(ws, h, middle, contact, n)
+            if has_fired(ws, normal_guard(contact.index)):
+                return float(part_end(ws.floats, ws.step.part_ends.start, n).theta)
+            continue
+        left.theta, left.gap, left.rate = right.theta, right.gap, right.rate
+        left.past, left.offset = right.past, right.offset
+        n -= 1
+    return 0.0
+
+
+@kernel("void(ws, Contact)")
+def _write_first_end(ws: Workspace, contact: Contact) -> None:
+    """Write the start of the step as end 0 of its parts."""
+    left = part_end(ws.floats, ws.step.part_ends.start, 0)
+    left.theta, left.gap = 0.0, _gap_above_start(ws, contact, contact.gap_at_start)
+    left.rate, left.past = contact.gap_rate_at_start, contact.past_feature_at_start
+    left.offset = contact.offset_at_start
+
+
+@kernel("void(ws, f8, Contact, f8, b1)")
+def _write_last_end(ws: Workspace, h: float, contact: Contact, high: float, is_evaluated: bool) -> None:
+    """Write the fraction ``high`` of the step as end 1 of its parts. The contact is evaluated there if need be."""
+    if high == 1.0:
+        right = part_end(ws.floats, ws.step.part_ends.start, 1)
+        right.theta, right.gap = 1.0, _gap_above_start(ws, contact, contact.gap_at_end)
+        right.rate, right.past = contact.gap_rate_at_end, contact.past_feature_at_end
+        right.offset = contact.offset_at_end
+    elif is_evaluated:
+        _store_end(ws, h, high, contact, 1)
+    else:
+        _evaluate_end(ws, h, high, contact, 1)
+
+
+@kernel("GapBounds(ws, f8, Contact)")
+def _bounds_of(ws: Workspace, h: float, contact: Contact) -> GapBounds:
+    """Bounds of the motion of a gap within the step of ``h`` [s]."""
+    acceleration = _acceleration_bound(ws, h, contact)
+    radius = min(contact.support_radius_a, contact.support_radius_b)
+    turning = contact.turning_bound_at_start + contact.turning_bound_at_end if radius > 0.0 else 0.0
+    return GapBounds(contact.speed_at_start + contact.speed_at_end, acceleration, turning, radius)
+
+
+@kernel("b1(ws, f8, Contact, i8, f8)")
+def _is_undecided(ws: Workspace, h: float, contact: Contact, n: int, speed: float) -> bool:
+    """True if the part of the step between ends 0 and ``n``, which the bounds do not decide, must be halved.
+
+    A short part is not halved if the surfaces rest next to each other, or if they do not face each other and move by
+    little. A gap that was closed from the start rests if its rate is round-off, as :func:`has_fired` judges it.
+    """
+    left, right = part_end(ws.floats, ws.step.part_ends.start, 0), part_end(ws.floats, ws.step.part_ends.start, n)
+    span = right.theta - left.theta
+    gaps, rates = max(abs(left.gap), abs(right.gap)), max(abs(left.rate), abs(right.rate))
+    rests = gaps <= ADJACENT * ws.tolerance.gap and rates <= ADJACENT * ws.tolerance.velocity
+    was_closed = normal_of(ws, contact).is_deflated
+    rests = rests or (was_closed and rates <= NEGLIGIBLE * ws.tolerance.velocity)
+    is_not_facing = left.past > 0.0 or right.past > 0.0
+    moves_little = is_not_facing and span * h * speed <= LARGEST_DISPLACEMENT * contact.size
+    return span * h > ws.tolerance.time and not (span <= _LARGEST_PART and (rests or moves_little))
+
+
+@entry_point("f8(ws, f8, f8, i8)")
+def first_closing(ws: Workspace, h: float, high: float, needed: int) -> float:
+    """Fraction of the step, up to ``high``, by which a gap that may close has closed, or 0 if all stay open.
+
+    Contacts must be evaluated at ``high``, unless the features of some do not face each other. If no gap closes, the
+    contacts that were evaluated within the step are evaluated at ``high`` again if that is the end of the step. So is
+    the contact ``needed`` in any case.
+    """
+    found, is_evaluated = 0.0, ws.step.n_not_facing == 0
+    for i in range(ws.step.n_may_close):
+        contact = ws.contacts[ws.step.may_close[i]]
+        ws.step.is_evaluated = False
+        theta = _first_closing_of(ws, h, contact, high, is_evaluated)
+        if theta > 0.0:
+            found = high = theta
+            is_evaluated = False
+        elif ws.step.is_evaluated and (high == 1.0 or contact.index == needed):
+            _evaluate_end(ws, h, high, contact, 0)
+    return found

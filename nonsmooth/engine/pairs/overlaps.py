@@ -1,0 +1,156 @@
+"""Overlap check: whether bodies between which contacts are declared have passed into each other.
+
+The contacts of two shapes can miss each other if a feature is wrong or a step too long. The separation of two convex
+parts cannot. So at the start of each step every pair of convex parts is checked, from cheap to costly:
+
+1. A pair that was apart is not evaluated again until its parts have moved so far that they may meet. Each carrier
+   accumulates a bound of the displacement of its points.
+2. The separation along the last direction, or of the bounding spheres, is a lower bound.
+3. One search gives a better direction (:mod:`nonsmooth.engine.pairs.separation`).
+4. If the parts still overlap, the closed contacts of the pair give the depth that is allowed, and the direction of
+   largest separation is searched for.
+
+Discs without thickness have no depth of overlap (:mod:`nonsmooth.engine.pairs.discs`).
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.memory.modes import Mode
+from nonsmooth.engine.native.kernel import (
+    Pair,
+    Workspace,
+    entry_point,
+    frame_at,
+    kernel,
+    part_at,
+)
+from nonsmooth.engine.numerics.vectors import distance, dot
+from nonsmooth.engine.pairs.discs import crossing_overlap
+from nonsmooth.engine.pairs.separation import best_direction, separating_direction
+from nonsmooth.engine.pairs.support import height_above_plane, middle_of, separation_along
+
+NO_PAIR = -1
+"""Number in place of a pair for a contact between shapes whose overlap is not checked."""
+_LARGEST_DISPLACEMENT = 1e3
+"""Displacement bound [m] at which all bounds restart from zero, so that round-off of their sum stays small."""
+
+
+@kernel()
+def _write_depths_of_contacts(ws: Workspace) -> None:
+    """Write the depth [m] and the normal of the deepest closed contact of every pair."""
+    for pair in ws.pairs:
+        pair.is_closed, pair.deepest = False, 0.0
+    for contact in ws.contacts:
+        if contact.mode == Mode.OPEN or contact.pair == NO_PAIR:
+            continue
+        pair = ws.pairs[contact.pair]
+        if not pair.is_closed or contact.gap_at_end < pair.deepest:
+            pair.is_closed, pair.deepest, pair.normal = True, min(0.0, contact.gap_at_end), contact.normal
+
+
+@kernel()
+def _add_displacements(ws: Workspace) -> None:
+    """Add to the distance of each carrier a bound of the displacement of its points since the last evaluation [m].
+
+    A rotation by the angle a displaces a point at the radius r by 2 r sin(a / 2). This is r over the square root of two
+    times the Frobenius norm of the change of the axes.
+    """
+    farthest = 0.0
+    for carrier in ws.carriers:
+        frame, square = frame_at(ws.floats, carrier.frame), 0.0
+        for i in range(9):
+            square += (frame.rotation[i] - carrier.axes[i]) ** 2
+            carrier.axes[i] = frame.rotation[i]
+        carrier.distance += distance(frame.origin, carrier.place) + carrier.radius * math.sqrt(0.5 * square)
+        carrier.place = frame.origin
+        farthest = max(farthest, carrier.distance)
+    if farthest > _LARGEST_DISPLACEMENT:
+        for carrier in ws.carriers:
+            carrier.distance = 0.0
+        for pair in ws.pairs:
+            pair.margin = 0.0
+
+
+@kernel("f8(ws, Pair)")
+def _displacement_bound(ws: Workspace, pair: Pair) -> float:
+    """Bound of the displacement of both parts of a pair [m]. Its separation changes by no more."""
+    return float(ws.carriers[pair.carrier_a].distance + ws.carriers[pair.carrier_b].distance)
+
+
+@kernel("f8(ws, i8)")
+def _known_separation(ws: Workspace, number: int) -> float:
+    """Lower bound of the separation of a pair [m], without a search."""
+    pair = ws.pairs[number]
+    if _has_half_space(ws, pair):
+        return height_above_plane(ws, number)
+    between = distance(middle_of(ws.floats, pair.frame_b, pair.part_b), middle_of(ws.floats, pair.frame_a, pair.part_a))
+    apart = between - part_at(ws.floats, pair.part_a).radius - part_at(ws.floats, pair.part_b).radius
+    n = pair.direction
+    if apart >= 0.0 or dot(n, n) == 0.0:
+        return float(apart)
+    return float(separation_along(ws, number, n))
+
+
+@kernel("b1(ws, Pair)")
+def _has_half_space(ws: Workspace, pair: Pair) -> bool:
+    """True if the first part of a pair is a half-space."""
+    return bool(part_at(ws.floats, pair.part_a).rings < 0.0)
+
+
+@kernel("f8(ws, i8, f8)")
+def _separation(ws: Workspace, number: int, enough: float) -> float:
+    """Largest separation found of a pair [m]. The search stops at a value of ``enough`` or more."""
+    pair = ws.pairs[number]
+    if _has_half_space(ws, pair):
+        return height_above_plane(ws, number)
+    group = ws.pairs[pair.group]
+    if group.is_closed:
+        found = separation_along(ws, number, group.normal)
+        if found >= enough:
+            pair.direction = group.normal
+            return float(found)
+    pair.direction = best_direction(ws, number, pair.direction, enough)
+    return float(separation_along(ws, number, pair.direction))
+
+
+@entry_point()
+def check_pairs(ws: Workspace) -> None:
+    """Find the pair that overlaps by most beyond the depth of its closed contacts, after bodies and contacts.
+
+    Writes its number to ``run.passed_pair``, or ``NO_PAIR``, and its depth and the depth that is allowed [m].
+    """
+    ws.run.passed_pair, are_depths_known, most = NO_PAIR, False, 0.0
+    _add_displacements(ws)
+    for pair in ws.pairs:
+        if _displacement_bound(ws, pair) < pair.margin:
+            continue
+        depth = _depth(ws, pair)
+        if depth <= pair.allowed:
+            continue
+        if not are_depths_known:
+            _write_depths_of_contacts(ws)
+            are_depths_known = True
+        group, are_discs = ws.pairs[pair.group], pair.are_both_flat
+        if are_discs and group.is_closed:
+            continue
+        allowed = group.deepest - pair.allowed
+        found = -depth if are_discs else _separation(ws, pair.index, allowed)
+        if allowed - found > most:
+            most = allowed - found
+            ws.run.passed_pair, ws.run.passed_depth, ws.run.passed_allowed = pair.index, -found, -allowed
+
+
+@kernel("f8(ws, Pair)")
+def _depth(ws: Workspace, pair: Pair) -> float:
+    """Depth of the overlap of a pair after one search [m], negative if it is apart. Writes the margin of the pair."""
+    number = pair.index
+    apart = _known_separation(ws, number)
+    if apart < -pair.allowed and not _has_half_space(ws, pair):
+        pair.direction = separating_direction(ws, number, pair.direction)
+        apart = separation_along(ws, number, pair.direction)
+    are_discs = pair.are_both_flat
+    depth = crossing_overlap(ws, number) if are_discs else -apart
+    pair.margin = _displacement_bound(ws, pair) + apart + (0.0 if are_discs else pair.allowed)
+    return float(depth)
