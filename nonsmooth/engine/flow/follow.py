@@ -33,8 +33,6 @@ from nonsmooth.engine.numerics.vectors import length
 
 _ROUND_OFF = 1e-8
 """Excess of a force over its bound that is round-off, relative to the largest force."""
-
-
 _NO_STEP = -1.0
 """Length in place of a step if none was found."""
 

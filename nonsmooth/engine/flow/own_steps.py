@@ -40,8 +40,6 @@ _LARGEST_DROP = 0.5
 """Least value of a guard relative to its largest one in the samples of a step, at which it is taken not to fire."""
 _ATTEMPTS = 3
 """Most lengths of an own step that are tried at once. The next attempt starts with what was left."""
-
-
 _NO_BODY = -1
 """Number in place of a body if there is none."""
 
