@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory
-from nonsmooth.engine.memory.modes import OPEN, SLIDE
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.memory.solvers import GAUSS_SEIDEL, LEMKE, NEWTON
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engine.numerics.linear import SINGULAR
@@ -75,11 +75,11 @@ class ContactResult:
         for i, mode in enumerate(self.modes):
             column = np.zeros((3, n, 3))
             column[:, i] = np.eye(3)
-            touching = mode == MODES[OPEN] and self.contact_acceleration[i, 0] <= _SAME * self._size
-            if mode == MODES[SLIDE] or (touching and at_rest[i] == 0):
+            touching = mode == MODES[Mode.OPEN] and self.contact_acceleration[i, 0] <= _SAME * self._size
+            if mode == MODES[Mode.SLIDE] or (touching and at_rest[i] == 0):
                 column[0, i, 1:] = -mu[i] * d[i]
                 free.append(column[:1])
-            elif mode != MODES[OPEN] or touching:
+            elif mode != MODES[Mode.OPEN] or touching:
                 free.append(column)
         if not free:
             return np.zeros((0, n, 3))

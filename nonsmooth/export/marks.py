@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, final
 
 import numpy as np
 
-from nonsmooth.engine.memory.modes import SLIDE, STICK
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.histories.arrays import Floats
 from nonsmooth.histories.visitor import visitor
 
@@ -48,5 +48,5 @@ class Marks:
             here = slice(forces.first[i], forces.first[i + 1])
             modes = forces.mode[here]
             recent = hit[(instants <= t) & (instants > t - seen)]
-            found.append((points[here][modes == STICK], points[here][modes == SLIDE], recent))
+            found.append((points[here][modes == Mode.STICK], points[here][modes == Mode.SLIDE], recent))
         return cls(tuple(found))

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import GAP, NORMAL, POINT_A, TANGENT, TRACTION_MOMENT
-from nonsmooth.engine.memory.modes import SLIDE
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.histories.cones import beyond_cones
 from nonsmooth.histories.contact_history import ContactHistory, contacts_dataset
@@ -114,7 +114,7 @@ class ContactForces:
 
         Where a run averages forces over a span, those of an instant within need not lie in it.
         """
-        speed = np.where(self.mode == SLIDE, np.linalg.norm(self.slip_velocity, axis=1), np.nan)
+        speed = np.where(self.mode == Mode.SLIDE, np.linalg.norm(self.slip_velocity, axis=1), np.nan)
         return beyond_cones(self.contacts, self.contact, self.first, self.normal_force, self.friction_force, speed)
 
     def history(self, contact: Contact | str | int) -> ContactHistory:

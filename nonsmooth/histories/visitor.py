@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, final
 import numpy as np
 
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.modes import AFTER, CODE, OPEN, REASONS, RUNNING, SLIDE, STICK, Status
+from nonsmooth.engine.memory.modes import AFTER, CODE, REASONS, Mode, Status
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.histories.arrays import Floats, Integers
@@ -28,7 +28,7 @@ _ACCOUNTED = (
     owners.Totals.friction_loss,
     owners.Totals.closing_loss,
 )
-_MODES = np.array([OPEN, STICK, OPEN, OPEN, OPEN, SLIDE, OPEN, OPEN])
+_MODES = np.array([Mode.OPEN, Mode.STICK, Mode.OPEN, Mode.OPEN, Mode.OPEN, Mode.SLIDE, Mode.OPEN, Mode.OPEN])
 """Mode of a contact by its bits of Eq. (29) after an event."""
 _SAMPLE, _EVENT, _END = range(3)
 _KNOWN: weakref.WeakKeyDictionary[Track, Visitor] = weakref.WeakKeyDictionary()
@@ -87,7 +87,7 @@ class Visitor:
     def closed(self, times: Floats) -> Integers:
         """Return the numbers of the times at which a contact is closed."""
         events = self._events
-        closing = np.repeat(np.arange(len(events)), np.diff(events.first))[_MODES[events.codes >> 6 & 7] != OPEN]
+        closing = np.repeat(np.arange(len(events)), np.diff(events.first))[_MODES[events.codes >> 6 & 7] != Mode.OPEN]
         return np.flatnonzero(np.isin(self._event[self._row(times)], closing))
 
     def states(self, times: Floats) -> Floats:
@@ -129,14 +129,14 @@ class Visitor:
         self._check_solves("between its samples" if between else "with its forces")
         memory = self.laid.memory
         # an earlier visit may have been interrupted
-        memory[owners.Request.is_interrupted], memory[owners.Run.failure] = 0, RUNNING
+        memory[owners.Request.is_interrupted], memory[owners.Run.failure] = 0, Status.RUNNING
         with self._alone, self.laid.watch as watch:
             for i in np.argsort(times, kind="stable").tolist():
                 if rows[i] != here:
                     here = int(rows[i])
                     self._put(here)
                 status = int(watch.call("follow", float(times[i])))
-                if status != RUNNING:
+                if status != Status.RUNNING:
                     raise RunFailed(f"What led to t = {times[i]:.9g} s is not found again: {REASONS[Status(status)]}.")
                 if forces:
                     watch.call("evaluate_forces", 0)
@@ -213,7 +213,7 @@ class Visitor:
         listed = slice(*events.first[event : event + 2].tolist()) if event >= 0 else slice(0)
         numbers, kept = events.listed[listed], events.listed_memory[listed]
         modes, averaged = memory.declared(contact.mode), memory.declared(contact.mode_after_averaging)
-        modes[:] = averaged[:] = OPEN
+        modes[:] = averaged[:] = Mode.OPEN
         modes[numbers] = _MODES[events.codes[listed] >> AFTER & CODE]
         averaged[numbers] = kept[:, 4]
         memory.declared(contact.direction)[numbers] = kept[:, :2]

@@ -13,7 +13,7 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import FRAME, GAP
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.memory import Memory
-from nonsmooth.engine.memory.modes import NOT_FINITE, RUNNING
+from nonsmooth.engine.memory.modes import Status
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.errors import InvalidInput, PluginError
 from nonsmooth.interfaces import Body, ImpactMap
@@ -76,9 +76,9 @@ class LaidOut:
             If a search for features fails.
         """
         status = call_entry("list_contacts", self.memory)
-        if status == NOT_FINITE:
+        if status == Status.NOT_FINITE:
             raise PluginError(failed_search(self.memory, self.system.contacts))
-        if status != RUNNING:
+        if status != Status.RUNNING:
             raise InvalidInput(
                 "contacts of the system",
                 f"must have at most {int(self.memory[owners.Model.n_slots])} near each other",

@@ -20,7 +20,7 @@ from nonsmooth.binding.compile import bind, parameter_names, parameter_place, ve
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import CANDIDATE, FORCE_AND_MOMENT, FRAME, PAIR
 from nonsmooth.engine.memory.memory import Heap, Memory, output_block
-from nonsmooth.engine.memory.modes import OPEN
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import (
     AnisotropicFrictionLaw,
@@ -85,7 +85,7 @@ class Kind:
         (place in the block, place from which its distance counts, table).
     """
 
-    fields: dict[Any, int] = field(default_factory=lambda: {_CONTACT.mode: OPEN})
+    fields: dict[Any, int] = field(default_factory=lambda: {_CONTACT.mode: Mode.OPEN})
     offsets: dict[Any, int] = field(default_factory=dict)
     block: list[float] = field(default_factory=list)
     written: list[tuple[int, int]] = field(default_factory=list)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.histories.recorded import check_recorded
 from nonsmooth.plot.asked import Contacts, axes_of, contacts_of
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 _MOST = 24
 _HIGH, _LANE = 0.76, 0.25
 """Height of a bar in its lane, and of a lane [inches]."""
-_LOOKS = (("stick", STICK, "#0072b2", "////"), ("slip", SLIDE, "#e69f00", ""))
+_LOOKS = (("stick", Mode.STICK, "#0072b2", "////"), ("slip", Mode.SLIDE, "#e69f00", ""))
 """Words, mode, colour and hatch: they differ in lightness, too."""
 
 
@@ -49,7 +49,7 @@ def modes(solution: Solution, contacts: Contacts | None = None, ax: Axes | None 
     ax, events = axes_of(ax, 1.2 + _LANE * len(numbers)), solution.events
     edges = np.concatenate([solution.track.time[:1], events.time, [solution.t_end]])
     after = events.codes_after(np.arange(-1, len(events)))[:, numbers]
-    found = np.where(after & 1 == 0, OPEN, np.where(after >> 2 & 1, SLIDE, STICK))
+    found = np.where(after & 1 == 0, Mode.OPEN, np.where(after >> 2 & 1, Mode.SLIDE, Mode.STICK))
     times = np.repeat(events.time, np.diff(events.first))
     for lane, number in enumerate(numbers):
         ax.axhline(lane, color="0.8", linewidth=0.8, zorder=1)

@@ -18,16 +18,7 @@ from nonsmooth.binding.law_failure import REMEDY, Finding, first_without_value, 
 from nonsmooth.binding.source import described, raised
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
-from nonsmooth.engine.memory.modes import (
-    GAP_UNDECIDED,
-    GAP_UNEXPLAINED,
-    JOINTS_APART,
-    MOTION_UNEXPLAINED,
-    NOT_FINITE,
-    PASSED,
-    QUATERNION_UNEXPLAINED,
-    STEP_TOO_SMALL,
-)
+from nonsmooth.engine.memory.modes import Status
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.interfaces import ImpactMap
 from nonsmooth.interfaces.guard import guard_value
@@ -39,7 +30,14 @@ from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.runs.failed_check import failed_check
 from nonsmooth.runs.squeezed import squeezed_body
 
-_FAILED_CHECKS = (GAP_UNDECIDED, GAP_UNEXPLAINED, JOINTS_APART, MOTION_UNEXPLAINED, PASSED, QUATERNION_UNEXPLAINED)
+_FAILED_CHECKS = (
+    Status.GAP_UNDECIDED,
+    Status.GAP_UNEXPLAINED,
+    Status.JOINTS_APART,
+    Status.MOTION_UNEXPLAINED,
+    Status.PASSED,
+    Status.QUATERNION_UNEXPLAINED,
+)
 """Statuses of runs that failed their own checks."""
 
 
@@ -59,9 +57,9 @@ def _failing_function(model: LaidOut, status: int) -> str:
         return failed_check(model, status)
     if found := squeezed_body(model, status):
         return found
-    found = _immobile(model) or _failing_map(model) if status == NOT_FINITE else ""
+    found = _immobile(model) or _failing_map(model) if status == Status.NOT_FINITE else ""
     found = found or failed_search(model.memory, model.system.contacts) or _failing_block(model)
-    if found or status not in (NOT_FINITE, STEP_TOO_SMALL):
+    if found or status not in (Status.NOT_FINITE, Status.STEP_TOO_SMALL):
         return found
     found = first_without_value(_law_findings(model)) or _failing_guard(model)
     if found:

@@ -12,14 +12,14 @@ from typing import Any, final
 import numpy as np
 
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.modes import CONDITION_MET, DONE, PAUSED, REASONS
+from nonsmooth.engine.memory.modes import REASONS, Status
 from nonsmooth.engine.memory.tables import places
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
 
-_STATUSES = tuple(status for status in REASONS if status != CONDITION_MET)
+_STATUSES = tuple(status for status in REASONS if status != Status.CONDITION_MET)
 _CALL_COUNTERS = places("request.n_work", "request.work_budget", "run.n_calls")
 """Scalars that a call changes even if the engine does nothing."""
 (_N_CALLS,) = places("run.n_calls").tolist()
@@ -65,7 +65,7 @@ class EngineDriver:
             remedy = "Return PAUSED to be called again."
             raise InvalidInput(f"{self._name}: its status", f"must be {names}", status, remedy)
         t, t_end = self._memory[owners.Island.time], self._memory[owners.Request.t_end]
-        if status == DONE and t != t_end:
+        if status == Status.DONE and t != t_end:
             rule = f"must be the end time {t_end:.9g} s if the status is DONE"
             remedy = "Return PAUSED to be called again, or set it to ws.request.t_end."
             raise InvalidInput(f"{self._name}: ws.island.time", rule, t, remedy)
@@ -82,7 +82,7 @@ class EngineDriver:
             If the engine breaks its contract.
         """
         status = self.advance(most_steps, False)
-        if status == PAUSED and self._holds(checkpoint):
+        if status == Status.PAUSED and self._holds(checkpoint):
             raise InvalidInput(
                 self._name,
                 "must do a step if it need not pause before the end and the buffers are empty",

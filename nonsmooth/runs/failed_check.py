@@ -6,15 +6,7 @@ import numpy as np
 
 from nonsmooth.binding.source import described
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.modes import (
-    GAP_UNDECIDED,
-    GAP_UNEXPLAINED,
-    JOINTS_APART,
-    MOTION_UNEXPLAINED,
-    OPEN,
-    PASSED,
-    QUATERNION_UNEXPLAINED,
-)
+from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.model.immobile import inverse_mass
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.system.contact import Contact
@@ -34,22 +26,22 @@ def failed_check(model: LaidOut, status: int) -> str:
     """Sentences about the check that a run failed by a status, or "" for another status."""
     run = owners.Run
     found, allowed, number = (model.memory[one] for one in (run.found, run.allowed, run.failed_number))
-    if status == GAP_UNEXPLAINED:
+    if status == Status.GAP_UNEXPLAINED:
         return _gap(model, number, found, allowed)
-    if status == PASSED:
+    if status == Status.PASSED:
         return _overlap(model, number, found, allowed)
-    if status == GAP_UNDECIDED:
+    if status == Status.GAP_UNDECIDED:
         return (
             f"The {_active_contact(model, number)}: its gap is {found:.3g} m and hardly changes within a step of "
             f"{model.memory[owners.Step.h]:.3g} s. Place the bodies farther apart or in contact, or "
             "take a smaller tolerance: EventDriven(tolerance=...)."
         )
-    if status == JOINTS_APART:
+    if status == Status.JOINTS_APART:
         return f"They are apart by {found:.3g} m or rad; the tolerances allow {allowed:.3g}.{_lightest(model)}"
-    if status not in (MOTION_UNEXPLAINED, QUATERNION_UNEXPLAINED):
+    if status not in (Status.MOTION_UNEXPLAINED, Status.QUATERNION_UNEXPLAINED):
         return ""
     body, name = model.system.bodies[number], model.system.names.bodies[number]
-    if status == MOTION_UNEXPLAINED:
+    if status == Status.MOTION_UNEXPLAINED:
         return (
             f"The body {name!r} would have to move by {found:.3g} in one of its coordinates; the tolerances "
             f"allow {allowed:.3g}. What is closed around it contradicts itself."
@@ -69,7 +61,7 @@ def _gap(model: LaidOut, index: int, found: float, allowed: float) -> str:
     """Sentences about an active contact whose gap [m] the tolerances do not allow."""
     contact = _active_contact(model, index)
     text = f"The {contact}: the gap is {found:.3g} m; the tolerances allow {allowed:.3g} m."
-    if model.memory[owners.Contact.mode][index] != OPEN and (others := _other_closed(model, contact)):
+    if model.memory[owners.Contact.mode][index] != Mode.OPEN and (others := _other_closed(model, contact)):
         return f"{text} It is closed, and {others} hold its bodies otherwise. {_COMPLIANT}"
     return f"{text} It jumps in {described(contact.kinematics.evaluator)}. {_CHECK} {_SHIFT}"
 
@@ -114,7 +106,7 @@ def _other_closed(model: LaidOut, contact: Contact) -> str:
     modes, active = model.memory[owners.Contact.mode][:n], model.memory[owners.Contact.declared][:n]
     free = {id(body) for body in (contact.first, contact.second) if body.n_u > 0}
     pairs = dict[tuple[int, int], str]()
-    for number in active[modes != OPEN].tolist():
+    for number in active[modes != Mode.OPEN].tolist():
         other = model.system.contacts[int(number)]
         bodies = id(other.first), id(other.second)
         if free & {*bodies} and {*bodies} != {id(contact.first), id(contact.second)}:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nonsmooth.engine.memory.modes import OPEN
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.errors import InvalidInput
 from nonsmooth.histories.energies import Energies
 from nonsmooth.solution.events import Events
@@ -65,5 +65,5 @@ def _contacts_within(events: Events, begin: float, end: float) -> tuple[Integers
     last = int(np.searchsorted(events.time, end, side="right"))
     entries = slice(*events.first[[first, max(first, last)]].tolist()) if len(events) else slice(0)
     contacts = events.listed[entries]
-    in_fallback = contacts[events.listed_memory[entries, _MODE_AFTER_FALLBACK] != OPEN]
+    in_fallback = contacts[events.listed_memory[entries, _MODE_AFTER_FALLBACK] != Mode.OPEN]
     return (in_fallback, True) if len(in_fallback) else (contacts, False)

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from typing import final
 
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.modes import CONDITION_MET, DONE, PAUSED, STOPPED
+from nonsmooth.engine.memory.modes import Status
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.checkpoint import Checkpoint
@@ -54,7 +54,9 @@ def run_engine(
         An exception of ``progress`` or ``until``.
     """
     loop = _Loop(engine, model, records, start, progress, sink, until)
-    status, is_interrupted, output_error = PAUSED, False, ""
+    # an engine may have codes of its own
+    status: int = Status.PAUSED
+    is_interrupted, output_error = False, ""
     try:
         status = loop.run()
     except KeyboardInterrupt:
@@ -69,7 +71,7 @@ def run_engine(
     except MemoryError as error:
         # the records that were drained before are still there
         output_error = f"the memory ran out: {error}."
-    if status == DONE:
+    if status == Status.DONE:
         records.check_complete(engine)
     records.add_last_sample()
     return loop.ending(status, is_interrupted, output_error)
@@ -100,13 +102,13 @@ class _Loop:
         memory, progress = self._model.memory, self._progress
         t_end = float(memory[owners.Request.t_end])
         report = None if progress is None else lambda t: progress(t, t_end)
-        status: int = PAUSED
+        status: int = Status.PAUSED
         with self._model.watch.reporting(report) as watch:
             driver = EngineDriver(self._engine, self._model, watch.call)
-            while status == PAUSED:
+            while status == Status.PAUSED:
                 status = self._advance(driver)
-                if status == PAUSED and self._is_condition_met():
-                    status = CONDITION_MET
+                if status == Status.PAUSED and self._is_condition_met():
+                    status = Status.CONDITION_MET
                 if report is not None:
                     report(float(memory[owners.Island.time]))
         return status
@@ -114,7 +116,11 @@ class _Loop:
     def ending(self, status: int, is_interrupted: bool, output_error: str) -> Ending:
         """How the run ended."""
         # these ends do not depend on the end time
-        if status in (STOPPED, CONDITION_MET, *(cause.code for cause in self._engine.causes if not cause.is_failure)):
+        if status in (
+            Status.STOPPED,
+            Status.CONDITION_MET,
+            *(cause.code for cause in self._engine.causes if not cause.is_failure),
+        ):
             self._take_checkpoint()
         n_known_events = self._records.n_events - self._n_events_before
         hint = "" if self._monitor is None else self._monitor.hint(status)
@@ -127,8 +133,8 @@ class _Loop:
         before = None if run is None else run.reached
         # the condition is evaluated at the start, before any step, and after each step
         status = driver.advance(self._sink.steps if run is None else min(self._n_calls - 1, 1), True)
-        is_near_end = status == PAUSED and (run is None or before == run.reached)
-        if is_near_end or (status == PAUSED and self._n_calls % self._sink.steps == 0):
+        is_near_end = status == Status.PAUSED and (run is None or before == run.reached)
+        if is_near_end or (status == Status.PAUSED and self._n_calls % self._sink.steps == 0):
             self._take_checkpoint()
             self._sink.write(self._checkpoint)
         if is_near_end:
@@ -138,7 +144,7 @@ class _Loop:
                 records.drain()
             most_steps = max(_STEPS_NEAR_END, self._checkpoint.size // _BYTES_PER_STEP)
             status = driver.advance_past(self._checkpoint, most_steps if run is None else 1)
-        if status != DONE:
+        if status != Status.DONE:
             self._stall_monitor().observe(status)
         records.drain()
         return status

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.modes import CONDITION_MET, DONE, PAUSED, REASONS, STOPPED, Status
+from nonsmooth.engine.memory.modes import REASONS, Status
 from nonsmooth.interfaces import Cause, Engine
 from nonsmooth.model.block_ends import BlockEnds
 from nonsmooth.model.blocks import block_overrun
@@ -44,7 +44,7 @@ def outcome(model: LaidOut, ends: BlockEnds, ending: Ending, engine: Engine) -> 
     if cause and not overrun:
         message = f"{at} {cause.reason}. {cause.remedy}".strip()
         return Outcome("failed" if cause.is_failure else "done", message)
-    if overrun or status not in (DONE, STOPPED, CONDITION_MET, PAUSED):
+    if overrun or status not in (Status.DONE, Status.STOPPED, Status.CONDITION_MET, Status.PAUSED):
         reason = cause.reason if cause else REASONS[Status(status)]
         details = overrun or failing_function(model, status) or ending.hint
         return Outcome("failed", f"{at} {reason}. {details}".strip())

@@ -22,7 +22,7 @@ from nonsmooth.engine.events.record import (
 )
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.layout import BOOKED
-from nonsmooth.engine.memory.modes import AFTER, BEFORE, DURING, OPEN, SLIDE, START
+from nonsmooth.engine.memory.modes import AFTER, BEFORE, DURING, Cause, Mode
 from nonsmooth.engine.memory.tables import places
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Engine
@@ -108,8 +108,8 @@ class Records:
 
         The engine records none there, because the run has started before.
         """
-        closed = np.flatnonzero(state.modes != OPEN)
-        codes = _ALWAYS * np.where(state.modes[closed] == SLIDE, 5, 1)
+        closed = np.flatnonzero(state.modes != Mode.OPEN)
+        codes = _ALWAYS * np.where(state.modes[closed] == Mode.SLIDE, 5, 1)
         head = np.zeros(EVENT_HEAD)
         head[0] = state.time
         contacts = np.zeros((len(closed), LISTED))
@@ -119,7 +119,7 @@ class Records:
         rest = row_of(state)[1 + len(state.q) + len(state.u) :]
         floats = np.concatenate([head, state.q, state.u, state.u, rest, contacts.ravel()])
         numbers = np.column_stack([closed, codes]).ravel()
-        integers = np.concatenate([[START, -1, 0, 0, len(closed)], numbers]).astype(np.int64)
+        integers = np.concatenate([[Cause.START, -1, 0, 0, len(closed)], numbers]).astype(np.int64)
         self._parts[_START_PART] = floats, integers, np.zeros((0, self._width))
 
     def check_complete(self, engine: Engine) -> None:

@@ -29,12 +29,18 @@ from nonsmooth.engine.memory.blocks import (
     SPIN,
     VELOCITY,
 )
-from nonsmooth.engine.memory.modes import IMPACT_ENDLESS, NO_CONTACT_SOLUTION, NOT_FINITE, STALLED, UPDATE_ENDLESS
+from nonsmooth.engine.memory.modes import Status
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.interfaces import Body, FrictionLaw
 from nonsmooth.model.laid_out import LaidOut
 
-_STATUSES = (IMPACT_ENDLESS, NO_CONTACT_SOLUTION, NOT_FINITE, STALLED, UPDATE_ENDLESS)
+_STATUSES = (
+    Status.IMPACT_ENDLESS,
+    Status.NO_CONTACT_SOLUTION,
+    Status.NOT_FINITE,
+    Status.STALLED,
+    Status.UPDATE_ENDLESS,
+)
 """Statuses that a squeezed body may cause."""
 _CLOSED = 1e4
 """Largest gap of a contact that counts as closed, in gap tolerances. Between two short bounces it is not zero."""

@@ -19,19 +19,7 @@ from nonsmooth.engine.events.record import CODE_HEAD
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.limits import LIMITS, Limit
-from nonsmooth.engine.memory.modes import (
-    CAUSES,
-    DONE,
-    GUARD,
-    IMPACT_ENDLESS,
-    NO_CONTACT_SOLUTION,
-    PAUSED,
-    STALLED,
-    START,
-    STEP_TOO_SMALL,
-    STOPPED,
-    UPDATE_ENDLESS,
-)
+from nonsmooth.engine.memory.modes import CAUSES, Cause, Status
 from nonsmooth.errors import NonsmoothWarning
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
@@ -45,7 +33,7 @@ _N_LAST_EVENTS = 200
 _N_NAMED = 3
 """Largest number of contacts, events or limits that a message names."""
 _REMEDY = "Try a lower restitution, a compliant law or more room between these bodies."
-_STATUSES_AT_AN_INSTANT = (IMPACT_ENDLESS, NO_CONTACT_SOLUTION, UPDATE_ENDLESS)
+_STATUSES_AT_AN_INSTANT = (Status.IMPACT_ENDLESS, Status.NO_CONTACT_SOLUTION, Status.UPDATE_ENDLESS)
 
 _Event = tuple[int, int]
 """Cause, and contact or guard."""
@@ -95,7 +83,7 @@ class StallMonitor:
         if passes:
             self._n_short, self._short_time, self._limits_before = 0, 0.0, limits
             self._last_events.clear()
-        if not passes or status not in (PAUSED, DONE, STOPPED):
+        if not passes or status not in (Status.PAUSED, Status.DONE, Status.STOPPED):
             self._last_events.extend(self._new_events())
             self._n_short, self._short_time = self._n_short + n_steps, self._short_time + t - t_before
         if self._n_short >= _MANY_STEPS and not self._has_warned:
@@ -106,9 +94,9 @@ class StallMonitor:
 
     def hint(self, status: int) -> str:
         """Sentences about where a run failed that ended with a status, or ""."""
-        if status == STALLED:
+        if status == Status.STALLED:
             return f"{self._counted_events()} {_REMEDY}"
-        if status == STEP_TOO_SMALL:
+        if status == Status.STEP_TOO_SMALL:
             return f"{_largest_error(self.model)} {self._counted_events()}".strip()
         return _last_contacts(self.model) if status in _STATUSES_AT_AN_INSTANT else ""
 
@@ -136,11 +124,11 @@ class StallMonitor:
 
     def _counted_events(self) -> str:
         names = self.model.system.names
-        counted = Counter(event for event in self._last_events if event[0] != START)
+        counted = Counter(event for event in self._last_events if event[0] != Cause.START)
         if not counted:
             return ""
         named = [
-            f"{CAUSES[cause]} of {(names.guards if cause == GUARD else names.contacts)[i]!r} ({n})"
+            f"{CAUSES[cause]} of {(names.guards if cause == Cause.GUARD else names.contacts)[i]!r} ({n})"
             for (cause, i), n in counted.most_common(_N_NAMED)
         ]
         return f"The last {counted.total()} events are: {_enumeration(named, len(counted))}."

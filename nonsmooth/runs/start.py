@@ -11,7 +11,7 @@ import numpy as np
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
-from nonsmooth.engine.memory.modes import OPEN
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.errors import InvalidInput
 from nonsmooth.model.candidates import check_candidates
 from nonsmooth.model.checkpoint import Checkpoint
@@ -87,9 +87,9 @@ def _check_features(model: LaidOut, blank: Checkpoint, state: State) -> None:
     InvalidInput
         If the search finds other features.
     """
-    _write(model, blank, state, np.full(len(state.modes), OPEN))
+    _write(model, blank, state, np.full(len(state.modes), Mode.OPEN))
     places = model.memory.declared(owners.Contact.features)
-    for number in np.flatnonzero((places > 0) & (state.modes != OPEN)).tolist():
+    for number in np.flatnonzero((places > 0) & (state.modes != Mode.OPEN)).tolist():
         if not np.array_equal(model.memory.floats[places[number] :][:CANDIDATE], state.features[number]):
             raise InvalidInput(
                 f"State.features[{number}], of the closed {model.system.contacts[number]},",

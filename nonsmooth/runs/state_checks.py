@@ -10,7 +10,7 @@ import numpy as np
 from nonsmooth.checks import is_finite
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import CANDIDATE
-from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.model.laid_out import LaidOut
@@ -52,7 +52,7 @@ def check_arrays(model: LaidOut, state: State) -> None:
             raise InvalidInput(f"State.{name}", rule, f"an array of {value.dtype}", _REMEDY)
         if value.shape != shape:
             raise InvalidInput(f"State.{name}", f"must have the shape {shape} of this model", value.shape, _REMEDY)
-    if not {*state.modes.tolist()} <= {OPEN, STICK, SLIDE}:
+    if not {*state.modes.tolist()} <= {Mode.OPEN, Mode.STICK, Mode.SLIDE}:
         raise InvalidInput("State.modes", "must be 0 (open), 1 (stick) or 2 (slide)", state.modes.tolist(), _REMEDY)
     if not {*state.guards_spent.tolist()} <= {0, 1}:
         raise InvalidInput("State.guards_spent", "must be 0 or 1", state.guards_spent.tolist(), _REMEDY)

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from nonsmooth.engine.memory.modes import AFTER, BEFORE, CODE, DURING, START, word
+from nonsmooth.engine.memory.modes import AFTER, BEFORE, CODE, DURING, Cause, word
 from nonsmooth.solution.events import Events
 
 Mode: TypeAlias = tuple[tuple[int, int], ...]
@@ -99,7 +99,7 @@ def transition_graph(events: Events, contacts: tuple[str, ...], t_end: float) ->
         before, during, after = (_mode(events, k, shift) for shift in (BEFORE, DURING, AFTER))
         duration = times[k + 1] - times[k]
         shares[after] = shares.get(after, 0.0) + (duration / total if total > 0.0 else 0.0)
-        if code == START:
+        if code == Cause.START:
             start = after
         elif during in (before, after):
             counts[before, after, cause] += 1

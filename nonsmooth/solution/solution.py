@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from nonsmooth.engine.memory.modes import GUARD, IMPACT, JAM, PAINLEVE
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.histories.cones import beyond_cones
 from nonsmooth.interfaces import Body
 from nonsmooth.model.part_pairs import unchecked_contacts
@@ -228,7 +228,7 @@ class Solution:
         total = float(durations.sum())
         for word, duration in zip(self.events.words("after"), durations, strict=True):
             shares[word] = shares.get(word, 0.0) + (float(duration) / total if total > 0.0 else 0.0)
-        impacts = np.isin(self.events.cause, (IMPACT, PAINLEVE, JAM))
+        impacts = np.isin(self.events.cause, (Cause.IMPACT, Cause.PAINLEVE, Cause.JAM))
         for word in words(self.events.during[impacts]):
             shares.setdefault(word, 0.0)
         return dict(sorted(shares.items(), key=lambda item: -item[1]))
@@ -243,7 +243,7 @@ class Solution:
         """Return the name of the contact, or of the guard, that caused each event; "" at the start."""
         names = self.system.names
         pairs = zip(self.events.cause.tolist(), self.events.contact.tolist(), strict=True)
-        return ["" if i < 0 else (names.guards if cause == GUARD else names.contacts)[i] for cause, i in pairs]
+        return ["" if i < 0 else (names.guards if cause == Cause.GUARD else names.contacts)[i] for cause, i in pairs]
 
     def transition_graph(self) -> TransitionGraph:
         """Return the modes visited, their shares of the time, and how often which cause led from one to another."""

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.checks import check_kind, floats, is_finite
 from nonsmooth.engine.memory.blocks import CANDIDATE
-from nonsmooth.engine.memory.modes import OPEN
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import StatefulFrictionLaw, TractionLaw
 from nonsmooth.solution.energy import EnergyAccount
@@ -129,7 +129,7 @@ class State:
             time,
             placed[0] if q is None else floats("State.at: q", q),
             placed[1] if u is None else floats("State.at: u", u),
-            np.full(n, OPEN),
+            np.full(n, Mode.OPEN),
             np.tile([1.0, 0.0], (n, 1)),
             np.zeros(n),
             np.zeros((n, CANDIDATE)),

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, final
 
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.modes import PAUSED, REASONS, STOPPED
+from nonsmooth.engine.memory.modes import REASONS, Status
 from nonsmooth.interfaces import Cause, Engine, Measure
 from nonsmooth.solution.solution import Solution
 
@@ -78,11 +78,11 @@ class Budgeted(Engine):
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
         """Go on as far as the budget reaches."""
         left = self.steps - int(memory[owners.Totals.n_steps])
-        status = self.engine.advance(call, memory, min(most_steps, left), wary) if left > 0 else PAUSED
-        spent = status == PAUSED and int(memory[owners.Totals.n_steps]) >= self.steps
-        return STOPPED if spent else status
+        status = self.engine.advance(call, memory, min(most_steps, left), wary) if left > 0 else Status.PAUSED
+        spent = status == Status.PAUSED and int(memory[owners.Totals.n_steps]) >= self.steps
+        return Status.STOPPED if spent else status
 
     def spent(self, solution: Solution) -> bool:
         """Tell whether a run ended because of it."""
-        stopped = solution.message == REASONS[STOPPED]
+        stopped = solution.message == REASONS[Status.STOPPED]
         return stopped and solution.counters.steps >= self.steps

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bodies import Ball, Plate, Rest
 from laws import EnergeticImpact, Frictionless, Unilateral
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
@@ -98,7 +98,7 @@ class BeadColumn(Scenario):
     def rebound(self, solution: Solution) -> Floats:
         """Return the beads' velocities after the first impact [m/s], shape [n_beads]; zeros if there was none."""
         events = solution.events
-        first = np.flatnonzero(events.cause == IMPACT)[:1]
+        first = np.flatnonzero(events.cause == Cause.IMPACT)[:1]
         velocities: Floats = events.u_after[first].reshape(-1, 6)[:, 2]
         return velocities if len(first) > 0 else np.zeros(int(self.n_beads))
 
@@ -122,7 +122,7 @@ class BeadColumn(Scenario):
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
         """Return the time of the first impact, and what its energy or the rebound of one bead must be."""
-        times = solution.events.time[solution.events.cause == IMPACT]
+        times = solution.events.time[solution.events.cause == Cause.IMPACT]
         fall = self.fall_speed / _GRAVITY
         first = float(times[0]) if len(times) else None
         found = [Criterion.near("time of the first impact [s]", first, fall, 1e-9, "free fall, sqrt(2 h / g)")]

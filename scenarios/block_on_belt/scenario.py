@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bodies import ConstantVelocity, PlanarBody, Plate, Point, Rest, Spring
 from laws import EnergeticImpact, Stribeck, Unilateral
-from nonsmooth.engine.memory.modes import SLIP_TO_STICK, STICK_TO_SLIP
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress, simulate
@@ -99,13 +99,13 @@ class BlockOnBelt(Scenario):
     def breakaways(self, solution: Solution) -> Floats:
         """Return the times at which slip starts [s]."""
         events = solution.events
-        times: Floats = events.time[events.cause == STICK_TO_SLIP]
+        times: Floats = events.time[events.cause == Cause.STICK_TO_SLIP]
         return times
 
     def catches(self, solution: Solution) -> Floats:
         """Return the times at which the belt catches the block [s]."""
         events = solution.events
-        times: Floats = events.time[events.cause == SLIP_TO_STICK]
+        times: Floats = events.time[events.cause == Cause.SLIP_TO_STICK]
         return times
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
@@ -124,7 +124,7 @@ class BlockOnBelt(Scenario):
         period = float(starts[-1] - starts[-2]) if len(starts) >= 2 else None
         stick = float((starts[-1] - last[0]) / period) if period and len(last) else None
         return {
-            "breakaway": events.q[events.cause == STICK_TO_SLIP, 0].tolist(),
+            "breakaway": events.q[events.cause == Cause.STICK_TO_SLIP, 0].tolist(),
             "period": period,
             "stick_share": stick,
             "smallest_q": float(solution.q[:, 0].min()),
@@ -137,7 +137,7 @@ class BlockOnBelt(Scenario):
         source = "Leine et al. (1998): it sticks until the spring and damper pull with F_s"
         place = (self.static_force - self.damping * self.belt_speed) / self.stiffness
         events = solution.events
-        places, found = events.q[events.cause == STICK_TO_SLIP, 0], []
+        places, found = events.q[events.cause == Cause.STICK_TO_SLIP, 0], []
         for name, value in (("first", places[:1]), ("last", places[-1:])):
             at = float(value[0]) if len(value) else None
             found.append(

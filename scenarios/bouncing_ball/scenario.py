@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bodies import Ball, Harmonic, Plate
 from laws import EnergeticImpact, Frictionless, Unilateral
-from nonsmooth.engine.memory.modes import CLOSING, IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
@@ -144,7 +144,7 @@ class BouncingBall(Scenario):
 
     def impact_times(self, solution: Solution) -> Floats:
         """Return the times of all impacts [s]."""
-        times: Floats = solution.events.time[solution.events.cause == IMPACT]
+        times: Floats = solution.events.time[solution.events.cause == Cause.IMPACT]
         return times
 
     def flights(self, solution: Solution) -> Floats:
@@ -177,7 +177,7 @@ class BouncingBall(Scenario):
         came to rest on the table.
         """
         flights = self.flights(solution)
-        closings = solution.events.time[solution.events.cause == CLOSING]
+        closings = solution.events.time[solution.events.cause == Cause.CLOSING]
         resting = sum(share for word, share in solution.modes.items() if word == "{1,0,0}")
         return {
             "impacts": solution.counters.impacts,
@@ -209,7 +209,7 @@ class BouncingBall(Scenario):
         if self.gamma > 0.0 or e == 1.0 or (1.0 + e) / (1.0 - e) * fall >= self.t_end:
             return ()
         rest = (1.0 + e) / (1.0 - e) * fall
-        closings = solution.events.time[solution.events.cause == CLOSING]
+        closings = solution.events.time[solution.events.cause == Cause.CLOSING]
         found = float(closings[0]) if len(closings) else math.nan
         # the bounces that the contact time cuts off
         cut = 2.1 * self.contact_time / (1.0 - e) + 1e-9

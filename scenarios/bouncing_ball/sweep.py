@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.simulate import Progress, simulate
 from scenarios.bouncing_ball.scenario import BouncingBall
 
@@ -54,6 +54,6 @@ def sweep(
         kept = times[:-1] >= settle * one.period
         found.append(np.column_stack([np.full(kept.sum(), gamma), phases[:-1][kept], flights[kept]]))
         if len(times) > 0:
-            last = run.events.u_after[run.events.cause == IMPACT][-1]
+            last = run.events.u_after[run.events.cause == Cause.IMPACT][-1]
             start = {"start_phase": 2.0 * math.pi * float(phases[-1]), "speed": float(last[2])}
     return Points(*np.vstack(found).T)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bodies import Ball, Compound, Harmonic, Part, Plate
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
@@ -184,7 +184,7 @@ class BouncingTrimer(Scenario):
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
         """Return how well the first impact is hit, and by how much an impulse leaves the cone of friction."""
         events = solution.events
-        impacts = np.flatnonzero(events.cause == IMPACT)
+        impacts = np.flatnonzero(events.cause == Cause.IMPACT)
         gap = math.nan
         if len(impacts) > 0:
             t = float(events.time[impacts[0]])

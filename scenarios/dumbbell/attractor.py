@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.solution.events import Events
 
 Floats = NDArray[np.float64]
@@ -134,7 +134,7 @@ class _Impacts:
         events = motion.events
         begin, end = motion.t[0], motion.t[-1]
         inside = (events.time > begin) & (events.time <= end)
-        during = events.during[inside & (events.cause == IMPACT)]
+        during = events.during[inside & (events.cause == Cause.IMPACT)]
         struck = (during & 2) > 0
         struck = struck[struck.any(axis=1)]
         touching = (during & 1) > 0

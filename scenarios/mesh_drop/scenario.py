@@ -14,7 +14,7 @@ from bodies import MeshBody, MeshFile, Plate
 from bodies.meshes.surface import Surface
 from bodies.meshes.units import METRES
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.placing.starts import at_height
@@ -177,7 +177,7 @@ class MeshDrop(Scenario):
         }
 
     def _first_impact(self, solution: Solution) -> float | None:
-        times = solution.events.time[solution.events.cause == IMPACT]
+        times = solution.events.time[solution.events.cause == Cause.IMPACT]
         return float(times[0]) if len(times) else None
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:

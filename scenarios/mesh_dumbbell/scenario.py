@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bodies import Dumbbell, RigidBody, TriangleMesh
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import UnusualValue, parameter, rules
@@ -111,7 +111,7 @@ class MeshDumbbell(Scenario):
 
     def delays(self, solution: Solution, beside: Solution) -> list[float]:
         """Return by how much later the first impacts come than those of the dumbbell with balls [s]."""
-        own, other = (one.events.time[one.events.cause == IMPACT][:_COMPARED] for one in (solution, beside))
+        own, other = (one.events.time[one.events.cause == Cause.IMPACT][:_COMPARED] for one in (solution, beside))
         n = min(len(own), len(other))
         return [float(x) for x in own[:n] - other[:n]]
 

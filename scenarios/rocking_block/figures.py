@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from scenarios.rocking_block import housner
@@ -51,7 +51,7 @@ def measured_ratio(scenario: RockingBlock, progress: Progress | None) -> float:
     """Return the angular velocity after the first impact over that before it; nan if there was none."""
     solution = simulate(scenario.build(), scenario.t_end, progress=progress)
     events = solution.events
-    first = np.flatnonzero(events.cause == IMPACT)[:1]
+    first = np.flatnonzero(events.cause == Cause.IMPACT)[:1]
     ratio = events.u_after[first, 2] / events.u_before[first, 2]
     return float(ratio[0]) if len(first) > 0 else float("nan")
 
@@ -95,7 +95,7 @@ def rocking(scenario: RockingBlock, solution: Solution) -> Figure:
     tilt = scenario.coordinates(solution)["tilt"]
     axis.plot(solution.t, tilt / alpha, color="black", linewidth=1.2, label="tilt")
     events = solution.events
-    landings = np.append(0.0, events.time[events.cause == IMPACT])
+    landings = np.append(0.0, events.time[events.cause == Cause.IMPACT])
     peaks = housner.amplitudes(alpha, scenario.tilt, len(landings)) / alpha
     ends = np.append(landings[1:], solution.t_end)
     for i, (start, end, peak) in enumerate(zip(landings, ends, peaks, strict=True)):

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bodies import PlanarBody, Plate, Point, Rest
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress, simulate
@@ -101,7 +101,7 @@ class RockingBlock(Scenario):
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
         """Return time, contacts and velocities of the first impact, and what is lost in all."""
         events = solution.events
-        first = np.flatnonzero(events.cause == IMPACT)[:1]
+        first = np.flatnonzero(events.cause == Cause.IMPACT)[:1]
         return {
             "first_impact": {
                 "time": events.time[first].tolist(),

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bodies import BoxBody, Plate, Rest
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.placing.starts import touching
@@ -109,7 +109,7 @@ class RockingBlock3D(Scenario):
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
         """Return the times of the first impacts, their modes, and what is lost in all."""
         events = solution.events
-        impacts = np.flatnonzero(events.cause == IMPACT)
+        impacts = np.flatnonzero(events.cause == Cause.IMPACT)
         words = events.words("during")
         return {
             "first_impacts": [{"time": float(events.time[i]), "mode": words[i]} for i in impacts[:5]],

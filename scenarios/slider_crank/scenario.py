@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bodies import Coordinate, GeneralisedBody, Plate, Point, Rest, TurningFrame
 from laws import Coulomb, EnergeticImpact, NewtonImpact, Unilateral
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress, simulate
@@ -111,7 +111,7 @@ class SliderCrank(Scenario):
 
     def first_impact(self, solution: Solution) -> float:
         """Return the time of the first impact [s]; nan without one."""
-        times = solution.events.time[solution.events.cause == IMPACT]
+        times = solution.events.time[solution.events.cause == Cause.IMPACT]
         return float(times[0]) if len(times) > 0 else math.nan
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
@@ -135,7 +135,7 @@ class SliderCrank(Scenario):
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
         """Return how many corners the first impact hits, and what Newton's law makes of it."""
         events = solution.events
-        first = np.flatnonzero(events.cause == IMPACT)[:1]
+        first = np.flatnonzero(events.cause == Cause.IMPACT)[:1]
         hit, ratio, turning = (math.nan,) * 3
         for i in first:
             hit = float(np.sum(events.impulse[i, :, 0] > 0.0))

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.memory.modes import JAM, LIFT_OFF, PAINLEVE, SLIP_TO_STICK
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from scenarios.sliding_rod.scenario import SlidingRod
@@ -25,10 +25,10 @@ Floats = NDArray[np.float64]
 ANGLES, COEFFICIENTS = 17, 11
 """Numbers of angles and friction coefficients of the gallery."""
 _MARKS: dict[int, tuple[str, str, str]] = {
-    PAINLEVE: ("o", "tab:red", "impact without collision"),
-    JAM: ("s", "tab:red", "jamming of the slip"),
-    LIFT_OFF: ("^", "tab:blue", "lift-off"),
-    SLIP_TO_STICK: ("D", "tab:green", "slip to stick"),
+    Cause.PAINLEVE: ("o", "tab:red", "impact without collision"),
+    Cause.JAM: ("s", "tab:red", "jamming of the slip"),
+    Cause.LIFT_OFF: ("^", "tab:blue", "lift-off"),
+    Cause.SLIP_TO_STICK: ("D", "tab:green", "slip to stick"),
 }
 _CASES: tuple[tuple[str, dict[str, float]], ...] = (
     ("lift-off", {"friction": 1.2, "tilt": 1.0, "rate": 8.0, "speed": 5.0, "t_end": 0.08}),
@@ -163,7 +163,7 @@ def _paradox(owner: type[SlidingRod], progress: Progress | None) -> Figure:
     outcome: list[bool] = []
     for i, scenario in enumerate(runs):
         events = simulate(scenario.build(), scenario.t_end, sample_interval=scenario.t_end).events
-        outcome.append(events.count(PAINLEVE) > 0)
+        outcome.append(events.count(Cause.PAINLEVE) > 0)
         if progress is not None:
             progress((i + 1) * base.t_end, len(runs) * base.t_end)
     struck = np.array(outcome)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bodies import Plate, Rest, RigidBody, Sphere
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth.engine.memory.modes import JAM, LIFT_OFF, PAINLEVE
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
@@ -141,9 +141,9 @@ class SlidingRod(Scenario):
 
         return {
             "critical_friction": self.rod.critical_friction(self.tilt),
-            "impact_without_collision": first(PAINLEVE),
-            "jam": first(JAM),
-            "lift_off": first(LIFT_OFF),
+            "impact_without_collision": first(Cause.PAINLEVE),
+            "jam": first(Cause.JAM),
+            "lift_off": first(Cause.LIFT_OFF),
             "events": events.causes(),
         }
 
@@ -154,7 +154,7 @@ class SlidingRod(Scenario):
         events, rod = solution.events, self.rod
         paradox = self.friction > rod.critical_friction(self.tilt)
         # the first event is the start itself, unless it is an impact
-        struck = float(len(events.cause) > 0 and events.cause[0] == PAINLEVE)
+        struck = float(len(events.cause) > 0 and events.cause[0] == Cause.PAINLEVE)
         source = "Genot and Brogliato (1999): no force where mu > (1 + a + tan^2 phi) / (a tan phi), a = m s^2 / J"
         found = [Criterion.near("impacts without collision at the start", struck, float(paradox), 0.0, source)]
         if paradox and struck and self.restitution == 0.0:

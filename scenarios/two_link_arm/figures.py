@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nonsmooth.engine.memory.modes import PAINLEVE
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.solution.solution import Solution
 from scenarios.two_link_arm import painleve
 from scenarios.two_link_arm.scenario import TwoLinkArm
@@ -66,7 +66,7 @@ def gaps(runs: Mapping[str, Sequence[tuple[TwoLinkArm, Solution]]], title: str) 
             axis.plot(
                 solution.t, 1e3 * scenario.gap(solution), color=colour, linestyle=line, linewidth=1.2, label=label
             )
-            times = solution.events.time[solution.events.cause == PAINLEVE]
+            times = solution.events.time[solution.events.cause == Cause.PAINLEVE]
             axis.plot(times, np.zeros(len(times)), "x", color=colour, markersize=8, clip_on=False, zorder=3)
         axis.set_title(name, fontsize=9, loc="right")
         axis.set_ylabel("gap [mm]")

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bodies import ConstantVelocity, Coordinate, DrivenBody, GeneralisedBody, Plane, Point, PointFrame
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth.engine.memory.modes import IMPACT, PAINLEVE
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
@@ -140,8 +140,8 @@ class TwoLinkArm(Scenario):
         """Return the reduced coefficient at the start, what happened how often, and how far the tip came off."""
         return {
             "reduced_coefficient": self.reduced_coefficient,
-            "impacts_without_collision": solution.events.count(PAINLEVE),
-            "impacts": solution.events.count(IMPACT),
+            "impacts_without_collision": solution.events.count(Cause.PAINLEVE),
+            "impacts": solution.events.count(Cause.IMPACT),
             "largest_gap": float(np.max(self.gap(solution))),
         }
 
@@ -158,7 +158,7 @@ class TwoLinkArm(Scenario):
                 found.append(Criterion.near(name, self.reduced_coefficient, -0.0167, 5e-5, source))
         if self.belt_speed > 0.0:
             events = solution.events
-            struck = float(len(events.cause) > 0 and events.cause[0] == PAINLEVE)
+            struck = float(len(events.cause) > 0 and events.cause[0] == Cause.PAINLEVE)
             source = "no force exists where G_nn - mu G_nt < 0"
             paradox = self.reduced_coefficient < 0.0
             found.append(Criterion.near("impacts without collision at the start", struck, float(paradox), 0.0, source))

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from bodies import Coordinate, GeneralisedBody, Plate, Point, PointFrame, Rest
 from laws import Coulomb, EnergeticImpact, NewtonImpact, Unilateral
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress, simulate
@@ -123,7 +123,7 @@ class Woodpecker(Scenario):
     def pecks(self, solution: Solution) -> tuple[Floats, Floats]:
         """Return times [s] and heights y [m] at which the beak hits the pole."""
         events = solution.events
-        hits = (events.cause == IMPACT) & (events.impulse[:, _BEAK, 0] > 0.0)
+        hits = (events.cause == Cause.IMPACT) & (events.impulse[:, _BEAK, 0] > 0.0)
         return events.time[hits], events.q[hits, 0]
 
     def cycle(self, solution: Solution) -> tuple[float, float]:

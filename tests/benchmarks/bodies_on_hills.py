@@ -19,7 +19,7 @@ import numpy as np
 import nonsmooth as ns
 from bodies import Ball, BoxBody, DrivenBody, MeshBody, TriangleMesh, Triangles
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.engine.native.kernel import entry_addresses
 from nonsmooth.interfaces import Body
 from tests.bodies.meshes.parts import hills, torus
@@ -80,7 +80,7 @@ def main() -> None:
     print("| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
     print(
         f"| {4 * given.edges**2 + 8 * given.edges} | {len(system.contacts)} | {made - start:.0f} s | {run:.0f} s "
-        f"| {solution.counters.steps} | {int((solution.events.cause == IMPACT).sum())} "
+        f"| {solution.counters.steps} | {int((solution.events.cause == Cause.IMPACT).sum())} "
         f"| {solution.t_end:.3f} s: {solution.message} | {solution.energy.residual:.0e} | {memory:.2f} GB |"
     )
 

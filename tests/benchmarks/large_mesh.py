@@ -18,7 +18,7 @@ import warnings
 import nonsmooth as ns
 from bodies import Ball, DrivenBody, EllipsoidBody, TriangleMesh, Triangles
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.engine.native.kernel import entry_addresses
 from tests.bodies.meshes.parts import hills
 
@@ -44,7 +44,7 @@ def main(sides: list[int], radius: float, ellipsoid: bool, t_end: float) -> None
         paired = time.perf_counter()
         solution = ns.simulate(system, t_end)
         run = time.perf_counter() - paired
-        impacts = int((solution.events.cause == IMPACT).sum())
+        impacts = int((solution.events.cause == Cause.IMPACT).sum())
         size, memory = 4 * n * n + 8 * n, _memory() - before
         said = re.findall(rf" {size} .*some (.*) of memory.* and (.*), longer", told.getvalue())
         print(

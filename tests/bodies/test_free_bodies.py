@@ -33,7 +33,7 @@ from bodies import (
     Sphere,
 )
 from bodies.inertia import tensor_of
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Shape
 
 TURNED = (math.cos(0.4), 0.6 * math.sin(0.4), 0.0, 0.8 * math.sin(0.4))
@@ -372,5 +372,5 @@ def test_every_body_falls_on_a_plate(build: Any, body: FreeBody) -> None:
     system = build.over(body, Harmonic(amplitude=5e-4, frequency=20.0), friction=0.3, restitution=0.6)
     ns.at_height(system, body, 0.01, orientation=TURNED, velocity=(0.2, 0.1, 0.0), angular_velocity=(3.0, 5.0, 1.0))
     solution = ns.simulate(system, 0.25)
-    assert np.count_nonzero(solution.events.cause == IMPACT) >= 2
+    assert np.count_nonzero(solution.events.cause == Cause.IMPACT) >= 2
     assert solution.energy.residual <= 1e-8

@@ -25,7 +25,7 @@ from bodies import (
     Table,
 )
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Motion
@@ -271,7 +271,7 @@ def test_a_driven_body_carries_any_shapes(build: Any) -> None:
     system.contact(wall, ball, **build.laws(restitution=0.5, friction=0.0))
     system.place(ball, position=(0.11, 0.0, 0.0), velocity=(-0.3, 0.0, 0.0))
     solution = ns.simulate(system, 0.4)
-    impacts = solution.events.time[solution.events.cause == IMPACT]
+    impacts = solution.events.time[solution.events.cause == Cause.IMPACT]
     assert impacts == pytest.approx([0.2], abs=1e-12)
     assert solution.u_end[0] == pytest.approx(0.2 + 0.5 * 0.5, abs=1e-9)
 

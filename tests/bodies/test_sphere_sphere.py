@@ -12,7 +12,7 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 
 RADIUS = 0.01
 
@@ -38,7 +38,7 @@ def test_head_on(restitution: float) -> None:
     system = _balls([(0, 0, 0), (0.05, 0, 0)], [(0.3, 0, 0), (0, 0, 0)], restitution=restitution)
     solution = ns.simulate(system, 0.3)
     np.testing.assert_allclose(_speeds(solution), [0.15 * (1 - restitution), 0.15 * (1 + restitution)], atol=1e-12)
-    assert solution.events.time[solution.events.cause == IMPACT][0] == pytest.approx(0.1, abs=1e-12)
+    assert solution.events.time[solution.events.cause == Cause.IMPACT][0] == pytest.approx(0.1, abs=1e-12)
 
 
 @pytest.mark.parametrize("exponent", [1.0, 1.5])

@@ -36,7 +36,7 @@ from bodies.contacts.surface import patch_near, surface_pairs
 from nonsmooth.binding.call import candidate_caller, pair_caller
 from nonsmooth.binding.compile import parameter_names
 from nonsmooth.engine.memory.blocks import CANDIDATE, FRAME, GEOMETRY
-from nonsmooth.engine.memory.modes import FEATURE_CHANGE, FEATURE_END, IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import Body, ConvexShape, Shape
 from nonsmooth.queries.exact import Contacts
@@ -163,8 +163,8 @@ def test_a_run_is_that_of_all_features(kind: str, seed: int, build: Any, monkeyp
         runs.append(ns.simulate(system, 0.4))
     one, two = runs
     assert one.status == two.status == "done"
-    assert np.sum(one.events.cause == IMPACT) >= 2
-    told = [~np.isin(run.events.cause, [FEATURE_END, FEATURE_CHANGE]) for run in runs]
+    assert np.sum(one.events.cause == Cause.IMPACT) >= 2
+    told = [~np.isin(run.events.cause, [Cause.FEATURE_END, Cause.FEATURE_CHANGE]) for run in runs]
     causes, times = (
         [getattr(run.events, name)[own] for run, own in zip(runs, told, strict=True)] for name in ("cause", "time")
     )

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from laws import Coulomb, Unilateral
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory, allocate
-from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import call_entry, entry_addresses
 from nonsmooth.model.delassus import write_delassus
@@ -35,7 +35,7 @@ def _memory(delassus: Any, bias: Any, mu: Any, static: Any, slip: Any) -> Memory
     memory[owners.ActiveContact.is_at_rest][:n] = rest
     for owner in (owners.ActiveContact, owners.Contact):
         memory[owner.direction][:n] = np.where(rest[:, None], [1.0, 0.0], slip)
-    memory[owners.ActiveContact.mode_tried][:n] = np.where(rest, STICK, SLIDE)
+    memory[owners.ActiveContact.mode_tried][:n] = np.where(rest, Mode.STICK, Mode.SLIDE)
     return memory
 
 
@@ -60,14 +60,14 @@ def _assert_lawful(delassus: Any, bias: Any, forces: Any, modes: Any, mu: Any, s
         assert Unilateral().is_fulfilled(acceleration[i, 0], normal, small)
         law = Coulomb(float(mu[i]), float(static[i]))
         if np.any(slip[i] != 0.0):
-            assert modes[i] != STICK
+            assert modes[i] != Mode.STICK
             assert law.is_fulfilled(tuple(slip[i]), normal, tuple(pull), small)
-        elif modes[i] == STICK:
+        elif modes[i] == Mode.STICK:
             np.testing.assert_allclose(push, 0.0, rtol=0, atol=small)
             assert np.hypot(*pull) <= static[i] * normal + small
-        elif modes[i] == SLIDE and np.hypot(*push) > 1e-6 * size:
+        elif modes[i] == Mode.SLIDE and np.hypot(*push) > 1e-6 * size:
             np.testing.assert_allclose(pull, -mu[i] * normal * push / np.hypot(*push), rtol=0, atol=1e-6 * size)
-        elif modes[i] == OPEN:
+        elif modes[i] == Mode.OPEN:
             assert normal == 0.0
 
 
@@ -150,7 +150,7 @@ def test_breakaway_of_one_contact(side: float, static: float) -> None:
     bias = np.array([[-1.0, 0.6 * pull, 0.8 * pull]])
     found, forces, modes = _solve(_memory(np.eye(3), bias, [mu], [static], np.zeros((1, 2))), 1)
     assert found
-    assert modes[0] == (STICK if side < 0.0 else SLIDE)
+    assert modes[0] == (Mode.STICK if side < 0.0 else Mode.SLIDE)
     size = pull if side < 0.0 else mu
     np.testing.assert_allclose(forces[0], (1.0, -0.6 * size, -0.8 * size), rtol=0, atol=1e-12)
 
@@ -164,7 +164,7 @@ def test_breakaway_where_normal_and_tangent_are_coupled(side: float) -> None:
     mu, static = 0.2, 0.300600 + side * 1e-3
     found, forces, modes = _solve(_memory(delassus, bias, [mu], [static], np.zeros((1, 2))), 1)
     assert found
-    assert modes[0] == (SLIDE if side < 0.0 else STICK)
+    assert modes[0] == (Mode.SLIDE if side < 0.0 else Mode.STICK)
     acceleration = delassus @ forces[0] + bias[0]
     assert abs(acceleration[0]) <= 1e-12
     friction = forces[0, 1:]
@@ -183,7 +183,7 @@ def test_lift_off_of_one_contact(side: float) -> None:
     bias = np.array([[side, 0.4, -0.2]])
     found, forces, modes = _solve(_memory(np.eye(3), bias, [0.3], [0.3], np.zeros((1, 2))), 1)
     assert found
-    assert (modes[0] == OPEN) == (side > 0.0)
+    assert (modes[0] == Mode.OPEN) == (side > 0.0)
     assert forces[0, 0] == pytest.approx(max(0.0, -side), abs=1e-15)
 
 
@@ -202,7 +202,7 @@ def test_painleve_without_solution(side: float) -> None:
         assert forces[0, 0] == pytest.approx(1.0 / (1.0 - 2.0 * mu), rel=1e-8)
 
 
-@pytest.mark.parametrize("past", [SLIDE, OPEN])
+@pytest.mark.parametrize("past", [Mode.SLIDE, Mode.OPEN])
 def test_painleve_with_two_solutions_takes_the_stable_one(past: int) -> None:
     """Pulled apart with a negative coefficient both contact and flight are solutions, but sliding is unstable.
 
@@ -212,7 +212,7 @@ def test_painleve_with_two_solutions_takes_the_stable_one(past: int) -> None:
     memory[owners.ActiveContact.mode_tried][0] = past
     found, forces, modes = _solve(memory, 1)
     assert found
-    assert modes[0] == OPEN
+    assert modes[0] == Mode.OPEN
     assert forces[0, 0] == pytest.approx(0.0, abs=1e-12)
 
 
@@ -226,7 +226,7 @@ def test_directions_are_found_beside_contacts_with_next_to_no_force(decades: int
         normal = np.append(1.0, 10.0 ** random.uniform(-decades, 0.0, n - 1))
         memory = lay_out(problem, 0)
         memory[owners.ActiveContact.has_given_force][:n] = 1
-        memory[owners.ActiveContact.mode_tried][:n] = SLIDE
+        memory[owners.ActiveContact.mode_tried][:n] = Mode.SLIDE
         forces = memory[owners.ActiveContact.force][:n]
         forces[:, 0] = normal
         slip = (problem.delassus @ forces.ravel() + problem.bias).reshape(n, 3)[:, 1:]

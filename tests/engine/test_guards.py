@@ -10,7 +10,7 @@ import pytest
 
 import nonsmooth as ns
 from bodies import Ball, BoxBody, Dumbbell, Harmonic, Plate, Rest
-from nonsmooth.engine.memory.modes import IMPACT, word
+from nonsmooth.engine.memory.modes import Cause, word
 
 G = 9.81
 
@@ -75,7 +75,7 @@ def test_a_zero_at_the_end_fires(build: Any) -> None:
     for t_end, count in ((fall + 1e-9, 1), (fall - 1e-9, 0)):
         system = build.over(ball, friction=0.0)
         system.place(ball, position=(0, 0, 0.06))
-        assert ns.simulate(system, t_end).events.count(IMPACT) == count
+        assert ns.simulate(system, t_end).events.count(Cause.IMPACT) == count
 
 
 def test_starting_in_an_impact(build: Any) -> None:
@@ -99,7 +99,7 @@ def test_simultaneous_impacts_are_one_event(build: Any) -> None:
         system.place(first, position=(0, 0, 0.06))
         system.place(second, position=(1, 0, 0.07 + apart))
         solution = ns.simulate(system, 0.12)
-        impacts = np.flatnonzero(solution.events.cause == IMPACT)
+        impacts = np.flatnonzero(solution.events.cause == Cause.IMPACT)
         assert [solution.events.words("during")[i] for i in impacts] == words
 
 
@@ -152,5 +152,5 @@ def test_tilted_ball_falls_like_a_pendulum_until_it_hits(build: Any) -> None:
         return 2.0 * tilt * s / rate
 
     expected = quad(slowness, 1e-9, 1.0, epsabs=1e-13, epsrel=1e-12)[0]
-    hit = solution.events.time[solution.events.cause == IMPACT][0]
+    hit = solution.events.time[solution.events.cause == Cause.IMPACT][0]
     assert hit == pytest.approx(expected, abs=1e-9)

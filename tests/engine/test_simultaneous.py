@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 import nonsmooth as ns
 from bodies import Ball, Plate
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 
 RADIUS, SPEED, TOLERANCE = 0.01, 0.1, 1e-12
 
@@ -26,7 +26,7 @@ def _struck(gap: float, duration: float = 2e-5) -> tuple[int, NDArray[np.float64
     for ball, x in zip(balls, (-1e-3, 2.0 * RADIUS, 4.0 * RADIUS + gap), strict=True):
         system.place(ball, position=(x, 0.0, 0.0), velocity=(SPEED if x < 0.0 else 0.0, 0.0, 0.0))
     solution = ns.simulate(system, 0.02)
-    return int(np.sum(solution.events.cause == IMPACT)), np.array([solution.of(ball)[1][-1, 0] for ball in balls])
+    return int(np.sum(solution.events.cause == Cause.IMPACT)), np.array([solution.of(ball)[1][-1, 0] for ball in balls])
 
 
 def test_a_gap_that_tolerances_explain_closes_within_the_impact() -> None:
@@ -60,7 +60,7 @@ def _struck_on_a_floor(gap: float) -> tuple[int, NDArray[np.float64]]:
         spin = 0.0, speed / RADIUS, 0.0
         system.place(ball, position=(x, 0.0, RADIUS), velocity=(speed, 0.0, 0.0), angular_velocity=spin)
     solution = ns.simulate(system, 0.0101)
-    return int(np.sum(solution.events.cause == IMPACT)), np.array([solution.of(ball)[1][-1, 0] for ball in balls])
+    return int(np.sum(solution.events.cause == Cause.IMPACT)), np.array([solution.of(ball)[1][-1, 0] for ball in balls])
 
 
 def test_a_body_that_goes_on_by_itself_takes_part_as_well() -> None:

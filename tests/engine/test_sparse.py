@@ -14,7 +14,7 @@ from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth import System
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory, allocate
-from nonsmooth.engine.memory.modes import NO_SLOT, STICK
+from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import call_entry, entry_addresses
 from nonsmooth.engines.event_driven import EventDriven
@@ -101,7 +101,7 @@ def _memory(matrix: Any, bias: Any, mu: float, sliding: Any) -> Memory:
         memory[owner.direction][:n, 0] = 1.0
     memory[owners.ActiveContact.is_normal_force_unknown][:n] = 1
     memory[owners.ActiveContact.sticks][:n] = memory[owners.ActiveContact.is_at_rest][:n] = ~np.asarray(sliding)
-    memory[owners.ActiveContact.mode_tried][:n] = STICK
+    memory[owners.ActiveContact.mode_tried][:n] = Mode.STICK
     return memory
 
 
@@ -199,7 +199,7 @@ def test_too_many_blocks_end_the_run() -> None:
     memory = assemble(_row(6, np.arange(6), False), EventDriven()).memory
     starts = memory[owners.Island.block_start][:6]
     memory[owners.Model.n_slots] = 2
-    assert call_entry("advance", memory, 0, 0) == NO_SLOT
+    assert call_entry("advance", memory, 0, 0) == Status.NO_SLOT
     assert starts.tolist() == [0, 1, 2, 3, 4, 5]
 
 

@@ -12,7 +12,7 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, Harmonic, Plate
 from laws import Bristle, Directional, EnergeticImpact, HuntCrossley, Unilateral
-from nonsmooth.engine.memory.modes import TOUCH
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.plugins import registry
 
 GRAVITY = 9.81
@@ -133,7 +133,7 @@ def test_laws_with_a_memory_go_on_from_it() -> None:
     system.place(soft, position=(0.0, 0.0, 0.0101), velocity=(0.2, 0.1, 0.0))
     system.place(hard, position=(0.0, 0.1, 0.0101), velocity=(0.2, 0.1, 0.0), angular_velocity=(5.0, -30.0, 0.0))
     few, many, drawn = _differences(system, 0.12)
-    assert few.events.count(TOUCH) >= 2
+    assert few.events.count(Cause.TOUCH) >= 2
     states, there = few.at(many.t[drawn]), many.at(many.t[drawn])
     assert np.max(np.abs(there.law_states)) > 1e-5
     np.testing.assert_allclose(states.law_states, there.law_states, rtol=0, atol=1e-9)

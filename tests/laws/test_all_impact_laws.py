@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 import nonsmooth as ns
 from bodies import Ball, Plate
 from laws import Coulomb, MoreauImpact, NewtonImpact, PoissonImpact, StrongeImpact, Unilateral
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import ImpactLaw
 from tests.laws.impact_problems import LAWS, E, Problem, apply, draw, solve
 
@@ -216,7 +216,7 @@ def test_oblique_impact_of_a_sphere(law: ImpactLaw, speed: float) -> None:
     system.contact(plate, ball, normal=Unilateral(), friction=Coulomb(mu), impact=law)
     system.place(ball, position=(0.0, 0.0, 0.02), velocity=(0.6 * speed, 0.8 * speed, -fall))
     solution = ns.simulate(system, 0.02)
-    (hit,) = np.flatnonzero(solution.events.cause == IMPACT)
+    (hit,) = np.flatnonzero(solution.events.cause == Cause.IMPACT)
     after = solution.events.u_after[hit]
     e = after[2] / fall
     if law not in (LAWS["plastic"], LAWS["johnson"], LAWS["viscoelastic"]):
@@ -251,8 +251,8 @@ def test_momentum_of_three_balls(law: ImpactLaw) -> None:
         axes = [_rotation(x) for x in q.reshape(3, 7)[:, 3:]]
         own = sum(inertia * axis @ spin for inertia, axis, spin in zip(inertias, axes, spins, strict=True))
         totals.append(np.concatenate([masses @ speeds, own + np.cross(places, masses[:, None] * speeds).sum(axis=0)]))
-    assert solution.events.count(IMPACT) >= 1
-    assert np.all(solution.events.impulse[solution.events.cause == IMPACT][0][:2, 0] > 0.0)
+    assert solution.events.count(Cause.IMPACT) >= 1
+    assert np.all(solution.events.impulse[solution.events.cause == Cause.IMPACT][0][:2, 0] > 0.0)
     np.testing.assert_allclose(totals[1], totals[0], rtol=0, atol=1e-12)
     assert solution.energy.residual <= 1e-8
 

@@ -24,7 +24,7 @@ from laws import (
     viscoelastic_restitution,
     viscoelastic_speed,
 )
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 
 MASS, RADIUS, MODULUS = 3.5e-3, 4.76e-3, 1.15e11
 
@@ -120,7 +120,7 @@ def test_a_falling_ball_bounces_ever_more_elastically() -> None:
     system.contact(plate, ball, normal=Unilateral(), friction=Frictionless(), impact=law)
     system.place(ball, position=(0.0, 0.0, 0.06))
     events = ns.simulate(system, 0.8).events
-    hits = events.cause == IMPACT
+    hits = events.cause == Cause.IMPACT
     before, after = -events.u_before[hits][:, 2], events.u_after[hits][:, 2]
     assert len(before) >= 3
     np.testing.assert_allclose(after / before, [viscoelastic_restitution(v, 10.0) for v in before], rtol=0, atol=1e-6)

@@ -12,7 +12,7 @@ import pytest
 import nonsmooth as ns
 from bodies import DiscBody, Plate, SuperellipsoidBody
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth.engine.memory.modes import AVERAGING
+from nonsmooth.engine.memory.modes import Cause
 
 T_END, CONTACT_TIME = 0.1333, 2e-5
 DISC = DiscBody(radius=4.529e-3, surface_density=1.0)
@@ -64,7 +64,7 @@ def test_gaps_and_energy_hold_where_contact_points_run(rolled_over: ns.Solution)
 def test_averagings_that_lead_gaps_astray_are_short(rolled_over: ns.Solution) -> None:
     """Several are over before their contact time, and are found again from the state in which they begin."""
     events = rolled_over.events
-    begun = np.flatnonzero((events.cause == AVERAGING) & (events.contact >= 0))
+    begun = np.flatnonzero((events.cause == Cause.AVERAGING) & (events.contact >= 0))
     lasted = events.time[begun + 1] - events.time[begun]
     short = lasted < 0.5 * CONTACT_TIME
     assert np.sum(short) > 5

@@ -10,7 +10,7 @@ import pytest
 
 import nonsmooth as ns
 from bodies import Ball, Harmonic
-from nonsmooth.engine.memory.modes import CLOSING, IMPACT, LIFT_OFF
+from nonsmooth.engine.memory.modes import Cause
 
 G = 9.81
 RADIUS = 0.01
@@ -25,10 +25,10 @@ def test_event_times_and_rest(build: Any, restitution: float) -> None:
     system.place(ball, position=(0, 0, RADIUS + v0**2 / (2 * G)))
     rest = (1.0 + e) / (1.0 - e) * v0 / G
     solution = ns.simulate(system, rest + 0.1)
-    impacts = solution.events.time[solution.events.cause == IMPACT]
+    impacts = solution.events.time[solution.events.cause == Cause.IMPACT]
     expected = v0 / G * (2.0 * np.cumsum(e ** np.arange(len(impacts))) - 1.0)
     np.testing.assert_allclose(impacts, expected, rtol=0, atol=1e-10)
-    closing = solution.events.time[solution.events.cause == CLOSING]
+    closing = solution.events.time[solution.events.cause == Cause.CLOSING]
     assert len(closing) == 1
     assert closing[0] == pytest.approx(rest, abs=2.1e-7 / (1.0 - e))
     assert solution.u_end == pytest.approx(np.zeros(6), abs=1e-15)
@@ -46,8 +46,8 @@ def test_accumulation_rule(build: Any, side: float) -> None:
     system = build.over(ball, friction=0.0, restitution=e, duration=v0 * e**bounces / G * (1.0 + side))
     system.place(ball, position=(0, 0, RADIUS + v0**2 / (2 * G)))
     solution = ns.simulate(system, 0.4)
-    assert solution.events.count(IMPACT) == (bounces if side > 0.0 else bounces + 1)
-    assert solution.events.count(CLOSING) == 1
+    assert solution.events.count(Cause.IMPACT) == (bounces if side > 0.0 else bounces + 1)
+    assert solution.events.count(Cause.CLOSING) == 1
     last = v0 * e ** (bounces if side > 0.0 else bounces + 1)
     assert solution.energy.closing_loss == pytest.approx(0.5 * ball.total_mass * last**2, rel=1e-6)
     assert solution.energy.residual <= 1e-9
@@ -64,7 +64,7 @@ def test_the_rule_uses_the_actual_relative_acceleration(build: Any) -> None:
         start = motion.amplitude * math.sin(phase)
         system.place(ball, position=(0, 0, RADIUS + start), velocity=(0, 0, -0.01))
         solution = ns.simulate(system, 2e-3)
-        closings.append(solution.events.count(CLOSING))
+        closings.append(solution.events.count(Cause.CLOSING))
     # rebound 5 mm/s against g_eff T_c of 0.5 mm/s and of 19 mm/s
     assert closings == [0, 1]
 
@@ -92,7 +92,7 @@ def _orbit(build: Any, gamma: float, e: float, periods: int, perturb: float = 1e
     height = motion.amplitude * math.sin(motion.phase)
     system.place(ball, position=(0, 0, RADIUS + height), velocity=(0, 0, G / (2.0 * frequency) * (1.0 + perturb)))
     solution = ns.simulate(system, periods / frequency, sample_interval=1.0)
-    impacts = solution.events.time[solution.events.cause == IMPACT]
+    impacts = solution.events.time[solution.events.cause == Cause.IMPACT]
     return np.diff(impacts) * frequency, solution.energy.residual
 
 
@@ -133,5 +133,5 @@ def test_ball_leaves_the_table_where_it_must(build: Any) -> None:
     system.place(ball, position=(0, 0, RADIUS), velocity=(0, 0, motion.amplitude * omega))
     solution = ns.simulate(system, 0.012)
     assert solution.events.causes() == ["start", "lift-off"]
-    assert solution.events.cause[1] == LIFT_OFF
+    assert solution.events.cause[1] == Cause.LIFT_OFF
     assert solution.events.time[1] == pytest.approx(math.asin(1.0 / gamma) / omega, abs=1e-11)

@@ -27,7 +27,7 @@ from laws import (
     LinearCompliant,
     Unilateral,
 )
-from nonsmooth.engine.memory.modes import LIFT_OFF, SLIP_TO_STICK, TOUCH
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import CompliantNormalLaw, FrictionLaw
 
@@ -92,7 +92,7 @@ def test_hertz_duration() -> None:
     duration = 2.0 * depth / speed * quad(lambda s: 2.0 * s / math.sqrt(1.0 - (1.0 - s * s) ** 2.5), 0.0, 1.0)[0]
     solution = _drop(HertzCompliant(stiffness), speed, 2e-3)
     events = solution.events
-    assert list(events.cause[1:]) == [TOUCH, LIFT_OFF]
+    assert list(events.cause[1:]) == [Cause.TOUCH, Cause.LIFT_OFF]
     assert events.time[1] == pytest.approx(1e-4 / speed, rel=1e-12)
     assert events.time[2] - events.time[1] == pytest.approx(duration, rel=1e-9)
     assert solution.u_end[2] == pytest.approx(speed, rel=1e-10)
@@ -136,7 +136,7 @@ def test_cohesion_lets_go_of_the_faster(part: float) -> None:
     stiffness, tension = 1e6, 20.0
     speed = part * tension / math.sqrt(MASS * stiffness)
     solution = _drop(Cohesive(stiffness, tension), speed, 0.02)
-    assert (solution.events.count(LIFT_OFF) == 1) == (part > 1.0)
+    assert (solution.events.count(Cause.LIFT_OFF) == 1) == (part > 1.0)
     if part > 1.0:
         assert solution.u_end[2] ** 2 == pytest.approx(speed**2 - (speed / part) ** 2, abs=1e-10 * speed**2)
 
@@ -172,7 +172,7 @@ def test_oblique(law: CompliantNormalLaw, part: float) -> None:
     mu = 0.15
     slip = part * 7.0 * mu
     solution = _drop(law, 1.0, 3e-3, friction=Coulomb(mu), slip=slip)
-    sticks = SLIP_TO_STICK in solution.events.cause
+    sticks = Cause.SLIP_TO_STICK in solution.events.cause
     assert sticks == (part < 1.0)
     expected = 5.0 / 7.0 * slip if sticks else slip - 2.0 * mu
     assert solution.u_end[0] == pytest.approx(expected, rel=1e-8)
@@ -313,7 +313,7 @@ def test_boxes_on_stiff_springs_part_with_the_energy_they_had(seed: int) -> None
     """Shallow overlaps keep to the features that met."""
     solution = ns.simulate(_collision(seed, 3e6), 0.05)
     assert solution.status == "done"
-    assert TOUCH in solution.events.cause
+    assert Cause.TOUCH in solution.events.cause
     assert abs(_gained(solution)) < 1e-5
 
 

@@ -10,7 +10,7 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
-from nonsmooth.engine.memory.modes import CLOSING, IMPACT
+from nonsmooth.engine.memory.modes import Cause
 
 G, RADIUS, TIME = 9.81, 0.01, 1e-3
 HALF = math.pi / 8.0
@@ -33,7 +33,7 @@ def test_what_is_slower_closes(part: float) -> None:
     """Down by less than g T_c: no impact, no bounce, and the energy is lost to the closing."""
     down = part * G * TIME
     solution = ns.simulate(_groove(down), 0.1)
-    assert IMPACT not in solution.events.cause
+    assert Cause.IMPACT not in solution.events.cause
     assert np.max(np.abs(solution.u_end)) < 1e-9
     account = solution.energy
     mass = 2.0 * account.kinetic_start / down**2
@@ -44,8 +44,8 @@ def test_what_is_slower_closes(part: float) -> None:
 def test_what_is_faster_collides(part: float) -> None:
     """Down by more than g T_c: an impact first; the bounces behind it close."""
     solution = ns.simulate(_groove(part * G * TIME), 0.1)
-    assert IMPACT in solution.events.cause[:2]
-    assert CLOSING in solution.events.cause
+    assert Cause.IMPACT in solution.events.cause[:2]
+    assert Cause.CLOSING in solution.events.cause
     assert np.max(np.abs(solution.u_end)) < 1e-9
 
 
@@ -70,7 +70,7 @@ def test_what_does_not_press_is_let_go(part: float) -> None:
     leaving = part * G * TIME
     system.place(ball, position=(RADIUS, 0.0, RADIUS), velocity=(leaving, 0.0, -0.5 * G * TIME))
     solution = ns.simulate(system, 1e-2)
-    assert IMPACT not in solution.events.cause
+    assert Cause.IMPACT not in solution.events.cause
     assert solution.u_end[0] == pytest.approx(leaving, rel=1e-12)
     assert abs(solution.u_end[2]) < 1e-12
 
@@ -82,7 +82,7 @@ def test_what_rises_fast_beside_a_slow_approach_goes_on() -> None:
     ball = system.bodies[2]
     system.place(ball, position=(0.0, 0.0, math.sqrt(2.0) * RADIUS), velocity=(rising, 0.0, rising - 1e-3))
     solution = ns.simulate(system, 1e-4)
-    assert IMPACT not in solution.events.cause
+    assert Cause.IMPACT not in solution.events.cause
     x, _, z = solution.events.u_after[0][:3]
     c = math.sqrt(0.5)
     assert c * (x + z) == pytest.approx(c * (2.0 * rising - 1e-3), rel=1e-12)

@@ -16,7 +16,7 @@ from scipy.integrate import solve_ivp
 import nonsmooth as ns
 from bodies import Ball, EllipsoidBody, FunctionLoad, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth.engine.memory.modes import SLIP_TO_STICK, START, STICK_TO_SLIP
+from nonsmooth.engine.memory.modes import Cause
 from tests.runs.continued import lost_by_stopping
 
 MU, GRAVITY, RADIUS = 0.3, 9.81, 0.01
@@ -74,7 +74,7 @@ def test_creeping_stopping_and_breaking_away() -> None:
     solution = _model(1e-8, PART, SLIP)[0].run(0.8)
     assert solution.counters.steps < 2000
     events = solution.events
-    assert events.cause.tolist() == [START, SLIP_TO_STICK, STICK_TO_SLIP]
+    assert events.cause.tolist() == [Cause.START, Cause.SLIP_TO_STICK, Cause.STICK_TO_SLIP]
     creeps = _by_scipy(PART, [SLIP, 0.0, SLIP, 0.0, 0.0, 0.0], 0.0, 0.8, True)
     stop, breaks = creeps.t[-1], 1.5 * math.pi / RATE
     slowing = BOUND * PART * abs(math.cos(RATE * stop))
@@ -156,6 +156,6 @@ def test_the_instant_of_a_stop_hangs_on_no_tolerance() -> None:
             body, position=(0.0, 0.0, 0.03), orientation=(0.5, 0.5, 0.5, 0.5), angular_velocity=(3.0, 2.0, 1.0)
         )
         events = ns.simulate(system, 0.3, engine=ns.EventDriven(tolerance=tolerance)).events
-        stops.append(events.time[events.cause == SLIP_TO_STICK])
+        stops.append(events.time[events.cause == Cause.SLIP_TO_STICK])
     assert len(stops[0]) == 2
     np.testing.assert_allclose(stops[0], stops[1], rtol=0.0, atol=2e-10)

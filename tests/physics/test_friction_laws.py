@@ -27,7 +27,7 @@ from laws import (
     RateAndState,
     Unilateral,
 )
-from nonsmooth.engine.memory.modes import STICK_TO_SLIP
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.parameters import UnusualValue
 from tests.physics.moved_systems import quaternion
 
@@ -212,7 +212,7 @@ def test_friction_grows_with_the_time_of_rest(rate: float) -> None:
     law = RateAndState(0.2, 0.01, 0.02, 1e-3, 1e-4)
     expected = brentq(lambda t: rate * t - G * (0.2 + 0.02 * math.log1p(10.0 * t)), 1e-3, 100.0)
     events = _block(_rigid(law), 1.02 * expected, load=_load(rate)).events
-    assert events.time[events.cause == STICK_TO_SLIP][0] == pytest.approx(expected, rel=1e-8)
+    assert events.time[events.cause == Cause.STICK_TO_SLIP][0] == pytest.approx(expected, rel=1e-8)
 
 
 @pytest.mark.parametrize("speed", [1e-3, 0.1])

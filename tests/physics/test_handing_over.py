@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 import nonsmooth as ns
 from bodies import ConeBody, DrivenBody, EllipsoidBody, Rod, TriangleMesh, Triangles
 from laws import Coulomb, EnergeticImpact, PoissonImpact, Unilateral, Viscous
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.engine.native.kernel import PLAIN
 from tests.bodies.meshes.parts import hills
 
@@ -71,6 +71,6 @@ def test_a_body_that_rolls_from_an_edge_onto_a_face_does_not_collide_there(seed:
     events = solution.events
     slow = np.max(np.abs(events.u_after - events.u_before), axis=1) < 1e-4
     assert solution.status == "done"
-    assert np.sum(events.cause == IMPACT) > 5
-    assert np.sum(slow & (events.cause == IMPACT)) <= 1
+    assert np.sum(events.cause == Cause.IMPACT) > 5
+    assert np.sum(slow & (events.cause == Cause.IMPACT)) <= 1
     assert solution.energy.residual < 1e-8

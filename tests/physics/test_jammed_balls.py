@@ -10,7 +10,7 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball
 from laws import Coulomb
-from nonsmooth.engine.memory.modes import AVERAGING
+from nonsmooth.engine.memory.modes import Cause
 from tests.benchmarks import mixed_balls, pile
 
 VARIANT, SEED, T_END = "70mm-8", 3, 0.6
@@ -26,7 +26,7 @@ def jammed() -> ns.Solution:
 def test_a_wedged_pile_goes_on_and_balances_its_energy(jammed: ns.Solution) -> None:
     """No gap is lost while forces are averaged, and what they take is booked."""
     assert jammed.status == "done"
-    assert AVERAGING in jammed.events.cause
+    assert Cause.AVERAGING in jammed.events.cause
     assert jammed.counters.limits["averaging of forces"] > 10
     assert jammed.energy.residual < 1e-8
     balls = [body for body in jammed.system.bodies if isinstance(body, Ball)]
@@ -41,7 +41,7 @@ def test_a_wedged_pile_goes_on_and_balances_its_energy(jammed: ns.Solution) -> N
 def test_averaged_forces_press_and_stay_within_their_cones(jammed: ns.Solution) -> None:
     """Looked at from the outside, at instants in between, where they are found again."""
     events = jammed.events
-    begun = events.time[np.flatnonzero(events.cause == AVERAGING)]
+    begun = events.time[np.flatnonzero(events.cause == Cause.AVERAGING)]
     forces = jammed.contact_forces(begun[begun < T_END - 1e-5][:50] + 5e-6)
     assert len(forces.contact) > 50
     scale = float(np.max(forces.normal_force))
@@ -53,7 +53,7 @@ def test_averaged_forces_press_and_stay_within_their_cones(jammed: ns.Solution) 
 
 def test_a_run_cut_within_an_averaging_goes_on_to_the_last_bit(jammed: ns.Solution) -> None:
     events = jammed.events
-    (first, *_) = events.time[events.cause == AVERAGING]
+    (first, *_) = events.time[events.cause == Cause.AVERAGING]
     model = ns.assemble(mixed_balls.build(VARIANT, SEED))
     t_end = float(first) + 1e-3
     whole = model.run(t_end)

@@ -12,7 +12,7 @@ import pytest
 
 import nonsmooth as ns
 from bodies import Ball
-from nonsmooth.engine.memory.modes import GUARD
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Guard
 from nonsmooth.parameters import parameter
 from nonsmooth.types import Floats
@@ -89,7 +89,7 @@ def test_both_directions_are_told_apart(level: float) -> None:
     system.guard(Level(level))
     system.guard(Level(level, -1.0))
     events = ns.simulate(system, 1.0).events
-    times = {number: events.time[(events.cause == GUARD) & (events.contact == number)] for number in (0, 1)}
+    times = {number: events.time[(events.cause == Cause.GUARD) & (events.contact == number)] for number in (0, 1)}
     up, down = _passages(level)
     np.testing.assert_allclose(times[0], [down], atol=1e-12)
     np.testing.assert_allclose(times[1], [up] if level > 1.0 else [], atol=1e-12)
@@ -102,7 +102,7 @@ def test_a_guard_above_the_path_never_fires_and_one_at_the_start_waits() -> None
     system.guard(Level(top + 1e-9, -1.0))
     system.guard(Level(1.0))
     events = ns.simulate(system, 1.0).events
-    fired = events.cause == GUARD
+    fired = events.cause == Cause.GUARD
     np.testing.assert_array_equal(events.contact[fired], [1])
     np.testing.assert_allclose(events.time[fired], [4.0 / GRAVITY], atol=1e-12)
 
@@ -122,7 +122,7 @@ def test_a_clock_fires_once_per_period() -> None:
     system = _thrown()
     system.guard(Clock(20.0))
     events = ns.simulate(system, 1.0, engine=ns.EventDriven(largest_step=1.0 / 80.0)).events
-    np.testing.assert_allclose(events.time[events.cause == GUARD], (np.arange(20) + 0.5) / 20.0, atol=1e-12)
+    np.testing.assert_allclose(events.time[events.cause == Cause.GUARD], (np.arange(20) + 0.5) / 20.0, atol=1e-12)
 
 
 def test_a_guard_ends_the_run(build: Any) -> None:

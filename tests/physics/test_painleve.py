@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 
 import nonsmooth as ns
 from bodies import Dumbbell
-from nonsmooth.engine.memory.modes import IMPACT, JAM, PAINLEVE
+from nonsmooth.engine.memory.modes import Cause
 from tests.engine.plain_cases import jamming
 
 BODY = Dumbbell(rod_mass_fraction=0.9)
@@ -53,9 +53,9 @@ def test_both_sides_of_the_critical_friction(build: Any, side: float) -> None:
     solution = _run(build, _critical(TILT) * (1.0 + side), -1.0, t_end=5e-3 if side > 0.0 else 5e-5)
     assert solution.status == "done"
     first = solution.events.cause[0]
-    assert (first == PAINLEVE) == (side > 0.0)
+    assert (first == Cause.PAINLEVE) == (side > 0.0)
     if side > 0.0:
-        event = int(np.flatnonzero(solution.events.cause == PAINLEVE)[0])
+        event = int(np.flatnonzero(solution.events.cause == Cause.PAINLEVE)[0])
         assert solution.events.causes()[event] == "impact without collision"
         assert solution.events.contact[event] == 0
         assert solution.events.impulse[event, 0, 0] > 0.0
@@ -100,7 +100,7 @@ def test_sliding_into_the_singularity_jams(build: Any) -> None:
     friction = _critical(TILT) * 0.999
     solution = _run(build, friction, -1.0)
     events = solution.events
-    event = int(np.flatnonzero(events.cause == JAM)[0])
+    event = int(np.flatnonzero(events.cause == Cause.JAM)[0])
     assert 5e-5 < events.time[event] < 1e-4
     assert events.causes()[event] == "jamming of a slip"
     normal, *tangential = events.impulse[event, 0]
@@ -119,14 +119,14 @@ def test_a_slip_jams_however_late_it_begins() -> None:
     """Three years after time zero, where doubles are 15 ns apart, the slip jams as it does at the start."""
     model, late = ns.assemble(jamming(0.999)), 1e8
     early, later = (model.run(t + 5e-4, start=dataclasses.replace(model.start, time=t)) for t in (0.0, late))
-    times = [run.events.time[run.events.cause == JAM][0] for run in (early, later)]
+    times = [run.events.time[run.events.cause == Cause.JAM][0] for run in (early, later)]
     assert times[1] - late == pytest.approx(times[0], rel=0.02)
 
 
 def test_the_other_way_there_is_no_paradox(build: Any) -> None:
     """Ball 1 trailing: friction lifts the normal load, whatever mu."""
     solution = _run(build, 1.5 * _critical(TILT), 1.0)
-    assert solution.events.count(PAINLEVE) == 0
+    assert solution.events.count(Cause.PAINLEVE) == 0
     assert solution.status == "done"
     assert solution.energy.residual <= 1e-8
 
@@ -148,7 +148,7 @@ def test_dissipation_over_many_starts(build: Any) -> None:
         for slip in (-0.05, -0.5, -4.0):
             solution = _run(build, _critical(TILT) * factor, slip)
             events = solution.events
-            hit = events.cause == PAINLEVE
+            hit = events.cause == Cause.PAINLEVE
             assert np.any(hit)
             assert np.all(events.restitution_loss[hit] >= -1e-12)
             assert np.all(events.friction_loss[hit] >= -1e-12)
@@ -179,7 +179,7 @@ def test_the_jam_does_not_depend_on_the_tolerance(build: Any) -> None:
     times = []
     for tolerance in (1e-8, 1e-9, 1e-11):
         events = _run(build, friction, -30.0, tolerance=tolerance).events
-        times.append(float(events.time[events.cause == JAM][0]))
+        times.append(float(events.time[events.cause == Cause.JAM][0]))
     np.testing.assert_allclose(times, times[-1], rtol=0, atol=1e-10)
 
 
@@ -192,8 +192,8 @@ def test_what_a_solver_tries_does_not_change_later_impacts(build: Any, solver: s
     friction = 1.2 * _critical(TILT)
     solution = _run(build, friction, -1.0, t_end=0.2, rate=100.0, painleve="compliant", solver=solver)
     events = solution.events
-    assert PAINLEVE not in events.cause
-    first = int(np.flatnonzero(events.cause == IMPACT)[0])
+    assert Cause.PAINLEVE not in events.cause
+    first = int(np.flatnonzero(events.cause == Cause.IMPACT)[0])
     assert events.restitution_loss[first] > 0.0
     other = _run(build, friction, -1.0, t_end=0.2, rate=100.0, solver="enumeration")
     assert events.restitution_loss[first] == pytest.approx(other.events.restitution_loss[first], rel=1e-9)

@@ -17,7 +17,7 @@ import nonsmooth as ns
 from bodies import ConstantVelocity, Harmonic, Plate, Rest, RigidBody, Sphere
 from laws import Coulomb
 from nonsmooth import ContactResult
-from nonsmooth.engine.memory.modes import IMPACT, STICK_TO_SLIP
+from nonsmooth.engine.memory.modes import Cause
 from tests.physics.moved_systems import quaternion
 
 G = 9.81
@@ -138,7 +138,7 @@ def test_breakaway_on_a_slope_that_tilts(build: Any, count: int, rate: float, pl
     """Where g sin + omega^2 x = mu_s (g cos - omega^2 h): the event is at that angle, and not before."""
     solution, expected = _tilted(build, count, rate, place, ns.EventDriven())
     # a foot that carries nothing may open and close again behind it: the motion does not know
-    assert solution.events.cause[1] == STICK_TO_SLIP
+    assert solution.events.cause[1] == Cause.STICK_TO_SLIP
     assert solution.events.time[1] == pytest.approx(expected, rel=0, abs=1e-10)
     end = _end(solution)
     assert np.linalg.norm(end[7:10] - np.cross((0.0, rate, 0.0), end[:3])) > 1e-3
@@ -170,7 +170,7 @@ def test_flat_drop_is_shared_by_all_feet(build: Any, count: int, friction: float
     heights = restitution ** np.arange(bounces)
     times = speed / G * (1.0 + 2.0 * (np.cumsum(heights) - 1.0))
     solution = _run(build, FEET[count], times[-1] + 1e-3, over=over, restitution=restitution, friction=friction)
-    impulses = solution.events.impulse[solution.events.cause == IMPACT]
+    impulses = solution.events.impulse[solution.events.cause == Cause.IMPACT]
     assert len(impulses) == bounces
     np.testing.assert_allclose(solution.events.time[1:], times, rtol=1e-10)
     for impulse, height in zip(impulses, heights, strict=True):

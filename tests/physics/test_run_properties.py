@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 import nonsmooth as ns
 from bodies import Ball, Dumbbell, Harmonic, Plate, Rest
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 
 G = 9.81
 OMEGA = 2.0 * math.pi * 25.0
@@ -140,7 +140,7 @@ def test_energy_gaps_and_impulses(build: Any, start: Any, laws: Any, gamma: floa
     events = solution.events
     scale = body.total_mass * 0.1
     normal, tangential = events.impulse[:, :, 0], np.hypot(events.impulse[:, :, 1], events.impulse[:, :, 2])
-    hits = events.cause == IMPACT
+    hits = events.cause == Cause.IMPACT
     assert np.all(normal[hits] >= -1e-9 * scale)
     # both contacts of a dumbbell may share their friction, Eq. (39)
     static = laws["friction"] * laws["extra"]
@@ -311,4 +311,4 @@ def test_bodies_that_never_meet_do_not_know_of_each_other(build: Any) -> None:
             q, u = both.of(balls[number])
             np.testing.assert_allclose(q[-1, [0, 2]], alone[number].q[-1, [0, 2]], rtol=0, atol=1e-8)
             np.testing.assert_allclose(u[-1, 2], alone[number].u[-1, 2], rtol=0, atol=1e-6)
-        assert both.events.count(IMPACT) == sum(a.events.count(IMPACT) for a in alone)
+        assert both.events.count(Cause.IMPACT) == sum(a.events.count(Cause.IMPACT) for a in alone)

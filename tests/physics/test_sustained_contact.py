@@ -10,7 +10,7 @@ import pytest
 
 import nonsmooth as ns
 from bodies import Ball, Dumbbell, Harmonic, Rest
-from nonsmooth.engine.memory.modes import LIFT_OFF, SLIP_TO_STICK, STICK_TO_SLIP
+from nonsmooth.engine.memory.modes import Cause
 
 G = 9.81
 TIGHT = ns.EventDriven(tolerance=1e-12)
@@ -41,7 +41,7 @@ def test_sliding_ball_starts_to_roll(build: Any, heading: float) -> None:
     system.place(ball, position=(0, 0, 0.01), velocity=v0 * along)
     solution = ns.simulate(system, 0.2, engine=TIGHT)
     stick = 2.0 * v0 / (7.0 * mu * G)
-    np.testing.assert_allclose(_times(solution, SLIP_TO_STICK), [stick], rtol=0, atol=1e-9)
+    np.testing.assert_allclose(_times(solution, Cause.SLIP_TO_STICK), [stick], rtol=0, atol=1e-9)
     np.testing.assert_allclose(solution.u_end[:3], 5.0 * v0 / 7.0 * along, rtol=0, atol=1e-10)
     spin = np.array([-along[1], along[0], 0.0]) * 5.0 * v0 / 7.0 / 0.01
     axes = _rotation(solution.q_end[3:])
@@ -144,7 +144,7 @@ def test_vibrating_plate_throws_the_dumbbell(build: Any, gamma: float) -> None:
     system = build.over(body, motion)
     system.place(body, position=(0, 0, body.radius), velocity=(0, 0, motion.amplitude * omega))
     solution = ns.simulate(system, 0.5 / frequency if gamma > 1.0 else 0.2, engine=TIGHT)
-    lifted = _times(solution, LIFT_OFF)
+    lifted = _times(solution, Cause.LIFT_OFF)
     if gamma < 1.0:
         assert len(solution.events) == 1
         assert build.lived(solution) == ["{11,00,00}"]
@@ -152,7 +152,7 @@ def test_vibrating_plate_throws_the_dumbbell(build: Any, gamma: float) -> None:
         assert solution.q_end[2] - body.radius == pytest.approx(height, abs=1e-14)
     else:
         assert lifted[0] == pytest.approx(math.asin(1.0 / gamma) / omega, abs=1e-9)
-        first = int(np.flatnonzero(solution.events.cause == LIFT_OFF)[0])
+        first = int(np.flatnonzero(solution.events.cause == Cause.LIFT_OFF)[0])
         assert solution.events.words("before")[first] == "{11,00,00}"
         assert solution.events.words("after")[first] == "{00,00,00}"
     assert solution.energy.residual <= 1e-8
@@ -167,12 +167,12 @@ def test_shaken_sideways_the_dumbbell_breaks_away(build: Any, ratio: float) -> N
     system = build.over(body, motion, friction=mu, static=static)
     system.place(body, position=(0, 0, body.radius), velocity=(motion.amplitude * omega, 0, 0))
     solution = ns.simulate(system, 0.049, engine=TIGHT)
-    broke = _times(solution, STICK_TO_SLIP)
+    broke = _times(solution, Cause.STICK_TO_SLIP)
     if ratio < 1.0:
         assert build.lived(solution) == ["{11,00,00}"]
     else:
         assert broke[0] == pytest.approx(math.asin(1.0 / ratio) / omega, abs=1e-9)
-        first = int(np.flatnonzero(solution.events.cause == STICK_TO_SLIP)[0])
+        first = int(np.flatnonzero(solution.events.cause == Cause.STICK_TO_SLIP)[0])
         assert solution.events.words("after")[first] == "{11,00,11}"
     if ratio == 2.0:
         assert solution.u_end[0] == pytest.approx(
@@ -190,7 +190,7 @@ def test_shaken_sideways_the_ball_breaks_away(build: Any, ratio: float) -> None:
     system = build.over(ball, motion, friction=0.05, static=static)
     system.place(ball, position=(0, 0, 0.01), velocity=(0, motion.amplitude * omega, 0))
     solution = ns.simulate(system, 0.049, engine=TIGHT)
-    broke = _times(solution, STICK_TO_SLIP)
+    broke = _times(solution, Cause.STICK_TO_SLIP)
     if ratio < 1.0:
         assert build.lived(solution) == ["{1,0,0}"]
     else:

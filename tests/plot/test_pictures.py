@@ -14,7 +14,7 @@ import nonsmooth as ns
 from bodies import Ball, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth import plot
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 
 GRAVITY = 9.81
 HEIGHT, RESTITUTION = 0.1, 0.8
@@ -52,7 +52,7 @@ def test_the_gap_of_a_ball_that_bounces(bounces: ns.Solution) -> None:
 def test_its_velocity_jumps_by_the_restitution(bounces: ns.Solution) -> None:
     """It is that of the closed form, and -e of it behind each impact: both sides are drawn."""
     times, rates = _drawn(plot.velocities(bounces, "plate - ball"))
-    events = bounces.events.time[bounces.events.cause == IMPACT]
+    events = bounces.events.time[bounces.events.cause == Cause.IMPACT]
     after = np.searchsorted(times, events)
     np.testing.assert_allclose(rates[after], -RESTITUTION * rates[after - 1], rtol=1e-9)
     apart = np.min(np.abs(times[:, None] - events), axis=1) > 1e-9

@@ -6,8 +6,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from nonsmooth.engine.memory import modes
 from nonsmooth.engine.memory.memory import Memory
-from nonsmooth.engine.memory.modes import START, STEP, STICK, Status
+from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.engine.memory.owners import Contact, Island, Model, Output, Request, Tolerance, Totals
 from nonsmooth.interfaces import Cause, Measure
 from nonsmooth.parameters import parameter
@@ -54,9 +55,9 @@ class Resting(Blind):
             if index == 0:
                 memory[Island.time] += self.first * memory[Request.sample_interval]
             call("remember")
-            memory[Contact.mode][:n] = STICK
+            memory[Contact.mode][:n] = Mode.STICK
             memory[Contact.event_impulse][:n, 0] = IMPULSE
-            call("record_event", STEP if index else START, -1, 0)
+            call("record_event", modes.Cause.STEP if index else modes.Cause.START, -1, 0)
             place = call("begin_sample")
             memory.floats[place : place + len(y)] = y
         memory[Island.time] = t_end

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.plugins import registry
 from nonsmooth.runs.so_far import RunSoFar
 from tests.runs.continued import differences, lost_by_stopping
@@ -32,8 +32,8 @@ def test_it_ends_with_the_nth_impact_and_goes_on_to_the_last_bit(model: ns.Model
     """No event is there behind it but those of its instant."""
     before = model.run(T_END, until=lambda run: run.n_impacts >= n)
     assert (before.status, before.message) == ("done", "the condition that was given was met")
-    assert before.events.count(IMPACT) == before.counters.impacts == n
-    assert before.t_end == before.events.time[before.events.cause == IMPACT][-1]
+    assert before.events.count(Cause.IMPACT) == before.counters.impacts == n
+    assert before.t_end == before.events.time[before.events.cause == Cause.IMPACT][-1]
     assert lost_by_stopping(whole, before, model.run(T_END, start=before.state)) == []
 
 

@@ -13,7 +13,7 @@ import pytest
 
 import nonsmooth as ns
 from nonsmooth import studies
-from nonsmooth.engine.memory.modes import DONE
+from nonsmooth.engine.memory.modes import Status
 from nonsmooth.parameters import parameter
 from nonsmooth.simple_scenario import SimpleScenario
 from nonsmooth.studies import status
@@ -69,7 +69,7 @@ def test_a_study_of_a_scenario_has_what_single_runs_have(tmp_path: Path) -> None
             row = found.sel(restitution=e, gamma=gamma)
             assert row.q_end.values.tobytes() == run.q_end.tobytes()
             assert row.q.values.tobytes() == run.at([0.0, 0.1]).q.tobytes()
-            assert (row.impacts, row._double, row.reason) == (run.counters.impacts, 0.4, DONE)
+            assert (row.impacts, row._double, row.reason) == (run.counters.impacts, 0.4, Status.DONE)
             assert row.last_flight == one.summarise(run)["last_flight"]
     assert found._double.attrs == {"long_name": "Twice the end", "units": "s"}
 

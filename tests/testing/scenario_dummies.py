@@ -13,7 +13,7 @@ import numpy as np
 import nonsmooth as ns
 from bodies import Ball, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter
 from nonsmooth.testing import check_scenario
@@ -78,7 +78,7 @@ class Bounce(Scenario):
         return {"impacts": solution.counters.impacts, "highest": math.inf}
 
     def acceptance(self, solution: ns.Solution) -> tuple[Criterion, ...]:
-        first = solution.events.time[solution.events.cause == IMPACT][:1]
+        first = solution.events.time[solution.events.cause == Cause.IMPACT][:1]
         time = float(first[0]) if len(first) and self.fault != "no number" else None
         fall = math.sqrt(2.0 * (self.height - 0.01) / 9.81) + (0.01 if self.fault == "missed" else 0.0)
         return (Criterion.near("time of the first impact [s]", time, fall, 1e-9, "free fall"),)

@@ -32,9 +32,9 @@ from nonsmooth.engine.numerics.vectors import Vector, minus, opposite
 
 
 @kernel("f8(F, i8, v3, v3, v3)")
-def _speed_along_row(w: Floats, place: int, axis: Vector, point: Vector, moment: Vector) -> float:
+def _speed_along_row(floats: Floats, place: int, axis: Vector, point: Vector, moment: Vector) -> float:
     """Rate of a row for one of its frames [m/s]: axis . velocity of the point + moment . angular velocity."""
-    frame = frame_at(w, place)
+    frame = frame_at(floats, place)
     x, y, z = minus(point, frame.origin)
     ox, oy, oz = frame.spin
     vx, vy, vz = frame.velocity
@@ -97,42 +97,42 @@ def _write_responses(ws: Workspace, articulation: Articulation) -> None:
 
 
 @kernel("void(F, i8, i8)")
-def _write_factor(w: Floats, a: int, n: int) -> None:
+def _write_factor(floats: Floats, a: int, n: int) -> None:
     """Overwrite the symmetric n x n matrix at ``a`` by its Cholesky factor. Rows that others imply get a zero pivot."""
     for j in range(n):
-        own = w[a + j * n + j]
+        own = floats[a + j * n + j]
         pivot = own
         for i in range(j):
-            pivot -= w[a + j * n + i] * w[a + j * n + i]
+            pivot -= floats[a + j * n + i] * floats[a + j * n + i]
         if not pivot > SINGULAR * own:
             for i in range(j, n):
-                w[a + i * n + j] = 0.0
+                floats[a + i * n + j] = 0.0
             continue
         root = math.sqrt(pivot)
-        w[a + j * n + j] = root
+        floats[a + j * n + j] = root
         for i in range(j + 1, n):
-            total = w[a + i * n + j]
+            total = floats[a + i * n + j]
             for c in range(j):
-                total -= w[a + i * n + c] * w[a + j * n + c]
-            w[a + i * n + j] = total / root
+                total -= floats[a + i * n + c] * floats[a + j * n + c]
+            floats[a + i * n + j] = total / root
 
 
 @kernel("void(F, i8, i8, i8, i8)")
-def solve_factorised(w: Floats, a: int, n: int, x: int, stride: int) -> None:
+def solve_factorised(floats: Floats, a: int, n: int, x: int, stride: int) -> None:
     """Solve with the Cholesky factor at ``a``, in place of the right-hand side at ``x`` with entries ``stride`` apart.
 
     Unknowns of zero pivots are zero.
     """
     for i in range(n):
-        total = w[x + i * stride]
+        total = floats[x + i * stride]
         for c in range(i):
-            total -= w[a + i * n + c] * w[x + c * stride]
-        w[x + i * stride] = total / w[a + i * n + i] if w[a + i * n + i] > 0.0 else 0.0
+            total -= floats[a + i * n + c] * floats[x + c * stride]
+        floats[x + i * stride] = total / floats[a + i * n + i] if floats[a + i * n + i] > 0.0 else 0.0
     for i in range(n - 1, -1, -1):
-        total = w[x + i * stride]
+        total = floats[x + i * stride]
         for c in range(i + 1, n):
-            total -= w[a + c * n + i] * w[x + c * stride]
-        w[x + i * stride] = total / w[a + i * n + i] if w[a + i * n + i] > 0.0 else 0.0
+            total -= floats[a + c * n + i] * floats[x + c * stride]
+        floats[x + i * stride] = total / floats[a + i * n + i] if floats[a + i * n + i] > 0.0 else 0.0
 
 
 @kernel("void(ws, Articulation)")

@@ -79,9 +79,9 @@ def evaluate_geometry(ws: Workspace, c: int) -> None:
 
 
 @kernel("v3(F, i8, v3)")
-def _velocity_of_point(w: Floats, place: int, point: Vector) -> Vector:
+def _velocity_of_point(floats: Floats, place: int, point: Vector) -> Vector:
     """Velocity of a point that is fixed to a frame [m/s]."""
-    frame = frame_at(w, place)
+    frame = frame_at(floats, place)
     x, y, z = minus(point, frame.origin)
     ox, oy, oz = frame.spin
     ux, uy, uz = frame.velocity
@@ -120,48 +120,48 @@ def evaluate_kinematics(ws: Workspace, c: int) -> None:
 
 
 @kernel("f8(F, i8, i8, v3, v3)")
-def _entry_of_column(w: Floats, column: int, n_u: int, axis: Vector, moment: Vector) -> float:
+def _entry_of_column(floats: Floats, column: int, n_u: int, axis: Vector, moment: Vector) -> float:
     """Entry of a contact row: the product of an axis and a moment with one column of a frame's Jacobian."""
     v, o = column, column + 3 * n_u
-    linear = axis[0] * w[v] + axis[1] * w[v + n_u] + axis[2] * w[v + 2 * n_u]
-    return linear + moment[0] * w[o] + moment[1] * w[o + n_u] + moment[2] * w[o + 2 * n_u]
+    linear = axis[0] * floats[v] + axis[1] * floats[v + n_u] + axis[2] * floats[v + 2 * n_u]
+    return linear + moment[0] * floats[o] + moment[1] * floats[o + n_u] + moment[2] * floats[o + 2 * n_u]
 
 
 @kernel("v3(F, i8, i8, v3, v3)")
-def side_entries(w: Floats, frame: int, first: int, axis: Vector, moment: Vector) -> Vector:
+def side_entries(floats: Floats, frame: int, first: int, axis: Vector, moment: Vector) -> Vector:
     """Three entries of the row of a body with six velocities, from entry ``first`` on."""
     column = frame + FRAME + first
     return (
-        _entry_of_column(w, column, 6, axis, moment),
-        _entry_of_column(w, column + 1, 6, axis, moment),
-        _entry_of_column(w, column + 2, 6, axis, moment),
+        _entry_of_column(floats, column, 6, axis, moment),
+        _entry_of_column(floats, column + 1, 6, axis, moment),
+        _entry_of_column(floats, column + 2, 6, axis, moment),
     )
 
 
 @kernel("void(F, i8, v3, v3, i8, i8)")
-def side_row(w: Floats, frame: int, point: Vector, axis: Vector, n_u: int, out: int) -> None:
+def side_row(floats: Floats, frame: int, point: Vector, axis: Vector, n_u: int, out: int) -> None:
     """Write the row of one body to ``out``: (axis, rho x axis) . J, where rho leads from its frame to the point."""
     if n_u == 0:
         return
-    moment, first = cross(minus(point, frame_at(w, frame).origin), axis), frame + FRAME
+    moment, first = cross(minus(point, frame_at(floats, frame).origin), axis), frame + FRAME
     if n_u == 6:
         for j in range(6):
-            w[out + j] = _entry_of_column(w, first + j, 6, axis, moment)
+            floats[out + j] = _entry_of_column(floats, first + j, 6, axis, moment)
         return
     for j in range(n_u):
-        w[out + j] = _entry_of_column(w, first + j, n_u, axis, moment)
+        floats[out + j] = _entry_of_column(floats, first + j, n_u, axis, moment)
 
 
 @kernel("void(F, i8, v3, v3, v3, i8, i8)")
-def side_wrench(w: Floats, frame: int, point: Vector, force: Vector, moment: Vector, n_u: int, out: int) -> None:
+def side_wrench(floats: Floats, frame: int, point: Vector, force: Vector, moment: Vector, n_u: int, out: int) -> None:
     """Write the row of one body to ``out``: the generalised force of a force at a point and a moment.
 
     Force, moment and point are in world components.
     """
-    side_row(w, frame, point, force, n_u, out)
+    side_row(floats, frame, point, force, n_u, out)
     for j in range(n_u):
         o = frame + FRAME + j + 3 * n_u
-        w[out + j] += moment[0] * w[o] + moment[1] * w[o + n_u] + moment[2] * w[o + 2 * n_u]
+        floats[out + j] += moment[0] * floats[o] + moment[1] * floats[o + n_u] + moment[2] * floats[o + 2 * n_u]
 
 
 @kernel("i8(ws, i8, i8)")
@@ -246,12 +246,12 @@ def evaluate_jacobian(ws: Workspace, c: int) -> None:
 
 
 @kernel("v3(F, i8, v3, v3, v3)")
-def _acceleration(w: Floats, place: int, point: Vector, slide_1: Vector, slide_2: Vector) -> Vector:
+def _acceleration(floats: Floats, place: int, point: Vector, slide_1: Vector, slide_2: Vector) -> Vector:
     """Acceleration of a witness point at constant velocities of its body [m/s^2].
 
     The point slides along the frame at the sum of two velocities, while the frame moves.
     """
-    frame = frame_at(w, place)
+    frame = frame_at(floats, place)
     x, y, z = minus(point, frame.origin)
     ox, oy, oz = frame.spin
     bx, by, bz = frame.spin_acceleration

@@ -91,9 +91,9 @@ def _enter_pair(ws: Workspace, one: int, two: int) -> bool:
 
 
 @kernel("b1(F, i8)")
-def _is_still(w: Floats, place: int) -> bool:
+def _is_still(floats: Floats, place: int) -> bool:
     """Return 1 if a frame neither moves nor begins to."""
-    frame = frame_at(w, place)
+    frame = frame_at(floats, place)
     moves = dot(frame.velocity, frame.velocity) + dot(frame.spin, frame.spin)
     moves += dot(frame.acceleration, frame.acceleration) + dot(frame.spin_acceleration, frame.spin_acceleration)
     return moves == 0.0

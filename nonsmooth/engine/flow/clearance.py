@@ -40,9 +40,9 @@ ABOUT = 1.1
 
 
 @kernel("f8(F, i8, i8)")
-def _speed_seen(w: Floats, frame_a: int, frame_b: int) -> float:
+def _speed_seen(floats: Floats, frame_a: int, frame_b: int) -> float:
     """Return the speed of the origin of the second frame as seen from the first [m/s]."""
-    a, b = frame_at(w, frame_a), frame_at(w, frame_b)
+    a, b = frame_at(floats, frame_a), frame_at(floats, frame_b)
     x, y, z = minus(b.origin, a.origin)
     ox, oy, oz = a.spin
     vx, vy, vz = minus(b.velocity, a.velocity)

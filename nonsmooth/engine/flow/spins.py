@@ -25,19 +25,19 @@ _SMALLEST_SINE = 1e-9
 
 
 @kernel("void(F, i8, i8, f8, i8)")
-def _rotate(w: Floats, q: int, v: int, sign: float, out: int) -> None:
+def _rotate(floats: Floats, q: int, v: int, sign: float, out: int) -> None:
     """Write the vector at ``v``, rotated by the quaternion at ``q``, to ``out``. The length of the quaternion is free.
 
     ``sign`` is ``_TO_SPACE`` or ``_TO_BODY``.
     """
-    a, axis = sign * w[q], (w[q + 1], w[q + 2], w[q + 3])
-    x, y, z = w[v], w[v + 1], w[v + 2]
+    a, axis = sign * floats[q], (floats[q + 1], floats[q + 2], floats[q + 3])
+    x, y, z = floats[v], floats[v + 1], floats[v + 2]
     tx, ty, tz = cross(axis, (x, y, z))
     sx, sy, sz = cross(axis, (tx, ty, tz))
     twice = 2.0 / (a * a + dot(axis, axis))
-    w[out] = x + twice * (a * tx + sx)
-    w[out + 1] = y + twice * (a * ty + sy)
-    w[out + 2] = z + twice * (a * tz + sz)
+    floats[out] = x + twice * (a * tx + sx)
+    floats[out + 1] = y + twice * (a * ty + sy)
+    floats[out + 2] = z + twice * (a * tz + sz)
 
 
 @kernel("i8(ws, i8)")
@@ -47,9 +47,9 @@ def _slopes_of(ws: Workspace, number: int) -> int:
 
 
 @kernel("b1(F, i8, i8)")
-def _changes_direction(w: Floats, spin: int, rate: int) -> bool:
+def _changes_direction(floats: Floats, spin: int, rate: int) -> bool:
     """True if a spin does not keep its direction."""
-    u, v = (w[spin], w[spin + 1], w[spin + 2]), (w[rate], w[rate + 1], w[rate + 2])
+    u, v = (floats[spin], floats[spin + 1], floats[spin + 2]), (floats[rate], floats[rate + 1], floats[rate + 2])
     across = cross(u, v)
     return dot(across, across) > _SMALLEST_SINE * _SMALLEST_SINE * dot(u, u) * dot(v, v)
 

@@ -201,14 +201,3 @@ def word(a: list[int], b: list[int], c: list[int]) -> str:
     '{01,00,01}'
     """
     return "{" + ",".join("".join(str(bit) for bit in reversed(bits)) for bits in (a, b, c)) + "}"
-
-
-OPEN, STICK, SLIDE = Mode.OPEN, Mode.STICK, Mode.SLIDE
-START, IMPACT, LIFT_OFF, SLIP_TO_STICK, STICK_TO_SLIP, CLOSING, PAINLEVE, END, JAM, GUARD, TOUCH, FEATURE_END = [
-    *Cause
-][:12]
-FEATURE_CHANGE, AVERAGING, STEP = [*Cause][12:]
-BY_LAW, COMPLIANT, REFUSE = Painleve
-RUNNING, DONE, PAUSED, STEP_TOO_SMALL, NOT_FINITE, IMPACT_ENDLESS, NO_CONTACT_SOLUTION, UPDATE_ENDLESS = [*Status][:8]
-STALLED, STOPPED, NO_SLOT, PARADOX_REFUSED, JOINTS_APART, GAP_UNEXPLAINED, MOTION_UNEXPLAINED = [*Status][8:15]
-QUATERNION_UNEXPLAINED, CONDITION_MET, GAP_UNDECIDED, PASSED = [*Status][15:]

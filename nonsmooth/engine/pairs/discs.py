@@ -18,17 +18,19 @@ from nonsmooth.engine.pairs.support import middle_of, turned, turned_back
 
 
 @kernel("v3(F, i8, i8)")
-def _centre(w: Floats, frame_place: int, place: int) -> Vector:
+def _centre(floats: Floats, frame_place: int, place: int) -> Vector:
     """Centre of the circle of a part in the world [m]."""
-    rings, middle = at(w, place + PART_RINGS), middle_of(w, frame_place, place)
-    x, y, z = turned(frame_at(w, frame_place).rotation, turned(part_at(w, place).axes, (rings[0], rings[1], rings[2])))
+    rings, middle = at(floats, place + PART_RINGS), middle_of(floats, frame_place, place)
+    x, y, z = turned(
+        frame_at(floats, frame_place).rotation, turned(part_at(floats, place).axes, (rings[0], rings[1], rings[2]))
+    )
     return middle[0] + x, middle[1] + y, middle[2] + z
 
 
 @kernel("v3(F, i8, i8, v3)")
-def _in_axes_of(w: Floats, frame_place: int, place: int, v: Vector) -> Vector:
+def _in_axes_of(floats: Floats, frame_place: int, place: int, v: Vector) -> Vector:
     """Components of a world vector along the axes of a part."""
-    return turned_back(part_at(w, place).axes, turned_back(frame_at(w, frame_place).rotation, v))
+    return turned_back(part_at(floats, place).axes, turned_back(frame_at(floats, frame_place).rotation, v))
 
 
 @kernel("f8(v3, v3, f8)")

@@ -94,9 +94,9 @@ def _climb(ws: Workspace, number: int, start: Vector, size: float) -> Vector:
 
 
 @kernel("v3(F, i8, i8)")
-def _axis_of_frame(w: Floats, frame_place: int, axis: int) -> Vector:
+def _axis_of_frame(floats: Floats, frame_place: int, axis: int) -> Vector:
     """Axis 0, 1 or 2 of a frame, or the opposite of it for 3, 4 or 5."""
-    frame, column = frame_at(w, frame_place), axis % 3
+    frame, column = frame_at(floats, frame_place), axis % 3
     sign = 1.0 if axis < 3 else -1.0
     return sign * frame.rotation[column], sign * frame.rotation[column + 3], sign * frame.rotation[column + 6]
 

@@ -48,13 +48,13 @@ def turned_back(axes: Floats, v: Vector) -> Vector:
 
 
 @kernel("v3(F, i8, v3)")
-def _farthest_on_circles(w: Floats, place: int, n: Vector) -> Vector:
+def _farthest_on_circles(floats: Floats, place: int, n: Vector) -> Vector:
     """Point of the hull of a part's circles that is farthest along ``n`` [m]; the origin if there are no circles."""
-    rings = at(w, place + PART_RINGS)
+    rings = at(floats, place + PART_RINGS)
     x, y, z = n
     across = math.sqrt(x * x + y * y)
     best, found = -math.inf, 0
-    for i in range(int(part_at(w, place).rings)):
+    for i in range(int(part_at(floats, place).rings)):
         at_i = RING * i
         height = rings[at_i] * x + rings[at_i + 1] * y + rings[at_i + 2] * z + rings[at_i + 3] * across
         if height > best:
@@ -66,9 +66,9 @@ def _farthest_on_circles(w: Floats, place: int, n: Vector) -> Vector:
 
 
 @kernel("v3(F, i8, v3)")
-def _gradient_of_norm(w: Floats, place: int, n: Vector) -> Vector:
+def _gradient_of_norm(floats: Floats, place: int, n: Vector) -> Vector:
     """Gradient of ((|a n_x|^q + |b n_y|^q)^(p/q) + |c n_z|^p)^(1/p) at ``n``: the support point of a superellipsoid."""
-    part = part_at(w, place)
+    part = part_at(floats, place)
     a, b, c = part.semi
     p, q = part.powers[0], part.powers[1]
     ax, by, cz = abs(a * n[0]), abs(b * n[1]), abs(c * n[2])
@@ -86,39 +86,39 @@ def _gradient_of_norm(w: Floats, place: int, n: Vector) -> Vector:
 
 
 @kernel("v3(F, i8, v3)")
-def _farthest_of_summands(w: Floats, place: int, n: Vector) -> Vector:
+def _farthest_of_summands(floats: Floats, place: int, n: Vector) -> Vector:
     """Support point along a unit vector of all that is added to a part's circles [m]."""
-    part = part_at(w, place)
+    part = part_at(floats, place)
     x, y, z = 0.0, 0.0, 0.0
     if part.function > 0.0:
-        x, y, z = call_support(at(w, place), int(part.function), n[0], n[1], n[2])
+        x, y, z = call_support(at(floats, place), int(part.function), n[0], n[1], n[2])
     elif part.semi[0] > 0.0:
         if part.powers[0] == 2.0 and part.powers[1] == 2.0:
             ax, by, cz = part.semi[0] * n[0], part.semi[1] * n[1], part.semi[2] * n[2]
             size = math.sqrt(ax * ax + by * by + cz * cz)
             x, y, z = part.semi[0] * ax / size, part.semi[1] * by / size, part.semi[2] * cz / size
         else:
-            x, y, z = _gradient_of_norm(w, place, n)
+            x, y, z = _gradient_of_norm(floats, place, n)
     return x + part.ball * n[0], y + part.ball * n[1], z + part.ball * n[2]
 
 
 @kernel("v3(F, i8, i8)")
-def middle_of(w: Floats, frame_place: int, place: int) -> Vector:
+def middle_of(floats: Floats, frame_place: int, place: int) -> Vector:
     """Origin of a part's axes in the world [m]."""
-    frame = frame_at(w, frame_place)
-    x, y, z = turned(frame.rotation, part_at(w, place).place)
+    frame = frame_at(floats, frame_place)
+    x, y, z = turned(frame.rotation, part_at(floats, place).place)
     return frame.origin[0] + x, frame.origin[1] + y, frame.origin[2] + z
 
 
 @kernel("v3(F, i8, i8, v3)")
-def _farthest(w: Floats, frame_place: int, place: int, n: Vector) -> Vector:
+def _farthest(floats: Floats, frame_place: int, place: int, n: Vector) -> Vector:
     """Support point of a part along a unit vector of the world [m]."""
-    frame, part = frame_at(w, frame_place), part_at(w, place)
+    frame, part = frame_at(floats, frame_place), part_at(floats, place)
     own = turned_back(part.axes, turned_back(frame.rotation, n))
-    rx, ry, rz = _farthest_on_circles(w, place, own)
-    ax, ay, az = _farthest_of_summands(w, place, own)
+    rx, ry, rz = _farthest_on_circles(floats, place, own)
+    ax, ay, az = _farthest_of_summands(floats, place, own)
     x, y, z = turned(frame.rotation, turned(part.axes, (rx + ax, ry + ay, rz + az)))
-    mx, my, mz = middle_of(w, frame_place, place)
+    mx, my, mz = middle_of(floats, frame_place, place)
     return mx + x, my + y, mz + z
 
 

@@ -8,7 +8,7 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.memory.modes import OPEN, STICK
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import RigidNormalLaw, StatefulFrictionLaw, TractionLaw
 from nonsmooth.runs.model import Model
@@ -42,7 +42,7 @@ class Held:
             If the law of a closed contact has inner states, which are no coordinates.
         """
         contacts = model.system.contacts
-        for number in np.flatnonzero(state.modes != OPEN).tolist():
+        for number in np.flatnonzero(state.modes != Mode.OPEN).tolist():
             if isinstance(contacts[number].friction, (StatefulFrictionLaw, TractionLaw)):
                 raise InvalidInput(
                     f"section: the {contacts[number]}",
@@ -51,8 +51,8 @@ class Held:
                     "Choose a section where it is open, or a law without inner states.",
                 )
         rigid = np.array([isinstance(contact.normal, RigidNormalLaw) for contact in contacts], dtype=bool)
-        closed = rigid & (state.modes != OPEN)
-        return cls(np.flatnonzero(closed), np.flatnonzero(closed & (state.modes == STICK)))
+        closed = rigid & (state.modes != Mode.OPEN)
+        return cls(np.flatnonzero(closed), np.flatnonzero(closed & (state.modes == Mode.STICK)))
 
     def left(self, model: Model, state: State) -> Floats:
         """Return the gaps of the closed contacts [m], their rates, and slips of those that stick [m/s]; one array."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import final
 
-from nonsmooth.engine.memory.modes import CAUSES, GUARD, START
+from nonsmooth.engine.memory.modes import CAUSES, Cause
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
 
@@ -47,7 +47,7 @@ def passage(model: Model, start: State, t_end: float) -> Passage:
     if run.status == "interrupted":
         raise KeyboardInterrupt
     events = run.events
-    kept = events.cause != START
+    kept = events.cause != Cause.START
     told = zip(events.cause[kept].tolist(), events.contact[kept].tolist(), strict=True)
     return Passage(run.state, tuple(told), tuple(events.time[kept].tolist()))
 
@@ -57,7 +57,7 @@ def named(signature: Signature, model: Model, most: int = 4) -> str:
     names = model.system.names
     words = []
     for cause, i in signature[:most]:
-        known = names.guards if cause == GUARD else names.contacts
+        known = names.guards if cause == Cause.GUARD else names.contacts
         words.append(f"{CAUSES[cause]} of {known[i]!r}" if i >= 0 else CAUSES[cause])
     more = [f"{len(signature) - most} more"] if len(signature) > most else []
     return ", ".join([*words, *more]) or "none"

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.checks import floats
-from nonsmooth.engine.memory.modes import OPEN, SLIDE
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.plot.asked import axes_of
@@ -149,6 +149,6 @@ def _carried(model: Model, period: float, last: Model, state: State, last_period
     there = chosen(last, state, last_period)
     there = replace(there, time=there.time % last_period * (period / last_period))
     # what flew so low that it is reached by what moves otherwise now is taken along
-    reached = (model.contact_rates(there)[0] < 0.0) & (there.modes == OPEN)
-    there = replace(there, modes=np.where(reached, SLIDE, there.modes))
+    reached = (model.contact_rates(there)[0] < 0.0) & (there.modes == Mode.OPEN)
+    there = replace(there, modes=np.where(reached, Mode.SLIDE, there.modes))
     return Chart.at(model, there).held_in(model, there)

@@ -9,7 +9,7 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.histories.contact_motion import ContactMotion
 from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
@@ -60,7 +60,7 @@ def margins(orbit: Orbit) -> Margins:
     while end - state.time > 1e-9 * orbit.period:
         run = model.run(end, start=state, sample_interval=end - state.time)
         events, state = run.events, run.state
-        for i in np.flatnonzero(events.cause == IMPACT).tolist():
+        for i in np.flatnonzero(events.cause == Cause.IMPACT).tolist():
             impacts.append((float(events.time[i]), int(events.contact[i])))
             before = State.at(model.system, float(events.time[i]), events.q[i], events.u_before[i])
             collide = events.during[i] & _COLLIDES != 0

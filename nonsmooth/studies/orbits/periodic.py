@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.checks import is_finite
-from nonsmooth.engine.memory.modes import OPEN, SLIDE, STICK, Mode
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.errors import InvalidInput, NonsmoothError, RunFailed
 from nonsmooth.progress import Display, Pace, TimeReached
 from nonsmooth.runs.model import Model
@@ -35,7 +35,7 @@ _MOST = 30
 """Steps of Newton's method."""
 _HELD = 1e-6
 """Largest difference of what closed contacts hold after a period, in units of scales."""
-_MODES = {OPEN: "open", STICK: "closed and sticks", SLIDE: "closed and slides"}
+_MODES = {Mode.OPEN: "open", Mode.STICK: "closed and sticks", Mode.SLIDE: "closed and slides"}
 _TOLD = 3
 """Contacts that a message names at most."""
 _NEARLY_ONE = 1e-3

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from nonsmooth.checks import is_finite
-from nonsmooth.engine.memory.modes import OPEN
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
@@ -97,7 +97,7 @@ def check_period(model: Model, state: State, period: float, thing: str, remedy: 
             off = np.inf
         else:
             off = float(np.max(np.abs(np.concatenate([later.q - end.q, later.u - end.u]) / scales), initial=0.0))
-        acts = not len(state.modes) or bool(one.signature) or bool(np.any(state.modes != OPEN))
+        acts = not len(state.modes) or bool(one.signature) or bool(np.any(state.modes != Mode.OPEN))
         if off <= _SAME and acts:
             return
         misses += [off] if off > _SAME else []

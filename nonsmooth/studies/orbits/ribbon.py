@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.checks import floats, is_finite
-from nonsmooth.engine.memory.modes import START
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput
 from nonsmooth.plot.asked import axes_of
@@ -182,7 +182,7 @@ def periods(model: Model, run: Solution, period: float) -> Ribbon:
 def _row(run: Solution, period: float, first: int, keep: int) -> Row:
     """Return the events of some periods, and the last one before them, which colours their begin."""
     events = run.events
-    kept = events.cause != START
+    kept = events.cause != Cause.START
     at = events.time[kept] / period - first
     told = list(zip(events.cause[kept].tolist(), events.contact[kept].tolist(), strict=True))
     begin, end = max(0, int(np.searchsorted(at, 0.0)) - 1), int(np.searchsorted(at, keep))

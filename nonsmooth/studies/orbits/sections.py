@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.checks import is_finite
-from nonsmooth.engine.memory.modes import GUARD
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Guard
 from nonsmooth.parameters import parameter
@@ -173,7 +173,7 @@ class Crossing(Section):
 
     def _next(self, model: Model, start: State) -> Passage:
         piece = passage(model, start, start.time + self.longest)
-        end: Signature = ((GUARD, len(model.system.guards) - 1),)
+        end: Signature = ((Cause.GUARD, len(model.system.guards) - 1),)
         if piece.signature[-1:] != end:
             word = "upwards" if self.rising else "downwards"
             rule = f"must pass {self.level:.9g} {word} within {self.longest:.9g} s"

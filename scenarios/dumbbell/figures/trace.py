@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.solution.solution import Solution
 from scenarios.dumbbell import coordinates
 from scenarios.dumbbell.scenario import DumbbellScenario
@@ -65,7 +65,7 @@ class Trace:
         )
         last = np.where(number >= 0, number, np.searchsorted(events.time, t, side="right") - 1)
         touching = (events.after[np.maximum(last, 0)] & 1) > 0
-        hit = (late == 0) & (events.cause[np.maximum(number, 0)] == IMPACT)
+        hit = (late == 0) & (events.cause[np.maximum(number, 0)] == Cause.IMPACT)
         struck = hit[:, None] & ((events.during[np.maximum(number, 0)] & 1) > 0)
         return cls(scenario, t, places, rates, touching, struck)
 

@@ -28,7 +28,7 @@ from bodies import (
     TriangleMesh,
     Triangles,
 )
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.errors import MissingPackagesError
 from nonsmooth.interfaces import Body, Shape
@@ -265,7 +265,7 @@ def test_a_dumbbell_of_meshes_is_none_of_spheres() -> None:
 
     def impacts(one: ns.System) -> Any:
         events = ns.simulate(one, 0.1).events
-        return events.time[events.cause == IMPACT]
+        return events.time[events.cause == Cause.IMPACT]
 
     exact, half, off = impacts(system), 0.5 * dumbbell.centre_distance, []
     for level in (0, 1, 3):

@@ -12,7 +12,7 @@ import numpy as np
 from bodies import Ball, Harmonic, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth import Solution, System, simulate
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Criterion, FrictionLaw, RigidNormalLaw, Scenario
 from nonsmooth.parameters import parameter
 
@@ -79,7 +79,7 @@ class Tiny(Scenario):
         """Return how well the first impact is hit."""
         if self.mode == "none":
             return ()
-        times = solution.events.time[solution.events.cause == IMPACT][:1]
+        times = solution.events.time[solution.events.cause == Cause.IMPACT][:1]
         t = float(times[0]) if len(times) else math.nan
         gap = self.radius - 0.5 * 9.81 * t * t - 3e-4 * math.sin(2.0 * math.pi * 25.0 * t)
         wanted = 1e-3 if self.mode == "missed" else 0.0

@@ -11,7 +11,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
-from nonsmooth.engine.memory.modes import IMPACT, LIFT_OFF
+from nonsmooth.engine.memory.modes import Cause
 from scenarios.bouncing_ball.scenario import BouncingBall
 from scenarios.bouncing_trimer import figures
 from scenarios.bouncing_trimer.motion import Motion, repetition, summary
@@ -48,7 +48,7 @@ def test_level_trimer_is_a_ball(gamma: float) -> None:
     solution = ns.simulate(BouncingTrimer(tilt=0.0, **start).build(), 0.25, engine=exact)
     ball = BouncingBall(**start)
     reference = ns.simulate(ball.build(), ball.t_end, engine=exact)
-    found = solution.events.time[solution.events.cause == IMPACT][:6]
+    found = solution.events.time[solution.events.cause == Cause.IMPACT][:6]
     assert len(found) == 6
     np.testing.assert_allclose(found, ball.impact_times(reference)[:6], rtol=0, atol=1e-9)
     # what round-off leaves of the level grows in the next impacts
@@ -59,7 +59,7 @@ def test_first_impact_in_closed_form() -> None:
     """One ball meets the plate: without friction P = (1 + e) |g'| / G along the vertical at that ball."""
     scenario, solution = _run(friction=0.0, tilt=0.1, restitution=0.7, t_end=0.02)
     events = solution.events
-    first = int(np.flatnonzero(events.cause == IMPACT)[0])
+    first = int(np.flatnonzero(events.cause == Cause.IMPACT)[0])
     contact = int(events.contact[first])
     turn = Rotation.from_quat(events.q[first, [4, 5, 6, 3]])
     arm = turn.apply(scenario.corners[contact]) - np.array([0.0, 0.0, scenario.radius])
@@ -92,7 +92,7 @@ def test_conservation_without_friction() -> None:
 def test_it_leaves_the_plate_above_one_g(gamma: float) -> None:
     """Below it stays, above it takes off level where the plate falls away at g."""
     _, solution = _run(gamma=gamma, height=0.0, tilt=0.0, restitution=0.0, t_end=0.06)
-    after = solution.events.cause == LIFT_OFF
+    after = solution.events.cause == Cause.LIFT_OFF
     assert np.any(after) == (gamma > 1.0)
     if gamma > 1.0:
         last = solution.events.time[after]

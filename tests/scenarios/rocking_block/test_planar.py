@@ -11,7 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import nonsmooth as ns
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from scenarios.rocking_block import housner
 from scenarios.rocking_block.scenario import RockingBlock
 
@@ -99,7 +99,7 @@ def _no_slip(alpha: float, share: float = 1.05, **more: float) -> RockingBlock:
 def _first_impact(block: RockingBlock) -> tuple[float, float]:
     """Return the ratio of the tilt rates and the share of the normal impulse that the corner at rest takes."""
     solution = ns.simulate(block.build(), block.t_end, engine=FINE)
-    first = np.flatnonzero(solution.events.cause == IMPACT)[0]
+    first = np.flatnonzero(solution.events.cause == Cause.IMPACT)[0]
     impulse = solution.events.impulse[first, :, 0]
     ratio = solution.events.u_after[first, 2] / solution.events.u_before[first, 2]
     return float(ratio), float(impulse[0] / impulse.sum())
@@ -143,7 +143,7 @@ def test_amplitudes() -> None:
     solution = ns.simulate(block.build(), block.t_end, engine=FINE)
     events, alpha = solution.events, housner.slenderness(0.25, 1.0)
     assert solution.energy.friction_loss <= 1e-12
-    impacts = events.cause == IMPACT
+    impacts = events.cause == Cause.IMPACT
     before = np.abs(events.u_before[impacts, 2])
     assert len(before) >= 8
     np.testing.assert_allclose(before[1:] / before[:-1], housner.velocity_ratio(alpha), rtol=0, atol=1e-8)

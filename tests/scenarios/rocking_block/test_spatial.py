@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from scenarios.rocking_block import housner
 from scenarios.rocking_block.scenario import RockingBlock
 from scenarios.rocking_block.spatial import RockingBlock3D
@@ -25,7 +25,7 @@ def test_on_an_edge_as_in_the_plane(restitution: float, friction: float, t_end: 
     deep = RockingBlock3D(depth=0.4, direction=0.0, tilt=0.5, **common)
     one = ns.simulate(flat.build(), t_end, engine=FINE)
     two = ns.simulate(deep.build(), t_end, engine=FINE)
-    times = [run.events.time[run.events.cause == IMPACT] for run in (one, two)]
+    times = [run.events.time[run.events.cause == Cause.IMPACT] for run in (one, two)]
     assert len(times[0]) >= 3
     # equal and opposite corners may strike within the time tolerance, not at the very same instant
     assert np.max(np.min(np.abs(times[1][:, None] - times[0]), axis=1)) <= 1e-8
@@ -40,7 +40,7 @@ def test_velocity_ratio_on_an_edge() -> None:
     friction = 1.1 * housner.least_friction(alpha)
     block = RockingBlock3D(base=math.tan(alpha), depth=0.5, direction=0.0, tilt=0.05, friction=friction, t_end=0.5)
     solution = ns.simulate(block.build(), block.t_end, engine=FINE)
-    first = np.flatnonzero(solution.events.cause == IMPACT)[0]
+    first = np.flatnonzero(solution.events.cause == Cause.IMPACT)[0]
     assert solution.events.words("during")[first] == "{01010101,01010000,00000000}"
     ratio = solution.events.u_after[first, 4] / solution.events.u_before[first, 4]
     assert ratio == pytest.approx(housner.velocity_ratio(alpha), abs=1e-9)

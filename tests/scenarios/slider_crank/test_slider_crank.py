@@ -11,7 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import nonsmooth as ns
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from scenarios.slider_crank.scenario import SliderCrank
 
 GRAVITY = 9.81
@@ -67,7 +67,7 @@ def test_first_impact(law: str) -> None:
     free = _pinned(scenario)
     solution = _run(scenario, 3e-3, tolerance=1e-12)
     assert scenario.first_impact(solution) == pytest.approx(float(free.t_events[0][0]), abs=1e-9)
-    event = int(np.flatnonzero(solution.events.cause == IMPACT)[0])
+    event = int(np.flatnonzero(solution.events.cause == Cause.IMPACT)[0])
     np.testing.assert_allclose(solution.events.u_before[event], free.y_events[0][0][3:], rtol=0, atol=1e-6)
     hit = solution.events.impulse[event, :, 0] > 0.0
     assert hit.tolist() == [False] * 2 + [True] * 2
@@ -80,7 +80,7 @@ def test_newtons_restitution_of_the_degenerate_pair(restitution: float) -> None:
     """Two corners share one impulse, whatever its share: the slider's rate is reversed by e, and it stays level."""
     scenario = SliderCrank(restitution=restitution, friction=0.0)
     solution = _run(scenario, 3e-3)
-    event = int(np.flatnonzero(solution.events.cause == IMPACT)[0])
+    event = int(np.flatnonzero(solution.events.cause == Cause.IMPACT)[0])
     q = solution.events.q[event]
     row = np.array([scenario.crank_length * math.cos(q[0]), scenario.rod_length * math.cos(q[1]), 0.0])
     before, after = row @ solution.events.u_before[event], row @ solution.events.u_after[event]

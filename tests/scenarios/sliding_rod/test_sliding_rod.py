@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
 import nonsmooth as ns
-from nonsmooth.engine.memory.modes import IMPACT, JAM, LIFT_OFF, PAINLEVE, SLIP_TO_STICK
+from nonsmooth.engine.memory.modes import Cause
 from scenarios.sliding_rod import figures
 from scenarios.sliding_rod.paradox import Rod
 from scenarios.sliding_rod.scenario import GRAVITY, SlidingRod
@@ -30,7 +30,7 @@ def _run(**start: Any) -> tuple[SlidingRod, ns.Solution]:
 def _struck(**start: Any) -> bool:
     """Tell whether the rod finds no force at its start, within the first microsecond."""
     _, solution = _run(t_end=1e-6, **start)
-    return solution.events.count(PAINLEVE) > 0
+    return solution.events.count(Cause.PAINLEVE) > 0
 
 
 @pytest.mark.parametrize("tilt", [0.5, 0.9, math.atan(2.0), 1.3])
@@ -67,7 +67,7 @@ def test_threshold_of_a_sharp_rod() -> None:
 def test_trailing_end_has_no_paradox() -> None:
     """Sliding backwards, friction lifts the load off the end, whatever the coefficient."""
     _, solution = _run(friction=2.0, speed=-1.0, t_end=0.05)
-    assert solution.events.count(PAINLEVE, JAM) == 0
+    assert solution.events.count(Cause.PAINLEVE, Cause.JAM) == 0
     assert solution.events.words("after")[0] == "{01,00,01}"
 
 
@@ -143,7 +143,7 @@ def test_slip_to_stick_against_an_independent_integration() -> None:
     """Just below the threshold the force is large, and the slip stops soon: the same time to 1e-8."""
     scenario, solution = _run(friction=1.3, t_end=0.01)
     events = solution.events
-    assert events.cause[1] == SLIP_TO_STICK
+    assert events.cause[1] == Cause.SLIP_TO_STICK
     done = _sliding(scenario, 0.01)
     assert len(done.t_events[0]) == 1
     assert events.time[1] == pytest.approx(done.t[-1], abs=1e-8)
@@ -154,7 +154,7 @@ def test_jamming_against_springs() -> None:
     """Where sliding runs into the paradox the end stops at once, as it does on ever stiffer springs."""
     scenario, solution = _run(friction=2.0, tilt=0.5, rate=5.0, speed=3.0, t_end=0.03)
     events = solution.events
-    assert events.cause[1] == JAM
+    assert events.cause[1] == Cause.JAM
     phi, rate = float(scenario.tilts(events.q)[1]), float(events.u_after[1, 4])
     # coefficient and free acceleration vanish together there, with the slip still fast (Genot and Brogliato 1999)
     assert scenario.rod.critical_friction(phi) == pytest.approx(2.0, abs=1e-5)
@@ -176,10 +176,10 @@ def test_jamming_against_springs() -> None:
 def test_the_other_end_lands() -> None:
     """A rod that pivots on one end comes down on the other; both then lie on the ground."""
     scenario, solution = _run(friction=0.5, tilt=0.6, rate=-2.0, speed=0.5, t_end=0.5)
-    assert solution.events.count(IMPACT) > 0
+    assert solution.events.count(Cause.IMPACT) > 0
     assert abs(scenario.final(solution)["q"][2]) < 1e-9
     assert scenario.final(solution)["q"][1] == pytest.approx(scenario.end_radius, abs=1e-9)
-    assert solution.events.count(LIFT_OFF, PAINLEVE, JAM) == 0
+    assert solution.events.count(Cause.LIFT_OFF, Cause.PAINLEVE, Cause.JAM) == 0
 
 
 @pytest.mark.parametrize("tilt", [0.0, -0.3, 2.0])

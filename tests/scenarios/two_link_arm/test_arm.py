@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from nonsmooth.engine.memory.modes import PAINLEVE
+from nonsmooth.engine.memory.modes import Cause
 from scenarios.two_link_arm.painleve import (
     critical_friction,
     least_critical_friction,
@@ -54,14 +54,14 @@ def test_both_sides_of_the_critical_friction(factor: float, expected: int) -> No
     angle = 0.7
     friction = critical_friction(angle, *SIZES) * factor
     solution = _run(TwoLinkArm(angle=angle, friction=friction, spring=0.0, damping=0.0), 1e-4)
-    assert solution.events.count(PAINLEVE) == expected
+    assert solution.events.count(Cause.PAINLEVE) == expected
     assert solution.modes.get("{1,0,1}", 0.0) == (0.0 if expected else 1.0)
 
 
 def test_sliding_the_other_way_is_no_paradox() -> None:
     """With the belt running the other way friction lifts the tip, and it slides on."""
     solution = _run(TwoLinkArm(belt_speed=-1.0), 0.2)
-    assert solution.events.count(PAINLEVE) == 0
+    assert solution.events.count(Cause.PAINLEVE) == 0
     assert solution.modes == {"{1,0,1}": pytest.approx(1.0)}
 
 
@@ -78,7 +78,7 @@ def test_impact_without_collision_in_closed_form(restitution: float) -> None:
     stored = -0.5 * reduced * p_1**2 + pressed**2 / (2.0 * held)
     rate = math.sqrt(2.0 * held * restitution**2 * stored)
     solution = _run(scenario, 1e-5)
-    event = int(np.flatnonzero(solution.events.cause == PAINLEVE)[0])
+    event = int(np.flatnonzero(solution.events.cause == Cause.PAINLEVE)[0])
     assert solution.events.time[event] == 0.0
     u = solution.events.u_after[event]
     angles = np.array([scenario.angle, scenario.second_angle])
@@ -96,7 +96,7 @@ def test_motions(spring: float, damping: float) -> None:
     solution = _run(scenario)
     summary = scenario.summarise(solution)
     assert solution.status == "done"
-    assert solution.events.cause[0] == PAINLEVE
+    assert solution.events.cause[0] == Cause.PAINLEVE
     assert summary["impacts"] >= 1
     assert 0.01 < summary["largest_gap"] < 0.1
     assert np.min(scenario.gap(solution)) > -1e-9

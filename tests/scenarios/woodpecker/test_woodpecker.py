@@ -10,7 +10,7 @@ import pytest
 
 import nonsmooth as ns
 from laws import StrongeImpact
-from nonsmooth.engine.memory.modes import IMPACT
+from nonsmooth.engine.memory.modes import Cause
 from scenarios.woodpecker.scenario import _LAWS, Woodpecker
 from tests.scenarios.woodpecker.time_stepping import cycle
 
@@ -77,7 +77,7 @@ def test_energy_and_gaps(long: Any, law: str) -> None:
     reach = scenario.sleeve_arm + scenario.bird_arm - scenario.beak_arm - scenario.pole_radius
     assert np.min(clearance - scenario.sleeve_height * np.abs(solution.q[:, 1])) > -1e-10
     assert np.min(reach - scenario.beak_height * solution.q[:, 2]) > -1e-10
-    hits = solution.events.impulse[solution.events.cause == IMPACT][:, :, 0] > 0.0
+    hits = solution.events.impulse[solution.events.cause == Cause.IMPACT][:, :, 0] > 0.0
     assert np.all(hits.sum(axis=1) == 1)
     # each point has one contact, with the face that it belongs to, and all of them are met
     assert hits.any(axis=0).tolist() == [True] * 3
@@ -90,7 +90,7 @@ def test_restitution_of_each_contact(long: Any) -> None:
     rows = {0: [0.0, 0.0, -scenario.beak_height], 1: [0.0, scenario.sleeve_height, 0.0]}
     rows[2] = [-x for x in rows[1]]
     for contact, e in ((0, scenario.beak_restitution), (1, 0.0), (2, 0.0)):
-        hit = (events.cause == IMPACT) & (events.impulse[:, contact, 0] > 0.0)
+        hit = (events.cause == Cause.IMPACT) & (events.impulse[:, contact, 0] > 0.0)
         assert hit.sum() > 10
         before, after = events.u_before[hit] @ rows[contact], events.u_after[hit] @ rows[contact]
         np.testing.assert_allclose(after, -e * before, rtol=0, atol=1e-9)

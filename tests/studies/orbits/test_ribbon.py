@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from nonsmooth.engine.memory.modes import IMPACT, START
+from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.studies.orbits.diagram import bifurcation
 from nonsmooth.studies.orbits.ribbon import periods, ribbon
@@ -31,7 +31,7 @@ def test_impacts_of_orbits_are_where_the_closed_form_has_them() -> None:
     later = found.rows[2].at[1:]
     np.testing.assert_allclose(later[later < n] + n, later[later >= n], atol=1e-4)
     assert abs(later[1] - later[0] - 1.0) > 0.1
-    assert {cause for row in found.rows for cause, _ in row.events} == {IMPACT}
+    assert {cause for row in found.rows for cause, _ in row.events} == {Cause.IMPACT}
     assert found.failures == ("", "", "")
 
 
@@ -40,7 +40,7 @@ def test_the_rows_of_a_run_have_all_of_its_events() -> None:
     run = model.run(1.0)
     found = periods(model, run, 0.04)
     times = np.concatenate([0.04 * (row.at[row.at >= 0.0] + i) for i, row in enumerate(found.rows)])
-    np.testing.assert_allclose(times, run.events.time[run.events.cause != START], atol=1e-12)
+    np.testing.assert_allclose(times, run.events.time[run.events.cause != Cause.START], atol=1e-12)
     assert len(found.values) == 25
 
 

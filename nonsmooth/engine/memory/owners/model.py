@@ -43,7 +43,9 @@ class Model(Part, key="model"):
     event_floats: int = whole(_PARAMETER, "Length of the buffer of floats of events.")
     event_integers: int = whole(_PARAMETER, "Length of the buffer of integers of events.")
     sample_capacity: int = whole(_PARAMETER, "Number of samples that the buffer holds.")
-    entry_points: IntegerRow = array(_PARAMETER, fixed(len(ENTRY_POINTS)), int, "", "Addresses of the entry points.")
+    entry_points: IntegerRow = array(
+        _PARAMETER, fixed(len(ENTRY_POINTS)), int, "", "Addresses of the entry points.", is_address=True
+    )
     partner: IntegerRow = array(
         _PARAMETER, per(1, "n_partners"), int, "", "Second bounding sphere of each pair, ascending for each first one."
     )

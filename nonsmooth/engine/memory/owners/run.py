@@ -26,12 +26,12 @@ _REQUEST, _STATE, _OUTPUT = Life.REQUEST, Life.STATE, Life.OUTPUT
 
 @final
 class Request(Part, key="request"):
-    """What a call requests. A run that was cut off keeps its end time and the times of its samples."""
+    """What a call requests."""
 
-    t_end: float = real(_STATE, "s", "End time.")
-    sample_start: float = real(_STATE, "s", "Time of the first sample.")
-    sample_interval: float = real(_STATE, "s", "Time between samples.")
-    sample_span: float = real(_STATE, "s", "Largest step that the buffer of samples allows.", begin=math.inf)
+    t_end: float = real(_REQUEST, "s", "End time.")
+    sample_start: float = real(_REQUEST, "s", "Time of the first sample.")
+    sample_interval: float = real(_REQUEST, "s", "Time between samples.")
+    sample_span: float = real(_REQUEST, "s", "Largest step that the buffer of samples allows.", begin=math.inf)
     n_known_events: int = whole(_REQUEST, "Number of events of a resumed run that are recorded already.")
     is_resumed: bool = question(_REQUEST, "The run continues an earlier one.")
     n_work: int = whole(_REQUEST, "Work since the last interrupt check, in evaluations of a contact.")
