@@ -40,7 +40,9 @@ def _rattling(every: float, beside: int = 0) -> ns.System:
 @pytest.mark.parametrize("beside", [0, 3])
 def test_a_run_in_which_time_stops_passing_says_so(beside: int) -> None:
     """What stands beside is not counted in."""
-    with pytest.raises(ns.RunFailed, match=r"the run stalls.*impact of 'plate 1 - ball.*Try a lower restitution") as failed:
+    with pytest.raises(
+        ns.RunFailed, match=r"the run stalls.*impact of 'plate 1 - ball.*Try a lower restitution"
+    ) as failed:
         ns.simulate(_rattling(0.9 * CROWDED, beside), 1.0)
     solution = failed.value.solution
     assert isinstance(solution, ns.Solution)
