@@ -33,10 +33,11 @@ class Articulation:
 
 
 def articulations(system: System) -> list[Articulation]:
-    """Articulations of a system, in the order of their bodies.
+    """Split the bodies into the shortest runs of consecutive bodies such that no joint ties movable bodies of two runs.
 
-    A body between two bodies of an articulation, in the order of the system, belongs to it. That costs time and does
-    not change the motion.
+    A run of bodies is an articulation: its velocities are consecutive, and joints couple them. A body between two of a
+    run belongs to it even without a joint. That costs time and does not change the motion. Each joint must have a
+    movable body.
     """
     bodies = system.bodies
     last = list(range(len(bodies)))

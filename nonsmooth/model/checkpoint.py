@@ -54,7 +54,7 @@ class Checkpoint:
 
     @functools.cached_property
     def record(self) -> np.void:
-        """The scalars, without those of an engine's own part."""
+        """Record of the scalars that all engines share, a view of the first part."""
         return cast(np.void, self.parts[0][:N_SCALARS].view(SCALARS)[0])
 
     @functools.cached_property

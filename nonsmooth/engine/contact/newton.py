@@ -214,8 +214,9 @@ def _add_rows_of_rest(ws: Workspace, active: ActiveContact, radius: float) -> No
 def _subtract_projection(ws: Workspace, active: ActiveContact, factor: float, c1: float, c2: float) -> None:
     """Subtract the derivative of the projection on Coulomb's disc from the two rows of friction of a contact.
 
-    The projection is ``factor`` times y_t, and (c1, c2) is the unit vector along y_t. A change of y_t across this
-    vector turns the projection, and a change of y_n moves it along the vector.
+    y = p - a / G is the force after a step along the acceleration a, with the diagonal G of the Delassus matrix. The
+    projection is ``factor`` = mu y_n / |y_t| times y_t, and (c1, c2) is the unit vector along y_t. (z1, z2) is the
+    derivative of y_t by one force. Its part across the unit vector turns the projection; y_n moves it along the vector.
     """
     own, g_t = diagonal_block(ws, active.index).nn, tangential_inverse_mass(ws, active)
     n, a = 3 * ws.problem.n_active, active.index

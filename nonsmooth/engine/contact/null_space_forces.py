@@ -109,7 +109,10 @@ def _choose_farthest(ws: Workspace, largest: float) -> bool:
 
 @kernel("b1(ws, f8, i8)")
 def _choose_at_distance(ws: Workspace, largest: float, n_quarterings: int) -> bool:
-    """Find forces at the distance ``largest`` / 4^n_quarterings [N] inside their cones. False if there are none."""
+    """Move the forces of least norm at least ``largest`` / 4^n_quarterings [N] into their cones. False if it fails.
+
+    The same motion belongs to all of them. The tolerance is a small part of the largest force.
+    """
     for i in range(ws.problem.n_unknown):
         set_force(ws, i, ws.problem.forces_at_start[i])
     return distribute(ws, 0.25**n_quarterings * largest, _DISTRIBUTED * largest)

@@ -25,7 +25,7 @@ from nonsmooth.engine.contact.gauss_seidel import search_by_sweeps
 from nonsmooth.engine.contact.lemke import search_by_pivots
 from nonsmooth.engine.contact.newton import search_by_newton
 from nonsmooth.engine.contact.polish import polish
-from nonsmooth.engine.contact.trial import EQUAL, fulfils_laws, guess_modes_from_forces, set_scales, verify
+from nonsmooth.engine.contact.trial import EQUAL, evaluate_accelerations, fulfils_laws, guess_modes_from_forces, verify
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.memory.solvers import ENUMERATION, GAUSS_SEIDEL, LEMKE
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, entry_point, kernel
@@ -205,7 +205,7 @@ def _verify_by_acceleration(ws: Workspace) -> bool:
     A contact with friction on its bound but without slip acceleration sticks. Solvers produce it if forces are
     redundant.
     """
-    set_scales(ws)
+    evaluate_accelerations(ws)
     if _guess_modes_from_accelerations(ws):
         polish(ws)
         if _verify_or_open(ws):
@@ -344,7 +344,7 @@ def _store_solution(ws: Workspace) -> None:
 def _restore_solution(ws: Workspace) -> None:
     """Restore modes, directions and forces of the solution, and its accelerations."""
     _restore_guess(ws)
-    set_scales(ws)
+    evaluate_accelerations(ws)
 
 
 @kernel()

@@ -65,8 +65,9 @@ def hold_tried(ws: Workspace) -> None:
 
 
 @kernel()
-def set_scales(ws: Workspace) -> None:
-    """Write the accelerations under the present forces, and the acceleration and force that count as zero."""
+def evaluate_accelerations(ws: Workspace) -> None:
+    """Write the accelerations of the active contacts, free + G p, and the thresholds of zero acceleration and force."""
+    # round-off of an acceleration is relative to the largest of its terms
     scale = ws.problem.acceleration_scale
     force_scale = 0.0
     for i in range(3 * ws.problem.n_active):
@@ -134,7 +135,7 @@ def fulfils_laws(ws: Workspace, is_lenient: bool) -> bool:
 @kernel("Verdict(ws, b1)")
 def _check(ws: Workspace, is_lenient: bool) -> Verdict:
     """Verdict on the forces of all active contacts."""
-    set_scales(ws)
+    evaluate_accelerations(ws)
     verdict = Verdict.FULFILLED
     for active in ws.actives:
         own = _check_contact(ws, active, is_lenient)

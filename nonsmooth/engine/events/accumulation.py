@@ -295,9 +295,10 @@ def _has_creeping_contact(ws: Workspace) -> bool:
 
 @kernel("b1(ws)")
 def replace_coincident_contacts(ws: Workspace) -> bool:
-    """Let approaching contacts replace the closed contacts that coincide with them. False if others collide.
+    """Replace closed contacts by approaching ones that coincide with them, stop what still approaches, and record it.
 
-    Of several approaching contacts at one place the last one that replaces another is recorded.
+    False, and nothing is replaced, if an approaching contact coincides with no closed one. The event names the last
+    contact that replaces another.
     """
     for contact in ws.contacts:
         approaches = not contact.is_compliant and contact.is_touching and contact.normal_rate < -ws.tolerance.velocity

@@ -51,7 +51,10 @@ def average_active(ws: Workspace) -> bool:
 
 @kernel("b1(ws, i8)")
 def average_island_of(ws: Workspace, c: int) -> bool:
-    """Let the forces of the island of the closed contact ``c`` be averaged from now on. False if they cannot be."""
+    """Start averaging over time of the forces of the island of contact ``c``, which becomes the active one.
+
+    False if the contact is open or the forces cannot be averaged.
+    """
     if ws.contacts[c].mode == Mode.OPEN:
         return False
     group_closed(ws)
@@ -61,10 +64,10 @@ def average_island_of(ws: Workspace, c: int) -> bool:
 
 @kernel("b1(ws, b1)")
 def stays_averaged(ws: Workspace, ends: bool) -> bool:
-    """True if the forces of the active contacts are averaged and stay so.
+    """True if the forces of the active contacts are averaged over time, and the next span is averaged too.
 
-    If their span ``ends``, they stay averaged while a slip would soon stop, or while the wait before the next attempt
-    lasts. Those of a single contact end.
+    ``ends`` is true at the end of a span. Averaging then goes on if a slip would soon stop, or if the last attempt
+    without averaging was less than ``mean_forces_wait`` [s] ago. It ends for a single contact.
     """
     if not is_averaged(ws):
         return False

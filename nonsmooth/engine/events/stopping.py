@@ -31,9 +31,9 @@ _UNKNOWN_PART = 0.25
 
 @kernel("f8(ws, Contact, f8)")
 def _part_before_stop_of(ws: Workspace, contact: Contact, h: float) -> float:
-    """Part of the implicit step of ``h`` [s] to take, if the slip of a contact stops within it.
+    """Part of the implicit step of ``h`` [s] to take, so that it ends at or before the stop of a slip.
 
-    It is 1 if the slip stops at the end of the step.
+    If the slip stops at the end of the step, the part is 1, and the contact becomes ``halting_contact``.
     """
     c = contact.index
     first = length(contact.slip_at_end)
@@ -41,9 +41,11 @@ def _part_before_stop_of(ws: Workspace, contact: Contact, h: float) -> float:
     du = ws.island.slopes.start + ws.model.n_q
     a1, a2 = row(ws, c, FIRST_ROW, du) + contact.bias[1], row(ws, c, SECOND_ROW, du) + contact.bias[2]
     decrease = -h * (v1 * a1 + v2 * a2) / first
+    # a slip that does not decrease tells nothing about its stop
     part, least = _UNKNOWN_PART, 2.0 * ws.tolerance.time
     if decrease > 0.0:
         part = first / decrease
+        # an explicit step may reach the stop; an implicit one that passes it is taken again, shorter
         if _EXPLICIT_PART * part * h * ws.step.relaxation <= LARGEST_EXPLICIT:
             part *= _EXPLICIT_PART
         elif first > ws.tolerance.velocity:

@@ -36,7 +36,10 @@ def feature_guard(ws: Workspace, contact: Contact) -> float:
 
 @kernel("b1(ws, Contact)")
 def has_other_features(ws: Workspace, contact: Contact) -> bool:
-    """True if a contact whose end guard fired passed to other features. False if its features ended."""
+    """True if a contact whose end guard fired has passed to other features, False if its features ended.
+
+    The witness points are within the new features then: the distance past their end is not positive.
+    """
     return contact.past_feature <= ws.tolerance.gap
 
 

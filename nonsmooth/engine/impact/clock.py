@@ -170,8 +170,8 @@ def _aim_at_end_of_phase(ws: Workspace, active: ActiveContact, growth: float, ai
 def has_arrived(ws: Workspace, aim: Aim) -> bool:
     """True if the guard that a step of the lone contact aimed at is zero within round-off.
 
-    The energy guard of a contact that opens under load is what it still returns. That may be a small part of all, and
-    must then be zero more closely.
+    The energy guard is the energy that expansion has still to return, relative to ``energy_scale``. If that energy is
+    small from the start, lost * part / (1 - part) with the returned part, the threshold is relative to it.
     """
     if aim.guard == NO_GUARD:
         return False

@@ -63,7 +63,7 @@ def choose_friction(ws: Workspace, probe: float, turns_rate: bool) -> None:
         for i in range(3 * len(ws.actives)):
             ws.problem.free_accelerations[i] = 0.0
         gauss_seidel(ws, SWEEPS)
-        _polish(ws)
+        _refine_starting_slips(ws)
         _hold_idle(ws)
     for active in ws.actives:
         if active.normal_force <= 0.0:
@@ -140,8 +140,8 @@ def _write_problem(ws: Workspace, active: ActiveContact, probe: float) -> None:
 
 
 @kernel()
-def _polish(ws: Workspace) -> None:
-    """Make the directions of slips that start exact. If that fails, the ones that were found stay."""
+def _refine_starting_slips(ws: Workspace) -> None:
+    """Refine by Newton's method the directions in which contacts at rest start to slip. If it fails, restore them."""
     ws.problem.acceleration_scale = 0.0
     for active in ws.actives:
         own = diagonal_block(ws, active.index)
@@ -152,7 +152,7 @@ def _polish(ws: Workspace) -> None:
         active.direction_found = active.direction
         acceleration = max(own.nn, own.t11, own.t22) * abs(active.normal_force)
         ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, acceleration)
-    if polish(ws) == 0:
+    if not polish(ws):
         for active in ws.actives:
             active.direction = active.direction_found
         hold_tried(ws)

@@ -33,7 +33,7 @@ from nonsmooth.engine.impact.guards import (
 from nonsmooth.engine.impact.location import Switch, locate_switch
 from nonsmooth.engine.impact.phases import end_faint, has_reached_rim, start_phases, switch_phases
 from nonsmooth.engine.impact.rates import NOISE, state_size, write_impact_slope
-from nonsmooth.engine.impact.scales import grow_scales, scale_impact
+from nonsmooth.engine.impact.scales import raise_impulse_scales, scale_impact
 from nonsmooth.engine.impact.step import let_go, try_impact_step, try_linear_step
 from nonsmooth.engine.impact.step_length import first_step, graded, lone_step, rejection_factor, step_after_switch
 from nonsmooth.engine.memory.layout import LAST_STAGE
@@ -211,7 +211,7 @@ def _accept(ws: Workspace) -> None:
     """Take over the state at the end of a step, and let the slips stick that it has stopped."""
     for i in range(state_size(ws)):
         ws.impact.y[i] = ws.impact.y_new[i]
-    grow_scales(ws)
+    raise_impulse_scales(ws)
     stop_halted(ws)
 
 

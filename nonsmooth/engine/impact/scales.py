@@ -102,8 +102,11 @@ def reached_energy(ws: Workspace, active: ActiveContact) -> float:
 
 
 @kernel()
-def grow_scales(ws: Workspace) -> None:
-    """Let the slips that count as rest grow with the energies, as the errors do."""
+def raise_impulse_scales(ws: Workspace) -> None:
+    """Raise the scales of impulse to the energies that were reached, and with them the slips that count as rest.
+
+    Errors grow with the energies. A scale is raised by at least the factor ``_GROWTH``, as each change costs work.
+    """
     has_grown = False
     for active in ws.actives:
         energy, inverse_mass, scale = (

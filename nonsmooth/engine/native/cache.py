@@ -51,7 +51,7 @@ class Store:
         self._content: bytes | None = None
 
     def is_filled(self) -> bool:
-        """True if there is code that may be loaded. It is kept until it is loaded."""
+        """True if the file holds valid code. Its content is read once, and kept for the load."""
         if self._content is None:
             self._content = self._sound()
         return self._content is not None

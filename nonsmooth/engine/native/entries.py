@@ -13,7 +13,7 @@ _Entry = TypeVar("_Entry")
 
 
 def own_name(function: Callable[..., Any]) -> str:
-    """Name of an engine's step. No entry point has such a name."""
+    """Name of the step of an engine, ``module.qualname``. Its dots tell it from the names of entry points."""
     return f"{function.__module__}.{function.__qualname__}"
 
 

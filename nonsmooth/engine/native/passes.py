@@ -240,6 +240,7 @@ def _compiler(numba_passes: Callable[[Any], PassManager], lowering: type) -> typ
     @final
     class Passes(CompilerBase):
         def define_pipelines(self) -> list[PassManager]:
+            """Numba's passes, some replaced by those of ``own``, and the numbering of variables behind the first."""
             passes = numba_passes(self.state)
             passes.passes = [(own.get(kind, kind), name) for kind, name in passes.passes]
             passes.add_pass_after(Number, TranslateByteCode)

@@ -57,7 +57,11 @@ def solve_shifted(ws: Workspace, n: int) -> bool:
 
 @kernel("void(ws, i8, i8)")
 def project_on_null(ws: Workspace, n: int, v: int) -> None:
-    """Replace the vector at ``v`` by its part in the null space."""
+    """Replace the n numbers at ``v`` by their part in the null space of the factorised matrix A + s I.
+
+    Each of the two solves multiplies the part along an eigenvector of eigenvalue l by s / (l + s), which is 1 in the
+    null space and next to zero elsewhere.
+    """
     for _ in range(2):
         substitute_band(ws.floats, ws.problem.null.start, n, ws.problem.null_half_band, v)
         for i in range(n):
