@@ -243,4 +243,10 @@ def array(life: Life, size: Size, kind: type, unit: str, sentence: str, **option
 
 def declarations(owner: type) -> Mapping[str, Declaration]:
     """Declarations of an owner, by name."""
-    return {name: value for name, value in vars(owner).items() if isinstance(value, Declaration)}
+    if owner not in _declarations:
+        _declarations[owner] = {name: value for name, value in vars(owner).items() if isinstance(value, Declaration)}
+    return _declarations[owner]
+
+
+_declarations: dict[type, Mapping[str, Declaration]] = {}
+"""What was found, as each memory asks for it."""

@@ -53,11 +53,17 @@ _KEPT, _SHORT, _LATE = range(3)
 
 def lengths_of(owners: Iterable[type], of_floats: bool, counts: Counts) -> tuple[int, int, int]:
     """Length of the arrays that outlive a step, of those that are not late, and of all."""
-    totals = [0, 0, 0]
+    return _lengths_of(tuple(owners), of_floats, tuple(counts.items()))
+
+
+@functools.lru_cache(maxsize=16)
+def _lengths_of(owners: tuple[type, ...], of_floats: bool, counts: tuple[tuple[str, int], ...]) -> tuple[int, int, int]:
+    # kept, as systems that differ in their numbers only are laid out alike, and often one after another
+    totals, known = [0, 0, 0], dict(counts)
     for one in _all(owners):
         if has_array(one) and one.is_float == of_floats:
             for rank in range(_rank(one), len(totals)):
-                totals[rank] += length_of(one, counts)
+                totals[rank] += length_of(one, known)
     return totals[_KEPT], totals[_SHORT], totals[_LATE]
 
 
