@@ -10,9 +10,9 @@ leave.
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, final
+from typing import Any, final
 
 import numpy as np
 
@@ -23,11 +23,7 @@ from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import Status
 from nonsmooth.engine.memory.tables import OWNERS
 from nonsmooth.engine.native.kernel import PLAIN, entry_addresses, prototype_of
-from nonsmooth.engines.event_driven import EventDriven
-from nonsmooth.interfaces.engine import Engine
-
-if TYPE_CHECKING:
-    from nonsmooth.system.system import System
+from nonsmooth.testing.single_steps import SingleSteps
 
 POISON = 1_234_567_891
 """Integer that is no number of anything: as a place it leads out of every list of the size of a test."""
@@ -37,14 +33,14 @@ ENDS_WITH_STEP = (*ENDS_WITH_EVENT, Life.STEP)
 """Lives that are over with an impact, with an event, and with a step."""
 
 
-def poison(memory: Memory, *lives: Life) -> None:
-    """Overwrite all numbers of some lives: floats by NaN, integers by :data:`POISON`, booleans by their opposite."""
+def poison(memory: Memory, *lives: Life, booleans: bool = True) -> None:
+    """Overwrite all numbers of some lives: floats by NaN, integers by :data:`POISON`, booleans by ``booleans``."""
     for one in _dead(lives):
+        value = np.nan if one.is_float else booleans if one.kind is bool else POISON
         if one.size is None and issubclass(one.owner, Part):
-            memory[one] = _poison_of(one, memory[one])
+            memory[one] = value
         else:
-            numbers = memory[one]
-            numbers[...] = _poison_of(one, numbers)
+            memory[one][...] = value
 
 
 def _dead(lives: tuple[Life, ...]) -> list[Declaration]:
@@ -57,64 +53,32 @@ def _dead(lives: tuple[Life, ...]) -> list[Declaration]:
 _known: dict[tuple[Life, ...], list[Declaration]] = {}
 
 
-def _poison_of(one: Declaration, numbers: Any) -> Any:
-    if one.is_float:
-        return np.nan
-    return np.where(numbers == 0, 1, 0) if one.kind is bool else POISON
-
-
 @final
 @dataclass(frozen=True)
-class Poisoned(Engine):
+class Poisoned(SingleSteps):
     """The event-driven engine with poison, as slow as that is.
 
     Attributes
     ----------
-    inner : EventDriven
-        What runs.
+    booleans : bool
+        What dead booleans become. A run must be the same with either: one of them is other than what was left.
     callbacks : list
         What keeps the functions alive to which the addresses of entry points lead.
     """
 
-    inner: EventDriven = field(default_factory=EventDriven)
+    booleans: bool = True
     callbacks: list[Any] = field(default_factory=list, repr=False)
 
-    @property
-    def uses_flow(self) -> bool:
-        """As the inner engine."""
-        return self.inner.uses_flow
-
-    @property
-    def records_contacts(self) -> bool:
-        """As the inner engine."""
-        return self.inner.records_contacts
-
-    def check(self, system: System) -> None:
-        """As the inner engine."""
-        self.inner.check(system)
-
-    def counts(self, n_slots: int) -> Mapping[str, int]:
-        """As the inner engine."""
-        return self.inner.counts(n_slots)
-
-    def settings(self, time_scale: float) -> Mapping[Any, float]:
-        """As the inner engine."""
-        return self.inner.settings(time_scale)
-
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
-        """Go on by single steps, with poison after each, and after each event and impact in them."""
+        """Continue by single steps, with poison after each, and after each event and impact in them."""
         if not PLAIN:
             self._divert(memory, "update_at_event", ENDS_WITH_EVENT)
             self._divert(memory, "collide", ENDS_WITH_IMPACT)
-        for _ in range(most_steps):
-            before = memory[owners.Totals.n_evaluations], memory[owners.Output.n_events], memory[owners.Island.time]
-            status = self.inner.advance(call, memory, 1, wary)
-            if status == Status.PAUSED:
-                poison(memory, *ENDS_WITH_STEP)
-            after = memory[owners.Totals.n_evaluations], memory[owners.Output.n_events], memory[owners.Island.time]
-            if status != Status.PAUSED or after == before:
-                return status
-        return Status.PAUSED
+        return super().advance(call, memory, most_steps, wary)
+
+    def after_step(self, call: Callable[..., Any], memory: Memory) -> None:
+        """Poison what ends with a step."""
+        poison(memory, *ENDS_WITH_STEP, booleans=self.booleans)
 
     def _divert(self, memory: Memory, name: str, lives: tuple[Life, ...]) -> None:
         """Let the address of an entry point lead to a callback that calls it and poisons what it leaves."""
@@ -129,7 +93,7 @@ class Poisoned(Engine):
             status = inner(*arguments)
             # a message says in what state an event or impact failed
             if status == Status.RUNNING:
-                poison(memory, *lives)
+                poison(memory, *lives, booleans=self.booleans)
             return status
 
         self.callbacks.append(prototype(outer))

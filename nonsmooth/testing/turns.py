@@ -6,17 +6,15 @@ an earlier one wrote only what outlives it. What islands need to keep to have cl
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, final
+from typing import Any, final
 
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory
-from nonsmooth.engine.memory.modes import Status
-from nonsmooth.engines.event_driven import EventDriven
-from nonsmooth.interfaces.engine import Engine
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.testing.poison import ENDS_WITH_STEP, poison
+from nonsmooth.testing.single_steps import SingleSteps
 
 _BUFFERS = (
     owners.Output.n_events,
@@ -26,69 +24,30 @@ _BUFFERS = (
 )
 """How far the buffers of the output are filled."""
 
-if TYPE_CHECKING:
-    from nonsmooth.system.system import System
-
 
 @final
 @dataclass(frozen=True)
-class Turns(Engine):
-    """The event-driven engine, between whose steps another run of the model takes one.
+class Turns(SingleSteps):
+    """The event-driven engine, between whose steps other runs of the model take one each.
 
-    The other run begins at the same start, and is as many steps behind as it was when this one was called first.
+    They begin where this run is after ``lag`` steps, and again so many later. This run must be the same as alone.
 
     Attributes
     ----------
-    inner : EventDriven
-        What runs.
     others : list of Checkpoint
-        Where the other runs stand.
+        Where the other runs are.
     lag : int
-        By how many steps each of the other runs is behind the one before it.
+        Steps of this run between the starts of the others.
     n_others : int
-        How many other runs there are.
+        Number of other runs.
     """
 
-    inner: EventDriven = field(default_factory=EventDriven)
     others: list[Checkpoint] = field(default_factory=list, repr=False)
     lag: int = 3
     n_others: int = 2
 
-    @property
-    def uses_flow(self) -> bool:
-        """As the inner engine."""
-        return self.inner.uses_flow
-
-    @property
-    def records_contacts(self) -> bool:
-        """As the inner engine."""
-        return self.inner.records_contacts
-
-    def check(self, system: System) -> None:
-        """As the inner engine."""
-        self.inner.check(system)
-
-    def counts(self, n_slots: int) -> Mapping[str, int]:
-        """As the inner engine."""
-        return self.inner.counts(n_slots)
-
-    def settings(self, time_scale: float) -> Mapping[Any, float]:
-        """As the inner engine."""
-        return self.inner.settings(time_scale)
-
-    def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
-        """Go on by single steps, and let another run take one after each."""
-        for _ in range(most_steps):
-            before = memory[owners.Totals.n_evaluations], memory[owners.Output.n_events], memory[owners.Island.time]
-            status = self.inner.advance(call, memory, 1, wary)
-            after = memory[owners.Totals.n_evaluations], memory[owners.Output.n_events], memory[owners.Island.time]
-            if status != Status.PAUSED or after == before:
-                return status
-            self._let_others(call, memory)
-        return Status.PAUSED
-
-    def _let_others(self, call: Callable[..., Any], memory: Memory) -> None:
-        """Let the other runs take one step each, from where they stand."""
+    def after_step(self, call: Callable[..., Any], memory: Memory) -> None:
+        """Let the other runs take one step each, from where they are."""
         own = Checkpoint.of(memory)
         if memory[owners.Totals.n_steps] % self.lag == 0 and len(self.others) < self.n_others:
             self.others.append(own)

@@ -1,4 +1,4 @@
-"""Random systems with poison, and in turns: ``python -m tests.benchmarks.lives poison|turns FIRST COUNT``.
+"""Random systems with poison, and in turns: ``python -m tests.benchmarks.lives poison|poison_false|turns FIRST COUNT``.
 
 A run must not change a bit if numbers whose life has ended are unusable (:mod:`nonsmooth.testing.poison`), nor if other
 runs take steps in the same memory (:mod:`nonsmooth.testing.turns`). Each run has a process of its own, which an index
@@ -21,7 +21,11 @@ from nonsmooth.testing.poison import Poisoned
 from nonsmooth.testing.turns import Turns
 from tests.benchmarks.random_systems.generate import case_of
 
-ENGINES: dict[str, Callable[[], Engine]] = {"poison": Poisoned, "turns": Turns}
+ENGINES: dict[str, Callable[[], Engine]] = {
+    "poison": Poisoned,
+    "poison_false": lambda: Poisoned(booleans=False),
+    "turns": Turns,
+}
 _SECONDS = 60.0
 """Time that a system may take [s]. One that takes longer is not compared."""
 _PART = 0.5

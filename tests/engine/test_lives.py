@@ -7,7 +7,6 @@ take steps in the same memory: equal to the last bit.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -18,13 +17,10 @@ from laws import Coulomb, EnergeticImpact, HuntCrossley, Unilateral
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.declare import Life, declarations
 from nonsmooth.engine.memory.tables import OWNERS
-from nonsmooth.interfaces import Engine
-from nonsmooth.testing.poison import Poisoned, poison
-from nonsmooth.testing.turns import Turns
-from tests.benchmarks.lives import compared, digest
+from nonsmooth.testing.poison import poison
+from tests.benchmarks.lives import ENGINES, compared, digest
 
 RIGID = ns.ContactLaws(Unilateral(), Coulomb(0.3), EnergeticImpact(0.7))
-ENGINES: dict[str, Callable[[], Engine]] = {"poison": Poisoned, "turns": Turns}
 
 
 def _pendulum_on_a_plate() -> tuple[ns.System, float]:
