@@ -386,12 +386,7 @@ class Model:
         )
 
     def _run(
-        self,
-        request: RunRequest,
-        state: State,
-        progress: Progress | None,
-        output: Output | None,
-        until: Until | None,
+        self, request: RunRequest, state: State, progress: Progress | None, output: Output | None, until: Until | None
     ) -> Solution:
         laid = self._laid
         records = self._records = Records(laid)

@@ -8,11 +8,7 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.articulations import solve_factorised
 from nonsmooth.engine.bodies.compliance import write_wrench
-from nonsmooth.engine.native.kernel import (
-    Articulation,
-    Workspace,
-    kernel,
-)
+from nonsmooth.engine.native.kernel import Articulation, Workspace, kernel
 
 
 @kernel("void(ws, i8)")

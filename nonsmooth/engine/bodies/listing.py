@@ -16,14 +16,7 @@ from nonsmooth.engine.bodies.candidates import are_near, find_candidates, has_no
 from nonsmooth.engine.bodies.kinematics import NOT_EVALUATED
 from nonsmooth.engine.memory.blocks import PAIR
 from nonsmooth.engine.memory.modes import Status
-from nonsmooth.engine.native.kernel import (
-    Floats,
-    Workspace,
-    copy_fields,
-    entry_point,
-    frame_at,
-    kernel,
-)
+from nonsmooth.engine.native.kernel import Floats, Workspace, copy_fields, entry_point, frame_at, kernel
 from nonsmooth.engine.numerics.vectors import distance, dot, minus
 
 _SPENT = 0.6

@@ -9,11 +9,7 @@ from __future__ import annotations
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.compliance import copy_inner_states, evaluate_compliant_force
 from nonsmooth.engine.bodies.courses import end_own_steps_of, has_own_step
-from nonsmooth.engine.bodies.kinematics import (
-    evaluate_bias,
-    evaluate_jacobian,
-    evaluate_kinematics,
-)
+from nonsmooth.engine.bodies.kinematics import evaluate_bias, evaluate_jacobian, evaluate_kinematics
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Contact, Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length

@@ -83,11 +83,7 @@ def write_rows(ws: Workspace, a: int) -> None:
         write_wrench(ws, c, active.force)
         return
     m1, m2 = active.friction_coefficient * active.direction[0], active.friction_coefficient * active.direction[1]
-    force_direction = (
-        n[0] - m1 * t1[0] - m2 * t2[0],
-        n[1] - m1 * t1[1] - m2 * t2[1],
-        n[2] - m1 * t1[2] - m2 * t2[2],
-    )
+    force_direction = (n[0] - m1 * t1[0] - m2 * t2[0], n[1] - m1 * t1[1] - m2 * t2[1], n[2] - m1 * t1[2] - m2 * t2[2])
     evaluate_row(ws, c, NORMAL_ROW, n)
     evaluate_row(ws, c, FIRST_ROW, force_direction)
     evaluate_row_response(ws, c, FIRST_ROW, NORMAL_ROW)

@@ -212,10 +212,7 @@ def _turn(ws: Workspace, active: ActiveContact, step: float) -> None:
     force = active.friction_coefficient * active.normal_force
     if abs(force) > 0.0:
         angle = max(-_LARGEST_TURN, min(_LARGEST_TURN, step / force))
-        active.direction = (
-            d1 * math.cos(angle) - d2 * math.sin(angle),
-            d2 * math.cos(angle) + d1 * math.sin(angle),
-        )
+        active.direction = (d1 * math.cos(angle) - d2 * math.sin(angle), d2 * math.cos(angle) + d1 * math.sin(angle))
         return
     a1, a2 = _slip_acceleration(ws, active)
     norm = length((a1, a2))

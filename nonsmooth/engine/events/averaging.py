@@ -11,11 +11,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies.touching import touch
-from nonsmooth.engine.contact.mean_forces import (
-    averaging_time,
-    has_no_stopping_slip,
-    is_averaged,
-)
+from nonsmooth.engine.contact.mean_forces import averaging_time, has_no_stopping_slip, is_averaged
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.averaging_time import find_mean_forces
 from nonsmooth.engine.flow.mean_work import account_for_mean_forces

@@ -15,10 +15,7 @@ from nonsmooth.engine.contact.forces import reduced_coefficient
 from nonsmooth.engine.contact.problem import accelerate_touching
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
 from nonsmooth.engine.delassus.islands import activate_group, group_touching
-from nonsmooth.engine.events.accumulation import (
-    set_provisional_mode,
-    slow_speed,
-)
+from nonsmooth.engine.events.accumulation import set_provisional_mode, slow_speed
 from nonsmooth.engine.events.record import (
     DRIVEN_WORK,
     FRICTION_LOSS,

@@ -16,9 +16,7 @@ from nonsmooth.engine.contact.problem import accelerate, accelerate_touching, so
 from nonsmooth.engine.contact.trial import small_force, tangential_inverse_mass
 from nonsmooth.engine.delassus.islands import activate_group, group_members
 from nonsmooth.engine.events.averaging import agree_on_averaged_modes, stays_averaged
-from nonsmooth.engine.events.record import (
-    mode_code,
-)
+from nonsmooth.engine.events.record import mode_code
 from nonsmooth.engine.flow.guard_numbers import normal_guard
 from nonsmooth.engine.memory.modes import Cause, Mode
 from nonsmooth.engine.native.kernel import Contact, Workspace, kernel, result

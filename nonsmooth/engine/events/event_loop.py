@@ -31,33 +31,20 @@ from nonsmooth.engine.flow.feature_end import find_feature_end
 from nonsmooth.engine.flow.flight import choose_integrated, take_off
 from nonsmooth.engine.flow.flow import is_violated, most_loaded_contact, slope
 from nonsmooth.engine.flow.follow import orient_slips
-from nonsmooth.engine.flow.guard_numbers import (
-    contact_of,
-    first_end_guard,
-    first_own_guard,
-    normal_guard,
-)
+from nonsmooth.engine.flow.guard_numbers import contact_of, first_end_guard, first_own_guard, normal_guard
 from nonsmooth.engine.flow.guard_values import has_other_features, watch_features, write_guards
 from nonsmooth.engine.flow.guards import is_of_redundant_force
 from nonsmooth.engine.flow.location import first_crossing, locate
 from nonsmooth.engine.flow.own_steps import begin_own_steps, end_own_steps, has_drifted
 from nonsmooth.engine.flow.point_jump import contact_past_flat_place, evaluate_force_round_off, jump_contact_points
-from nonsmooth.engine.flow.projection import (
-    normalise_quaternions,
-    project_closed,
-    project_joints,
-)
+from nonsmooth.engine.flow.projection import normalise_quaternions, project_closed, project_joints
 from nonsmooth.engine.flow.redundant_forces import can_choose_within, choose_forces_again
 from nonsmooth.engine.flow.self_check import NEGLIGIBLE, check_end, check_gaps, close_energy_account
 from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.layout import BOOKED, LAST_STAGE
 from nonsmooth.engine.memory.limits import Limit
 from nonsmooth.engine.memory.modes import NO_RELEASE, Cause, Mode, Status
-from nonsmooth.engine.native.kernel import (
-    Workspace,
-    entry_point,
-    kernel,
-)
+from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length
 
 _SPACINGS = 4.0 * 2.0**-52

@@ -22,13 +22,7 @@ from nonsmooth.engine.flow.self_check import NEGLIGIBLE
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.native.kernel import (
-    Floats,
-    Workspace,
-    entry_point,
-    frame_at,
-    kernel,
-)
+from nonsmooth.engine.native.kernel import Floats, Workspace, entry_point, frame_at, kernel
 from nonsmooth.engine.numerics.vectors import Vector, cross, dot, minus, scaled
 
 _CURVED = 4.0

@@ -14,12 +14,7 @@ from nonsmooth.engine.bodies.bodies import evaluate_if_changed
 from nonsmooth.engine.contact.problem import accelerate_freely
 from nonsmooth.engine.flow.spins import write_spin_within
 from nonsmooth.engine.memory.layout import EXCHANGED, LAST_STAGE
-from nonsmooth.engine.native.kernel import (
-    Workspace,
-    at,
-    call_body,
-    kernel,
-)
+from nonsmooth.engine.native.kernel import Workspace, at, call_body, kernel
 from nonsmooth.engine.numerics.runge_kutta import dense_part, dense_weights
 
 

@@ -36,12 +36,7 @@ from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.flight import accelerate_in_flight
 from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS, LOADS
 from nonsmooth.engine.memory.modes import NO_CONTACT, Mode
-from nonsmooth.engine.native.kernel import (
-    ActiveContact,
-    Workspace,
-    entry_point,
-    kernel,
-)
+from nonsmooth.engine.native.kernel import ActiveContact, Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.linear import product
 from nonsmooth.engine.numerics.vectors import length
 

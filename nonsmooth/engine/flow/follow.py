@@ -23,11 +23,7 @@ from nonsmooth.engine.flow.point_jump import jump_contact_points
 from nonsmooth.engine.flow.projection import normalise_quaternions, project_closed, project_joints
 from nonsmooth.engine.flow.step import relaxation_rate, try_length
 from nonsmooth.engine.memory.modes import Mode, Status
-from nonsmooth.engine.native.kernel import (
-    Workspace,
-    entry_point,
-    kernel,
-)
+from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.runge_kutta import SAFETY, SHRINK, step_factor
 from nonsmooth.engine.numerics.vectors import length
 

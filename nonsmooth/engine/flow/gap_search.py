@@ -23,14 +23,7 @@ from nonsmooth.engine.flow.guards import has_fired
 from nonsmooth.engine.flow.self_check import ADJACENT, NEGLIGIBLE, fail_check
 from nonsmooth.engine.memory.layout import PARTS
 from nonsmooth.engine.memory.modes import Status
-from nonsmooth.engine.native.kernel import (
-    Contact,
-    Workspace,
-    entry_point,
-    kernel,
-    part_end,
-    result,
-)
+from nonsmooth.engine.native.kernel import Contact, Workspace, entry_point, kernel, part_end, result
 from nonsmooth.engine.numerics.vectors import distance
 
 LARGEST_DISPLACEMENT = 0.02

@@ -7,12 +7,7 @@ from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.bodies.kinematics import evaluate_kinematics
 from nonsmooth.engine.flow.deflation import deflate
 from nonsmooth.engine.flow.flow import right_hand_side, value_of_normal_guard, value_of_slip_guard
-from nonsmooth.engine.flow.guard_numbers import (
-    end_of,
-    first_own_guard,
-    friction_of,
-    normal_of,
-)
+from nonsmooth.engine.flow.guard_numbers import end_of, first_own_guard, friction_of, normal_of
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Contact, Workspace, at, call_guard, entry_point, kernel
 

@@ -34,11 +34,7 @@ from nonsmooth.engine.flow.self_check import ADJACENT, ALLOWED, allowed_gap
 from nonsmooth.engine.flow.step import try_step
 from nonsmooth.engine.memory.layout import LAST_STAGE, PARTS
 from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.native.kernel import (
-    Workspace,
-    entry_point,
-    kernel,
-)
+from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.roots import SHORT, TRUSTED, weakened
 
 _MIDDLE = 0.5

@@ -23,14 +23,7 @@ from nonsmooth.engine.flow.guard_numbers import friction_of, normal_of
 from nonsmooth.engine.flow.step import explicit_step
 from nonsmooth.engine.memory.layout import N_STAGES
 from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.native.kernel import (
-    Body,
-    Contact,
-    Guard,
-    Workspace,
-    frame_at,
-    kernel,
-)
+from nonsmooth.engine.native.kernel import Body, Contact, Guard, Workspace, frame_at, kernel
 from nonsmooth.engine.numerics.runge_kutta import SHRINK, dense_state, step_factor
 from nonsmooth.engine.numerics.vectors import dot
 

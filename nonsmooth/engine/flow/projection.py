@@ -31,16 +31,7 @@ from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.self_check import ALLOWED, NEGLIGIBLE, allowed_gap, energies_of_bodies, fail_check, held_gap
 from nonsmooth.engine.memory.layout import NORMAL_ROW
 from nonsmooth.engine.memory.modes import Mode, Status
-from nonsmooth.engine.native.kernel import (
-    Articulation,
-    Body,
-    Contact,
-    Workspace,
-    entry_point,
-    frame_at,
-    kernel,
-    result,
-)
+from nonsmooth.engine.native.kernel import Articulation, Body, Contact, Workspace, entry_point, frame_at, kernel, result
 from nonsmooth.engine.numerics.vectors import cross, dot, minus
 
 _ROUND_OFF = 8.0 * 2.0**-52

@@ -15,14 +15,7 @@ from nonsmooth.engine.bodies.kinematics import evaluate_geometry
 from nonsmooth.engine.flow.mean_work import account_for_mean_forces
 from nonsmooth.engine.memory.layout import EXCHANGED
 from nonsmooth.engine.memory.modes import Mode, Status
-from nonsmooth.engine.native.kernel import (
-    Contact,
-    Workspace,
-    at,
-    call_compliance,
-    frame_at,
-    kernel,
-)
+from nonsmooth.engine.native.kernel import Contact, Workspace, at, call_compliance, frame_at, kernel
 from nonsmooth.engine.numerics.vectors import Pair as EnergyPair
 from nonsmooth.engine.numerics.vectors import minus
 from nonsmooth.engine.pairs.overlaps import check_pairs

@@ -19,11 +19,7 @@ from nonsmooth.engine.flow.spins import choose_spins_in_space, store_spin_slope,
 from nonsmooth.engine.memory import implicit_tableau, tableau
 from nonsmooth.engine.memory.layout import LAST_STAGE, N_ACCOUNTS, N_STAGES
 from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.native.kernel import (
-    Workspace,
-    entry_point,
-    kernel,
-)
+from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.roots import TRUSTED
 from nonsmooth.engine.numerics.runge_kutta import (
     stage_part,

@@ -12,14 +12,7 @@ from typing import NamedTuple
 
 from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.impact.guards import NO_GUARD, GuardKind, guard_of, prepare_guards
-from nonsmooth.engine.impact.rates import (
-    NOISE,
-    expansion_efficiency,
-    returned_part,
-    state_at,
-    state_of,
-    state_size,
-)
+from nonsmooth.engine.impact.rates import NOISE, expansion_efficiency, returned_part, state_at, state_of, state_size
 from nonsmooth.engine.memory.modes import NO_CONTACT, Phase
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel, result
 

@@ -14,14 +14,7 @@ import math
 from typing import NamedTuple
 
 from nonsmooth.engine.delassus.delassus import diagonal_block
-from nonsmooth.engine.impact.rates import (
-    NOISE,
-    evaluate_impact_rates,
-    is_loaded,
-    is_lone,
-    least_efficiency,
-    state_of,
-)
+from nonsmooth.engine.impact.rates import NOISE, evaluate_impact_rates, is_loaded, is_lone, least_efficiency, state_of
 from nonsmooth.engine.impact.scales import REST
 from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.memory.modes import Phase, Truncation

@@ -22,14 +22,7 @@ from nonsmooth.engine.contact.problem import friction_coefficient, slip_coeffici
 from nonsmooth.engine.contact.trial import hold_tried
 from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.impact.guards import GuardKind, guard_of
-from nonsmooth.engine.impact.rates import (
-    NOISE,
-    evaluate_impact_rates,
-    is_loaded,
-    normal_force,
-    slip_slope,
-    state_of,
-)
+from nonsmooth.engine.impact.rates import NOISE, evaluate_impact_rates, is_loaded, normal_force, slip_slope, state_of
 from nonsmooth.engine.memory.modes import Mode, Phase
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.vectors import length

@@ -24,14 +24,7 @@ from __future__ import annotations
 from enum import IntEnum
 
 from nonsmooth.engine.contact.forces import evaluate_margins
-from nonsmooth.engine.impact.rates import (
-    NOISE,
-    ContactState,
-    evaluate_impact_forces,
-    is_lone,
-    state_at,
-    write_rates,
-)
+from nonsmooth.engine.impact.rates import NOISE, ContactState, evaluate_impact_forces, is_lone, state_at, write_rates
 from nonsmooth.engine.memory.layout import IMPACT_GUARDS
 from nonsmooth.engine.memory.modes import Phase
 from nonsmooth.engine.native.kernel import ActiveContact, ImpactGuard, Workspace, kernel, result

@@ -23,13 +23,7 @@ from typing import NamedTuple
 from nonsmooth.engine.impact.clock import Aim, aim, change_clock, has_arrived
 from nonsmooth.engine.impact.end import cut_short, end_trapped, finish, has_faded, is_finished
 from nonsmooth.engine.impact.friction import choose_friction, orient, stays_slow, stop_halted
-from nonsmooth.engine.impact.guards import (
-    NO_GUARD,
-    arm_impact_guards,
-    first_fired,
-    prepare_guards,
-    write_impact_guards,
-)
+from nonsmooth.engine.impact.guards import NO_GUARD, arm_impact_guards, first_fired, prepare_guards, write_impact_guards
 from nonsmooth.engine.impact.location import Switch, locate_switch
 from nonsmooth.engine.impact.phases import end_faint, has_reached_rim, start_phases, switch_phases
 from nonsmooth.engine.impact.rates import NOISE, state_size, write_impact_slope

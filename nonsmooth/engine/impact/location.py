@@ -13,13 +13,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from nonsmooth.engine.impact.guards import (
-    NO_GUARD,
-    TOGETHER,
-    evaluate_impact_guards,
-    first_fired,
-    write_impact_guards,
-)
+from nonsmooth.engine.impact.guards import NO_GUARD, TOGETHER, evaluate_impact_guards, first_fired, write_impact_guards
 from nonsmooth.engine.impact.rates import state_size
 from nonsmooth.engine.impact.step import try_impact_step
 from nonsmooth.engine.memory.layout import LAST_STAGE

@@ -32,16 +32,7 @@ from nonsmooth.engine.memory.blocks import (
     VELOCITY,
 )
 from nonsmooth.engine.memory.fields import Field, Fields, packed
-from nonsmooth.engine.memory.layout import (
-    DEFORMATION,
-    DISSIPATED,
-    ENERGY,
-    IMPACT_STATE,
-    IMPULSE,
-    LOST,
-    PART_END,
-    WORK,
-)
+from nonsmooth.engine.memory.layout import DEFORMATION, DISSIPATED, ENERGY, IMPACT_STATE, IMPULSE, LOST, PART_END, WORK
 
 CONVEX_PART: Fields = {
     "place": packed(PART_PLACE, 3),
@@ -75,11 +66,7 @@ ROW_OF_JOINT: Fields = {
 }
 """Of a row that a joint writes."""
 
-WRENCH_OF_LOAD: Fields = {
-    "force": packed(FORCE, 3),
-    "point": packed(LOAD_POINT, 3),
-    "moment": packed(LOAD_MOMENT, 3),
-}
+WRENCH_OF_LOAD: Fields = {"force": packed(FORCE, 3), "point": packed(LOAD_POINT, 3), "moment": packed(LOAD_MOMENT, 3)}
 """Of what a load writes."""
 
 PART_OF_STEP: Fields = {

@@ -18,12 +18,7 @@ from nonsmooth.engine.native.callees import callees_of
 from nonsmooth.engine.native.numba_names import NO_ALLOCATION, NO_WRAPPERS
 from nonsmooth.engine.native.passes import CFunction, EntryPasses, KernelPasses, LawPasses, ShimPasses
 
-_OPTIONS: dict[str, Any] = {
-    "nopython": True,
-    "nogil": True,
-    "error_model": "numpy",
-    **NO_WRAPPERS,
-}
+_OPTIONS: dict[str, Any] = {"nopython": True, "nogil": True, "error_model": "numpy", **NO_WRAPPERS}
 _alive: list[CFunction] = []
 """All C functions: their code must outlive the last call."""
 

@@ -18,14 +18,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.native.kernel import (
-    Pair,
-    Workspace,
-    entry_point,
-    frame_at,
-    kernel,
-    part_at,
-)
+from nonsmooth.engine.native.kernel import Pair, Workspace, entry_point, frame_at, kernel, part_at
 from nonsmooth.engine.numerics.vectors import distance, dot
 from nonsmooth.engine.pairs.discs import crossing_overlap
 from nonsmooth.engine.pairs.separation import best_direction, separating_direction

@@ -13,15 +13,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.memory.blocks import PART_RINGS, RING
-from nonsmooth.engine.native.kernel import (
-    Floats,
-    Workspace,
-    at,
-    call_support,
-    frame_at,
-    kernel,
-    part_at,
-)
+from nonsmooth.engine.native.kernel import Floats, Workspace, at, call_support, frame_at, kernel, part_at
 from nonsmooth.engine.numerics.vectors import Vector, dot, minus, opposite
 
 
