@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.bodies.kinematics import side_wrench
+from nonsmooth.engine.bodies.kinematics import side_wrench, velocity_of_point
 from nonsmooth.engine.native.kernel import (
     Articulation,
     Floats,
@@ -27,38 +27,23 @@ from nonsmooth.engine.native.kernel import (
     joint_row,
     kernel,
 )
-from nonsmooth.engine.numerics.linear import SINGULAR
-from nonsmooth.engine.numerics.vectors import Vector, minus, opposite
+from nonsmooth.engine.numerics.linear import SINGULAR, product
+from nonsmooth.engine.numerics.vectors import Vector, dot, opposite
 
 
 @kernel("f8(F, i8, v3, v3, v3)")
 def _speed_along_row(floats: Floats, place: int, axis: Vector, point: Vector, moment: Vector) -> float:
-    """Rate of a row for one of its frames [m/s]: axis . velocity of the point + moment . angular velocity."""
-    frame = frame_at(floats, place)
-    x, y, z = minus(point, frame.origin)
-    ox, oy, oz = frame.spin
-    vx, vy, vz = frame.velocity
-    return float(
-        axis[0] * (vx + oy * z - oz * y)
-        + axis[1] * (vy + oz * x - ox * z)
-        + axis[2] * (vz + ox * y - oy * x)
-        + moment[0] * ox
-        + moment[1] * oy
-        + moment[2] * oz
-    )
+    """Rate of a row for the frame at ``place`` [m/s]: axis . velocity of the point + moment . angular velocity."""
+    velocity, spin = velocity_of_point(floats, place, point), frame_at(floats, place).spin
+    return dot(axis, velocity) + moment[0] * spin[0] + moment[1] * spin[1] + moment[2] * spin[2]
 
 
 @kernel("void(ws, Joint, Articulation)")
 def _write_rows(ws: Workspace, joint: Joint, articulation: Articulation) -> None:
     """Write Jacobian rows, residuals, rates and biases of a joint to the blocks of its articulation."""
     frame_a, frame_b = joint.frame_a, joint.frame_b
-    call_pair(
-        joint.function,
-        at(ws.floats, frame_a),
-        at(ws.floats, frame_b),
-        at(ws.floats, joint.parameters),
-        at(ws.floats, joint.out),
-    )
+    a, b = at(ws.floats, frame_a), at(ws.floats, frame_b)
+    call_pair(joint.function, a, b, at(ws.floats, joint.parameters), at(ws.floats, joint.out))
     for r in range(joint.n_rows):
         row, i = joint_row(ws.floats, joint.out, r), joint.first_row + r
         axis, moment = row.axis, row.moment
@@ -68,14 +53,13 @@ def _write_rows(ws: Workspace, joint: Joint, articulation: Articulation) -> None
         side_wrench(ws.floats, frame_b, row.point_b, axis, moment, joint.n_u_b, side_b)
         ws.floats[articulation.residual + i] = row.residual
         ws.floats[articulation.bias + i] = row.bias
-        ws.floats[articulation.rate + i] = _speed_along_row(
-            ws.floats, frame_b, axis, row.point_b, moment
-        ) - _speed_along_row(ws.floats, frame_a, axis, row.point_a, moment)
+        speed_b = _speed_along_row(ws.floats, frame_b, axis, row.point_b, moment)
+        ws.floats[articulation.rate + i] = speed_b - _speed_along_row(ws.floats, frame_a, axis, row.point_a, moment)
 
 
 @kernel("void(ws, Articulation)")
 def _write_responses(ws: Workspace, articulation: Articulation) -> None:
-    """Write the block-diagonal M^-1 of the bodies to the place of K, and R = A M^-1."""
+    """Write the block-diagonal M^-1 of the bodies to the matrix that becomes K, and R = A M^-1."""
     n, m = articulation.n_u, articulation.n_rows
     matrix, jacobian, r = articulation.inverse, articulation.jacobian, articulation.response
     for i in range(n * n):
@@ -84,9 +68,8 @@ def _write_responses(ws: Workspace, articulation: Articulation) -> None:
         ws.floats[r + i] = 0.0
     for number in range(articulation.first_body, articulation.first_body + articulation.n_bodies):
         body = ws.bodies[number]
-        n_u = body.n_u
-        shift = body.u - articulation.u
-        inverse = body.tail + body.n_q + n_u
+        # the inverse mass matrix of the body, and its first column in the articulation
+        n_u, inverse, shift = body.n_u, body.tail + body.n_q + body.n_u, body.u - articulation.u
         for i in range(n_u):
             for j in range(n_u):
                 entry = ws.floats[inverse + i * n_u + j]
@@ -100,11 +83,12 @@ def _write_responses(ws: Workspace, articulation: Articulation) -> None:
 def _write_factor(floats: Floats, a: int, n: int) -> None:
     """Overwrite the symmetric n x n matrix at ``a`` by its Cholesky factor. Rows that others imply get a zero pivot."""
     for j in range(n):
-        own = floats[a + j * n + j]
-        pivot = own
+        diagonal = floats[a + j * n + j]
+        pivot = diagonal
         for i in range(j):
             pivot -= floats[a + j * n + i] * floats[a + j * n + i]
-        if not pivot > SINGULAR * own:
+        # a row that others imply has a pivot of round-off
+        if not pivot > SINGULAR * diagonal:
             for i in range(j, n):
                 floats[a + i * n + j] = 0.0
             continue
@@ -119,9 +103,9 @@ def _write_factor(floats: Floats, a: int, n: int) -> None:
 
 @kernel("void(F, i8, i8, i8, i8)")
 def solve_factorised(floats: Floats, a: int, n: int, x: int, stride: int) -> None:
-    """Solve with the Cholesky factor at ``a``, in place of the right-hand side at ``x`` with entries ``stride`` apart.
+    """Overwrite the right-hand side at ``x``, with entries ``stride`` apart, by the solution with the factor at ``a``.
 
-    Unknowns of zero pivots are zero.
+    ``a`` holds the n x n Cholesky factor of :func:`_write_factor`. Unknowns of zero pivots are zero.
     """
     for i in range(n):
         total = floats[x + i * stride]
@@ -137,7 +121,10 @@ def solve_factorised(floats: Floats, a: int, n: int, x: int, stride: int) -> Non
 
 @kernel("void(ws, Articulation)")
 def evaluate_articulation(ws: Workspace, articulation: Articulation) -> None:
-    """Write K, Y, residuals and rates of the joints, the part of u that is not prescribed, and the driven power."""
+    """Write K, Y and the rows of the joints of an articulation. With driven bodies, correct ``u_free`` and add their power.
+
+    The bodies must be evaluated, and ``u_free`` must hold their velocities.
+    """
     for number in range(articulation.first_joint, articulation.first_joint + articulation.n_joints):
         _write_rows(ws, ws.joints[number], articulation)
     _write_responses(ws, articulation)
@@ -146,10 +133,7 @@ def evaluate_articulation(ws: Workspace, articulation: Articulation) -> None:
     matrix, factor = articulation.inverse, articulation.factor
     for i in range(m):
         for j in range(i + 1):
-            total = 0.0
-            for k in range(n):
-                total += ws.floats[jacobian + i * n + k] * ws.floats[r + j * n + k]
-            ws.floats[factor + i * m + j] = total
+            ws.floats[factor + i * m + j] = product(ws.floats, 0.0, jacobian + i * n, r + j * n, n)
     _write_factor(ws.floats, factor, m)
     for i in range(m * n):
         ws.floats[y + i] = ws.floats[r + i]
@@ -167,32 +151,36 @@ def evaluate_articulation(ws: Workspace, articulation: Articulation) -> None:
 
 @kernel("f8(ws, Articulation)")
 def _power(ws: Workspace, articulation: Articulation) -> float:
-    """Power of the forces that act on the bodies, other than those of contacts, on the velocities ``u_free`` [W]."""
-    power = 0.0
+    """Power of the forces on the bodies of an articulation, without contact forces, at the velocities ``u_free`` [W]."""
+    power, velocities = 0.0, ws.island.u_free.start
     for number in range(articulation.first_body, articulation.first_body + articulation.n_bodies):
         body = ws.bodies[number]
-        for i in range(body.n_u):
-            power += ws.floats[body.tail + body.n_q + i] * ws.island.u_free[body.u + i]
+        power = product(ws.floats, power, body.tail + body.n_q, velocities + body.u, body.n_u)
     return power
+
+
+@kernel("void(ws, Articulation, i8, f8, i8)")
+def subtract_response(ws: Workspace, articulation: Articulation, line: int, factor: float, out: int) -> None:
+    """Subtract ``factor`` times row ``line`` of Y from the velocities or accelerations of an articulation at ``out``."""
+    response = articulation.solved_response + line * articulation.n_u
+    for i in range(articulation.n_u):
+        ws.floats[out + i] -= ws.floats[response + i] * factor
 
 
 @kernel("void(ws, Articulation)")
 def _remove_prescribed_velocities(ws: Workspace, articulation: Articulation) -> None:
     """Subtract from ``u_free`` the velocities that driven bodies impose through joints, Y^T A u.
 
-    Add the power of these driven bodies to that of the step, except for the part of contact forces.
+    Their power is added to ``driven_power`` [W], without the part of contact forces: the power that the forces lose, and
+    that of the joint forces by the prescribed accelerations.
     """
     n, m = articulation.n_u, articulation.n_rows
     u, x = ws.island.u_free.start + articulation.u, articulation.forces
     ws.step.driven_power -= _power(ws, articulation)
     for line in range(m):
-        total = 0.0
-        for k in range(n):
-            total += ws.floats[articulation.jacobian + line * n + k] * ws.floats[u + k]
-        ws.floats[x + line] = total
+        ws.floats[x + line] = product(ws.floats, 0.0, articulation.jacobian + line * n, u, n)
     for line in range(m):
-        for k in range(n):
-            ws.floats[u + k] -= ws.floats[articulation.solved_response + line * n + k] * ws.floats[x + line]
+        subtract_response(ws, articulation, line, ws.floats[x + line], u)
     ws.step.driven_power += _power(ws, articulation)
     solve_factorised(ws.floats, articulation.factor, m, x, 1)
     for line in range(m):
@@ -206,10 +194,7 @@ def constrain(ws: Workspace, number: int) -> None:
     n, m = articulation.n_u, articulation.n_rows
     du, x = ws.island.du.start + articulation.u, articulation.forces
     for line in range(m):
-        total = ws.floats[articulation.bias + line]
-        for c in range(n):
-            total += ws.floats[articulation.jacobian + line * n + c] * ws.floats[du + c]
-        ws.floats[x + line] = total
+        bias = ws.floats[articulation.bias + line]
+        ws.floats[x + line] = product(ws.floats, bias, articulation.jacobian + line * n, du, n)
     for line in range(m):
-        for c in range(n):
-            ws.floats[du + c] -= ws.floats[articulation.solved_response + line * n + c] * ws.floats[x + line]
+        subtract_response(ws, articulation, line, ws.floats[x + line], du)

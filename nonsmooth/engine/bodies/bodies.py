@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies.articulations import evaluate_articulation
-from nonsmooth.engine.bodies.kinematics import evaluate_contact
+from nonsmooth.engine.bodies.kinematics import entry_of_column, evaluate_contact
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.native.kernel import (
     Body,
@@ -36,7 +36,7 @@ def _call_body(ws: Workspace, t: float, y: int, body: Body) -> None:
 
 @kernel("void(ws, f8, i8, i8)")
 def evaluate_body(ws: Workspace, t: float, y: int, number: int) -> None:
-    """Evaluate a body at time ``t`` [s] and the state at offset ``y``. Its block gets a new version."""
+    """Evaluate body ``number`` at time ``t`` [s] and the state at offset ``y``. Its output block gets a new version."""
     body = ws.bodies[number]
     _call_body(ws, t, y, body)
     body.version += 1
@@ -60,10 +60,10 @@ def _is_evaluated_at(ws: Workspace, t: float, y: int, body: Body) -> bool:
 
 @kernel("void(ws, f8, i8, i8)")
 def evaluate_if_changed(ws: Workspace, t: float, y: int, number: int) -> None:
-    """Evaluate a body at time ``t`` [s] and the state at offset ``y``, unless that was its last evaluation.
+    """Evaluate body ``number`` at time ``t`` [s] and the state at offset ``y``. Its version changes only if they differ.
 
-    The version is then the same. Loads and joints add to the block of a body. So the block is written again, except for
-    a ballistic body, which has none of them.
+    Loads and joints add to the output block of a body. So the block is written again at the same state too, except for
+    a ballistic body, which has neither loads nor joints.
     """
     body = ws.bodies[number]
     if _is_evaluated_at(ws, t, y, body):
@@ -82,19 +82,20 @@ def evaluate_if_changed(ws: Workspace, t: float, y: int, number: int) -> None:
 def _are_all_evaluated_at(ws: Workspace, t: float, y: int) -> bool:
     """True if all bodies with coordinates were evaluated last at time ``t`` [s] and state ``y``.
 
-    It is never true with loads or joints, which add to the blocks of the bodies.
+    It is never true with loads or joints, which add to the output blocks of the bodies.
     """
     if ws.island.free_time != t or ws.model.n_loads + ws.model.n_joints > 0:
         return False
-    differ = 0
+    n_different = 0
+    # without a branch the compiler compares several numbers at once
     for i in range(ws.model.n_q + ws.model.n_u):
-        differ += 1 if ws.island.y_evaluated[i] != ws.floats[y + i] else 0
-    return differ == 0
+        n_different += 1 if ws.island.y_evaluated[i] != ws.floats[y + i] else 0
+    return n_different == 0
 
 
 @kernel("void(ws, f8, i8)")
 def evaluate_driven_bodies(ws: Workspace, t: float, y: int) -> None:
-    """Evaluate the driven bodies at time ``t`` [s], unless that was done already."""
+    """Evaluate the driven bodies at time ``t`` [s], unless that was their last evaluation. ``y`` is any state."""
     if t == ws.island.driven_time:
         return
     ws.island.driven_time = t
@@ -153,7 +154,7 @@ def evaluate_free_bodies(ws: Workspace, t: float, y: int, of_all_bodies: bool) -
 
 @kernel("void(ws, Body)")
 def _clear_forces(ws: Workspace, body: Body) -> None:
-    """Set the generalised forces of a body to zero: loads add to them, and a body may leave them unwritten."""
+    """Set the generalised forces of a body to zero, as loads add to them, and a body may not write them."""
     if ws.model.n_loads > 0 and body.ballistic_function == 0:
         force = body.tail + body.n_q
         for j in range(body.n_u):
@@ -188,26 +189,17 @@ def _apply_load(ws: Workspace, number: int, t: float, y: int) -> None:
     for side in range(2):
         body = ws.bodies[load.body_a if side == 0 else load.body_b]
         frame = load.frame_a if side == 0 else load.frame_b
-        n_u = body.n_u
-        generalised = body.tail + body.n_q
+        n_u, generalised = body.n_u, body.tail + body.n_q
         force = opposite(wrench.force) if side == 0 else wrench.force
         moment = opposite(wrench.moment) if side == 0 else wrench.moment
         rx, ry, rz = minus(wrench.point, frame_at(ws.floats, frame).origin)
         fx, fy, fz = force
+        # the moment about the origin of the frame
         mx = moment[0] + ry * fz - rz * fy
         my = moment[1] + rz * fx - rx * fz
         mz = moment[2] + rx * fy - ry * fx
         for j in range(n_u):
-            v = frame + FRAME + j
-            o = v + 3 * n_u
-            added = (
-                fx * ws.floats[v]
-                + fy * ws.floats[v + n_u]
-                + fz * ws.floats[v + 2 * n_u]
-                + mx * ws.floats[o]
-                + my * ws.floats[o + n_u]
-                + mz * ws.floats[o + 2 * n_u]
-            )
+            added = entry_of_column(ws.floats, frame + FRAME + j, n_u, force, (mx, my, mz))
             ws.floats[generalised + j] += added
             ws.step.load_power += added * ws.floats[y + ws.model.n_q + body.u + j]
 

@@ -62,13 +62,8 @@ def evaluate_geometry(ws: Workspace, c: int) -> None:
     overlap is stored. Such an overlap is allowed as long as another contact of the two bodies is closed.
     """
     contact = ws.contacts[c]
-    call_pair(
-        contact.geometry_function,
-        at(ws.floats, contact.frame_a),
-        at(ws.floats, contact.frame_b),
-        at(ws.floats, contact.geometry_parameters),
-        contact.geometry,
-    )
+    a, b, parameters = contact.frame_a, contact.frame_b, at(ws.floats, contact.geometry_parameters)
+    call_pair(contact.geometry_function, at(ws.floats, a), at(ws.floats, b), parameters, contact.geometry)
     contact.axis_n, contact.axis_1 = contact.normal, contact.tangent
     contact.axis_2 = cross(contact.normal, contact.tangent)
     if contact.is_compliant:
@@ -79,8 +74,8 @@ def evaluate_geometry(ws: Workspace, c: int) -> None:
 
 
 @kernel("v3(F, i8, v3)")
-def _velocity_of_point(floats: Floats, place: int, point: Vector) -> Vector:
-    """Velocity of a point that is fixed to a frame [m/s]."""
+def velocity_of_point(floats: Floats, place: int, point: Vector) -> Vector:
+    """Velocity of a point that is fixed to the frame at ``place`` [m/s]."""
     frame = frame_at(floats, place)
     x, y, z = minus(point, frame.origin)
     ox, oy, oz = frame.spin
@@ -92,8 +87,8 @@ def _velocity_of_point(floats: Floats, place: int, point: Vector) -> Vector:
 def evaluate_rates(ws: Workspace, c: int) -> None:
     """Write the gap rate and the slip velocity of contact ``c`` [m/s], Eqs. (11) and (12)."""
     contact = ws.contacts[c]
-    velocity_b = _velocity_of_point(ws.floats, contact.frame_b, contact.point_b)
-    v = minus(velocity_b, _velocity_of_point(ws.floats, contact.frame_a, contact.point_a))
+    velocity_b = velocity_of_point(ws.floats, contact.frame_b, contact.point_b)
+    v = minus(velocity_b, velocity_of_point(ws.floats, contact.frame_a, contact.point_a))
     if contact.is_anisotropic:
         t1, t2 = contact.tangent, cross(contact.normal, contact.tangent)
         contact.slip_of_tangents = dot(t1, v), dot(t2, v)
@@ -103,25 +98,27 @@ def evaluate_rates(ws: Workspace, c: int) -> None:
 
 @kernel("void(ws, i8)")
 def evaluate_kinematics(ws: Workspace, c: int) -> None:
-    """Write geometry and rates of contact ``c``, unless its bodies have not been evaluated since.
+    """Write geometry and rates of contact ``c``. Nothing is written if its bodies were not evaluated in the meantime.
 
-    The facing of an anisotropic contact depends on more than its bodies, so it is always evaluated.
+    The facing of an anisotropic contact depends on its mode too, so such a contact is always evaluated.
     """
     contact = ws.contacts[c]
-    version_a = ws.bodies[contact.body_a].version
-    version_b = ws.bodies[contact.body_b].version
+    version_a, version_b = ws.bodies[contact.body_a].version, ws.bodies[contact.body_b].version
     if contact.version_a == version_a and contact.version_b == version_b:
         return
     evaluate_geometry(ws, c)
     evaluate_rates(ws, c)
-
     contact.version_a = version_a if not contact.is_anisotropic else NOT_EVALUATED
     contact.version_b = version_b
 
 
 @kernel("f8(F, i8, i8, v3, v3)")
-def _entry_of_column(floats: Floats, column: int, n_u: int, axis: Vector, moment: Vector) -> float:
-    """Entry of a contact row: the product of an axis and a moment with one column of a frame's Jacobian."""
+def entry_of_column(floats: Floats, column: int, n_u: int, axis: Vector, moment: Vector) -> float:
+    """Product of a force (``axis``) and a ``moment`` with one column of a frame's Jacobian, with ``n_u`` columns.
+
+    It is an entry of a contact row, or a generalised force.
+    """
+    # three rows of the velocity, then three of the angular velocity
     v, o = column, column + 3 * n_u
     linear = axis[0] * floats[v] + axis[1] * floats[v + n_u] + axis[2] * floats[v + 2 * n_u]
     return linear + moment[0] * floats[o] + moment[1] * floats[o + n_u] + moment[2] * floats[o + 2 * n_u]
@@ -129,12 +126,12 @@ def _entry_of_column(floats: Floats, column: int, n_u: int, axis: Vector, moment
 
 @kernel("v3(F, i8, i8, v3, v3)")
 def side_entries(floats: Floats, frame: int, first: int, axis: Vector, moment: Vector) -> Vector:
-    """Three entries of the row of a body with six velocities, from entry ``first`` on."""
+    """Three entries, from entry ``first`` on, of the row of a body with six velocities: (axis, moment) . J."""
     column = frame + FRAME + first
     return (
-        _entry_of_column(floats, column, 6, axis, moment),
-        _entry_of_column(floats, column + 1, 6, axis, moment),
-        _entry_of_column(floats, column + 2, 6, axis, moment),
+        entry_of_column(floats, column, 6, axis, moment),
+        entry_of_column(floats, column + 1, 6, axis, moment),
+        entry_of_column(floats, column + 2, 6, axis, moment),
     )
 
 
@@ -146,10 +143,10 @@ def side_row(floats: Floats, frame: int, point: Vector, axis: Vector, n_u: int, 
     moment, first = cross(minus(point, frame_at(floats, frame).origin), axis), frame + FRAME
     if n_u == 6:
         for j in range(6):
-            floats[out + j] = _entry_of_column(floats, first + j, 6, axis, moment)
+            floats[out + j] = entry_of_column(floats, first + j, 6, axis, moment)
         return
     for j in range(n_u):
-        floats[out + j] = _entry_of_column(floats, first + j, n_u, axis, moment)
+        floats[out + j] = entry_of_column(floats, first + j, n_u, axis, moment)
 
 
 @kernel("void(F, i8, v3, v3, v3, i8, i8)")
@@ -166,14 +163,14 @@ def side_wrench(floats: Floats, frame: int, point: Vector, force: Vector, moment
 
 @kernel("i8(ws, i8, i8)")
 def _row_a(ws: Workspace, c: int, r: int) -> int:
-    """Place of the entries of the first body in row ``r`` of the first Jacobian of contact ``c``."""
+    """Offset of the entries of the first body in row ``r`` (n, t1, t2) of the first Jacobian of contact ``c``."""
     contact = ws.contacts[c]
     return int(contact.jacobian_a + r * ws.articulations[contact.articulation_a].n_u + contact.column_a)
 
 
 @kernel("i8(ws, i8, i8)")
 def _row_b(ws: Workspace, c: int, r: int) -> int:
-    """Place of the entries of the second body in row ``r`` of the second Jacobian of contact ``c``."""
+    """Offset of the entries of the second body in row ``r`` (n, t1, t2) of the second Jacobian of contact ``c``."""
     contact = ws.contacts[c]
     return int(contact.jacobian_b + r * ws.articulations[contact.articulation_b].n_u + contact.column_b)
 
@@ -214,7 +211,10 @@ def evaluate_row_response(ws: Workspace, c: int, r: int, s: int) -> None:
 
 @kernel("void(ws, i8, i8, f8, i8)")
 def push_response(ws: Workspace, c: int, s: int, force: float, du: int) -> None:
-    """Add to ``du`` the accelerations that a ``force`` [N] along response ``s`` of contact ``c`` gives."""
+    """Add to the accelerations at ``du`` those of a ``force`` [N] along response ``s`` of contact ``c``.
+
+    An impulse [N s] changes velocities at ``du`` in the same way.
+    """
     contact = ws.contacts[c]
     for side in range(2):
         articulation = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b]
@@ -226,7 +226,7 @@ def push_response(ws: Workspace, c: int, s: int, force: float, du: int) -> None:
 
 @kernel("f8(ws, i8, i8, i8)")
 def row(ws: Workspace, c: int, r: int, du: int) -> float:
-    """Product of row ``r`` (n, t1, t2) of the Jacobians of contact ``c`` with velocities or accelerations ``du``."""
+    """Product of row ``r`` (n, t1, t2) of the Jacobians of contact ``c`` with the velocities or accelerations at ``du``."""
     contact = ws.contacts[c]
     a, b = ws.articulations[contact.articulation_a], ws.articulations[contact.articulation_b]
     total = product(ws.floats, 0.0, contact.jacobian_a + r * a.n_u, du + a.u, a.n_u)
@@ -249,7 +249,7 @@ def evaluate_jacobian(ws: Workspace, c: int) -> None:
 def _acceleration(floats: Floats, place: int, point: Vector, slide_1: Vector, slide_2: Vector) -> Vector:
     """Acceleration of a witness point at constant velocities of its body [m/s^2].
 
-    The point slides along the frame at the sum of two velocities, while the frame moves.
+    The point slides relative to the frame at ``place`` with the velocity ``slide_1`` + ``slide_2`` [m/s].
     """
     frame = frame_at(floats, place)
     x, y, z = minus(point, frame.origin)
@@ -309,14 +309,13 @@ def _witness_motion(ws: Workspace, contact: Contact, t1: Vector, t2: Vector, sli
     """Sliding of the witness points and turning of the normal of a contact, in components along its unit tangents.
 
     ``slide`` and ``turn`` of one surface commute. So u = turn_a x and nu = slide_a x solve the first equation of
-    :func:`evaluate_bias`, and two equations for x are left.
+    :func:`evaluate_bias` for every x. The other two give M x = r.
     """
     a, b = frame_at(ws.floats, contact.frame_a), frame_at(ws.floats, contact.frame_b)
     gap = contact.gap
     turn_a1, turn_a2 = dot(a.spin, t2), -dot(a.spin, t1)
     rho1, rho2 = dot(b.spin, t2) - turn_a1, -dot(b.spin, t1) - turn_a2
-    v1, v2 = slip
-    d1, d2 = v1 - gap * turn_a1, v2 - gap * turn_a2
+    d1, d2 = slip[0] - gap * turn_a1, slip[1] - gap * turn_a2
     slide_a, turn_a, slide_b, turn_b = contact.slide_a, contact.turn_a, contact.slide_b, contact.turn_b
     r1 = slide_b[0] * d1 + slide_b[1] * d2 + turn_b[0] * rho1 + turn_b[1] * rho2
     r2 = slide_b[2] * d1 + slide_b[3] * d2 + turn_b[2] * rho1 + turn_b[3] * rho2
@@ -339,7 +338,10 @@ def _witness_motion(ws: Workspace, contact: Contact, t1: Vector, t2: Vector, sli
 
 @entry_point("void(ws, i8, i8)")
 def evaluate_contact(ws: Workspace, c: int, rows: int) -> None:
-    """Write geometry, rates, Jacobians and bias of contact ``c``, whose bodies were evaluated; ``rows`` of the bias."""
+    """Write geometry, rates, Jacobians and bias of contact ``c``, whose bodies were evaluated.
+
+    Of the bias ``rows`` are written: 1, the normal one, or 3.
+    """
     evaluate_geometry(ws, c)
     evaluate_rates(ws, c)
     evaluate_jacobian(ws, c)

@@ -25,14 +25,14 @@ from nonsmooth.engine.events.record import (
 from nonsmooth.engine.events.stall import is_stalled
 from nonsmooth.engine.events.step_length import accepted_step, is_held, longest_wanted
 from nonsmooth.engine.events.stopping import stopped_contact
-from nonsmooth.engine.flow.arming import arm_guards, keep_end, keep_start
+from nonsmooth.engine.flow.arming import arm_guards, store_end, store_start
 from nonsmooth.engine.flow.clearance import bound_speeds
 from nonsmooth.engine.flow.feature_end import find_feature_end
 from nonsmooth.engine.flow.flight import choose_integrated, take_off
 from nonsmooth.engine.flow.flow import is_violated, most_loaded_contact, slope
 from nonsmooth.engine.flow.follow import orient_slips
 from nonsmooth.engine.flow.guard_numbers import contact_of, first_end_guard, first_own_guard, normal_guard
-from nonsmooth.engine.flow.guard_values import has_other_features, watch_features, write_guards
+from nonsmooth.engine.flow.guard_values import has_other_features, store_features, write_guards
 from nonsmooth.engine.flow.guards import is_of_redundant_force
 from nonsmooth.engine.flow.location import first_crossing, locate
 from nonsmooth.engine.flow.own_steps import begin_own_steps, end_own_steps, has_drifted
@@ -133,7 +133,7 @@ def _step(ws: Workspace) -> Status:
         end_averaging(ws)
         ws.island.follows_a_step = False
         return update_at_event(ws, Cause.AVERAGING, ws.island.stray_contact)
-    keep_start(ws)
+    store_start(ws)
     which = _due_at_start(ws)
     if which >= 0:
         return _carry_out(ws, cause_at_start(ws, which), which)
@@ -166,7 +166,7 @@ def _evaluate_start(ws: Workspace) -> None:
     ws.step.has_replaced_slope = False
     if ws.island.follows_a_step:
         ws.step.power_at_start = ws.island.power_at_end
-        watch_features(ws)
+        store_features(ws)
         for i in range(ws.model.n_y):
             ws.island.slopes[i] = ws.island.slopes[LAST_STAGE * ws.model.n_y + i]
         return
@@ -176,9 +176,9 @@ def _evaluate_start(ws: Workspace) -> None:
     slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=True, of_all_bodies=True)
     take_off(ws)
     close_energy_account(ws)
-    watch_features(ws)
+    store_features(ws)
     write_guards(ws, ws.island.time, ws.island.y.start, forces_are_known=True)
-    keep_end(ws)
+    store_end(ws)
     bound_speeds(ws)
 
 

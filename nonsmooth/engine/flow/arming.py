@@ -28,7 +28,7 @@ NO_BOUND = -1.0, 0.0, 0.0
 
 
 @kernel()
-def keep_end(ws: Workspace) -> None:
+def store_end(ws: Workspace) -> None:
     """Store guards and rates at the end of a step. The next step starts from them."""
     for contact in ws.contacts:
         contact.gap_rate_at_end = contact.gap_rate
@@ -37,15 +37,14 @@ def keep_end(ws: Workspace) -> None:
         contact.past_feature_at_end = contact.past_feature
         contact.velocity_at_end = contact.velocity
     for i in range(number_of_guards(ws)):
-        guard = ws.guards[i]
-        guard.at_end = guard.value
+        ws.guards[i].at_end = ws.guards[i].value
 
 
 @kernel()
-def keep_start(ws: Workspace) -> None:
-    """Take the gaps at the end of the last step as those at the start of the next one.
+def store_start(ws: Workspace) -> None:
+    """Take gaps and their bounds at the end of the last step as those at the start of the next one.
 
-    Bounds of the gap's acceleration are kept only if no event came in between.
+    Bounds of the gap's acceleration hold only if no event came in between.
     """
     for contact in ws.contacts:
         contact.gap_at_start, contact.gap_rate_at_start = contact.gap_at_end, contact.gap_rate_at_end
@@ -57,7 +56,7 @@ def keep_start(ws: Workspace) -> None:
 
 @kernel()
 def arm_guards(ws: Workspace) -> None:
-    """Start the guards of a step from the end of the last one: deflate those about zero, arm the positive ones."""
+    """Start all guards of a step from the end of the last one: deflate those about zero, arm the positive ones."""
     for contact in ws.contacts:
         _start(normal_of(ws, contact))
         _start(friction_of(ws, contact))
@@ -68,14 +67,15 @@ def arm_guards(ws: Workspace) -> None:
         guard = ws.guards[first_own_guard(ws) + user.index]
         _start(guard)
         if user.has_just_fired:
-            # it starts at zero, and grows whichever way
+            # it starts at zero, with a growth rate that is not known
             guard.is_deflated = True
             guard.initial = 0.0
         user.has_just_fired = False
         guard.is_armed = guard.initial > 0.0
     for contact in ws.contacts:
-        _start(end_of(ws, contact))
-        end_of(ws, contact).is_armed = end_of(ws, contact).initial > 0.0
+        end = end_of(ws, contact)
+        _start(end)
+        end.is_armed = end.initial > 0.0
 
 
 @kernel("void(Guard)")
@@ -87,25 +87,25 @@ def _start(guard: Guard) -> None:
 
 @kernel("void(ws, Contact)")
 def _deflate_normal(ws: Workspace, contact: Contact) -> None:
-    """Deflate the normal guard if the step starts from a closed gap.
+    """Deflate the normal guard if it starts about zero: a closed gap, or a compliant contact at its reach.
 
-    A gap that does not separate gets a slack: it may drift within round-off beside contacts that hold the bodies.
+    A gap that does not separate gets a slack: while other contacts hold the bodies, it may drift within round-off.
     """
     normal, round_off = normal_of(ws, contact), NEGLIGIBLE * ws.tolerance.gap
-    starts_closed = normal.initial <= ws.tolerance.gap
-    if not starts_closed:
+    starts_about_zero = normal.initial <= ws.tolerance.gap
+    if not starts_about_zero:
         return
     if contact.mode == Mode.OPEN:
         separates = not contact.gap_rate_at_end <= ws.tolerance.velocity
         start_from_zero(normal, 0.0 if separates else round_off, contact.gap_rate_at_end)
     elif contact.is_compliant:
-        # it has just touched down, and lets go where it comes back to this gap
+        # it has just closed, and opens when it returns to this gap
         start_from_zero(normal, round_off, -contact.gap_rate_at_end)
 
 
 @kernel("void(ws, Contact)")
 def _deflate_friction(ws: Workspace, contact: Contact) -> None:
-    """Deflate the friction guard if a slip has just begun."""
+    """Deflate the friction guard of a contact that slides if its slip has just begun: it is about zero."""
     friction = friction_of(ws, contact)
     if contact.mode == Mode.SLIDE and friction.initial <= ws.tolerance.velocity:
         start_from_zero(friction, NEGLIGIBLE * ws.tolerance.velocity, 0.0)
@@ -113,7 +113,10 @@ def _deflate_friction(ws: Workspace, contact: Contact) -> None:
 
 @kernel("void(ws, Contact)")
 def _arm(ws: Workspace, contact: Contact) -> None:
-    """Arm the normal and the friction guard of a contact if they start above their thresholds."""
+    """Arm the normal and the friction guard of a contact if they start above their thresholds.
+
+    A gap that starts closed is armed at once: it may only separate.
+    """
     c, normal, friction = contact.index, normal_of(ws, contact), friction_of(ws, contact)
     rests = contact.mode == Mode.OPEN and normal.is_deflated
     normal.is_armed = rests or normal.initial > _arming_threshold(ws, normal_guard(c))
@@ -124,7 +127,7 @@ def _arm(ws: Workspace, contact: Contact) -> None:
 def _arming_threshold(ws: Workspace, i: int) -> float:
     """Value above which guard ``i`` of a contact is armed. A force within round-off of zero must not arm it.
 
-    Friction that sticks is judged so only where nothing presses, because its bound is then round-off, too.
+    The distance to a static bound has this threshold only without a normal force, because it is then round-off too.
     """
     contact = contact_at(ws, i)
     if contact.mode == Mode.OPEN or contact.is_compliant:
@@ -137,7 +140,7 @@ def _arming_threshold(ws: Workspace, i: int) -> float:
 
 @kernel("void(ws, b1)")
 def arm_further(ws: Workspace, forces_are_known: bool) -> None:
-    """Arm the guards that have become positive within the step."""
+    """Arm the guards that are positive at the present fraction of the step. Without known forces, skip force guards."""
     for i in range(number_of_guards(ws)):
         guard, is_of_contact = ws.guards[i], i < first_own_guard(ws)
         threshold = _arming_threshold(ws, i) if is_of_contact else 0.0

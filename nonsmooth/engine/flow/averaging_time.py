@@ -17,6 +17,7 @@ from nonsmooth.engine.bodies.kinematics import evaluate_contact, evaluate_geomet
 from nonsmooth.engine.contact.mean_forces import averaging_span, find_mean_impulses, gap_after, set_mean_forces
 from nonsmooth.engine.delassus.delassus import add_response
 from nonsmooth.engine.flow.self_check import ALLOWED, energies_of_bodies, scale_energy, tolerated_gap
+from nonsmooth.engine.flow.spins import square_of_quaternion
 from nonsmooth.engine.native.kernel import Contact, Workspace, kernel
 
 _ALLOWED_PART = 0.1
@@ -33,11 +34,10 @@ def _normalise(ws: Workspace) -> None:
     for body in ws.bodies:
         if body.quaternion < 0:
             continue
-        q, square = ws.step.y_stage.start + body.q + body.quaternion, 0.0
+        q = ws.step.y_stage.start + body.q + body.quaternion
+        size = math.sqrt(square_of_quaternion(ws.floats, q))
         for i in range(4):
-            square += ws.floats[q + i] * ws.floats[q + i]
-        for i in range(4):
-            ws.floats[q + i] /= math.sqrt(square)
+            ws.floats[q + i] /= size
 
 
 @kernel("void(ws, f8)")
@@ -53,6 +53,7 @@ def _extrapolate(ws: Workspace, time: float) -> None:
     for i in range(ws.model.n_y):
         ws.step.y_stage[i] = ws.island.y[i]
     for i in range(ws.model.n_u):
+        # the mean velocity over that time, for second order
         ws.floats[velocities + i] += 0.5 * ws.floats[change + i]
     evaluate_free_bodies(ws, ws.island.time, ws.step.y_stage.start, of_all_bodies=True)
     for body in ws.bodies:

@@ -17,12 +17,12 @@ from nonsmooth.engine.bodies.bodies import evaluate_body, evaluate_driven_bodies
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry, evaluate_rates
 from nonsmooth.engine.flow.arming import NO_BOUND
 from nonsmooth.engine.flow.flight import fly
-from nonsmooth.engine.flow.guard_numbers import normal_guard
+from nonsmooth.engine.flow.guard_numbers import normal_of
 from nonsmooth.engine.flow.self_check import NEGLIGIBLE
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.native.kernel import Floats, Workspace, entry_point, frame_at, kernel
+from nonsmooth.engine.native.kernel import Contact, Floats, Workspace, entry_point, frame_at, kernel
 from nonsmooth.engine.numerics.vectors import Vector, cross, dot, minus, scaled
 
 _CURVED = 4.0
@@ -48,10 +48,8 @@ def _speed_seen(floats: Floats, frame_a: int, frame_b: int) -> float:
 def _axis(ws: Workspace, c: int) -> Vector:
     """Return the axis in space about which the shape with the smaller lever may spin unseen, or zero."""
     contact = ws.contacts[c]
-    frame = frame_at(
-        ws.floats, contact.frame_b if contact.support_radius_b <= contact.support_radius_a else contact.frame_a
-    )
-    r, v = frame.rotation, contact.spin_axis
+    is_second = contact.support_radius_b <= contact.support_radius_a
+    r, v = frame_at(ws.floats, contact.frame_b if is_second else contact.frame_a).rotation, contact.spin_axis
     return dot((r[0], r[1], r[2]), v), dot((r[3], r[4], r[5]), v), dot((r[6], r[7], r[8]), v)
 
 
@@ -72,8 +70,7 @@ def bound_speeds(ws: Workspace) -> None:
     last_a = last_b = -1
     speed, spin, whole, own = 0.0, (0.0, 0.0, 0.0), 0.0, 0.0
     ws.island.fastest_turn = 0.0
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
+    for contact in ws.contacts:
         if contact.mode != Mode.OPEN:
             continue
         a, b, lever, larger = contact.frame_a, contact.frame_b, contact.support_radius_b, contact.support_radius_a
@@ -92,12 +89,12 @@ def bound_speeds(ws: Workspace) -> None:
         if lever > 0.0:
             turning = whole
             if dot(contact.spin_axis, contact.spin_axis) > 0.0:
-                across = _across(spin, _axis(ws, c))
+                across = _across(spin, _axis(ws, contact.index))
                 turning = math.sqrt(dot(across, across))
             if flies:
                 ws.island.fastest_turn = max(ws.island.fastest_turn, turning)
             contact.speed_at_end = speed + turning * lever
-            contact.offset_at_end = arm_of(ws, c)
+            contact.offset_at_end = arm_of(ws, contact.index)
 
 
 @kernel("v3(ws, i8)")
@@ -184,12 +181,11 @@ def _expected_closing(ws: Workspace, c: int, du: int) -> float:
     return float(2.0 * gap / (math.sqrt(square) - rate))
 
 
-@kernel("b1(ws, i8, f8)")
-def _will_be_doubtful(ws: Workspace, c: int, h: float) -> bool:
-    """Return 1 if the gap of ``c`` may close within the time ``h`` as far as the speeds at its start tell."""
-    contact = ws.contacts[c]
+@kernel("b1(ws, Contact, f8)")
+def _will_be_doubtful(ws: Workspace, contact: Contact, h: float) -> bool:
+    """Return 1 if the gap of a contact may close within the time ``h`` as far as the speeds at its start tell."""
     faces = contact.mode == Mode.OPEN and contact.past_feature_at_start <= 0.0
-    return faces and ws.guards[normal_guard(c)].at_end <= 2.0 * h * contact.speed_at_start
+    return faces and normal_of(ws, contact).at_end <= 2.0 * h * contact.speed_at_start
 
 
 @kernel("f8(ws, f8)")
@@ -199,11 +195,10 @@ def foresee(ws: Workspace, h: float) -> float:
     When each of them is stays with it.
     """
     soonest = math.inf
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
+    for contact in ws.contacts:
         contact.closing_time = math.inf
-        if _will_be_doubtful(ws, c, min(h, soonest)):
-            contact.closing_time = _expected_closing(ws, c, ws.island.slopes.start + ws.model.n_q)
+        if _will_be_doubtful(ws, contact, min(h, soonest)):
+            contact.closing_time = _expected_closing(ws, contact.index, ws.island.slopes.start + ws.model.n_q)
             soonest = min(soonest, contact.closing_time)
     return soonest
 
@@ -252,11 +247,10 @@ def first_of_flying(ws: Workspace, soonest: float) -> float:
     The bodies do not stand at the start any more.
     """
     first = math.inf
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
+    for contact in ws.contacts:
         fly_both = _flies(ws, contact.body_a) and _flies(ws, contact.body_b)
         if contact.closing_time <= min(ABOUT * soonest, first) and fly_both:
-            first = min(first, _closing_of_flying(ws, c))
+            first = min(first, _closing_of_flying(ws, contact.index))
     return first
 
 
@@ -266,9 +260,10 @@ def keep_falls(ws: Workspace, h: float) -> None:
 
     The bodies stand there; later they would have to be put there.
     """
-    for c in range(ws.island.n_contacts):
-        if _will_be_doubtful(ws, c, h):
-            ws.contacts[c].acceleration_bound_at_start = fall_of(ws, c, ws.island.slopes.start + ws.model.n_q)
+    for contact in ws.contacts:
+        if _will_be_doubtful(ws, contact, h):
+            accelerations = ws.island.slopes.start + ws.model.n_q
+            contact.acceleration_bound_at_start = fall_of(ws, contact.index, accelerations)
 
 
 @kernel("b1(f8, f8, f8, f8, f8)")
@@ -290,12 +285,13 @@ def find_doubtful(ws: Workspace, h: float) -> None:
     the others can fall there is kept, for this step and the next one.
     """
     ws.step.n_may_close = ws.step.n_not_facing = 0
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
+    accelerations = ws.island.slopes.start + LAST_STAGE * ws.model.n_y + ws.model.n_q
+    for contact in ws.contacts:
+        c, normal = contact.index, normal_of(ws, contact)
         contact.acceleration_bound_at_end = NO_BOUND
         if contact.mode != Mode.OPEN:
             continue
-        start = 0.0 if ws.guards[normal_guard(c)].is_deflated else ws.guards[normal_guard(c)].initial
+        start = 0.0 if normal.is_deflated else normal.initial
         way = h * (contact.speed_at_start + contact.speed_at_end)
         if too_far(start, contact.past_feature_at_start, contact.gap_at_end, contact.past_feature_at_end, way):
             continue
@@ -303,8 +299,6 @@ def find_doubtful(ws: Workspace, h: float) -> None:
             ws.step.not_facing[ws.step.n_not_facing] = c
             ws.step.n_not_facing += 1
             continue
-        contact.acceleration_bound_at_end = fall_of(
-            ws, c, ws.island.slopes.start + LAST_STAGE * ws.model.n_y + ws.model.n_q
-        )
+        contact.acceleration_bound_at_end = fall_of(ws, c, accelerations)
         ws.step.may_close[ws.step.n_may_close] = c
         ws.step.n_may_close += 1

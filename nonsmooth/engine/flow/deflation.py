@@ -15,9 +15,10 @@ from nonsmooth.engine.native.kernel import Guard, Workspace, kernel
 
 @kernel("f8(ws, i8, f8, f8)")
 def deflated(ws: Workspace, i: int, value: float, elapsed: float) -> float:
-    """Guard ``i`` as the search for roots sees it: ``value``, or its growth over ``elapsed`` [s] if it is deflated.
+    """Value whose root is searched for: ``value`` of guard ``i``, or its mean growth rate if the guard is deflated.
 
-    The growth of a gap is its rate at the start until the gap exceeds round-off.
+    The growth rate is over ``elapsed`` [s] since the start. That of a gap which separates is its rate at the start as
+    long as the gap is within round-off.
     """
     guard = ws.guards[i]
     if not guard.is_deflated:
@@ -31,7 +32,7 @@ def deflated(ws: Workspace, i: int, value: float, elapsed: float) -> float:
 
 @kernel("void(ws, f8)")
 def deflate(ws: Workspace, elapsed: float) -> None:
-    """Deflate the guards of contacts and of the user after ``elapsed`` [s] of the step."""
+    """Replace the values of the guards of contacts and of the user by the deflated ones, ``elapsed`` [s] after the start."""
     for i in range(first_end_guard(ws)):
         guard = ws.guards[i]
         guard.value = deflated(ws, i, guard.value, elapsed)
@@ -39,9 +40,9 @@ def deflate(ws: Workspace, elapsed: float) -> None:
 
 @kernel("void(Guard, f8, f8)")
 def start_from_zero(guard: Guard, slack: float, rate: float) -> None:
-    """Deflate a guard that starts about zero, with the growth ``rate``.
+    """Deflate a guard that starts about zero, with the growth ``rate`` in its unit per second.
 
-    The growth counts from zero, or from the value of the guard if that is negative, in either case less ``slack``.
+    The growth counts from zero, or from the value of the guard if that is negative, lowered by ``slack``.
     """
     guard.is_deflated = True
     guard.base = min(0.0, guard.base) - slack

@@ -8,14 +8,14 @@ others are integrated, those that fly among them as soon as one of their contact
 
 from __future__ import annotations
 
-import math
-
 from nonsmooth.engine.bodies.bodies import evaluate_if_changed
 from nonsmooth.engine.contact.problem import accelerate_freely
-from nonsmooth.engine.flow.spins import write_spin_within
+from nonsmooth.engine.flow.spins import normalise, write_spin_within
 from nonsmooth.engine.memory.layout import EXCHANGED, LAST_STAGE
 from nonsmooth.engine.native.kernel import Workspace, at, call_body, kernel
+from nonsmooth.engine.numerics.linear import product
 from nonsmooth.engine.numerics.runge_kutta import dense_part, dense_weights
+from nonsmooth.engine.numerics.vectors import Vector
 
 
 @kernel("void(ws, i8, i8)")
@@ -35,21 +35,18 @@ def choose_integrated(ws: Workspace) -> None:
 
     The closed contacts must be grouped.
     """
-    for number in range(ws.model.n_bodies):
-        body = ws.bodies[number]
+    for body in ws.bodies:
         body.is_ballistic = body.ballistic_function != 0 or body.has_own_step
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]
-        one, two = ws.bodies[contact.body_a], ws.bodies[contact.body_b]
-        one.is_ballistic = two.is_ballistic = False
+        ws.bodies[contact.body_a].is_ballistic = ws.bodies[contact.body_b].is_ballistic = False
     ws.island.n_ballistic = ws.island.n_integrated = ws.island.n_spans = 0
-    for number in range(ws.model.n_bodies):
-        body = ws.bodies[number]
+    for body in ws.bodies:
         if body.is_ballistic:
-            ws.island.ballistic[ws.island.n_ballistic] = number
+            ws.island.ballistic[ws.island.n_ballistic] = body.index
             ws.island.n_ballistic += 1
         elif body.n_u > 0:
-            integrate(ws, number)
+            integrate(ws, body.index)
     if ws.island.n_integrated > 0:
         integrate_velocities(ws)
 
@@ -78,9 +75,7 @@ def _power(ws: Workspace, velocities: int) -> float:
     total = 0.0
     for i in range(ws.island.n_ballistic):
         body = ws.bodies[ws.island.ballistic[i]]
-        force = body.tail + body.n_q
-        for j in range(body.n_u):
-            total += ws.floats[force + j] * ws.floats[velocities + body.u + j]
+        total = product(ws.floats, total, body.tail + body.n_q, velocities + body.u, body.n_u)
     return abs(total)
 
 
@@ -90,44 +85,26 @@ def take_off(ws: Workspace) -> None:
     ws.step.power_at_start = _power(ws, ws.island.y.start + ws.model.n_q)
 
 
+@kernel("void(ws, i8, i8, i8, i8, v3, v3, i8)")
+def _write_dense(ws: Workspace, start: int, slopes: int, i: int, n: int, early: Vector, late: Vector, out: int) -> None:
+    """Write ``n`` entries from entry ``i`` on of an interpolated state to ``out``: from state and slopes at its start.
+
+    ``early`` and ``late`` are the weights of the interpolant (:func:`dense_weights`).
+    """
+    dense_part(ws.floats, start + i, slopes + i, n, ws.model.n_y, early, late, out + i)
+
+
 @kernel("void(ws, f8, i8, i8)")
 def _go_on(ws: Workspace, t: float, number: int, out: int) -> None:
     """Write the state of a body on its course to the state at ``out``, its quaternion of unit length, as rates ask."""
     body = ws.bodies[number]
-    theta = (t - body.own_step_time) / body.own_step
-    early = dense_weights(ws, body.own_step, theta, is_late=False)
-    late = dense_weights(ws, body.own_step, theta, is_late=True)
-    i, j, turn = body.q, ws.model.n_q + body.u, out + body.q + body.quaternion
-    dense_part(
-        ws.floats,
-        ws.island.own_start.start + i,
-        ws.island.own_slopes.start + i,
-        body.n_q,
-        ws.model.n_y,
-        early,
-        late,
-        out + i,
-    )
-    dense_part(
-        ws.floats,
-        ws.island.own_start.start + j,
-        ws.island.own_slopes.start + j,
-        body.n_u,
-        ws.model.n_y,
-        early,
-        late,
-        out + j,
-    )
+    h, theta = body.own_step, (t - body.own_step_time) / body.own_step
+    early, late = dense_weights(ws, h, theta, is_late=False), dense_weights(ws, h, theta, is_late=True)
+    start, slopes = ws.island.own_start.start, ws.island.own_slopes.start
+    _write_dense(ws, start, slopes, body.q, body.n_q, early, late, out)
+    _write_dense(ws, start, slopes, ws.model.n_q + body.u, body.n_u, early, late, out)
     if body.quaternion >= 0:
-        square = (
-            ws.floats[turn] * ws.floats[turn]
-            + ws.floats[turn + 1] * ws.floats[turn + 1]
-            + ws.floats[turn + 2] * ws.floats[turn + 2]
-            + ws.floats[turn + 3] * ws.floats[turn + 3]
-        )
-        factor = 1.0 / math.sqrt(square)
-        for r in range(4):
-            ws.floats[turn + r] *= factor
+        normalise(ws.floats, out + body.q + body.quaternion)
 
 
 @kernel("void(ws, f8, i8, i8)")
@@ -194,32 +171,26 @@ def body_within(ws: Workspace, h: float, theta: float, number: int, out: int) ->
     if body.is_ballistic:
         fly(ws, theta * h, number, out)
         return
-    q, u = body.q, ws.model.n_q + body.u
-    early = dense_weights(ws, h, theta, is_late=False)
-    late = dense_weights(ws, h, theta, is_late=True)
-    dense_part(
-        ws.floats, ws.island.y.start + q, ws.island.slopes.start + q, body.n_q, ws.model.n_y, early, late, out + q
-    )
-    dense_part(
-        ws.floats, ws.island.y.start + u, ws.island.slopes.start + u, body.n_u, ws.model.n_y, early, late, out + u
-    )
+    early, late = dense_weights(ws, h, theta, is_late=False), dense_weights(ws, h, theta, is_late=True)
+    y, slopes = ws.island.y.start, ws.island.slopes.start
+    _write_dense(ws, y, slopes, body.q, body.n_q, early, late, out)
+    _write_dense(ws, y, slopes, ws.model.n_q + body.u, body.n_u, early, late, out)
     write_spin_within(ws, number, early, late, out)
 
 
 @kernel("void(ws, f8, f8, i8)")
 def state_within(ws: Workspace, h: float, theta: float, out: int) -> None:
     """Write the state at a fraction of the step."""
-    early = dense_weights(ws, h, theta, is_late=False)
-    late = dense_weights(ws, h, theta, is_late=True)
+    early, late = dense_weights(ws, h, theta, is_late=False), dense_weights(ws, h, theta, is_late=True)
+    y, slopes = ws.island.y.start, ws.island.slopes.start
     for span in range(ws.island.n_spans):
-        i, n = ws.island.span_first[span], ws.island.span_length[span]
-        dense_part(ws.floats, ws.island.y.start + i, ws.island.slopes.start + i, n, ws.model.n_y, early, late, out + i)
+        _write_dense(ws, y, slopes, ws.island.span_first[span], ws.island.span_length[span], early, late, out)
     for i in range(ws.island.n_spinning):
         write_spin_within(ws, ws.island.spinning[i], early, late, out)
     if ws.island.n_spans == 0:
         for i in range(ws.model.n_q + ws.model.n_u, ws.model.n_y):
             ws.floats[out + i] = ws.island.y[i]
+    for i in range(ws.island.n_ballistic):
+        fly(ws, theta * h, ws.island.ballistic[i], out)
     if ws.island.n_ballistic > 0:
-        for i in range(ws.island.n_ballistic):
-            fly(ws, theta * h, ws.island.ballistic[i], out)
         ws.floats[out + ws.model.n_q + ws.model.n_u + EXCHANGED] += theta * ws.step.ballistic_exchange

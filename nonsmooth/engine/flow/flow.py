@@ -48,8 +48,9 @@ WRONG_FORCE = -2.0
 def right_hand_side(ws: Workspace, t: float, y: int, may_choose: bool, of_all_bodies: bool) -> bool:
     """Evaluate bodies, closed contacts, their forces and the accelerations ``du``, at time ``t`` [s] and state ``y``.
 
-    The bodies are all, or those that the integrator steps. The closed contacts must be grouped. If it ``may_choose``,
-    redundant forces are chosen anew. False if in some island no choice keeps every bound.
+    The bodies are all, or only those that the integrator steps. The closed contacts must be grouped into islands. If it
+    ``may_choose``, redundant forces are chosen anew. True if in every island the forces keep their bounds, or were not
+    chosen; False if no choice keeps all bounds of some island.
     """
     keeps_bounds = True
     ws.island.singular_contact = -1
@@ -65,6 +66,7 @@ def right_hand_side(ws: Workspace, t: float, y: int, may_choose: bool, of_all_bo
     copy_inner_states(ws, y)
     for group in range(ws.island.n_groups):
         c = lone_sliding_contact(ws, group)
+        # a single contact that slides has its force in closed form
         if c >= 0 and add_lone_slip_force(ws, c):
             continue
         activate_group(ws, group)
@@ -79,7 +81,10 @@ def right_hand_side(ws: Workspace, t: float, y: int, may_choose: bool, of_all_bo
 
 @kernel("void(ws, i8)")
 def _evaluate_active(ws: Workspace, y: int) -> None:
-    """Evaluate the active contacts at the state ``y``, and write their unknowns and their rows."""
+    """Evaluate the active contacts (those of the island) at the state ``y``, and write their unknowns and equations.
+
+    A contact that slides needs the bias of its normal row only.
+    """
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         evaluate_geometry(ws, active.contact)
@@ -93,7 +98,7 @@ def _evaluate_active(ws: Workspace, y: int) -> None:
 
 @kernel()
 def _store_forces(ws: Workspace) -> None:
-    """Store the forces of the active contacts, and whether they are held and unique, in the contacts."""
+    """Store what was solved for the active contacts in their contacts: forces, whether redundant, and static margins."""
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         contact.has_redundant_force = active.has_redundant_force
@@ -106,22 +111,22 @@ def _store_forces(ws: Workspace) -> None:
 
 @kernel("b1(ws)")
 def _is_implicit_slip(ws: Workspace) -> bool:
-    """True if one of the active contacts slides, and their forces are not averaged."""
+    """True if one of the active contacts slides, and none has forces that are averaged over time."""
     has_slip = False
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         if contact.is_averaged:
             return False
-        if contact.mode == Mode.SLIDE:
-            has_slip = True
+        has_slip = has_slip or contact.mode == Mode.SLIDE
     return has_slip
 
 
 @kernel("f8(ws, ActiveContact)")
 def _static_margin(ws: Workspace, active: ActiveContact) -> float:
-    """Distance of the friction of an active contact to its static bound [N].
+    """Distance of the friction of an active contact in mode stick to its static bound [N].
 
-    If friction cannot hold the contact, it is the distance of its slip to the velocity tolerance [m/s].
+    Without a coefficient of friction it is the distance of the slip to the velocity tolerance [m/s]. Averaged forces
+    have no bound within their span, so their margin is 1.
     """
     contact = ws.contacts[active.contact]
     if contact.is_averaged:
@@ -129,13 +134,17 @@ def _static_margin(ws: Workspace, active: ActiveContact) -> float:
     if not active.sticks:
         return float(ws.tolerance.velocity - length(contact.slip))
     friction = force_in_facing(ws, active.contact, active.force[1]), active.force[2]
+    # a choice of redundant forces may exceed its bound by the slack
     slack = contact.slack * active.has_redundant_force
     return float(active.static_coefficient * active.normal_force - length(friction) + slack)
 
 
 @kernel("void(ws, ActiveContact, i8)")
 def _set_unknowns(ws: Workspace, active: ActiveContact, y: int) -> None:
-    """Set which forces of an active contact are unknown, the given ones, and the direction of its slip."""
+    """Write which forces of an active contact are unknown, the values of the known ones, and its slip direction.
+
+    Known are a compliant normal force, the friction of a traction law, and averaged forces. ``y`` is the state.
+    """
     c = active.contact
     contact = ws.contacts[c]
     active.is_normal_force_unknown = True
@@ -182,7 +191,10 @@ def value_of_normal_guard(ws: Workspace, c: int) -> float:
 
 @kernel("b1(ws, i8)")
 def is_violated(ws: Workspace, c: int) -> bool:
-    """True if the force of the closed contact ``c`` violates its mode by more than round-off of its contact problem."""
+    """True if the force of the closed contact ``c`` violates its mode by more than round-off of its contact problem.
+
+    A normal force that pulls does, and friction beyond the static bound.
+    """
     contact = ws.contacts[c]
     least = value_of_normal_guard(ws, c)
     if contact.is_held_by_friction:
@@ -192,9 +204,10 @@ def is_violated(ws: Workspace, c: int) -> bool:
 
 @kernel("f8(ws, i8)")
 def value_of_slip_guard(ws: Workspace, c: int) -> float:
-    """Slip of contact ``c`` along its direction at the start of the step [m/s], or 1 if nothing depends on its sign.
+    """Slip of contact ``c`` along the slip direction at the start of the step [m/s].
 
-    In an implicit step, which stops and reverses slips itself, it is the slip speed.
+    It is 1 if no force depends on its sign: with a traction law, averaged forces, or a compliant contact without
+    friction. In an implicit step, which stops and reverses slips itself, it is the slip speed.
     """
     contact = ws.contacts[c]
     if contact.has_traction_law or contact.is_averaged:
@@ -219,65 +232,70 @@ def slope(ws: Workspace, t: float, y: int, out: int, may_choose: bool, of_all_bo
         for i in range(ws.island.n_ballistic):
             if ws.bodies[ws.island.ballistic[i]].has_own_step:
                 accelerate_in_flight(ws, t, ws.island.ballistic[i])
-    own = _write_slope_of_bodies(ws, y, out, of_all_bodies)
+    of_bodies = _write_slope_of_bodies(ws, y, out, of_all_bodies)
     lost = _power_of_friction(ws)
+    _watch_modes(ws)
     powers = out + ws.model.n_q + ws.model.n_u
-    ws.floats[powers + DRIVEN], ws.floats[powers + FRICTION_LOSS], ws.floats[powers + LOADS] = (
-        ws.step.driven_power,
-        lost,
-        ws.step.load_power,
-    )
-    ws.floats[powers + EXCHANGED] = abs(own) + abs(ws.step.driven_power) + abs(lost)
+    ws.floats[powers + DRIVEN], ws.floats[powers + LOADS] = ws.step.driven_power, ws.step.load_power
+    ws.floats[powers + FRICTION_LOSS] = lost
+    ws.floats[powers + EXCHANGED] = abs(of_bodies) + abs(ws.step.driven_power) + abs(lost)
     write_inner_rates(ws, y, out)
 
 
 @kernel("f8(ws, i8, i8, b1)")
 def _write_slope_of_bodies(ws: Workspace, y: int, out: int, of_all_bodies: bool) -> float:
-    """Write coordinate rates and accelerations of the bodies to ``out``. Power of the forces on them [W].
+    """Write coordinate rates and accelerations of the bodies to the slope at ``out``. Power of their forces [W].
 
-    Bodies in ballistic motion have no part in the power. Theirs is known in closed form.
+    The forces are those without contacts. Bodies in ballistic motion have no part in the power: their energy is
+    accounted for in closed form.
     """
     power = 0.0
     for i in range(ws.model.n_bodies if of_all_bodies else ws.island.n_integrated):
         body = ws.bodies[i if of_all_bodies else ws.island.integrated[i]]
-        rates, n_q, n_u = body.tail, body.n_q, body.n_u
-        accelerations, velocities = ws.island.du.start + body.u, ws.model.n_q + body.u
-        for j in range(n_q):
+        rates, forces, velocities = body.tail, body.tail + body.n_q, ws.model.n_q + body.u
+        for j in range(body.n_q):
             ws.floats[out + body.q + j] = ws.floats[rates + j]
-        for j in range(n_u):
-            ws.floats[out + velocities + j] = ws.floats[accelerations + j]
+        for j in range(body.n_u):
+            ws.floats[out + velocities + j] = ws.island.du[body.u + j]
         if not body.is_ballistic:
-            power = product(ws.floats, power, rates + n_q, y + velocities, n_u)
+            power = product(ws.floats, power, forces, y + velocities, body.n_u)
     return power
 
 
 @kernel("f8(ws)")
 def _power_of_friction(ws: Workspace) -> float:
-    """Power that the closed contacts dissipate by friction [W].
-
-    Also notes the least normal guard of each contact within the step, and whether a force or slip has the wrong sign.
-    """
+    """Power that the closed contacts dissipate by friction [W]. A contact that sticks dissipates nothing."""
     lost = 0.0
     for i in range(ws.island.n_grouped):
-        c = ws.island.grouped[i]
-        contact = ws.contacts[c]
-        sticks = contact.mode == Mode.STICK and not contact.is_averaged
-        if not sticks:
+        contact = ws.contacts[ws.island.grouped[i]]
+        if contact.mode != Mode.STICK or contact.is_averaged:
             for r in range(1, 3):
                 lost -= contact.force[r] * contact.rate[r]
         lost -= contact.dissipated_by_spin
-        normal = value_of_normal_guard(ws, c)
-        contact.least_force = min(contact.least_force, normal)
-        if sticks or normal < 0.0 or value_of_slip_guard(ws, c) < 0.0:
-            ws.step.has_doubtful_force = True
     return lost
+
+
+@kernel()
+def _watch_modes(ws: Workspace) -> None:
+    """Update the least normal guard of each closed contact in the stages of the step.
+
+    ``has_doubtful_force`` becomes true if a guard may have been negative at this stage: that of a normal force, of a
+    slip, or of a static bound, whose distance is not compared here.
+    """
+    for i in range(ws.island.n_grouped):
+        contact = ws.contacts[ws.island.grouped[i]]
+        normal = value_of_normal_guard(ws, contact.index)
+        contact.least_force = min(contact.least_force, normal)
+        sticks = contact.mode == Mode.STICK and not contact.is_averaged
+        if sticks or normal < 0.0 or value_of_slip_guard(ws, contact.index) < 0.0:
+            ws.step.has_doubtful_force = True
 
 
 @kernel("i8(ws, b1)")
 def most_loaded_contact(ws: Workspace, sliding: bool) -> int:
-    """Closed rigid contact with the largest normal force, or ``NO_CONTACT``.
+    """Closed rigid contact with the normal force of largest absolute value, or ``NO_CONTACT`` if there is none.
 
-    If ``sliding``, only contacts that slide and whose force pushes count.
+    If ``sliding``, only contacts that slide and whose force pushes count. Evaluates all forces at the present state.
     """
     group_closed(ws)
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)

@@ -45,16 +45,15 @@ def orient_slips(ws: Workspace, at_end: bool) -> None:
 
 
 @kernel("b1(ws)")
-def _has_reversed_slip(ws: Workspace) -> bool:
-    """Orient the slips by the present rates. True if one of them is against the direction that friction assumed.
+def _reorient_slips(ws: Workspace) -> bool:
+    """Set the slip directions by the present slips. True if one was opposite: the forces are then wrong.
 
     A slip may reverse without an event, for example if a belt accelerates past the body.
     """
     against = False
     for i in range(ws.island.n_grouped):
-        c = ws.island.grouped[i]
-        contact = ws.contacts[c]
-        if contact.mode == Mode.SLIDE and value_of_slip_guard(ws, c) < -ws.tolerance.velocity:
+        contact = ws.contacts[ws.island.grouped[i]]
+        if contact.mode == Mode.SLIDE and value_of_slip_guard(ws, contact.index) < -ws.tolerance.velocity:
             against = True
     orient_slips(ws, at_end=False)
     return against
@@ -62,9 +61,10 @@ def _has_reversed_slip(ws: Workspace) -> bool:
 
 @kernel("f8(ws)")
 def _part_before_reversal(ws: Workspace) -> float:
-    """Part of the step that was tried up to the time at which a slip reverses, 1 if none does.
+    """Part of the step that was tried up to the time at which a slip reverses, 1 if none reverses.
 
-    A slip from rest that is against its direction had the wrong one. Its direction is reversed, and the part is 0.
+    A slip that started from rest and ends against its direction had the wrong direction from the start. Its direction
+    is reversed here, and the part is 0: the step must be tried again from a new slope.
     """
     part = 1.0
     for i in range(ws.island.n_grouped):
@@ -84,7 +84,10 @@ def _part_before_reversal(ws: Workspace) -> float:
 
 @kernel("f8(ws, f8)")
 def _find_step(ws: Workspace, h: float) -> float:
-    """Try steps of ``h`` [s] and less until one meets the tolerance and reverses no slip. Its length, or -1."""
+    """Try steps of ``h`` [s] and less until one meets the tolerance and reverses no slip.
+
+    Its length [s], or ``_NO_STEP`` if it would be below the time tolerance, or the run is interrupted.
+    """
     while True:
         error = try_length(ws, h)
         if ws.request.is_interrupted:
@@ -97,6 +100,7 @@ def _find_step(ws: Workspace, h: float) -> float:
         elif not h > ws.tolerance.time:
             return _NO_STEP
         if part == 0.0:
+            # a slip direction was reversed
             slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=False, of_all_bodies=True)
             part = 0.5
         elif part == 1.0:
@@ -106,7 +110,7 @@ def _find_step(ws: Workspace, h: float) -> float:
 
 @kernel()
 def _evaluate_slip_per_force(ws: Workspace) -> None:
-    """Write the slip acceleration per unit of friction of each closed contact [1/kg], as an event does."""
+    """Write the slip acceleration per unit of friction of each closed contact [1/kg]. In a run, events write it."""
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
@@ -119,7 +123,10 @@ def _evaluate_slip_per_force(ws: Workspace) -> None:
 
 @entry_point("Status(ws, f8)")
 def follow(ws: Workspace, t: float) -> Status:
-    """Integrate the motion up to time ``t`` [s] in the present modes. Returns the status."""
+    """Integrate the motion up to time ``t`` [s] in the present modes. ``RUNNING``, or why it has not reached ``t``.
+
+    A step that fails may still be a jump of contact points. Later steps may grow by a factor of two each.
+    """
     group_closed(ws)
     choose_integrated(ws)
     _evaluate_slip_per_force(ws)
@@ -146,10 +153,10 @@ def follow(ws: Workspace, t: float) -> Status:
 
 @kernel()
 def _start_step(ws: Workspace) -> None:
-    """Evaluate the slope at the start of a step, and what the step needs of the contacts there."""
+    """Evaluate the slope at the start of a step, the slips there and the relaxation rate of their directions."""
     ws.island.stage_time, ws.step.uses_last_slope, ws.step.has_replaced_slope = 0.0, False, False
     slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=False, of_all_bodies=True)
-    if _has_reversed_slip(ws):
+    if _reorient_slips(ws):
         slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=False, of_all_bodies=True)
     take_off(ws)
     for i in range(ws.island.n_grouped):
@@ -161,7 +168,7 @@ def _start_step(ws: Workspace) -> None:
 
 @kernel()
 def _end_step(ws: Workspace) -> None:
-    """Take over the state at the end of a step, and put it on the constraints."""
+    """Make ``y_new`` the present state and put it on the constraints. Begin the next averaging span if one has ended."""
     for i in range(ws.model.n_y):
         ws.island.y[i] = ws.step.y_new[i]
     normalise_quaternions(ws)
@@ -176,14 +183,13 @@ def _end_step(ws: Workspace) -> None:
 
 @kernel("b1(ws)")
 def _exceed_bounds(ws: Workspace) -> bool:
-    """True if a redundant force pulls, or exceeds its friction bound."""
+    """True if a redundant force pulls, or exceeds its static bound, by more than round-off."""
     least = largest = 0.0
     for i in range(ws.island.n_grouped):
-        c = ws.island.grouped[i]
-        contact = ws.contacts[c]
+        contact = ws.contacts[ws.island.grouped[i]]
         if contact.has_redundant_force:
             largest = max(largest, abs(contact.force[0]))
-            least = min(least, value_of_normal_guard(ws, c))
+            least = min(least, value_of_normal_guard(ws, contact.index))
             if contact.is_held_by_friction:
                 least = min(least, contact.static_margin)
     return least < -_ROUND_OFF * largest
@@ -201,9 +207,9 @@ def evaluate_forces(ws: Workspace, may_choose: bool) -> None:
         start_averaging_span(ws, follows=False)
     evaluate_driven_bodies(ws, ws.island.time, ws.island.y.start)
     right_hand_side(ws, ws.island.time, ws.island.y.start, may_choose, of_all_bodies=True)
-    has_turned = _has_reversed_slip(ws)
+    have_turned = _reorient_slips(ws)
     is_past_bounds = not may_choose and _exceed_bounds(ws)
-    if has_turned or is_past_bounds:
+    if have_turned or is_past_bounds:
         right_hand_side(ws, ws.island.time, ws.island.y.start, may_choose or is_past_bounds, of_all_bodies=True)
     if ws.model.n_joints > 0:
         evaluate_joint_forces(ws)

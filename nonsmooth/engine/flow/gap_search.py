@@ -5,6 +5,9 @@ acceleration (:mod:`nonsmooth.engine.flow.clearance`). If these prove that the g
 Otherwise the part is halved. The halving ends if the gap has closed at one of the ends, or if no dip deeper than the
 gap tolerance is possible. Sampling alone would miss short dips, and a search for the minimum has no proof.
 
+``part_ends`` stores the ends of parts, with time, gap, rate and geometry of each. Between end 0 and end ``n`` is the
+part in question, the first one that is not decided yet.
+
 A gap that is undecided after very many evaluations ends the run.
 """
 
@@ -51,7 +54,6 @@ class GapBounds(NamedTuple):
 @kernel("void(ws, f8, f8, Contact)")
 def _evaluate_geometry_at(ws: Workspace, h: float, theta: float, contact: Contact) -> None:
     """Evaluate the two bodies of a contact at the fraction ``theta`` of the step of ``h`` [s], and its geometry."""
-    ws.step.is_evaluated = True
     for side in range(2):
         number = contact.body_a if side == 0 else contact.body_b
         body = ws.bodies[number]
@@ -68,28 +70,30 @@ def _evaluate_geometry_at(ws: Workspace, h: float, theta: float, contact: Contac
 
 @kernel("f8(ws, f8, Contact)")
 def _acceleration_bound(ws: Workspace, h: float, contact: Contact) -> float:
-    """Bound of the acceleration with which a gap closes within the step [m/s^2], from the bounds at its ends."""
+    """Bound of the acceleration with which a gap closes within the step of ``h`` [s], from those at its ends [m/s^2].
+
+    Each bound grows with the length of the step. The difference of the two is added, as within the step the
+    acceleration may exceed both.
+    """
     if contact.acceleration_bound_at_start[0] < 0.0:
         _evaluate_geometry_at(ws, h, 0.0, contact)
         contact.acceleration_bound_at_start = fall_of(ws, contact.index, ws.island.slopes.start + ws.model.n_q)
-    (first, grows_first, _), (last, grows_last, _) = (
-        contact.acceleration_bound_at_start,
-        contact.acceleration_bound_at_end,
-    )
+    first, grows_first, _ = contact.acceleration_bound_at_start
+    last, grows_last, _ = contact.acceleration_bound_at_end
     start, end = first + h * grows_first, last + h * grows_last
     return float(max(start, end) + abs(end - start))
 
 
 @kernel("f8(ws, Contact, f8)")
 def _gap_above_start(ws: Workspace, contact: Contact, gap: float) -> float:
-    """A gap, minus the value from which it started if that was about zero [m]."""
+    """A gap [m], or its growth from the start value if the contact was closed when the step began."""
     guard = normal_of(ws, contact)
     return float(gap - guard.base) if guard.is_deflated else gap
 
 
 @kernel("void(ws, Contact, f8)")
 def _write_gap_guard(ws: Workspace, contact: Contact, elapsed: float) -> None:
-    """Write the guard of a gap that was evaluated after ``elapsed`` [s] of the step."""
+    """Write the rate and the guard of a gap that was evaluated after ``elapsed`` [s] of the step."""
     contact.gap_rate = contact.normal_rate
     normal_of(ws, contact).value = deflated(ws, normal_guard(contact.index), contact.gap, elapsed)
 
@@ -113,7 +117,10 @@ def evaluate_slip_guard(ws: Workspace, h: float, theta: float, c: int) -> None:
 
 @kernel("void(ws, f8, f8, Contact, i8)")
 def _store_end(ws: Workspace, h: float, theta: float, contact: Contact, n: int) -> None:
-    """Store end ``n`` of the parts of the step, the fraction ``theta``, at which the gap has been evaluated."""
+    """Store end ``n`` of the parts: the gap as evaluated last, at the fraction ``theta`` of the step. Writes its guard.
+
+    A gap that is positive there arms its guard.
+    """
     guard, end = normal_of(ws, contact), part_end(ws.floats, ws.step.part_ends.start, n)
     _write_gap_guard(ws, contact, theta * h)
     if guard.value > 0.0:
@@ -131,7 +138,7 @@ def _evaluate_end(ws: Workspace, h: float, theta: float, contact: Contact, n: in
 
 @kernel("b1(ws, i8, f8, GapBounds)")
 def _stays_open(ws: Workspace, n: int, h: float, bounds: GapBounds) -> bool:
-    """True if the bounds prove that a gap stays above minus the gap tolerance between ends 0 and ``n``.
+    """True if the bounds prove that a gap stays above minus the gap tolerance between ends 0 and ``n``, else False.
 
     With the acceleration bound a, the gap is above the parabolas g0 + r0 s - a s^2 / 2 from its start and
     g1 - r1 (T - s) - a (T - s)^2 / 2 from its end. It is lowest where they cross.
@@ -144,6 +151,7 @@ def _stays_open(ws: Workspace, n: int, h: float, bounds: GapBounds) -> bool:
     g0, r0, g1, r1 = one.gap, one.rate, two.gap, two.rate
     if too_far(g0, one.past, g1, two.past, span * bounds.speed):
         return True
+    # the bounds hold for features that face each other
     if one.past > 0.0 or two.past > 0.0 or min(g0, g1) < -ws.tolerance.gap:
         return False
     acceleration, turning = bounds.acceleration, bounds.turning
@@ -156,6 +164,7 @@ def _stays_open(ws: Workspace, n: int, h: float, bounds: GapBounds) -> bool:
     # the bound is wrong if either parabola passes above the other end
     if min(ahead, back) < -ws.tolerance.gap:
         return False
+    # the parabolas do not cross within the part: the gap is lowest at one of its ends
     if closing <= 0.0 or min(ahead, back) <= 0.0:
         return True
     s = min(ahead / closing, span)
@@ -166,8 +175,8 @@ def _stays_open(ws: Workspace, n: int, h: float, bounds: GapBounds) -> bool:
 def _first_closing_of(ws: Workspace, h: float, contact: Contact, high: float, is_evaluated: bool) -> float:
     """Fraction of the step, up to ``high``, at which a gap has closed, or 0 if it stays open.
 
-    ``is_evaluated`` if the contact was evaluated at ``high``. The parts are searched from the left. Ends further to
-    the right wait on a stack, whose top is end ``n``.
+    ``is_evaluated`` is true if the contact was evaluated at ``high``. The parts are searched from the left: the ends to
+    the right of the part are a stack, whose top is end ``n``.
     """
     _write_first_end(ws, contact)
     _write_last_end(ws, h, contact, high, is_evaluated)
@@ -191,6 +200,7 @@ def _first_closing_of(ws: Workspace, h: float, contact: Contact, high: float, is
             if has_fired(ws, normal_guard(contact.index)):
                 return float(part_end(ws.floats, ws.step.part_ends.start, n).theta)
             continue
+        # the part is decided: the next one begins at its right end
         left.theta, left.gap, left.rate = right.theta, right.gap, right.rate
         left.past, left.offset = right.past, right.offset
         n -= 1
@@ -208,16 +218,19 @@ def _write_first_end(ws: Workspace, contact: Contact) -> None:
 
 @kernel("void(ws, f8, Contact, f8, b1)")
 def _write_last_end(ws: Workspace, h: float, contact: Contact, high: float, is_evaluated: bool) -> None:
-    """Write the fraction ``high`` of the step as end 1 of its parts. The contact is evaluated there if need be."""
+    """Write the fraction ``high`` of the step as end 1 of its parts.
+
+    Values at the end of the step are known. Elsewhere the contact is evaluated, unless it ``is_evaluated`` there.
+    """
     if high == 1.0:
         right = part_end(ws.floats, ws.step.part_ends.start, 1)
         right.theta, right.gap = 1.0, _gap_above_start(ws, contact, contact.gap_at_end)
         right.rate, right.past = contact.gap_rate_at_end, contact.past_feature_at_end
         right.offset = contact.offset_at_end
     elif is_evaluated:
-        _store_end(ws, h, high, contact, 1)
+        _store_end(ws, h, high, contact, n=1)
     else:
-        _evaluate_end(ws, h, high, contact, 1)
+        _evaluate_end(ws, h, high, contact, n=1)
 
 
 @kernel("GapBounds(ws, f8, Contact)")
@@ -252,17 +265,19 @@ def first_closing(ws: Workspace, h: float, high: float, needed: int) -> float:
     """Fraction of the step, up to ``high``, by which a gap that may close has closed, or 0 if all stay open.
 
     Contacts must be evaluated at ``high``, unless the features of some do not face each other. If no gap closes, the
-    contacts that were evaluated within the step are evaluated at ``high`` again if that is the end of the step. So is
-    the contact ``needed`` in any case.
+    contacts that the search evaluated within the step are evaluated at ``high`` again: all of them if that is the end
+    of the step, else the contact ``needed`` only.
     """
     found, is_evaluated = 0.0, ws.step.n_not_facing == 0
     for i in range(ws.step.n_may_close):
         contact = ws.contacts[ws.step.may_close[i]]
-        ws.step.is_evaluated = False
+        body_a, body_b = ws.bodies[contact.body_a], ws.bodies[contact.body_b]
+        versions = body_a.version + body_b.version
         theta = _first_closing_of(ws, h, contact, high, is_evaluated)
+        has_moved = body_a.version + body_b.version != versions
         if theta > 0.0:
             found = high = theta
             is_evaluated = False
-        elif ws.step.is_evaluated and (high == 1.0 or contact.index == needed):
-            _evaluate_end(ws, h, high, contact, 0)
+        elif has_moved and (high == 1.0 or contact.index == needed):
+            _evaluate_end(ws, h, high, contact, n=0)
     return found

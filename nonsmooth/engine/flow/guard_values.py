@@ -12,7 +12,7 @@ from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Contact, Workspace, at, call_guard, entry_point, kernel
 
 NO_FEATURE = -1
-"""Number of the features of a contact that is not watched for a change of features."""
+"""Number of features that is stored for a contact whose change of features is no event."""
 _END_DISTANCE = 2.0
 """Distance past the end of a feature at which a closed contact ends, in gap tolerances. A contact may close up to one
 gap tolerance past the end, and must not end at once."""
@@ -22,7 +22,7 @@ gap tolerance past the end, and must not end at once."""
 def feature_guard(ws: Workspace, contact: Contact) -> float:
     """End guard of a closed contact [m]: the distance to the end of its features, negative if the features changed.
 
-    The distance is 1 for features without an end.
+    Features without an end have the distance 1. A change turns the sign of a positive distance, so that the guard fires.
     """
     distance = _END_DISTANCE * ws.tolerance.gap - contact.past_feature if contact.past_feature != 0.0 else 1.0
     is_unchanged = contact.feature == NO_FEATURE or int(contact.feature_now) == contact.feature
@@ -33,28 +33,28 @@ def feature_guard(ws: Workspace, contact: Contact) -> float:
 def has_other_features(ws: Workspace, contact: Contact) -> bool:
     """True if a contact whose end guard fired has passed to other features, False if its features ended.
 
-    The witness points are within the new features then: the distance past their end is not positive.
+    After a change the witness points are within the new features, so the distance past their end is not positive.
     """
     return contact.past_feature <= ws.tolerance.gap
 
 
 @kernel()
-def watch_features(ws: Workspace) -> None:
-    """Store the features of the closed contacts, to find a change of features in the step that begins.
+def store_features(ws: Workspace) -> None:
+    """Store the features of the closed contacts. The step that begins compares its features with them.
 
-    The step right after a change stores ``NO_FEATURE``: a contact that moves along the border of two features would
-    change them again and again.
+    Right after a change of features ``NO_FEATURE`` is stored: a contact that moves along the border of two features
+    would change them again and again.
     """
-    is_watched = ws.island.time - ws.island.last_feature_change > ws.tolerance.time
+    may_change = ws.island.time - ws.island.last_feature_change > ws.tolerance.time
     for contact in ws.contacts:
-        contact.feature = int(contact.feature_now) if is_watched and contact.mode != Mode.OPEN else NO_FEATURE
+        contact.feature = int(contact.feature_now) if may_change and contact.mode != Mode.OPEN else NO_FEATURE
 
 
 @entry_point("void(ws, f8, i8, b1)")
 def write_guards(ws: Workspace, t: float, y: int, forces_are_known: bool) -> None:
     """Write all guards at time ``t`` [s] and state ``y``, where the right-hand side was evaluated.
 
-    Guards of closed contacts keep their values while the contact forces are unknown.
+    Without known forces the guards of closed contacts keep their values.
     """
     _write_guards_without_gaps(ws, t, y, forces_are_known)
     for contact in ws.contacts:
@@ -62,13 +62,13 @@ def write_guards(ws: Workspace, t: float, y: int, forces_are_known: bool) -> Non
         if contact.mode == Mode.OPEN or steps_alone:
             _write_gap(ws, contact)
         if steps_alone:
-            # none of its guards fires before the step of its body ends
+            # none of its guards may fire before the own step of its body ends
             normal_of(ws, contact).value = 1.0
 
 
 @kernel("void(ws, Contact)")
 def _write_gap(ws: Workspace, contact: Contact) -> None:
-    """Evaluate the geometry and the rates of an open contact and write its guards."""
+    """Evaluate the geometry and the rates of an open contact, and write its gap as its normal guard."""
     evaluate_kinematics(ws, contact.index)
     normal_of(ws, contact).value = contact.gap
     friction_of(ws, contact).value = 1.0
@@ -77,9 +77,11 @@ def _write_gap(ws: Workspace, contact: Contact) -> None:
 
 @kernel("void(ws, f8, i8, b1)")
 def _write_guards_without_gaps(ws: Workspace, t: float, y: int, forces_are_known: bool) -> None:
-    """Write the guards of closed contacts, of the user, and of ends of features."""
-    some_are_closed = ws.island.n_grouped > 0
-    if not some_are_closed:
+    """Write the force guards of closed contacts, the guards of the user, and all end guards.
+
+    End guards are 1 for open contacts, for unknown forces, and for bodies with an own step: then none may fire.
+    """
+    if ws.island.n_grouped == 0:
         evaluate_driven_bodies(ws, t, y)
     elif forces_are_known:
         for i in range(ws.island.n_grouped):
@@ -90,22 +92,16 @@ def _write_guards_without_gaps(ws: Workspace, t: float, y: int, forces_are_known
         )
         ws.guards[first_own_guard(ws) + user.index].value = value
     for contact in ws.contacts:
-        is_watched = contact.mode != Mode.OPEN and forces_are_known and some_are_closed
-        if is_watched and not has_own_step(ws, contact.index):
-            end_of(ws, contact).value = feature_guard(ws, contact)
-        else:
-            end_of(ws, contact).value = 1.0
+        may_end = contact.mode != Mode.OPEN and forces_are_known and not has_own_step(ws, contact.index)
+        end_of(ws, contact).value = feature_guard(ws, contact) if may_end else 1.0
 
 
 @kernel("void(ws, Contact)")
 def _write_force_guards(ws: Workspace, contact: Contact) -> None:
     """Write the normal and the friction guard of a closed contact, whose force was evaluated."""
+    contact.gap_rate, sticks = contact.normal_rate, contact.mode == Mode.STICK
     normal_of(ws, contact).value = value_of_normal_guard(ws, contact.index)
-    contact.gap_rate = contact.normal_rate
-    if contact.mode == Mode.STICK:
-        friction_of(ws, contact).value = contact.static_margin
-    else:
-        friction_of(ws, contact).value = value_of_slip_guard(ws, contact.index)
+    friction_of(ws, contact).value = contact.static_margin if sticks else value_of_slip_guard(ws, contact.index)
 
 
 @kernel("void(ws, f8, i8)")
@@ -121,9 +117,9 @@ def evaluate_motion(ws: Workspace, t: float, y: int) -> None:
 
 @kernel("void(ws, f8, i8)")
 def _evaluate_ballistic_bodies(ws: Workspace, t: float, y: int) -> None:
-    """Evaluate the bodies in ballistic motion of the gaps that may close in the step.
+    """Evaluate the ballistic bodies of the gaps that may close in the step, at time ``t`` [s] and state ``y``.
 
-    These gaps stand in two lists: of features that face each other, and of features that do not.
+    These gaps are in two lists: of features that face each other, and of features that do not.
     """
     for i in range(ws.step.n_may_close):
         _evaluate_ballistic_bodies_of(ws, t, y, ws.contacts[ws.step.may_close[i]])
@@ -133,6 +129,7 @@ def _evaluate_ballistic_bodies(ws: Workspace, t: float, y: int) -> None:
 
 @kernel("void(ws, f8, i8, Contact)")
 def _evaluate_ballistic_bodies_of(ws: Workspace, t: float, y: int, contact: Contact) -> None:
+    """Evaluate those of the two bodies of a contact that are in ballistic motion."""
     if ws.bodies[contact.body_a].is_ballistic:
         evaluate_body(ws, t, y, contact.body_a)
     if ws.bodies[contact.body_b].is_ballistic:
@@ -141,9 +138,9 @@ def _evaluate_ballistic_bodies_of(ws: Workspace, t: float, y: int, contact: Cont
 
 @kernel("void(ws, f8, i8, f8, b1)")
 def evaluate_guards(ws: Workspace, t: float, y: int, elapsed: float, needs_forces: bool) -> None:
-    """Evaluate the motion at time ``t`` [s] and state ``y``, and write the guards after ``elapsed`` [s] of the step.
+    """Evaluate motion and guards within the step, ``elapsed`` [s] after its start: at time ``t`` [s] and state ``y``.
 
-    Gaps that cannot close in the step keep their values.
+    Gaps that cannot close in the step keep their values. Guards of closed contacts do so unless it ``needs_forces``.
     """
     if needs_forces:
         right_hand_side(ws, t, y, may_choose=False, of_all_bodies=False)

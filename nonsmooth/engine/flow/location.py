@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.flow.arming import arm_further, keep_end
+from nonsmooth.engine.flow.arming import arm_further, store_end
 from nonsmooth.engine.flow.clearance import bound_speeds, find_doubtful
 from nonsmooth.engine.flow.deflation import deflate
 from nonsmooth.engine.flow.flight import state_within
@@ -217,7 +217,7 @@ def first_crossing(ws: Workspace, h: float) -> float:
     closed = _asks_forces(ws)
     write_guards(ws, ws.island.time + h, ws.step.y_new.start, forces_are_known=True)
     choose_at_end(ws, h)
-    keep_end(ws)
+    store_end(ws)
     bound_speeds(ws)
     find_doubtful(ws, h)
     deflate(ws, h)

@@ -1,7 +1,7 @@
 """Own steps of bodies (multirate): a body that rolls or lies on one contact with a body at rest needs no common step.
 
 Every event ends the step of all bodies that are integrated together. A body that sticks to a body at rest by a single
-contact acts on nothing else. So it takes a step of its own. Until that step ends, the body moves along its interpolant
+contact acts on nothing else. So it takes an own step. Until that step ends, the body moves along its interpolant
 (:func:`fly <nonsmooth.engine.flow.flight.fly>`), whatever happens elsewhere, unless something else touches it
 (:mod:`nonsmooth.engine.bodies.courses`).
 
@@ -28,38 +28,42 @@ from nonsmooth.engine.numerics.runge_kutta import SHRINK, dense_state, step_fact
 from nonsmooth.engine.numerics.vectors import dot
 
 _DRIFT = 0.3
-"""Gap or rate of a closed contact at which its own step ends, in tolerances."""
+"""Gap or rate, in tolerances, at which a closed contact must be projected: well within one tolerance."""
 _LARGEST_DROP = 0.5
-"""Least value of a guard relative to its largest one in the samples of a step, at which it is taken not to fire."""
+"""Smallest value of a guard in the samples of a step, relative to the largest one, at which it cannot fire between."""
 _ATTEMPTS = 3
-"""Most lengths of an own step that are tried at once. The next attempt starts with what was left."""
+"""Most lengths of an own step that are tried at one event. The next event starts with the last length."""
 _NO_BODY = -1
 """Number in place of a body if there is none."""
 
 
 @kernel("b1(ws, i8, i8)")
 def _is_at_rest(ws: Workspace, number: int, frame: int) -> bool:
-    """True if a body is driven and its frame does not move."""
+    """True if body ``number`` is driven and its frame does not move."""
     one = frame_at(ws.floats, frame)
     moves = dot(one.velocity, one.velocity) + dot(one.spin, one.spin)
     return ws.bodies[number].n_u == 0 and moves == 0.0
 
 
+@kernel("b1(ws, Contact)")
+def _has_body_at_rest(ws: Workspace, contact: Contact) -> bool:
+    """True if one of the two bodies of a contact is driven and does not move."""
+    return _is_at_rest(ws, contact.body_a, contact.frame_a) or _is_at_rest(ws, contact.body_b, contact.frame_b)
+
+
 @kernel("i8(ws, Contact)")
 def _independent_body(ws: Workspace, contact: Contact) -> int:
-    """Body that sticks by this contact alone to one at rest and has no own step yet, or ``_NO_BODY``.
+    """Body that sticks by this contact alone to a body at rest and has no own step yet, or ``_NO_BODY``.
 
     It must not be the only body that moves, because then no events of others could interrupt it. A spin that is
-    integrated along axes in space has an interpolant of its own, so such bodies are left out.
+    integrated along axes in space has another interpolant, so such bodies take no own step.
     """
     is_rigid = not contact.is_compliant and not contact.is_averaged and not contact.is_anisotropic
     if contact.mode != Mode.STICK or not is_rigid or contact.past_feature > 0.0:
         return _NO_BODY
-    number = contact.body_b
-    if not _is_at_rest(ws, contact.body_a, contact.frame_a):
-        number = contact.body_a
-        if not _is_at_rest(ws, contact.body_b, contact.frame_b):
-            return _NO_BODY
+    if not _has_body_at_rest(ws, contact):
+        return _NO_BODY
+    number = contact.body_b if _is_at_rest(ws, contact.body_a, contact.frame_a) else contact.body_a
     body = ws.bodies[number]
     is_alone = body.n_closed == 1 and not body.has_own_step
     return int(number) if is_alone and 0 < body.n_u < ws.model.n_u and body.spin < 0 else _NO_BODY
@@ -67,7 +71,10 @@ def _independent_body(ws: Workspace, contact: Contact) -> int:
 
 @kernel("i8(ws)")
 def _group_independent_bodies(ws: Workspace) -> int:
-    """Let the integrator step the independent bodies only, and group their contacts. Number of these bodies."""
+    """Let the integrator step the independent bodies only, and group their contacts. Number of these bodies.
+
+    Afterwards the bodies of a common step must be chosen anew.
+    """
     for body in ws.bodies:
         body.n_closed = 0
     for contact in ws.contacts:
@@ -77,9 +84,8 @@ def _group_independent_bodies(ws: Workspace) -> int:
     ws.island.n_integrated = ws.island.n_spans = 0
     for contact in ws.contacts:
         number = _independent_body(ws, contact)
-        contact.is_in_problem = False
-        if number != _NO_BODY:
-            contact.is_in_problem = True
+        contact.is_in_problem = number != _NO_BODY
+        if contact.is_in_problem:
             integrate(ws, number)
     if ws.island.n_integrated > 0:
         integrate_velocities(ws)
@@ -89,7 +95,7 @@ def _group_independent_bodies(ws: Workspace) -> int:
 
 @kernel("void(Guard, f8, b1)")
 def _extend_range(guard: Guard, value: float, is_first: bool) -> None:
-    """Extend the range of a guard, from ``base`` to ``at_end``, by a value, or start it there."""
+    """Extend the range of a guard's values by ``value``, or start it there. It is stored as ``base`` to ``at_end``."""
     guard.base = value if is_first else min(guard.base, value)
     guard.at_end = value if is_first else max(guard.at_end, value)
 
@@ -109,22 +115,19 @@ def _extend_ranges(ws: Workspace, is_first: bool) -> None:
         if is_first:
             contact.feature, normal.is_armed = int(contact.feature_now), True
         has_same_features = contact.past_feature <= 0.0 and int(contact.feature_now) == contact.feature
-        is_one_at_rest = _is_at_rest(ws, contact.body_a, contact.frame_a) or _is_at_rest(
-            ws, contact.body_b, contact.frame_b
-        )
-        if not has_same_features or not is_one_at_rest or not contact.is_held_by_friction:
+        if not has_same_features or not _has_body_at_rest(ws, contact) or not contact.is_held_by_friction:
             normal.is_armed = False
 
 
 @kernel("b1(Guard)")
 def _keeps_distance(guard: Guard) -> bool:
-    """True if a guard stayed positive, with a drop too small to reach zero within the step."""
+    """True if the samples of a guard are positive and differ too little for a root between them."""
     return guard.base > 0.0 and guard.base >= _LARGEST_DROP * guard.at_end
 
 
 @kernel("f8(ws, f8, f8)")
 def _find_step(ws: Workspace, usual: float, longest: float) -> float:
-    """Step the independent bodies. Length of the step that meets the tolerance [s], or 0 if none was found.
+    """Step the independent bodies. Length of the step that meets the tolerance [s], or 0 if none does.
 
     The first length that is tried is that of the last own step, or ``usual`` [s]. None exceeds ``longest`` [s].
     """
@@ -134,6 +137,7 @@ def _find_step(ws: Workspace, usual: float, longest: float) -> float:
         error = explicit_step(ws, h)
         factor = step_factor(error) if error < math.inf else SHRINK
         if error <= 1.0:
+            # a step that was cut short says nothing of the next one
             ws.island.own_step = max(wanted, h * factor) if h < wanted else h * factor
             return float(h)
         h *= factor
@@ -143,7 +147,7 @@ def _find_step(ws: Workspace, usual: float, longest: float) -> float:
 
 @kernel("void(ws, Body, f8)")
 def _store_step(ws: Workspace, body: Body, h: float) -> None:
-    """Give a body the own step of ``h`` [s] that was found, with its start and its slopes for the interpolant."""
+    """Give a body an own step of ``h`` [s] from the present time. Stores its start and slopes for the interpolant."""
     body.has_own_step, body.own_step_time, body.own_step = True, ws.island.time, h
     for part in range(2):
         first, n = (body.q, body.n_q) if part == 0 else (ws.model.n_q + body.u, body.n_u)
@@ -155,10 +159,10 @@ def _store_step(ws: Workspace, body: Body, h: float) -> None:
 
 @kernel("void(ws, f8, f8)")
 def begin_own_steps(ws: Workspace, usual: float, longest: float) -> None:
-    """Begin own steps of all bodies that may take one, at the first step after an event.
+    """Begin own steps of all bodies that may take one, before the first common step after an event.
 
-    The first length that is tried is ``usual`` [s]. None exceeds ``longest`` [s]. The bodies are evaluated elsewhere
-    afterwards. Systems with loads, joints or inner states of laws have no own steps.
+    The first length that is tried is ``usual`` [s]. None exceeds ``longest`` [s]. Afterwards the bodies are evaluated
+    at another state. Systems with loads, joints or inner states of laws have no own steps.
     """
     if ws.model.n_loads + ws.model.n_joints + ws.model.n_states > 0 or _group_independent_bodies(ws) == 0:
         return
@@ -177,9 +181,9 @@ def begin_own_steps(ws: Workspace, usual: float, longest: float) -> None:
 
 @kernel("f8(ws, f8, f8)")
 def _try_own_step(ws: Workspace, usual: float, longest: float) -> float:
-    """Step the independent bodies, and write the ranges of their guards at start, end and middle of the step.
+    """Step the independent bodies, and sample the ranges of their guards at start, end and middle of the step.
 
-    Returns the length of the step [s], or 0 if none was found.
+    Length of the step [s], or 0 if none meets the tolerance. Whether common steps are implicit is kept.
     """
     stage_time = ws.island.stage_time
     for i in range(ws.island.n_grouped):
@@ -198,7 +202,7 @@ def _try_own_step(ws: Workspace, usual: float, longest: float) -> float:
 
 @kernel("b1(ws, Contact)")
 def _has_drifted(ws: Workspace, contact: Contact) -> bool:
-    """True if a closed contact has left its constraints by more than ``_DRIFT`` tolerances."""
+    """True if a closed contact has left its constraints by more than ``_DRIFT`` tolerances, at the end of the step."""
     if contact.mode == Mode.OPEN or contact.is_averaged:
         return False
     rate, gap = abs(contact.velocity_at_end[0]), abs(contact.gap_at_end)
@@ -220,7 +224,7 @@ def has_drifted(ws: Workspace) -> bool:
 
 @kernel("i8(ws)")
 def end_own_steps(ws: Workspace) -> int:
-    """End all own steps at their common end, and before it those whose contacts have drifted. Number that ended."""
+    """End all own steps if the common end is reached, else those whose contacts have drifted. Number that ended."""
     n_ended, is_end = 0, ws.island.own_steps_end - ws.island.time <= ws.tolerance.time
     if is_end:
         ws.island.own_steps_end = math.inf

@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from nonsmooth.engine.bodies.articulations import subtract_response
 from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_body, evaluate_free_bodies
 from nonsmooth.engine.bodies.kinematics import (
     evaluate_jacobian,
@@ -29,6 +30,7 @@ from nonsmooth.engine.contact.mean_forces import is_averaged
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus, diagonal_block
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.self_check import ALLOWED, NEGLIGIBLE, allowed_gap, energies_of_bodies, fail_check, held_gap
+from nonsmooth.engine.flow.spins import normalise, square_of_quaternion
 from nonsmooth.engine.memory.layout import NORMAL_ROW
 from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.engine.native.kernel import Articulation, Body, Contact, Workspace, entry_point, frame_at, kernel, result
@@ -171,17 +173,20 @@ def normalise_quaternions(ws: Workspace) -> None:
         if body.quaternion < 0:
             continue
         q = ws.island.y.start + body.q + body.quaternion
-        square = 0.0
-        for i in range(4):
-            square += ws.floats[q + i] * ws.floats[q + i]
+        square = square_of_quaternion(ws.floats, q)
         if abs(square - 1.0) <= _ROUND_OFF:
             continue
         if abs(square - 1.0) > ALLOWED * 4.0 * ws.tolerance.relative:
             deviation, allowed = math.sqrt(square) - 1.0, ALLOWED * 2.0 * ws.tolerance.relative
             fail_check(ws, Status.QUATERNION_UNEXPLAINED, body.index, deviation, allowed)
-        factor = 1.0 / math.sqrt(square)
-        for i in range(4):
-            ws.floats[q + i] *= factor
+        normalise(ws.floats, q)
+
+
+@kernel("void(ws, i8)")
+def _copy_coordinates(ws: Workspace, out: int) -> None:
+    """Write the present coordinates q, with all velocities and accounts zero, to the state at ``out``."""
+    for i in range(ws.model.n_y):
+        ws.floats[out + i] = ws.island.y[i] if i < ws.model.n_q else 0.0
 
 
 @kernel("f8(ws, i8)")
@@ -218,8 +223,7 @@ def _allowed_motion_by_gaps(ws: Workspace, body: Body, i: int) -> float:
         c = ws.island.grouped[place]
         if ws.contacts[c].is_compliant:
             continue
-        for j in range(ws.model.n_y):
-            ws.step.y_guess[j] = ws.island.y[j] if j < ws.model.n_q else 0.0
+        _copy_coordinates(ws, ws.step.y_guess.start)
         push_response(ws, c, NORMAL_ROW, 1.0, ws.step.y_guess.start + ws.model.n_q)
         evaluate_body(ws, ws.island.time, ws.step.y_guess.start, body.index)
         speed = _speed_at(ws, ws.contacts[c], body.index)
@@ -276,8 +280,7 @@ def project_closed(ws: Workspace, at_event: bool, averaged: bool) -> float:
     if ws.island.n_grouped == 0:
         return 0.0
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
-    for i in range(ws.model.n_y):
-        ws.step.y_stage[i] = ws.island.y[i] if i < ws.model.n_q else 0.0
+    _copy_coordinates(ws, ws.step.y_stage.start)
     loss, has_moved = 0.0, False
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
@@ -326,12 +329,11 @@ def project_joints(ws: Workspace) -> None:
     worst, before = 0.0, math.inf
     for iteration in range(_MOST_ITERATIONS):
         evaluate_bodies(ws, ws.island.time, ws.island.y.start)
-        for i in range(ws.model.n_y):
-            ws.step.y_stage[i] = ws.island.y[i] if i < ws.model.n_q else 0.0
+        _copy_coordinates(ws, ws.step.y_stage.start)
         worst = 0.0
         for articulation in ws.articulations:
-            residuals = articulation.residual
-            worst = max(worst, _subtract(ws, articulation, residuals, ws.step.y_stage.start + ws.model.n_q))
+            velocities = ws.step.y_stage.start + ws.model.n_q
+            worst = max(worst, _subtract(ws, articulation, articulation.residual, velocities))
         if iteration == 0 and worst > _allowed_residual(ws):
             break
         if worst <= NEGLIGIBLE * ws.tolerance.gap or worst > 0.5 * before or iteration == _MOST_ITERATIONS - 1:
@@ -357,10 +359,7 @@ def _allowed_residual(ws: Workspace) -> float:
 def _subtract(ws: Workspace, articulation: Articulation, excess: int, out: int) -> float:
     """Subtract Y^T times the residuals or rates at ``excess`` from the velocities at ``out``. The largest of them."""
     worst = 0.0
-    n, first = articulation.n_u, out + articulation.u
     for line in range(articulation.n_rows):
-        value = ws.floats[excess + line]
-        worst = max(worst, abs(value))
-        for i in range(n):
-            ws.floats[first + i] -= ws.floats[articulation.solved_response + line * n + i] * value
+        worst = max(worst, abs(ws.floats[excess + line]))
+        subtract_response(ws, articulation, line, ws.floats[excess + line], out + articulation.u)
     return worst

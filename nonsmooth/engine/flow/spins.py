@@ -1,12 +1,12 @@
 """Spins along axes in space: the angular velocities of fast spinning bodies are integrated along axes that do not turn.
 
-Along its own axes, a force on a spinning body turns as fast as the body does. In space it turns as slowly as the motion
-demands. So the angular velocity w of a body with attitude R is integrated as R w, whose rate is R w', and turned back
-with the attitude of every stage. All other parts of the engine use its components along the body.
+In the axes of the body, a force on a spinning body turns as fast as the body does. In space it turns as slowly as the
+motion demands. So the angular velocity w of a body with attitude R is integrated as R w, whose rate is R w', and turned
+back with the attitude of every stage. All other parts of the engine use its components along the body.
 
-Only bodies that ask for it (:attr:`nonsmooth.interfaces.Body.spin`) are integrated so. An asymmetric body has torques
-of its own that are slower along its axes. A spin that keeps its direction, as in a plane, has it in space and along the
-body alike, so it is left along the body.
+Only bodies that declare it (:attr:`nonsmooth.interfaces.Body.spin`) are integrated so. The gyroscopic torques of an
+asymmetric body are slower along the axes of the body. A spin that keeps its direction, as in a plane, keeps it in space
+and along the body alike, so it is integrated along the body.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _SMALLEST_SINE = 1e-9
 
 @kernel("void(F, i8, i8, f8, i8)")
 def _rotate(floats: Floats, q: int, v: int, sign: float, out: int) -> None:
-    """Write the vector at ``v``, rotated by the quaternion at ``q``, to ``out``. The length of the quaternion is free.
+    """Write the vector at ``v``, rotated by the quaternion at ``q`` of any length, to ``out``.
 
     ``sign`` is ``_TO_SPACE`` or ``_TO_BODY``.
     """
@@ -40,15 +40,34 @@ def _rotate(floats: Floats, q: int, v: int, sign: float, out: int) -> None:
     floats[out + 2] = z + twice * (a * tz + sz)
 
 
+@kernel("f8(F, i8)")
+def square_of_quaternion(floats: Floats, q: int) -> float:
+    """Square of the length of the quaternion at ``q``."""
+    square = 0.0
+    for i in range(4):
+        square += floats[q + i] * floats[q + i]
+    return square
+
+
+@kernel("f8(F, i8)")
+def normalise(floats: Floats, q: int) -> float:
+    """Bring the quaternion at ``q`` to unit length. Its length before."""
+    size = math.sqrt(square_of_quaternion(floats, q))
+    factor = 1.0 / size
+    for i in range(4):
+        floats[q + i] *= factor
+    return size
+
+
 @kernel("i8(ws, i8)")
 def _slopes_of(ws: Workspace, number: int) -> int:
-    """Place of the slopes in space of the spin of a body, stage after stage [1/s^2]."""
+    """Offset of the slopes in space of the spin of body ``number`` [1/s^2]: three floats for each stage."""
     return int(ws.island.spin_slopes.start + 3 * N_STAGES * number)
 
 
 @kernel("b1(F, i8, i8)")
 def _changes_direction(floats: Floats, spin: int, rate: int) -> bool:
-    """True if a spin does not keep its direction."""
+    """True if the spin at ``spin``, whose rate is at ``rate``, changes its direction, False if it keeps it."""
     u, v = (floats[spin], floats[spin + 1], floats[spin + 2]), (floats[rate], floats[rate + 1], floats[rate + 2])
     across = cross(u, v)
     return dot(across, across) > _SMALLEST_SINE * _SMALLEST_SINE * dot(u, u) * dot(v, v)
@@ -61,10 +80,9 @@ def choose_spins_in_space(ws: Workspace) -> None:
     for i in range(ws.island.n_integrated):
         number = ws.island.integrated[i]
         body = ws.bodies[number]
-        u = ws.model.n_q + body.u + body.spin
-        body.spins_apart = body.spin >= 0 and _changes_direction(
-            ws.floats, ws.island.y.start + u, ws.island.slopes.start + u
-        )
+        spin = ws.model.n_q + body.u + body.spin
+        spin_now, rate = ws.island.y.start + spin, ws.island.slopes.start + spin
+        body.spins_apart = body.spin >= 0 and _changes_direction(ws.floats, spin_now, rate)
         if body.spins_apart:
             ws.island.spinning[ws.island.n_spinning] = number
             ws.island.n_spinning += 1
@@ -72,10 +90,10 @@ def choose_spins_in_space(ws: Workspace) -> None:
 
 @kernel("void(ws, i8, i8)")
 def store_spin_slope(ws: Workspace, stage: int, state: int) -> None:
-    """Store the spin slopes of a stage, which was evaluated at ``state``, along axes in space.
+    """Store the spin slopes of a stage along axes in space [1/s^2]. ``state`` is where the stage was evaluated.
 
-    At the first stage the spins at the start are stored too. The slopes of a quaternion that was normalised in
-    :func:`write_spins_of_stage` are scaled back to its length before.
+    At the first stage the spins at the start are stored too. :func:`write_spins_of_stage` normalised the quaternions of
+    inner stages, so their slopes are scaled back to the lengths before.
     """
     for i in range(ws.island.n_spinning):
         number = ws.island.spinning[i]
@@ -104,17 +122,7 @@ def write_spins_of_stage(ws: Workspace, stage: int, h: float, out: int) -> None:
         stage_part(ws, ws.coefficients.stages.start, start, _slopes_of(ws, number), 3, 3, stage, h, u)
         _rotate(ws.floats, q, u, _TO_BODY, u)
         if stage < LAST_STAGE:
-            square = (
-                ws.floats[q] * ws.floats[q]
-                + ws.floats[q + 1] * ws.floats[q + 1]
-                + ws.floats[q + 2] * ws.floats[q + 2]
-                + ws.floats[q + 3] * ws.floats[q + 3]
-            )
-            size = math.sqrt(square)
-            ws.island.quaternion_length[number] = size
-            factor = 1.0 / size
-            for j in range(4):
-                ws.floats[q + j] *= factor
+            ws.island.quaternion_length[number] = normalise(ws.floats, q)
 
 
 @kernel("void(ws, f8, i8)")

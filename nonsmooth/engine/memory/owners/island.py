@@ -144,7 +144,6 @@ class Step(Part, key="step"):
     uses_last_slope: bool = question(Life.STEP, "The first slope is the last one of the step before.")
     has_replaced_slope: bool = question(Life.STEP, "An implicit step has replaced the first slope.")
     is_blended: bool = question(Life.STEP, "Redundant forces are blended over the step.")
-    is_evaluated: bool = question(Life.STEP, "The guards at the end of the step are evaluated.")
     n_may_close: int = whole(Life.STEP, "Number of gaps that may close in the step.")
     may_close: IntegerRow = array(Life.STEP, per(1, "n_slots"), int, "", "Contacts whose gap may close in the step.")
     n_not_facing: int = whole(Life.STEP, "Number of contacts whose features do not face each other.")
