@@ -121,9 +121,9 @@ def solve_factorised(floats: Floats, a: int, n: int, x: int, stride: int) -> Non
 
 @kernel("void(ws, Articulation)")
 def evaluate_articulation(ws: Workspace, articulation: Articulation) -> None:
-    """Write K, Y and the rows of the joints of an articulation. With driven bodies, correct ``u_free`` and add their power.
+    """Write K, Y and the rows of the joints of an articulation.
 
-    The bodies must be evaluated, and ``u_free`` must hold their velocities.
+    The bodies must be evaluated. ``u_free`` holds their velocities, and loses the part that driven bodies prescribe.
     """
     for number in range(articulation.first_joint, articulation.first_joint + articulation.n_joints):
         _write_rows(ws, ws.joints[number], articulation)
@@ -151,7 +151,7 @@ def evaluate_articulation(ws: Workspace, articulation: Articulation) -> None:
 
 @kernel("f8(ws, Articulation)")
 def _power(ws: Workspace, articulation: Articulation) -> float:
-    """Power of the forces on the bodies of an articulation, without contact forces, at the velocities ``u_free`` [W]."""
+    """Power of the forces on the bodies of an articulation, without contacts, at the velocities ``u_free`` [W]."""
     power, velocities = 0.0, ws.island.u_free.start
     for number in range(articulation.first_body, articulation.first_body + articulation.n_bodies):
         body = ws.bodies[number]
@@ -161,7 +161,7 @@ def _power(ws: Workspace, articulation: Articulation) -> float:
 
 @kernel("void(ws, Articulation, i8, f8, i8)")
 def subtract_response(ws: Workspace, articulation: Articulation, line: int, factor: float, out: int) -> None:
-    """Subtract ``factor`` times row ``line`` of Y from the velocities or accelerations of an articulation at ``out``."""
+    """Subtract ``factor`` times row ``line`` of Y from velocities or accelerations of an articulation at ``out``."""
     response = articulation.solved_response + line * articulation.n_u
     for i in range(articulation.n_u):
         ws.floats[out + i] -= ws.floats[response + i] * factor
@@ -171,8 +171,8 @@ def subtract_response(ws: Workspace, articulation: Articulation, line: int, fact
 def _remove_prescribed_velocities(ws: Workspace, articulation: Articulation) -> None:
     """Subtract from ``u_free`` the velocities that driven bodies impose through joints, Y^T A u.
 
-    Their power is added to ``driven_power`` [W], without the part of contact forces: the power that the forces lose, and
-    that of the joint forces by the prescribed accelerations.
+    Their power is added to ``driven_power`` [W], without the part of contact forces: the power that the other forces
+    lose, and that of the joint forces by the prescribed accelerations.
     """
     n, m = articulation.n_u, articulation.n_rows
     u, x = ws.island.u_free.start + articulation.u, articulation.forces

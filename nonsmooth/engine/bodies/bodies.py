@@ -60,7 +60,7 @@ def _is_evaluated_at(ws: Workspace, t: float, y: int, body: Body) -> bool:
 
 @kernel("void(ws, f8, i8, i8)")
 def evaluate_if_changed(ws: Workspace, t: float, y: int, number: int) -> None:
-    """Evaluate body ``number`` at time ``t`` [s] and the state at offset ``y``. Its version changes only if they differ.
+    """Evaluate body ``number`` at time ``t`` [s] and state ``y``. At those of its last evaluation it keeps its version.
 
     Loads and joints add to the output block of a body. So the block is written again at the same state too, except for
     a ballistic body, which has neither loads nor joints.

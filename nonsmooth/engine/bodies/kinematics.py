@@ -226,7 +226,7 @@ def push_response(ws: Workspace, c: int, s: int, force: float, du: int) -> None:
 
 @kernel("f8(ws, i8, i8, i8)")
 def row(ws: Workspace, c: int, r: int, du: int) -> float:
-    """Product of row ``r`` (n, t1, t2) of the Jacobians of contact ``c`` with the velocities or accelerations at ``du``."""
+    """Product of row ``r`` (n, t1, t2) of the Jacobians of contact ``c`` with velocities or accelerations at ``du``."""
     contact = ws.contacts[c]
     a, b = ws.articulations[contact.articulation_a], ws.articulations[contact.articulation_b]
     total = product(ws.floats, 0.0, contact.jacobian_a + r * a.n_u, du + a.u, a.n_u)

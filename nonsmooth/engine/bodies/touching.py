@@ -1,4 +1,4 @@
-"""Touching contacts at an instant: which contacts take part in an event, and how fast they slip.
+"""Touching contacts at an instant: which contacts take part in an event.
 
 A closed contact touches. An open contact touches if its gap is within the gap tolerance, or if it closes within the
 time tolerance at its present rate. Only touching contacts have Jacobians.
@@ -12,7 +12,6 @@ from nonsmooth.engine.bodies.courses import end_own_steps_of, has_own_step
 from nonsmooth.engine.bodies.kinematics import evaluate_bias, evaluate_jacobian, evaluate_kinematics
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Contact, Workspace, entry_point, kernel
-from nonsmooth.engine.numerics.vectors import length
 
 
 @entry_point("b1(ws)")
@@ -36,44 +35,32 @@ def touch(ws: Workspace) -> bool:
 
 @kernel("b1(ws, Contact)")
 def _touches_and_approaches(ws: Workspace, contact: Contact) -> bool:
-    """Write whether a contact touches, and evaluate it in that case. True if it also approaches."""
+    """Write whether a contact touches, and evaluate it in that case. True if it touches, is rigid and approaches."""
     c = contact.index
-    contact.is_touching = False
     evaluate_kinematics(ws, c)
-    rate = contact.normal_rate
-    if has_own_step(ws, c) or (contact.past_feature > ws.tolerance.gap and contact.gap > 0.0):
-        return False
-    contact.is_touching = True
-    if contact.is_compliant:
-        _evaluate_compliant(ws, contact)
-        return False
-    near = max(ws.tolerance.gap, ws.tolerance.time * abs(rate))
-    if contact.mode == Mode.OPEN and contact.gap > near:
-        contact.is_touching = False
+    contact.is_touching = _does_touch(ws, contact)
+    if not contact.is_touching:
         return False
     evaluate_jacobian(ws, c)
-    evaluate_bias(ws, c, 3)
-    return rate < -ws.tolerance.velocity
+    evaluate_bias(ws, c, rows=3)
+    if contact.is_compliant:
+        evaluate_compliant_force(ws, c)
+    return not contact.is_compliant and contact.normal_rate < -ws.tolerance.velocity
 
 
-@kernel("void(ws, Contact)")
-def _evaluate_compliant(ws: Workspace, contact: Contact) -> None:
-    """Write whether a compliant contact touches, and evaluate it in that case. It has no impacts.
+@kernel("b1(ws, Contact)")
+def _does_touch(ws: Workspace, contact: Contact) -> bool:
+    """True if a contact touches, by its gap and gap rate.
 
-    A closed one touches up to its reach, an open one up to a gap of zero. At that gap it must not separate.
+    A compliant contact touches up to its reach if it is closed, and up to a gap of zero if it is open. At that gap it
+    must not separate. It has no impacts. Past the end of its features an open gap is only a distance.
     """
-    gap = contact.gap
-    end = 0.0 if contact.mode == Mode.OPEN else contact.reach
-    separates = not contact.normal_rate <= ws.tolerance.velocity
-    if gap > end + ws.tolerance.gap or (gap > end - ws.tolerance.gap and separates):
-        contact.is_touching = False
-        return
-    evaluate_jacobian(ws, contact.index)
-    evaluate_bias(ws, contact.index, 3)
-    evaluate_compliant_force(ws, contact.index)
-
-
-@kernel("f8(ws, i8)")
-def slip_speed(ws: Workspace, c: int) -> float:
-    """Slip speed of contact ``c`` [m/s]."""
-    return length(ws.contacts[c].slip)
+    gap, rate = contact.gap, contact.normal_rate
+    if has_own_step(ws, contact.index) or (contact.past_feature > ws.tolerance.gap and gap > 0.0):
+        return False
+    if contact.is_compliant:
+        end = 0.0 if contact.mode == Mode.OPEN else contact.reach
+        separates = not rate <= ws.tolerance.velocity
+        return not (gap > end + ws.tolerance.gap or (gap > end - ws.tolerance.gap and separates))
+    near = max(ws.tolerance.gap, ws.tolerance.time * abs(rate))
+    return not (contact.mode == Mode.OPEN and gap > near)

@@ -18,7 +18,7 @@ import math
 from nonsmooth.engine.bodies.compliance import accelerate_by_compliance, start_inner_states
 from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.bodies.kinematics import row
-from nonsmooth.engine.bodies.touching import slip_speed, touch
+from nonsmooth.engine.bodies.touching import touch
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
 from nonsmooth.engine.contact.inelastic import inelastic_impulses
 from nonsmooth.engine.contact.mean_forces import averaging_time, is_averaged
@@ -33,14 +33,18 @@ from nonsmooth.engine.flow.self_check import ALLOWED, NEGLIGIBLE
 from nonsmooth.engine.memory.layout import NORMAL_ROW
 from nonsmooth.engine.memory.modes import NO_CONTACT, NO_RELEASE, Cause, Mode, Truncation
 from nonsmooth.engine.native.kernel import Workspace, kernel
+from nonsmooth.engine.numerics.vectors import length
 
 _PART_AT_REST = 1.0 - 1e-6
-"""Part of an averaging span after which its contacts count as at rest. Up to round-off they come to rest at its end."""
+"""Part of an averaging span within which a bounce is short: all contacts come to rest at its end, up to round-off."""
 
 
 @kernel("void(ws, i8)")
 def set_provisional_mode(ws: Workspace, c: int) -> None:
-    """Give contact ``c`` the mode that its rates suggest, until the instant is settled."""
+    """Give contact ``c`` the mode that its rates suggest, until the modes of the instant are found.
+
+    A contact of a body with an own step keeps its mode.
+    """
     contact = ws.contacts[c]
     if has_own_step(ws, c):
         return
@@ -50,7 +54,7 @@ def set_provisional_mode(ws: Workspace, c: int) -> None:
         return
     if contact.mode == Mode.OPEN:
         start_inner_states(ws, c)
-    speed = slip_speed(ws, c)
+    speed = length(contact.slip)
     contact.mode = Mode.SLIDE if speed > ws.tolerance.velocity else Mode.STICK
     if speed > ws.tolerance.velocity:
         contact.direction = contact.slip[0] / speed, contact.slip[1] / speed
@@ -58,10 +62,10 @@ def set_provisional_mode(ws: Workspace, c: int) -> None:
 
 @kernel("b1(ws, i8, f8)")
 def _is_short(ws: Workspace, c: int, time: float) -> bool:
-    """True if contact ``c`` bounces, but will come back within a ``time`` [s].
+    """True if contact ``c`` separates, but will close again within a ``time`` [s]. Limits the first step.
 
-    With the rate v and the acceleration -a, it comes back after 2 v / a. The next step must not be much longer, or it
-    would miss the return. A gap that is left must close first.
+    With the rate v and the acceleration -a, it closes again after 2 v / a. The next step must not be much longer, or it
+    would miss that: ``first_step`` is at most 1.5 times this time. A positive gap must close too.
     """
     contact = ws.contacts[c]
     rate = contact.normal_rate
@@ -75,10 +79,10 @@ def _is_short(ws: Workspace, c: int, time: float) -> bool:
 
 @kernel("i8(ws)")
 def end_short_bounces(ws: Workspace) -> int:
-    """End the bounces that have become shorter than their contact time. Number of contacts and islands that end one.
+    """End the bounces that have become shorter than their contact time. Number of islands in which a bounce ends.
 
-    The last bounce of a single contact is left out. If several contacts touch, the forces of their island are averaged,
-    so that all come to rest together. The modes must be those agreed on for this instant.
+    The last bounce of a single contact is left out. If several contacts touch, the forces of their island are averaged
+    over a contact time, so that all come to rest together. The contacts must have their modes after the event.
     """
     ws.island.first_step = math.inf
     group_touching(ws)
@@ -98,10 +102,10 @@ def end_short_bounces(ws: Workspace) -> int:
 
 @kernel("i8(ws)")
 def _short_bounce(ws: Workspace) -> int:
-    """Active contact whose bounce is shorter than the contact time, or ``NO_CONTACT``.
+    """Active contact whose bounce is shorter than the contact time, or ``NO_CONTACT`` (the last one of several).
 
-    Averaged forces may leave a rate by which a gap stays within the allowed one over their span. A faster contact of an
-    island is not short.
+    Forces that are averaged over a span may leave a rate, as long as the gap stays within the allowed one over it.
+    In an island of several contacts a faster bounce is not short.
     """
     time, fastest = averaging_time(ws), math.inf
     if ws.problem.n_active > 1:
@@ -116,20 +120,20 @@ def _short_bounce(ws: Workspace) -> int:
 
 @kernel("void(ws, i8)")
 def _end_bounce(ws: Workspace, c: int) -> None:
-    """Close contact ``c``, the only active one, without its last bounce, and record that."""
+    """Close contact ``c``, the only active one, in place of its last bounce, and record the closing."""
     remember(ws)
     contact = ws.contacts[c]
-    contact.mode = Mode.SLIDE if slip_speed(ws, c) > ws.tolerance.velocity else Mode.STICK
-    before = ws.totals.driven_work
-    _add_loss(ws, project_rates(ws, at_event=True), before)
+    contact.mode = Mode.SLIDE if length(contact.slip) > ws.tolerance.velocity else Mode.STICK
+    work_before = ws.totals.driven_work
+    _add_loss(ws, project_rates(ws, at_event=True), work_before)
     record_event(ws, Cause.CLOSING, c, NO_PHASES)
 
 
 @kernel("void(ws, f8, f8)")
 def _add_loss(ws: Workspace, loss: float, work_before: float) -> None:
-    """Add the energy that a closing removed [J], and the work of driven bodies since ``work_before`` [J], to the event.
+    """Add the energy ``loss`` that a closing removed [J] to the event and the totals.
 
-    The work of driven bodies is in the totals already.
+    The work of driven bodies is in the totals already. What exceeds ``work_before`` [J] is added to the event.
     """
     ws.event.head[CLOSING_LOSS] += loss
     ws.event.head[DRIVEN_WORK] += ws.totals.driven_work - work_before
@@ -138,14 +142,14 @@ def _add_loss(ws: Workspace, loss: float, work_before: float) -> None:
 
 @kernel()
 def _stop_active(ws: Workspace) -> None:
-    """Stop the approaches of the active contacts by an inelastic impact, and add its loss to the event."""
+    """Stop the approaches of the active contacts by an inelastic impact. Adds its loss and impulses to the event."""
     assemble_delassus(ws)
     for active in ws.actives:
         for r in range(3):
             active.free[r] = active.force[r] = 0.0
     inelastic_impulses(ws, 0.0)
     add_response(ws, ws.problem.forces.start, ws.island.y.start + ws.model.n_q)
-    loss, before = 0.0, ws.totals.driven_work
+    loss, work_before = 0.0, ws.totals.driven_work
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         for r in range(3):
@@ -153,12 +157,12 @@ def _stop_active(ws: Workspace) -> None:
             loss -= 0.5 * impulse * add_product(ws, 2.0 * rate, active.index, r, ws.problem.forces.start)
             ws.totals.driven_work -= impulse * contact.prescribed_rate[r]
             contact.event_impulse[r] = impulse
-    _add_loss(ws, loss, before)
+    _add_loss(ws, loss, work_before)
 
 
 @kernel("i8(ws)")
 def _fastest_approach(ws: Workspace) -> int:
-    """Active contact that approaches fastest, or ``NO_CONTACT`` if none does."""
+    """Active contact that approaches fastest, or ``NO_CONTACT`` if none exceeds the velocity tolerance."""
     which, least = NO_CONTACT, -ws.tolerance.velocity
     for active in ws.actives:
         rate = ws.contacts[active.contact].normal_rate
@@ -190,9 +194,10 @@ def slow_speed(ws: Workspace) -> float:
 
 @kernel("i8(ws)")
 def stop_slow_islands(ws: Workspace) -> int:
-    """Stop islands whose approaches are slow, in place of a collision. Number of these islands.
+    """Stop islands whose approaches are slow by an inelastic impact. Number of these islands.
 
-    After an impact that was cut short, islands are stopped at any speed: another impact would be cut short too.
+    After an impact that was cut short, islands are stopped at any speed: another impact would be cut short too. The
+    closing is recorded, and the touching contacts get provisional modes.
     """
     accelerate_touching(ws)
     accelerate_by_compliance(ws)
@@ -201,9 +206,8 @@ def stop_slow_islands(ws: Workspace) -> int:
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
         fastest = _fastest_approach(ws)
-        if fastest == NO_CONTACT:
-            continue
-        if ws.event.truncation == Truncation.NONE and not _is_slow(ws, fastest):
+        was_cut_short = ws.event.truncation != Truncation.NONE
+        if fastest == NO_CONTACT or not (was_cut_short or _is_slow(ws, fastest)):
             continue
         if n_stopped == 0:
             remember(ws)
@@ -220,10 +224,10 @@ def stop_slow_islands(ws: Workspace) -> int:
 
 @kernel("b1(ws)")
 def average_slow_islands(ws: Workspace) -> bool:
-    """Average the forces of islands that still approach slowly after they were stopped. True if others approach.
+    """Average over time the forces of islands that still approach slowly after they were stopped.
 
-    An inelastic impact has no exact solution if contacts contradict each other. Then its impulses leave an approach
-    for ever.
+    True if another island approaches: fast, or with forces that cannot be averaged. An inelastic impact has no exact
+    solution if its contacts contradict each other. Then another impact would leave an approach again.
     """
     accelerate_touching(ws)
     accelerate_by_compliance(ws)
@@ -232,31 +236,29 @@ def average_slow_islands(ws: Workspace) -> bool:
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
         fastest = _fastest_approach(ws)
-        if fastest == NO_CONTACT:
-            continue
-        if not _is_slow(ws, fastest) or (not is_averaged(ws) and not average_active(ws)):
+        if fastest != NO_CONTACT and not (_is_slow(ws, fastest) and (is_averaged(ws) or average_active(ws))):
             has_others = True
     return has_others
 
 
 @kernel()
 def _stop_slow_closed(ws: Workspace) -> None:
-    """Project the slow approaches of closed contacts that an inelastic impact left."""
+    """Bring the slow approaches that an inelastic impact left to zero by projection, in islands of closed contacts."""
     group_closed(ws)
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
         fastest = _fastest_approach(ws)
         if fastest != NO_CONTACT and _is_slow(ws, fastest):
-            before = ws.totals.driven_work
-            _add_loss(ws, project_rates(ws, at_event=True), before)
+            work_before = ws.totals.driven_work
+            _add_loss(ws, project_rates(ws, at_event=True), work_before)
 
 
 @kernel("f8(ws)")
 def stop_creeping(ws: Workspace) -> float:
     """Stop the touching open contacts that approach within the velocity tolerance. Energy that this removes [J].
 
-    Such an approach is no collision, but in time the bodies would overlap. The impulses press only: their friction is
-    negligible.
+    Such an approach is no collision, but in time the bodies would overlap. The impulses are normal only, because
+    friction is negligible.
     """
     if not _has_creeping_contact(ws):
         return 0.0
@@ -277,8 +279,9 @@ def stop_creeping(ws: Workspace) -> float:
         add_response(ws, ws.problem.forces.start, ws.island.y.start + ws.model.n_q)
         for active in ws.actives:
             contact, impulse = ws.contacts[active.contact], active.normal_force
-            twice = add_product(ws, 2.0 * contact.normal_rate, active.index, NORMAL_ROW, ws.problem.forces.start)
-            loss -= 0.5 * impulse * twice
+            # twice the mean of the rates before and after
+            rates = add_product(ws, 2.0 * contact.normal_rate, active.index, NORMAL_ROW, ws.problem.forces.start)
+            loss -= 0.5 * impulse * rates
             ws.totals.driven_work -= impulse * contact.prescribed_rate[0]
     return loss
 
@@ -295,10 +298,10 @@ def _has_creeping_contact(ws: Workspace) -> bool:
 
 @kernel("b1(ws)")
 def replace_coincident_contacts(ws: Workspace) -> bool:
-    """Replace closed contacts by approaching ones that coincide with them, stop what still approaches, and record it.
+    """Replace closed contacts by approaching ones that coincide with them, stop what still approaches, and record that.
 
-    False, and nothing is replaced, if an approaching contact coincides with no closed one. The event names the last
-    contact that replaces another.
+    True if this was done. False, and nothing is replaced, if an approaching contact coincides with no closed one. The
+    event names the last contact that replaces another.
     """
     for contact in ws.contacts:
         approaches = not contact.is_compliant and contact.is_touching and contact.normal_rate < -ws.tolerance.velocity

@@ -2,7 +2,8 @@
 
 The forces of an island are averaged over a contact time (:mod:`nonsmooth.engine.contact.mean_forces`) if events or
 evaluations accumulate there: bounces shorter than the contact time, a contact problem without a solution, or a slip
-whose direction turns too fast. Averaging ends when the instantaneous forces have a solution again. If they soon fail
+whose direction turns too fast. Events are counted for each contact, because many events elsewhere in a large system are
+no accumulation. Averaging ends when the instantaneous forces have a solution again. If they soon fail
 again, the waiting time before the next attempt doubles, so that failing attempts cost little.
 """
 
@@ -22,11 +23,15 @@ from nonsmooth.engine.numerics.vectors import length
 
 _LARGEST_BURST = 20000.0
 """Evaluations of forces beyond one per contact time that are no accumulation. The stop of one slip takes fewer."""
+_MOST_EVENTS = 100
+"""Most events of one contact within a burst that are no accumulation. Short bounces end long before."""
+_BURST = 1e-2
+"""Length of a burst of events, relative to the contact time."""
 
 
 @kernel("b1(ws)")
 def average_active(ws: Workspace) -> bool:
-    """Let the forces of the active contacts be averaged from now on. False if they cannot be, or already are.
+    """Let the forces of the active contacts be averaged over time from now on. False if they cannot be, or already are.
 
     The contact problem of a single contact always has a solution. If the instantaneous forces of a contact failed soon
     after their last attempt, the wait before the next attempt is doubled.
@@ -47,9 +52,9 @@ def average_active(ws: Workspace) -> bool:
 
 @kernel("b1(ws, i8)")
 def average_island_of(ws: Workspace, c: int) -> bool:
-    """Start averaging over time of the forces of the island of contact ``c``, which becomes the active one.
+    """Let the forces of the island of contact ``c``, which becomes the active one, be averaged over time from now on.
 
-    False if the contact is open or the forces cannot be averaged.
+    False if the contact is open, or the forces cannot be averaged or already are.
     """
     if ws.contacts[c].mode == Mode.OPEN:
         return False
@@ -60,9 +65,9 @@ def average_island_of(ws: Workspace, c: int) -> bool:
 
 @kernel("b1(ws, b1)")
 def stays_averaged(ws: Workspace, ends: bool) -> bool:
-    """True if the forces of the active contacts are averaged over time, and the next span is averaged too.
+    """True if the forces of the active contacts stay averaged over time, False if they are or become instantaneous.
 
-    ``ends`` is true at the end of a span. Averaging then goes on if a slip would soon stop, or if the last attempt
+    ``ends`` is true at the end of a span. Averaging then continues if a slip would soon stop, or if the last attempt
     without averaging was less than ``mean_forces_wait`` [s] ago. It ends for a single contact.
     """
     if not is_averaged(ws):
@@ -82,9 +87,9 @@ def stays_averaged(ws: Workspace, ends: bool) -> bool:
 
 @kernel()
 def end_averaging(ws: Workspace) -> None:
-    """Put the contacts with averaged forces on their constraints before their span is over, and end it.
+    """End the averaging span before its time: project the contacts with averaged forces onto their constraints.
 
-    The projection takes back what the forces pushed too much. Their work so far is accounted for.
+    The projection removes what the forces pushed too much. Their work so far is accounted for.
     """
     touch(ws)
     account_for_mean_forces(ws)
@@ -113,10 +118,10 @@ def agree_on_averaged_modes(ws: Workspace, follows: bool) -> None:
 def contact_of_burst(ws: Workspace) -> int:
     """Contact at which evaluations of forces accumulate so that time hardly passes, or ``NO_CONTACT``.
 
-    The measure grows by one with each evaluation and falls by one per contact time. The contact is the one whose slip
-    turns fastest, or else the one with the most events in its present burst.
+    The contact is the one whose slip direction turns fastest, if that is by more than 1 rad per contact time, or else
+    the one with the most events in its present burst. Updates the measure of evaluations.
     """
-    if not _has_burst(ws):
+    if _update_burst(ws) <= _LARGEST_BURST:
         return NO_CONTACT
     which, fastest = NO_CONTACT, 1.0
     busiest, n_events = NO_CONTACT, 1
@@ -132,15 +137,33 @@ def contact_of_burst(ws: Workspace) -> int:
     return which if which != NO_CONTACT else busiest
 
 
-@kernel("b1(ws)")
-def _has_burst(ws: Workspace) -> bool:
-    """True if evaluations of forces accumulate faster than one per contact time, over a long burst."""
+@kernel("f8(ws)")
+def _update_burst(ws: Workspace) -> float:
+    """Measure of accumulating evaluations of forces: it grows by 1 with each, and falls by 1 per contact time.
+
+    The contact time is the shortest one of the closed contacts. If it is zero, the measure is 0.
+    """
     time = math.inf
     for i in range(ws.island.n_grouped):
         time = min(time, ws.contacts[ws.island.grouped[i]].contact_time)
     if time == 0.0:
-        return False
+        return 0.0
     decayed = max(0.0, ws.island.burst - (ws.island.time - ws.island.burst_time) / time)
     ws.island.burst = decayed + float(ws.totals.n_evaluations - ws.island.burst_evaluations)
     ws.island.burst_time, ws.island.burst_evaluations = ws.island.time, ws.totals.n_evaluations
-    return ws.island.burst > _LARGEST_BURST
+    return float(ws.island.burst)
+
+
+@kernel("void(ws, i8)")
+def count_event(ws: Workspace, c: int) -> None:
+    """Count an event of contact ``c`` in its present burst of events, or in a new one if that is over."""
+    contact = ws.contacts[c]
+    if abs(ws.island.time - contact.burst_start) > max(ws.tolerance.time, _BURST * contact.contact_time):
+        contact.burst_start, contact.burst_events = ws.island.time, 0
+    contact.burst_events += 1
+
+
+@kernel("b1(ws, i8)")
+def is_stalled(ws: Workspace, c: int) -> bool:
+    """True if contact ``c`` has so many events in its present burst that time hardly passes."""
+    return ws.contacts[c].burst_events > _MOST_EVENTS

@@ -1,5 +1,9 @@
 """Collisions: the impact law gives the impulses of each island, and the velocities jump.
 
+An impact lasts for a contact time. Bodies that are so close that they meet within it, as in a row of balls, would
+otherwise collide one after the other, with another result than a shock that runs through the row. So contacts that the
+collision closes before it is over take part in it.
+
 An impact is also what resolves a jam, where sliding contacts hold a body fast, and Painleve's paradox, where a sliding
 contact has no force: both are impacts without an approach.
 """
@@ -10,7 +14,9 @@ import math
 
 from nonsmooth.engine.bodies.anisotropy import on_unit_tangents, release_sticking_anisotropic
 from nonsmooth.engine.bodies.compliance import accelerate_by_compliance
-from nonsmooth.engine.bodies.touching import slip_speed, touch
+from nonsmooth.engine.bodies.courses import end_own_steps_of, has_own_step
+from nonsmooth.engine.bodies.kinematics import evaluate_bias, evaluate_jacobian
+from nonsmooth.engine.bodies.touching import touch
 from nonsmooth.engine.contact.forces import reduced_coefficient
 from nonsmooth.engine.contact.problem import accelerate_touching
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
@@ -24,19 +30,22 @@ from nonsmooth.engine.events.record import (
     record_event,
     remember,
 )
+from nonsmooth.engine.flow.self_check import ALLOWED
 from nonsmooth.engine.impact.end import how_over
 from nonsmooth.engine.impact.instant import jam_slips, map_impact
 from nonsmooth.engine.impact.integration import Outcome, energetic_impact
 from nonsmooth.engine.impact.window import LARGE, windowed_impact
 from nonsmooth.engine.memory.modes import NO_CONTACT, NO_RELEASE, Cause, Mode, Painleve, Status, Truncation
-from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
+from nonsmooth.engine.native.kernel import Contact, Workspace, entry_point, kernel
+from nonsmooth.engine.numerics.vectors import length
 
 
 @entry_point("Status(ws, Cause, i8, f8)")
 def collide(ws: Workspace, cause: Cause, which: int, seed: float) -> Status:
-    """Apply the impact law to the touching contacts, island by island, and record the impact. Returns the status.
+    """Apply the impact law to the touching contacts, island by island, and record the impact.
 
-    An impact without collision starts from rest and needs a speed ``seed`` [m/s] to begin with.
+    ``RUNNING``, or why an island has no impulses; then the velocities are those before. An impact without collision
+    starts from rest and needs a speed ``seed`` [m/s] to begin with. ``which`` is the contact that is recorded.
     """
     remember(ws)
     accelerate_touching(ws)
@@ -74,7 +83,10 @@ def _takes_part(ws: Workspace, cause: Cause, which: int) -> bool:
 
 @kernel("Status(ws, Cause, f8)")
 def _collide_island(ws: Workspace, cause: Cause, seed: float) -> Status:
-    """Apply the impact law to the active contacts, and its impulses to the bodies. Returns the status."""
+    """Apply the impact law to the active contacts, and its impulses to the bodies. ``RUNNING``, or why it fails.
+
+    Large islands are solved in windows, which assemble their own parts of the Delassus matrix.
+    """
     is_large = len(ws.actives) > LARGE and ws.options.impact_map == 0 and cause == Cause.IMPACT
     if not is_large:
         assemble_delassus(ws)
@@ -96,7 +108,7 @@ def _collide_island(ws: Workspace, cause: Cause, seed: float) -> Status:
 def _write_rates_before(ws: Workspace, is_lossless: bool) -> None:
     """Write the rates of the active contacts before the impact.
 
-    An approach within the velocity tolerance is zero: it must not begin a compression of its own.
+    A gap rate within the velocity tolerance is written as zero: it must not begin a compression.
     """
     for active in ws.actives:
         contact = ws.contacts[active.contact]
@@ -110,7 +122,10 @@ def _write_rates_before(ws: Workspace, is_lossless: bool) -> None:
 
 @kernel("Status(ws, Cause, f8, b1)")
 def _find_impulses(ws: Workspace, cause: Cause, seed: float, is_large: bool) -> Status:
-    """Find the impulses of the active contacts: of a jam, by a map of velocities, or by integration over the impact."""
+    """Find the impulses of the active contacts: of a jam, by a map of velocities, or by integration over the impact.
+
+    ``RUNNING`` if they are found. An endless impact may be cut short if what is left of the approach is negligible.
+    """
     if cause == Cause.JAM:
         return Status.RUNNING if jam_slips(ws) else Status.NO_CONTACT_SOLUTION
     if ws.options.impact_map != 0:
@@ -173,9 +188,9 @@ def _set_provisional_modes(ws: Workspace) -> None:
 @kernel("Status(ws, i8)")
 def resolve_jam(ws: Workspace, which: int) -> Status:
     """Stop the slip of contact ``which``, which jams, and its island with it. Returns the status."""
-    return (
-        Status.PARADOX_REFUSED if ws.options.painleve_policy == Painleve.REFUSE else collide(ws, Cause.JAM, which, 0.0)
-    )
+    if ws.options.painleve_policy == Painleve.REFUSE:
+        return Status.PARADOX_REFUSED
+    return collide(ws, Cause.JAM, which, 0.0)
 
 
 @kernel("Status(ws)")
@@ -192,9 +207,38 @@ def collide_without_approach(ws: Workspace) -> Status:
         if not active.is_at_rest and reduced_coefficient(ws, active.index) <= 0.0:
             which = active.contact
             ws.contacts[which].has_no_force = True
-            seed = max(seed, slip_speed(ws, which))
+            seed = max(seed, length(ws.contacts[which].slip))
     if which == NO_CONTACT:
         return Status.NO_CONTACT_SOLUTION
     if ws.options.painleve_policy == Painleve.REFUSE:
         return Status.PARADOX_REFUSED
     return collide(ws, Cause.PAINLEVE, which, seed)
+
+
+@kernel("b1(ws, Contact)")
+def _has_touching_contact(ws: Workspace, contact: Contact) -> bool:
+    """True if a contact of the same two frames touches. Then the bodies meet there, and not at this one."""
+    for other in ws.contacts:
+        if other.is_touching and other.frame_a == contact.frame_a and other.frame_b == contact.frame_b:
+            return True
+    return False
+
+
+@kernel("i8(ws, f8)")
+def add_closing_contacts(ws: Workspace, speed: float) -> int:
+    """Let contacts touch whose gaps a collision at a ``speed`` [m/s] may close within its contact time.
+
+    Their gaps must be within the allowed one. Friction that acts over a larger gap would turn the bodies. The own steps
+    of these bodies end. Number of steps that ended: if it is not zero, the touching contacts must be found anew.
+    """
+    n_ended = 0
+    for contact in ws.contacts:
+        is_apart = not contact.is_touching and not contact.is_compliant and contact.past_feature <= 0.0
+        near = min(contact.contact_time * speed, ALLOWED * ws.tolerance.gap)
+        is_free = is_apart and contact.gap <= near and not has_own_step(ws, contact.index)
+        if is_free and not _has_touching_contact(ws, contact):
+            contact.is_touching = True
+            evaluate_jacobian(ws, contact.index)
+            evaluate_bias(ws, contact.index, 3)
+            n_ended += end_own_steps_of(ws, contact.index)
+    return n_ended

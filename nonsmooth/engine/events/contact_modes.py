@@ -11,7 +11,6 @@ from enum import IntEnum
 from nonsmooth.engine.bodies.anisotropy import turn_facing
 from nonsmooth.engine.bodies.compliance import accelerate_by_compliance, has_known_friction, start_inner_states
 from nonsmooth.engine.bodies.courses import has_own_step
-from nonsmooth.engine.bodies.touching import slip_speed
 from nonsmooth.engine.contact.problem import accelerate, accelerate_touching, solve_contact, write_contact_problem
 from nonsmooth.engine.contact.trial import small_force, tangential_inverse_mass
 from nonsmooth.engine.delassus.islands import activate_group, group_members
@@ -20,6 +19,7 @@ from nonsmooth.engine.events.record import mode_code
 from nonsmooth.engine.flow.guard_numbers import normal_guard
 from nonsmooth.engine.memory.modes import Cause, Mode
 from nonsmooth.engine.native.kernel import Contact, Workspace, kernel, result
+from nonsmooth.engine.numerics.vectors import length
 
 _VANISHED = 1e-9
 """Normal force that counts as vanished, relative to the largest one at the start of the step."""
@@ -62,7 +62,7 @@ def _guessed_mode(ws: Workspace, contact: Contact, cause: Cause, which: int) -> 
     may_have_closed = (is_cause and cause != Cause.JAM) or cause == Cause.START
     if contact.mode == Mode.OPEN and not may_have_closed:
         return Mode.OPEN
-    return Mode.SLIDE if slip_speed(ws, contact.index) > ws.tolerance.velocity else Mode.STICK
+    return Mode.SLIDE if length(contact.slip) > ws.tolerance.velocity else Mode.STICK
 
 
 @kernel("void(ws, Contact, Cause, i8)")
@@ -73,7 +73,7 @@ def _guess_compliant_mode(ws: Workspace, contact: Contact, cause: Cause, which: 
         contact.is_touching = False
     if not contact.is_touching:
         return
-    speed = slip_speed(ws, contact.index)
+    speed = length(contact.slip)
     slips = speed > ws.tolerance.velocity
     breaks_away = cause == Cause.STICK_TO_SLIP and (is_cause or _share_a_bound(ws, contact, which))
     slides = slips or contact.has_traction_law or breaks_away

@@ -9,7 +9,13 @@ from nonsmooth.engine.bodies.bodies import evaluate_bodies
 from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.bodies.listing import list_contacts, longest_step
 from nonsmooth.engine.delassus.islands import group_closed
-from nonsmooth.engine.events.averaging import average_island_of, contact_of_burst, end_averaging
+from nonsmooth.engine.events.averaging import (
+    average_island_of,
+    contact_of_burst,
+    count_event,
+    end_averaging,
+    is_stalled,
+)
 from nonsmooth.engine.events.causes import cause_at_start, cause_of
 from nonsmooth.engine.events.event_update import update_at_event
 from nonsmooth.engine.events.record import (
@@ -22,7 +28,6 @@ from nonsmooth.engine.events.record import (
     record_samples,
     remember,
 )
-from nonsmooth.engine.events.stall import is_stalled
 from nonsmooth.engine.events.step_length import accepted_step, is_held, longest_wanted
 from nonsmooth.engine.events.stopping import stopped_contact
 from nonsmooth.engine.flow.arming import arm_guards, store_end, store_start
@@ -31,7 +36,7 @@ from nonsmooth.engine.flow.feature_end import find_feature_end
 from nonsmooth.engine.flow.flight import choose_integrated, take_off
 from nonsmooth.engine.flow.flow import is_violated, most_loaded_contact, slope
 from nonsmooth.engine.flow.follow import orient_slips
-from nonsmooth.engine.flow.guard_numbers import contact_of, first_end_guard, first_own_guard, normal_guard
+from nonsmooth.engine.flow.guard_numbers import contact_of, end_of, first_end_guard, first_own_guard, normal_of
 from nonsmooth.engine.flow.guard_values import has_other_features, store_features, write_guards
 from nonsmooth.engine.flow.guards import is_of_redundant_force
 from nonsmooth.engine.flow.location import first_crossing, locate
@@ -112,6 +117,7 @@ def _end_within(ws: Workspace) -> Status:
 def _carry_out(ws: Workspace, cause: Cause, which: int) -> Status:
     """Carry out an event of contact ``which``: update modes and velocities at its instant; return the status."""
     ws.island.follows_a_step = False
+    count_event(ws, which)
     if is_stalled(ws, which):
         if not average_island_of(ws, which):
             return Status.STALLED
@@ -185,15 +191,14 @@ def _evaluate_start(ws: Workspace) -> None:
 @kernel("i8(ws)")
 def _due_at_start(ws: Workspace) -> int:
     """Return a contact of which an event is due before any step, or -1."""
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
+    for contact in ws.contacts:
+        c = contact.index
         # a gap that closes exactly where the last step ended is an event of that step
-        gap = ws.guards[normal_guard(c)].at_end
-        arrived = gap <= ws.tolerance.gap and contact.gap_rate_at_end < -ws.tolerance.velocity
+        arrived = normal_of(ws, contact).at_end <= ws.tolerance.gap and contact.gap_rate_at_end < -ws.tolerance.velocity
         if contact.mode == Mode.OPEN and arrived:
             return c
         # what put the contacts on their constraints may have put one past its end
-        if contact.mode != Mode.OPEN and ws.guards[first_end_guard(ws) + c].at_end < 0.0:
+        if contact.mode != Mode.OPEN and end_of(ws, contact).at_end < 0.0:
             return c
         if has_own_step(ws, c):
             continue
@@ -234,10 +239,9 @@ def _after_leap(ws: Workspace) -> Status:
     ws.step.h, ws.island.follows_a_step = ws.tolerance.time, False
     _take_over(ws, ws.step.h)
     cause, which = NO_RELEASE, -1
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
+    for contact in ws.contacts:
         if contact.mode != Mode.OPEN and contact.release != NO_RELEASE and which < 0:
-            cause, which = contact.release, c
+            cause, which = contact.release, contact.index
         contact.release = NO_RELEASE
     if which >= 0:
         return _carry_out(ws, cause, which)
@@ -263,12 +267,8 @@ def _whole_step(ws: Workspace) -> Status:
     if which >= 0:
         return _carry_out(ws, Cause.SLIP_TO_STICK, which)
     ws.island.follows_a_step = ended == 0
-    if (
-        ws.step.limit == Limit.EVENT
-        and ws.island.follows_a_step
-        and ws.run.failure == Status.RUNNING
-        and ws.request.t_end - ws.island.time > ws.tolerance.time
-    ):
+    continues = ws.run.failure == Status.RUNNING and ws.request.t_end - ws.island.time > ws.tolerance.time
+    if ws.step.limit == Limit.EVENT and ws.island.follows_a_step and continues:
         # it was made to end where a gap is about to close
         which = _due_at_start(ws)
         if which >= 0:
@@ -397,10 +397,8 @@ def advance(ws: Workspace, most_steps: int, is_wary: bool) -> Status:
         if ws.request.t_end - ws.island.time <= ws.tolerance.time:
             return _arrived(ws)
         row = EVENT_HEAD + ws.model.n_u + ws.model.n_y + BOOKED + LISTED * ws.island.n_contacts
-        floats_left, integers_left = (
-            ws.model.event_floats - ws.output.floats_used,
-            ws.model.event_integers - ws.output.integers_used,
-        )
+        floats_left = ws.model.event_floats - ws.output.floats_used
+        integers_left = ws.model.event_integers - ws.output.integers_used
         if floats_left < MOST_EVENTS * row or integers_left < MOST_EVENTS * (CODE_HEAD + 2 * ws.island.n_contacts):
             return Status.PAUSED
         if 2 * ws.output.n_samples > ws.model.sample_capacity:

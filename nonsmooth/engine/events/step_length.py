@@ -9,14 +9,14 @@ from nonsmooth.engine.bodies.listing import overran_list
 from nonsmooth.engine.events.stopping import part_before_stop
 from nonsmooth.engine.flow.averaging_time import deviation_of_gaps
 from nonsmooth.engine.flow.clearance import ABOUT, first_of_flying, foresee, keep_falls
-from nonsmooth.engine.flow.guard_numbers import normal_guard
+from nonsmooth.engine.flow.guard_numbers import normal_of
 from nonsmooth.engine.flow.location import NEGLIGIBLE
 from nonsmooth.engine.flow.self_check import ADJACENT
 from nonsmooth.engine.flow.step import relaxation_rate, try_length
 from nonsmooth.engine.memory.limits import Limit
 from nonsmooth.engine.memory.modes import Mode, Status
 from nonsmooth.engine.memory.tableau import ORDER
-from nonsmooth.engine.native.kernel import Workspace, kernel
+from nonsmooth.engine.native.kernel import Contact, Workspace, kernel
 from nonsmooth.engine.numerics.runge_kutta import SAFETY, SHRINK, step_factor
 from nonsmooth.engine.numerics.vectors import dot
 
@@ -31,14 +31,13 @@ _ASTRAY = 2.0
 """A step leads gaps astray by no more than so many times what ends an averaging."""
 
 
-@kernel("f8(ws, i8)")
-def _first_of_compliant(ws: Workspace, c: int) -> float:
+@kernel("f8(ws, Contact)")
+def _first_of_compliant(ws: Workspace, contact: Contact) -> float:
     """Return how long the first step of a closed contact may be: a compliant one that begins has no force as yet.
 
     Were it over before the second stage of the step, none would meet a force, and the bodies would pass each other.
     """
-    contact = ws.contacts[c]
-    if not contact.is_compliant or ws.guards[normal_guard(c)].at_end > ADJACENT * ws.tolerance.gap:
+    if not contact.is_compliant or normal_of(ws, contact).at_end > ADJACENT * ws.tolerance.gap:
         return math.inf
     speed = math.sqrt(dot(contact.velocity_at_end, contact.velocity_at_end))
     return float(_FIRST_WAY * contact.size / max(speed, ws.tolerance.velocity))
@@ -47,8 +46,8 @@ def _first_of_compliant(ws: Workspace, c: int) -> float:
 @kernel("b1(ws)")
 def is_held(ws: Workspace) -> bool:
     """Return 1 if some contact is closed."""
-    for c in range(ws.island.n_contacts):
-        if ws.contacts[c].mode != Mode.OPEN:
+    for contact in ws.contacts:
+        if contact.mode != Mode.OPEN:
             return True
     return False
 
@@ -58,16 +57,8 @@ def longest_wanted(ws: Workspace) -> float:
     """Return what the next step is no longer than, whatever sets off on a course before it."""
     if not is_held(ws):
         return float(min(ws.island.free_step, ws.tolerance.largest_step))
-    return float(
-        min(
-            ws.tolerance.largest_step,
-            max(
-                ws.island.closed_step,
-                ws.island.own_step,
-                ws.island.own_steps_end - ws.island.time if ws.island.own_steps_end < math.inf else 0.0,
-            ),
-        )
-    )
+    course = ws.island.own_steps_end - ws.island.time if ws.island.own_steps_end < math.inf else 0.0
+    return float(min(ws.tolerance.largest_step, max(ws.island.closed_step, ws.island.own_step, course)))
 
 
 @kernel("f8(ws)")
@@ -94,10 +85,9 @@ def _first_attempt(ws: Workspace, wanted: float) -> float:
     ws.step.closing_step = ws.step.arrival_step = math.inf
     soonest = foresee(ws, h) if not ws.island.follows_a_step or ws.island.n_ballistic > 0 else math.inf
     if not ws.island.follows_a_step:
-        for c in range(ws.island.n_contacts):
-            contact = ws.contacts[c]
+        for contact in ws.contacts:
             if contact.mode != Mode.OPEN:
-                ws.island.first_step = min(ws.island.first_step, _first_of_compliant(ws, c))
+                ws.island.first_step = min(ws.island.first_step, _first_of_compliant(ws, contact))
         h = min(h, ws.island.first_step)
         # a first step to where a gap is expected to close is short, and tells when it does
         ws.step.closing_step = max(_SHORTEST * h, ABOUT * soonest)

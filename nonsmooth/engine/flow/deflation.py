@@ -32,7 +32,7 @@ def deflated(ws: Workspace, i: int, value: float, elapsed: float) -> float:
 
 @kernel("void(ws, f8)")
 def deflate(ws: Workspace, elapsed: float) -> None:
-    """Replace the values of the guards of contacts and of the user by the deflated ones, ``elapsed`` [s] after the start."""
+    """Deflate the values of the guards of contacts and of the user, ``elapsed`` [s] after the start of the step."""
     for i in range(first_end_guard(ws)):
         guard = ws.guards[i]
         guard.value = deflated(ws, i, guard.value, elapsed)

@@ -98,7 +98,7 @@ def _evaluate_active(ws: Workspace, y: int) -> None:
 
 @kernel()
 def _store_forces(ws: Workspace) -> None:
-    """Store what was solved for the active contacts in their contacts: forces, whether redundant, and static margins."""
+    """Store what was solved for the active contacts in their contacts: force, whether redundant, and static margin."""
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         contact.has_redundant_force = active.has_redundant_force

@@ -168,7 +168,7 @@ def _start_step(ws: Workspace) -> None:
 
 @kernel()
 def _end_step(ws: Workspace) -> None:
-    """Make ``y_new`` the present state and put it on the constraints. Begin the next averaging span if one has ended."""
+    """Make ``y_new`` the present state and put it on the constraints. Begin the next averaging span if one ends."""
     for i in range(ws.model.n_y):
         ws.island.y[i] = ws.step.y_new[i]
     normalise_quaternions(ws)

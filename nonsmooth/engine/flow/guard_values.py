@@ -22,7 +22,7 @@ gap tolerance past the end, and must not end at once."""
 def feature_guard(ws: Workspace, contact: Contact) -> float:
     """End guard of a closed contact [m]: the distance to the end of its features, negative if the features changed.
 
-    Features without an end have the distance 1. A change turns the sign of a positive distance, so that the guard fires.
+    Features without an end have the distance 1. A change turns the sign of a positive distance: the guard fires.
     """
     distance = _END_DISTANCE * ws.tolerance.gap - contact.past_feature if contact.past_feature != 0.0 else 1.0
     is_unchanged = contact.feature == NO_FEATURE or int(contact.feature_now) == contact.feature

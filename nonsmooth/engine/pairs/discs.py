@@ -12,32 +12,24 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.memory.blocks import PART_RINGS
-from nonsmooth.engine.native.kernel import Floats, Workspace, at, frame_at, kernel, part_at
+from nonsmooth.engine.native.kernel import Floats, Workspace, at, kernel
 from nonsmooth.engine.numerics.vectors import Vector, minus
-from nonsmooth.engine.pairs.support import middle_of, turned, turned_back
+from nonsmooth.engine.pairs.support import middle_of, to_part, to_world
 
 
 @kernel("v3(F, i8, i8)")
 def _centre(floats: Floats, frame_place: int, place: int) -> Vector:
-    """Centre of the circle of a part in the world [m]."""
+    """Centre of the circle of the disc at ``place`` in the world [m]. Its frame is at ``frame_place``."""
     rings, middle = at(floats, place + PART_RINGS), middle_of(floats, frame_place, place)
-    x, y, z = turned(
-        frame_at(floats, frame_place).rotation, turned(part_at(floats, place).axes, (rings[0], rings[1], rings[2]))
-    )
+    x, y, z = to_world(floats, frame_place, place, (rings[0], rings[1], rings[2]))
     return middle[0] + x, middle[1] + y, middle[2] + z
-
-
-@kernel("v3(F, i8, i8, v3)")
-def _in_axes_of(floats: Floats, frame_place: int, place: int, v: Vector) -> Vector:
-    """Components of a world vector along the axes of a part."""
-    return turned_back(part_at(floats, place).axes, turned_back(frame_at(floats, frame_place).rotation, v))
 
 
 @kernel("f8(v3, v3, f8)")
 def _offset_in_plane(previous: Vector, current: Vector, tolerance: float) -> float:
-    """Distance from the origin at which the line between two points meets the plane z = 0 [m], -1 if it does not.
+    """Distance from the origin at which the segment between two points meets the plane z = 0 [m], -1 if it does not.
 
-    Heights up to ``tolerance`` [m] are in the plane. The offset of a line within the plane is its least distance.
+    Heights up to ``tolerance`` [m] count as in the plane. For a segment within the plane it is the least distance.
     """
     dx, dy = previous[0] - current[0], previous[1] - current[1]
     if max(abs(current[2]), abs(previous[2])) <= tolerance:
@@ -54,23 +46,21 @@ def _offset_in_plane(previous: Vector, current: Vector, tolerance: float) -> flo
 
 @kernel("f8(ws, i8)")
 def crossing_overlap(ws: Workspace, number: int) -> float:
-    """Overlap of two discs in the plane through which one of them passed [m], 0 if none did.
+    """Overlap of the discs of pair ``number`` in the plane of the first, where the second passed through [m], else 0.
 
-    The pair stores the position of the second centre for the next evaluation. A pair without a margin has no position
-    yet.
+    The position of the second centre is stored in the pair for the next evaluation. A pair without a margin has no
+    position yet.
     """
     pair = ws.pairs[number]
     between = minus(_centre(ws.floats, pair.frame_b, pair.part_b), _centre(ws.floats, pair.frame_a, pair.part_a))
-    current = _in_axes_of(ws.floats, pair.frame_a, pair.part_a, between)
+    current = to_part(ws.floats, pair.frame_a, pair.part_a, between)
     previous = pair.between if pair.margin > 0.0 else current
     pair.between = current
     offset = _offset_in_plane(previous, current, pair.allowed)
     if offset < 0.0:
         return 0.0
-    normal = turned(
-        frame_at(ws.floats, pair.frame_b).rotation, turned(part_at(ws.floats, pair.part_b).axes, (0.0, 0.0, 1.0))
-    )
-    tilt = _in_axes_of(ws.floats, pair.frame_a, pair.part_a, normal)
+    normal = to_world(ws.floats, pair.frame_b, pair.part_b, (0.0, 0.0, 1.0))
+    tilt = to_part(ws.floats, pair.frame_a, pair.part_a, normal)
     radius_a, radius_b = at(ws.floats, pair.part_a + PART_RINGS)[3], at(ws.floats, pair.part_b + PART_RINGS)[3]
     parallel = math.hypot(tilt[0], tilt[1]) * radius_b <= pair.allowed
     return float(max(0.0, radius_a + (radius_b if parallel else 0.0) - offset))

@@ -32,7 +32,7 @@ _LARGEST_DISPLACEMENT = 1e3
 
 @kernel()
 def _write_depths_of_contacts(ws: Workspace) -> None:
-    """Write the depth [m] and the normal of the deepest closed contact of every pair."""
+    """Write the normal of the deepest closed contact of every pair, and its gap or 0 if that is less deep [m]."""
     for pair in ws.pairs:
         pair.is_closed, pair.deepest = False, 0.0
     for contact in ws.contacts:
@@ -74,7 +74,10 @@ def _displacement_bound(ws: Workspace, pair: Pair) -> float:
 
 @kernel("f8(ws, i8)")
 def _known_separation(ws: Workspace, number: int) -> float:
-    """Lower bound of the separation of a pair [m], without a search."""
+    """Lower bound of the separation of pair ``number`` [m], without a search.
+
+    Of a half-space it is exact. Else it is that of the bounding spheres, or along the last direction if they overlap.
+    """
     pair = ws.pairs[number]
     if _has_half_space(ws, pair):
         return height_above_plane(ws, number)
@@ -94,7 +97,10 @@ def _has_half_space(ws: Workspace, pair: Pair) -> bool:
 
 @kernel("f8(ws, i8, f8)")
 def _separation(ws: Workspace, number: int, enough: float) -> float:
-    """Largest separation found of a pair [m]. The search stops at a value of ``enough`` or more."""
+    """Largest separation that is found of pair ``number`` [m]. The search stops at a value of ``enough`` [m] or more.
+
+    The normal of its deepest closed contact is tried first. Writes the direction of the pair.
+    """
     pair = ws.pairs[number]
     if _has_half_space(ws, pair):
         return height_above_plane(ws, number)
@@ -110,9 +116,10 @@ def _separation(ws: Workspace, number: int, enough: float) -> float:
 
 @entry_point()
 def check_pairs(ws: Workspace) -> None:
-    """Find the pair that overlaps by most beyond the depth of its closed contacts, after bodies and contacts.
+    """Find the pair that overlaps by most beyond the depth of its closed contacts.
 
-    Writes its number to ``run.passed_pair``, or ``NO_PAIR``, and its depth and the depth that is allowed [m].
+    Writes its number to ``run.passed_pair``, or ``NO_PAIR`` if all are within that depth, and its depth and the allowed
+    one [m]. Bodies and contacts must be evaluated.
     """
     ws.run.passed_pair, are_depths_known, most = NO_PAIR, False, 0.0
     _add_displacements(ws)
@@ -125,6 +132,7 @@ def check_pairs(ws: Workspace) -> None:
         if not are_depths_known:
             _write_depths_of_contacts(ws)
             are_depths_known = True
+        # pairs of the same two shapes share the depth of their contacts
         group, are_discs = ws.pairs[pair.group], pair.are_both_flat
         if are_discs and group.is_closed:
             continue
@@ -137,7 +145,10 @@ def check_pairs(ws: Workspace) -> None:
 
 @kernel("f8(ws, Pair)")
 def _depth(ws: Workspace, pair: Pair) -> float:
-    """Depth of the overlap of a pair after one search [m], negative if it is apart. Writes the margin of the pair."""
+    """Depth of the overlap of a pair after one search [m], negative if it is apart.
+
+    Writes the margin of the pair: the displacement bound up to which it need not be evaluated again.
+    """
     number = pair.index
     apart = _known_separation(ws, number)
     if apart < -pair.allowed and not _has_half_space(ws, pair):

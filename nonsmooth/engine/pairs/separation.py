@@ -42,13 +42,14 @@ def _unit(v: Vector, other: Vector) -> Vector:
 def _search(ws: Workspace, number: int, start: Vector, shift: Vector, size: float) -> Vector:
     """Unit vector along which the parts are farthest apart if the second one is moved by ``shift`` [m].
 
-    The simplex holds points of the difference of the parts. Its point nearest to the origin is an upper bound of the
-    distance, and s(n) a lower one.
+    The search begins with the unit vector ``start``. The simplex holds points of the difference of the parts. Its point
+    nearest to the origin is an upper bound of the distance, and s(n) a lower one. ``size`` [m] is that of the pair.
     """
     n = best = start
     lower, upper, n_corners, far = -math.inf, math.inf, 0, 0.0
     for _ in range(_MOST_STEPS):
         x, y, z = closest_difference(ws, number, n)
+        # a point of the difference of the parts; its height along n is s(n)
         found = x + shift[0], y + shift[1], z + shift[2]
         height = dot(n, found)
         if height > lower:
@@ -81,7 +82,7 @@ def _is_corner(ws: Workspace, n_corners: int, point: Vector) -> bool:
 
 @kernel("v3(ws, i8, v3, f8)")
 def _climb(ws: Workspace, number: int, start: Vector, size: float) -> Vector:
-    """Direction of a local maximum of the separation, starting from the direction ``start``."""
+    """Unit vector of a local maximum of s(n), from the unit vector ``start`` on. ``size`` [m] is that of the pair."""
     n, best = start, separation_along(ws, number, start)
     for _ in range(_MOST_SHIFTS):
         shift = scaled(max(-2.0 * best, _SHIFT * size), n)
@@ -95,7 +96,7 @@ def _climb(ws: Workspace, number: int, start: Vector, size: float) -> Vector:
 
 @kernel("v3(F, i8, i8)")
 def _axis_of_frame(floats: Floats, frame_place: int, axis: int) -> Vector:
-    """Axis 0, 1 or 2 of a frame, or the opposite of it for 3, 4 or 5."""
+    """Axis 0, 1 or 2 of the frame at ``frame_place``, or its opposite for ``axis`` 3, 4 or 5."""
     frame, column = frame_at(floats, frame_place), axis % 3
     sign = 1.0 if axis < 3 else -1.0
     return sign * frame.rotation[column], sign * frame.rotation[column + 3], sign * frame.rotation[column + 6]
@@ -127,7 +128,7 @@ def best_direction(ws: Workspace, number: int, known: Vector, enough: float) -> 
     """
     pair, between = ws.pairs[number], _between_middles(ws, number)
     start = _unit(known, between)
-    n = _search(ws, number, start, (0.0, 0.0, 0.0), pair.size)
+    n = separating_direction(ws, number, known)
     best = separation_along(ws, number, n)
     # starts: the known direction, the best so far, that between the middles, and six axes of either frame
     for trial in range(15):

@@ -25,15 +25,15 @@ _FLAT_TETRAHEDRON = 1e-15
 @kernel("v3(ws, i8)")
 def corner(ws: Workspace, i: int) -> Vector:
     """Corner ``i`` of the simplex [m]."""
-    at = ws.problem.simplex.start + 3 * i
-    return ws.floats[at], ws.floats[at + 1], ws.floats[at + 2]
+    first = ws.problem.simplex.start + 3 * i
+    return ws.floats[first], ws.floats[first + 1], ws.floats[first + 2]
 
 
 @kernel("void(ws, i8, v3)")
-def put_corner(ws: Workspace, i: int, place: Vector) -> None:
-    """Write corner ``i`` of the simplex [m]."""
-    at = ws.problem.simplex.start + 3 * i
-    ws.floats[at], ws.floats[at + 1], ws.floats[at + 2] = place
+def put_corner(ws: Workspace, i: int, point: Vector) -> None:
+    """Make ``point`` [m] corner ``i`` of the simplex."""
+    first = ws.problem.simplex.start + 3 * i
+    ws.floats[first], ws.floats[first + 1], ws.floats[first + 2] = point
 
 
 @kernel()
@@ -74,6 +74,7 @@ def _try_face(ws: Workspace, i: int, j: int, m: int, best: float) -> float:
     normal = cross(u, v)
     square = dot(normal, normal)
     if square > _FLAT_TRIANGLE * dot(u, u) * dot(v, v):
+        # the projection of the origin is within the triangle if all three partial areas are positive
         height = dot(normal, a) / square
         foot = scaled(height, normal)
         a, b, c = minus(a, foot), minus(b, foot), minus(c, foot)
@@ -91,18 +92,11 @@ def _try_face(ws: Workspace, i: int, j: int, m: int, best: float) -> float:
     return float(_try_edge(ws, m, i, best))
 
 
-@kernel("f8(ws, i8, i8, i8, i8)")
-def _volume(ws: Workspace, i: int, j: int, m: int, top: int) -> float:
-    """Six times the signed volume of the tetrahedron with the base ``i``, ``j``, ``m`` [m^3]."""
+@kernel("f8(ws, i8, i8, i8, v3)")
+def _volume(ws: Workspace, i: int, j: int, m: int, top: Vector) -> float:
+    """Six times the signed volume of the tetrahedron with the base corners ``i``, ``j``, ``m`` and ``top`` [m^3]."""
     a = corner(ws, i)
-    return dot(cross(minus(corner(ws, j), a), minus(corner(ws, m), a)), minus(corner(ws, top), a))
-
-
-@kernel("f8(ws, i8, i8, i8)")
-def _volume_to_origin(ws: Workspace, i: int, j: int, m: int) -> float:
-    """Six times the signed volume of the tetrahedron with the base ``i``, ``j``, ``m`` and the origin as top [m^3]."""
-    a = corner(ws, i)
-    return -dot(cross(minus(corner(ws, j), a), minus(corner(ws, m), a)), a)
+    return dot(cross(minus(corner(ws, j), a), minus(corner(ws, m), a)), minus(top, a))
 
 
 @kernel("f8(ws, f8)")
@@ -111,11 +105,13 @@ def _try_tetrahedron(ws: Workspace, size: float) -> float:
 
     ``size`` [m] is its largest extent. Only the faces whose outside holds the origin are tested.
     """
-    is_flat = abs(_volume(ws, 0, 1, 2, 3)) <= _FLAT_TETRAHEDRON * size * size * size
+    is_flat = abs(_volume(ws, 0, 1, 2, corner(ws, 3))) <= _FLAT_TETRAHEDRON * size * size * size
     best = math.inf
     for top in range(CORNERS):
         i, j, m = (top + 1) % CORNERS, (top + 2) % CORNERS, (top + 3) % CORNERS
-        if is_flat or _volume_to_origin(ws, i, j, m) * _volume(ws, i, j, m, top) <= 0.0:
+        # origin and fourth corner are on different sides of the face
+        is_outside = _volume(ws, i, j, m, (0.0, 0.0, 0.0)) * _volume(ws, i, j, m, corner(ws, top)) <= 0.0
+        if is_flat or is_outside:
             best = _try_face(ws, i, j, m, best)
     return 0.0 if best == math.inf else best
 

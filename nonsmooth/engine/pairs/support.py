@@ -29,7 +29,7 @@ def turned(axes: Floats, v: Vector) -> Vector:
 
 
 @kernel("v3(F, v3)")
-def turned_back(axes: Floats, v: Vector) -> Vector:
+def _turned_back(axes: Floats, v: Vector) -> Vector:
     """R^T v: from the surrounding axes to those of a body or part."""
     x, y, z = v
     return (
@@ -41,16 +41,19 @@ def turned_back(axes: Floats, v: Vector) -> Vector:
 
 @kernel("v3(F, i8, v3)")
 def _farthest_on_circles(floats: Floats, place: int, n: Vector) -> Vector:
-    """Point of the hull of a part's circles that is farthest along ``n`` [m]; the origin if there are no circles."""
+    """Point of the hull of a part's circles that is farthest along ``n`` [m], in the axes of the part.
+
+    It is the origin if there are no circles.
+    """
     rings = at(floats, place + PART_RINGS)
     x, y, z = n
     across = math.sqrt(x * x + y * y)
     best, found = -math.inf, 0
-    for i in range(int(part_at(floats, place).rings)):
-        at_i = RING * i
-        height = rings[at_i] * x + rings[at_i + 1] * y + rings[at_i + 2] * z + rings[at_i + 3] * across
+    for i in range(0, RING * int(part_at(floats, place).rings), RING):
+        # centre and radius of a circle
+        height = rings[i] * x + rings[i + 1] * y + rings[i + 2] * z + rings[i + 3] * across
         if height > best:
-            best, found = height, at_i
+            best, found = height, i
     if best == -math.inf:
         return 0.0, 0.0, 0.0
     part = rings[found + 3] / across if across > 0.0 else 0.0
@@ -59,7 +62,10 @@ def _farthest_on_circles(floats: Floats, place: int, n: Vector) -> Vector:
 
 @kernel("v3(F, i8, v3)")
 def _gradient_of_norm(floats: Floats, place: int, n: Vector) -> Vector:
-    """Gradient of ((|a n_x|^q + |b n_y|^q)^(p/q) + |c n_z|^p)^(1/p) at ``n``: the support point of a superellipsoid."""
+    """Gradient of ((|a n_x|^q + |b n_y|^q)^(p/q) + |c n_z|^p)^(1/p) at ``n``: support of a superellipsoid [m].
+
+    Sums of powers are scaled by their largest term, so that large powers do not overflow.
+    """
     part = part_at(floats, place)
     a, b, c = part.semi
     p, q = part.powers[0], part.powers[1]
@@ -79,7 +85,10 @@ def _gradient_of_norm(floats: Floats, place: int, n: Vector) -> Vector:
 
 @kernel("v3(F, i8, v3)")
 def _farthest_of_summands(floats: Floats, place: int, n: Vector) -> Vector:
-    """Support point along a unit vector of all that is added to a part's circles [m]."""
+    """Support point along the unit vector ``n`` of what is added to a part's circles [m], in the axes of the part.
+
+    It is a set of a plug-in, an ellipsoid (powers of 2) or another norm ball, and a ball.
+    """
     part = part_at(floats, place)
     x, y, z = 0.0, 0.0, 0.0
     if part.function > 0.0:
@@ -94,9 +103,21 @@ def _farthest_of_summands(floats: Floats, place: int, n: Vector) -> Vector:
     return x + part.ball * n[0], y + part.ball * n[1], z + part.ball * n[2]
 
 
+@kernel("v3(F, i8, i8, v3)")
+def to_world(floats: Floats, frame_place: int, place: int, v: Vector) -> Vector:
+    """World components of a vector along the axes of a part."""
+    return turned(frame_at(floats, frame_place).rotation, turned(part_at(floats, place).axes, v))
+
+
+@kernel("v3(F, i8, i8, v3)")
+def to_part(floats: Floats, frame_place: int, place: int, v: Vector) -> Vector:
+    """Components of a world vector along the axes of a part."""
+    return _turned_back(part_at(floats, place).axes, _turned_back(frame_at(floats, frame_place).rotation, v))
+
+
 @kernel("v3(F, i8, i8)")
 def middle_of(floats: Floats, frame_place: int, place: int) -> Vector:
-    """Origin of a part's axes in the world [m]."""
+    """Origin of the axes of the part at ``place`` in the world [m]. Its frame is at ``frame_place``."""
     frame = frame_at(floats, frame_place)
     x, y, z = turned(frame.rotation, part_at(floats, place).place)
     return frame.origin[0] + x, frame.origin[1] + y, frame.origin[2] + z
@@ -105,11 +126,10 @@ def middle_of(floats: Floats, frame_place: int, place: int) -> Vector:
 @kernel("v3(F, i8, i8, v3)")
 def _farthest(floats: Floats, frame_place: int, place: int, n: Vector) -> Vector:
     """Support point of a part along a unit vector of the world [m]."""
-    frame, part = frame_at(floats, frame_place), part_at(floats, place)
-    own = turned_back(part.axes, turned_back(frame.rotation, n))
-    rx, ry, rz = _farthest_on_circles(floats, place, own)
-    ax, ay, az = _farthest_of_summands(floats, place, own)
-    x, y, z = turned(frame.rotation, turned(part.axes, (rx + ax, ry + ay, rz + az)))
+    along = to_part(floats, frame_place, place, n)
+    rx, ry, rz = _farthest_on_circles(floats, place, along)
+    ax, ay, az = _farthest_of_summands(floats, place, along)
+    x, y, z = to_world(floats, frame_place, place, (rx + ax, ry + ay, rz + az))
     mx, my, mz = middle_of(floats, frame_place, place)
     return mx + x, my + y, mz + z
 
@@ -121,27 +141,24 @@ def closest_difference(ws: Workspace, number: int, n: Vector) -> Vector:
     The separation s(n) is its component along ``n``.
     """
     pair = ws.pairs[number]
-    return minus(
-        _farthest(ws.floats, pair.frame_b, pair.part_b, opposite(n)), _farthest(ws.floats, pair.frame_a, pair.part_a, n)
-    )
+    farthest_a = _farthest(ws.floats, pair.frame_a, pair.part_a, n)
+    return minus(_farthest(ws.floats, pair.frame_b, pair.part_b, opposite(n)), farthest_a)
 
 
 @kernel("f8(ws, i8, v3)")
 def separation_along(ws: Workspace, number: int, n: Vector) -> float:
-    """Separation s(n) of a pair of bounded parts [m]."""
+    """Separation s(n) of pair ``number`` of bounded parts along the unit vector ``n`` [m], negative if they overlap."""
     return dot(n, closest_difference(ws, number, n))
 
 
 @kernel("f8(ws, i8)")
 def height_above_plane(ws: Workspace, number: int) -> float:
-    """Separation of a pair whose first part is a half-space [m]. It is exact."""
+    """Separation of pair ``number``, whose first part is the half-space below the plane z = 0 of its frame [m].
+
+    The lowest point of the second part gives it exactly.
+    """
     pair = ws.pairs[number]
     frame = frame_at(ws.floats, pair.frame_a)
     up = frame.rotation[2], frame.rotation[5], frame.rotation[8]
-    return dot(
-        up,
-        minus(
-            _farthest(ws.floats, pair.frame_b, pair.part_b, opposite(up)),
-            middle_of(ws.floats, pair.frame_a, pair.part_a),
-        ),
-    )
+    lowest = _farthest(ws.floats, pair.frame_b, pair.part_b, opposite(up))
+    return dot(up, minus(lowest, middle_of(ws.floats, pair.frame_a, pair.part_a)))
