@@ -54,8 +54,8 @@ def stretch_tangents(ws: Workspace, c: int, t1: Vector, t2: Vector) -> None:
 def _projected_axis(ws: Workspace, contact: Contact, t1: Vector, t2: Vector) -> Pair:
     """Unit vector along the projection of the law's axis to the tangent plane, in components along the unit tangents.
 
-    If the axis is normal to that plane, the axis of the body's frame that is least along it takes its place. It turns
-    with the body, as the law's axis does.
+    If the law's axis is normal to that plane, the axis of the body's frame that is farthest from it is used instead: it
+    turns with the body too.
     """
     law, axis = at(ws.floats, contact.anisotropy), at(ws.floats, contact.anisotropy + _AXIS)
     rotation = frame_at(ws.floats, contact.frame_a if law[_SIDE] == 0.0 else contact.frame_b).rotation
@@ -102,9 +102,9 @@ def on_unit_tangents(ws: Workspace, c: int, friction: Pair) -> Pair:
 
 @kernel()
 def release_sticking_anisotropic(ws: Workspace) -> None:
-    """Set sticking anisotropic contacts to sliding before the rates after an impact are evaluated.
+    """Set sticking anisotropic contacts to sliding, so that their facing follows the slip after an impact.
 
-    So their facing follows the slip that the impact leaves.
+    To be called before the rates after the impact are evaluated. A contact that sticks would keep its facing.
     """
     for contact in ws.contacts:
         if contact.is_anisotropic and contact.mode == Mode.STICK:
@@ -113,9 +113,9 @@ def release_sticking_anisotropic(ws: Workspace) -> None:
 
 @kernel("f8(ws, i8, f8)")
 def force_in_facing(ws: Workspace, c: int, f1: float) -> float:
-    """First tangential force of contact ``c``, rescaled to the row of the slip direction that the force opposes [N].
+    """First tangential force ``f1`` of contact ``c`` [N], scaled to the row of the slip that it opposes.
 
-    A force that opposes the other direction of slip is bounded by the other ratio.
+    A force along the facing opposes slip in the other direction, which has the other ratio.
     """
     contact = ws.contacts[c]
     if not contact.is_anisotropic or f1 * contact.facing <= 0.0:
@@ -127,7 +127,10 @@ def force_in_facing(ws: Workspace, c: int, f1: float) -> float:
 
 @kernel("b1(ws, i8, f8)")
 def turn_facing(ws: Workspace, c: int, f1: float) -> bool:
-    """Set the facing of contact ``c`` against its first tangential force ``f1``. True if the friction ratio changes."""
+    """Set the facing of contact ``c`` to the slip that its first tangential force ``f1`` [N] opposes.
+
+    True if this changes the friction ratio, so that the force must be found again.
+    """
     contact = ws.contacts[c]
     if not contact.is_anisotropic or f1 * contact.facing <= 0.0:
         return False

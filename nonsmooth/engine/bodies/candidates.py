@@ -21,7 +21,7 @@ _NOT_A_NUMBER = -1
 
 @kernel("b1(ws, i8)")
 def has_no_features(ws: Workspace, declared: int) -> bool:
-    """True if a declared contact is for candidate features and holds none."""
+    """True if a declared contact is one of those that candidate features share, and holds no pair of features."""
     candidate = ws.declared_contacts[declared].features
     return candidate > 0 and ws.floats[candidate] == 0.0
 
@@ -37,9 +37,9 @@ def are_near(ws: Workspace, a: int, b: int) -> bool:
 
 @kernel("void(ws, DeclaredContact, i8, i8)")
 def _match(ws: Workspace, contact: DeclaredContact, found: int, n_found: int) -> None:
-    """Mark the features of a contact as taken among those that were found. Empty an open contact if they are not there.
+    """Mark the pair of features of a contact as taken among the ``n_found`` pairs at ``found``.
 
-    Marked features have a zero in place of their first number.
+    A taken pair has a zero in place of its first number. If the pair was not found, an open contact is emptied.
     """
     for i in range(n_found):
         is_same = True
@@ -56,7 +56,10 @@ def _match(ws: Workspace, contact: DeclaredContact, found: int, n_found: int) ->
 
 @kernel("Status(ws)")
 def find_candidates(ws: Workspace) -> Status:
-    """Assign the pairs of features nearer than the margin of the list to contacts. Returns the status."""
+    """Assign the pairs of features that are nearer than the margin of the list to contacts.
+
+    ``RUNNING``, ``NO_SLOT`` if there are more pairs than contacts, ``NOT_FINITE`` if a search finds no number of pairs.
+    """
     for search in ws.searches:
         n_found = _find(ws, search)
         if n_found == _NOT_A_NUMBER:
@@ -78,18 +81,13 @@ def find_candidates(ws: Workspace) -> Status:
 def _find(ws: Workspace, search: Search) -> int:
     """Call a search if its shapes are near each other. Number of pairs that it found, or ``_NOT_A_NUMBER``.
 
-    The function reads the margin [m] at the place where it writes their number. The pairs follow.
+    The function reads the margin [m] at ``search.out``, where it writes the number of pairs. The pairs follow.
     """
     if not are_near(ws, search.sphere_a, search.sphere_b):
         return 0
     ws.floats[search.out] = ws.island.list_margin
-    call_pair(
-        search.function,
-        at(ws.floats, ws.spheres[search.sphere_a].frame),
-        at(ws.floats, ws.spheres[search.sphere_b].frame),
-        at(ws.floats, search.parameters),
-        at(ws.floats, search.out),
-    )
+    a, b = at(ws.floats, ws.spheres[search.sphere_a].frame), at(ws.floats, ws.spheres[search.sphere_b].frame)
+    call_pair(search.function, a, b, at(ws.floats, search.parameters), at(ws.floats, search.out))
     return int(ws.floats[search.out]) if ws.floats[search.out] >= 0.0 else _NOT_A_NUMBER
 
 

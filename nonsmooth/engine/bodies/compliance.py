@@ -1,8 +1,8 @@
 """Compliant contacts: their normal force is a function of gap and gap rate, so it is known before the contact problem.
 
 A compliant contact is open or closed as any other. Closed, it does not keep its gap: it applies a force. Its friction
-obeys Coulomb's law with the bound that the given normal force sets, or a traction law. A traction law gives friction
-force and moment from the slip, with inner states of its own. It never sticks.
+obeys Coulomb's law with the bound that the known normal force sets, or a traction law. A traction law gives friction
+force and moment from the slip, and may have inner states. A contact with such a law never sticks.
 
 Laws may have inner states, which are integrated with the motion behind the energy accounts.
 """
@@ -31,13 +31,8 @@ from nonsmooth.engine.numerics.vectors import Vector, dot, length, minus
 def evaluate_compliant_force(ws: Workspace, c: int) -> None:
     """Write the normal force of the compliant contact ``c`` [N], after its geometry and rates."""
     contact = ws.contacts[c]
-    contact.compliant_force = call_compliance(
-        contact.normal_function,
-        -contact.gap,
-        -contact.rate[0],
-        contact.closing_rate,
-        at(ws.floats, contact.normal_parameters),
-    )
+    depth, rate, parameters = -contact.gap, -contact.rate[0], at(ws.floats, contact.normal_parameters)
+    contact.compliant_force = call_compliance(contact.normal_function, depth, rate, contact.closing_rate, parameters)
 
 
 @kernel("void(ws, Contact)")
@@ -53,35 +48,30 @@ def _evaluate_motion(ws: Workspace, contact: Contact) -> None:
 
 @kernel("void(ws, i8, i8)")
 def evaluate_traction(ws: Workspace, c: int, y: int) -> None:
-    """Evaluate the traction law of contact ``c`` at the state ``y``.
+    """Evaluate the traction law of contact ``c`` at the state ``y``, and the power that its moment dissipates [W].
 
-    It writes force [N], moment [N m], and the rates of its inner states.
+    The law writes force [N], moment [N m], and the rates of its inner states.
     """
     contact = ws.contacts[c]
     _evaluate_motion(ws, contact)
-    out = contact.traction_out
-    call_traction(
-        contact.traction_function,
-        contact.compliant_force,
-        at(ws.floats, ws.problem.motion.start),
-        at(ws.floats, inner_states_at(ws, c, y)),
-        at(ws.floats, contact.traction_parameters),
-        at(ws.floats, out),
-    )
+    motion, states = at(ws.floats, ws.problem.motion.start), at(ws.floats, inner_states_at(ws, c, y))
+    parameters, out = at(ws.floats, contact.traction_parameters), at(ws.floats, contact.traction_out)
+    call_traction(contact.traction_function, contact.compliant_force, motion, states, parameters, out)
     contact.dissipated_by_spin = 0.0
     for i in range(3):
-        contact.dissipated_by_spin += ws.floats[out + TRACTION_MOMENT + i] * ws.problem.motion[2 + i]
+        # the angular velocities follow the two slip velocities
+        contact.dissipated_by_spin += out[TRACTION_MOMENT + i] * motion[2 + i]
 
 
 @kernel("i8(ws, i8, i8)")
 def inner_states_at(ws: Workspace, c: int, y: int) -> int:
-    """Place of the inner states of the laws of contact ``c`` in the state at ``y``."""
+    """Offset of the inner states of the laws of contact ``c`` in the state at ``y``, after the energy accounts."""
     return int(y + ws.model.n_q + ws.model.n_u + N_ACCOUNTS + ws.contacts[c].inner_states)
 
 
 @kernel("void(ws, i8)")
 def copy_inner_states(ws: Workspace, y: int) -> None:
-    """Copy the inner states in the state at ``y`` to where the friction laws read them."""
+    """Copy the inner states of friction laws from the state at ``y`` to where the laws read them."""
     if ws.model.n_states == 0:
         return
     for contact in ws.contacts:
@@ -113,6 +103,7 @@ def write_inner_rates(ws: Workspace, y: int, out: int) -> None:
     for contact in ws.contacts:
         if contact.n_inner_states == 0 or contact.mode == Mode.OPEN:
             continue
+        # a traction law has written the rates; a friction law evaluates them here
         source = contact.traction_out + FORCE_AND_MOMENT
         if contact.inner_states_copy > 0:
             source = contact.rates_out
@@ -126,7 +117,7 @@ def write_inner_rates(ws: Workspace, y: int, out: int) -> None:
 
 @kernel("v3(Contact, f8, f8, f8)")
 def _in_world(contact: Contact, along_n: float, along_1: float, along_2: float) -> Vector:
-    """World components of a vector that is given along the axes n, t1 and t2 of a contact."""
+    """World components of a vector, from its components along the axes n, t1 and t2 of a contact."""
     n, t1, t2 = contact.axis_n, contact.axis_1, contact.axis_2
     return (
         along_n * n[0] + along_1 * t1[0] + along_2 * t2[0],
@@ -137,9 +128,10 @@ def _in_world(contact: Contact, along_n: float, along_1: float, along_2: float) 
 
 @kernel("void(ws, i8, F)")
 def write_wrench(ws: Workspace, c: int, f: Floats) -> None:
-    """Write the row of the total force and moment of contact ``c`` to row 1, and its response to response 0.
+    """Write the generalised forces of contact ``c`` to ``FIRST_ROW`` of its Jacobians, and their response.
 
-    ``f`` is the contact force along n, t1, t2 [N]. The response is the acceleration that the wrench gives.
+    ``f`` is the contact force along n, t1, t2 [N]; a traction law adds its moment. The response, in ``NORMAL_ROW``, is
+    the acceleration that they give.
     """
     contact = ws.contacts[c]
     force, moment = _in_world(contact, f[0], f[1], f[2]), (0.0, 0.0, 0.0)
@@ -163,7 +155,7 @@ def apply_traction_law(ws: Workspace, c: int, f: Floats, y: int) -> None:
 def accelerate_by_compliance(ws: Workspace) -> None:
     """Add the accelerations by the known forces of touching compliant contacts to ``du``.
 
-    These are the forces of traction laws, and otherwise the normal forces alone: Coulomb friction is not known yet.
+    Known are all forces of contacts with a traction law, and else the normal forces: Coulomb friction is unknown yet.
     """
     for contact in ws.contacts:
         if not contact.is_compliant or not contact.is_touching:
@@ -178,32 +170,33 @@ def accelerate_by_compliance(ws: Workspace) -> None:
 
 @kernel("b1(ws, i8)")
 def has_known_friction(ws: Workspace, c: int) -> bool:
-    """True if the friction of the compliant contact ``c`` is no unknown, due to a traction law or to a zero load."""
+    """True if the friction of the compliant contact ``c`` is known: by a traction law, or 0 without a normal force."""
     contact = ws.contacts[c]
     return contact.has_traction_law or contact.compliant_force <= 0.0
 
 
 @kernel()
 def decouple_normals(ws: Workspace) -> None:
-    """Make the normal forces of the active compliant contacts given numbers in the contact problem.
+    """Make the normal forces of the active compliant contacts known numbers in the contact problem.
 
     Their accelerations are in the free accelerations already. So their normal rows and columns of G are replaced by
-    uncoupled ones, g_nn x = g_nn f, whose solution is the given force f. The solvers then need no case of their own.
+    uncoupled ones, g_nn x = g_nn f, whose solution is the known force f. The solvers then need no special case.
     """
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         for block in range(active.first_block, active.end_block):
             g, d = at(ws.floats, ws.island.delassus.start + DELASSUS * block), ws.island.block_column[block]
             if d == active.index and contact.is_compliant:
-                own = g[0] if g[0] > 0.0 else 1.0
-                active.free[0] = -own * contact.compliant_force
+                # the block on the diagonal keeps its own entry g_nn
+                g_nn = g[0] if g[0] > 0.0 else 1.0
+                active.free[0] = -g_nn * contact.compliant_force
                 for i in range(1, 3):
                     g[i] = g[3 * i] = 0.0
-                g[0] = own
+                g[0] = g_nn
                 continue
-            is_column_given = ws.contacts[ws.actives[d].contact].is_compliant
+            is_column_known = ws.contacts[ws.actives[d].contact].is_compliant
             for i in range(3):
                 if contact.is_compliant:
                     g[i] = 0.0
-                if is_column_given:
+                if is_column_known:
                     g[3 * i] = 0.0

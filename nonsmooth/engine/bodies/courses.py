@@ -1,4 +1,4 @@
-"""Bodies with a step of their own (multirate): they are not integrated with the rest of the system.
+"""Bodies with an own step (multirate): they are not integrated with the rest of the system.
 
 Such a body sticks to a body at rest by a single contact. It has taken a step whose end is known
 (:mod:`nonsmooth.engine.flow.own_steps`). Until that end it moves along the interpolant of the step, whatever happens
@@ -22,7 +22,7 @@ def has_own_step(ws: Workspace, c: int) -> bool:
 
 @kernel("i8(ws, i8)")
 def end_own_steps_of(ws: Workspace, c: int) -> int:
-    """End the own steps of the bodies of contact ``c`` at the present motion. Number of steps that ended."""
+    """End the own steps of the two bodies of contact ``c`` at the present time. Number of steps that ended."""
     contact = ws.contacts[c]
     body_a, body_b = ws.bodies[contact.body_a], ws.bodies[contact.body_b]
     n_ended = body_a.has_own_step + body_b.has_own_step

@@ -1,4 +1,4 @@
-"""The equations of motion by name, for engines of another kind.
+"""The equations of motion by name, for the code of plug-in engines and of this one.
 
 Of each body dq/dt = B(q) u and M u' = h + W lambda_N + N lambda_T. The blocks that bodies and contacts write hold the
 matrices one behind another; an engine reads them by these names, and needs no place in a block. Evaluate the bodies

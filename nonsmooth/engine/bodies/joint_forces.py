@@ -8,7 +8,10 @@ from __future__ import annotations
 
 from nonsmooth.engine.bodies.articulations import solve_factorised
 from nonsmooth.engine.bodies.compliance import write_wrench
+from nonsmooth.engine.bodies.equations import force_without_contacts
+from nonsmooth.engine.memory.layout import FIRST_ROW
 from nonsmooth.engine.native.kernel import Articulation, Workspace, kernel
+from nonsmooth.engine.numerics.linear import product
 
 
 @kernel("void(ws, i8)")
@@ -20,7 +23,8 @@ def _add_contact_forces(ws: Workspace, forces: int) -> None:
         write_wrench(ws, c, contact.force)
         for side in range(2):
             articulation = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b]
-            row = (contact.jacobian_a if side == 0 else contact.jacobian_b) + articulation.n_u
+            # the generalised forces are in the row t1
+            row = (contact.jacobian_a if side == 0 else contact.jacobian_b) + FIRST_ROW * articulation.n_u
             for j in range(articulation.n_u):
                 ws.floats[forces + articulation.u + j] += ws.floats[row + j]
 
@@ -28,26 +32,25 @@ def _add_contact_forces(ws: Workspace, forces: int) -> None:
 @kernel("void(ws, Articulation, i8)")
 def _solve_rows(ws: Workspace, articulation: Articulation, forces: int) -> None:
     """Write the multipliers of an articulation's rows [N], from the generalised forces at ``forces``."""
-    n, m, own = articulation.n_u, articulation.n_rows, forces + articulation.u
+    n, m = articulation.n_u, articulation.n_rows
     for line in range(m):
-        total = ws.floats[articulation.bias + line]
-        for i in range(n):
-            total += ws.floats[articulation.response + line * n + i] * ws.floats[own + i]
-        ws.floats[articulation.forces + line] = -total
+        row, bias = articulation.response + line * n, ws.floats[articulation.bias + line]
+        ws.floats[articulation.forces + line] = -product(ws.floats, bias, row, forces + articulation.u, n)
     solve_factorised(ws.floats, articulation.factor, m, articulation.forces, 1)
 
 
 @kernel()
 def evaluate_joint_forces(ws: Workspace) -> None:
-    """Write the force along every row of the joints [N], after the contact forces were evaluated.
+    """Write the multiplier of every row of the joints [N or N m]. The contact forces must be evaluated.
 
-    A row that others imply has no force.
+    A row that others imply has no force. The rows t1 of the contacts are overwritten.
     """
+    # y_stage is free at an instant: here it holds the generalised forces of all bodies
     forces = ws.step.y_stage.start
     for body in ws.bodies:
-        own = body.tail + body.n_q
+        without_contacts = force_without_contacts(ws, body)
         for i in range(body.n_u):
-            ws.floats[forces + body.u + i] = ws.floats[own + i]
+            ws.floats[forces + body.u + i] = without_contacts[i]
     _add_contact_forces(ws, forces)
     for articulation in ws.articulations:
         if articulation.n_rows > 0:

@@ -1,8 +1,8 @@
-"""Jump of a contact point: a flat place rolls over another surface, and the contact point runs along the body at once.
+"""Jump of a contact point: a flat part of a surface rolls over another one, and the contact point moves at once.
 
 If a surface has no curvature, its contact point is infinitely fast, and so is its acceleration. Close to the middle of
 a superellipsoid's face or to a flat line, steps shrink to zero. But the impulse of the contact stays finite. So the
-bodies stand still while the contact point moves from its old to its new place, in short stretches. The contact stays
+bodies do not move while the contact point moves from its old to its new place, in short stretches. The contact stays
 closed, so its impulse neither stores nor supplies energy: in each stretch the part of the velocity that the contact
 resists is reflected, by twice the impulse that would stop it. An inelastic impact at the new place would lose energy
 that the smooth motion keeps.
@@ -23,8 +23,8 @@ from nonsmooth.engine.flow.flow import right_hand_side
 from nonsmooth.engine.flow.self_check import ALLOWED
 from nonsmooth.engine.memory.layout import DRIVEN, EXCHANGED, FRICTION_LOSS, NORMAL_ROW
 from nonsmooth.engine.memory.modes import NO_CONTACT, NO_RELEASE, Cause, Mode
-from nonsmooth.engine.native.kernel import Contact, Workspace, frame_at, kernel
-from nonsmooth.engine.numerics.vectors import dot, length, minus
+from nonsmooth.engine.native.kernel import Workspace, frame_at, kernel
+from nonsmooth.engine.numerics.vectors import Vector, dot, length, minus, scaled
 
 _STRETCH = 0.01
 """Displacement of a contact point in one stretch, relative to the size of the smaller body."""
@@ -36,7 +36,7 @@ _LEAST_SPEED_RATIO = 3.0
 
 @kernel("i8(ws)")
 def _store_displacements(ws: Workspace) -> int:
-    """Store the displacements of the contact points from their old to their new places. Number of stretches."""
+    """Store the displacements of the contact points from before the jump to now. Number of stretches of the jump."""
     longest = 0.0
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]
@@ -49,14 +49,16 @@ def _store_displacements(ws: Workspace) -> int:
 
 @kernel("void(ws, f8)")
 def _set_up_problem(ws: Workspace, part: float) -> None:
-    """Move the points of the active contacts by a ``part`` of their displacements, and write the problem there.
+    """Move the points of the active contacts by a ``part`` of their displacements, and write the contact problem there.
 
-    It is the contact problem with rates in place of accelerations, and impulses in place of forces.
+    It has gap rates and slips in place of accelerations, and impulses in place of forces.
     """
     ws.problem.acceleration_scale = 0.0
     for active in ws.actives:
         contact = ws.contacts[active.contact]
-        _move_points(contact, part)
+        contact.point_a = _moved(contact.point_a_before_jump, part, contact.jump_a)
+        contact.point_b = _moved(contact.point_b_before_jump, part, contact.jump_b)
+        contact.version_a = NOT_EVALUATED
         evaluate_rates(ws, active.contact)
         evaluate_jacobian(ws, active.contact)
         speed = length(contact.slip)
@@ -74,26 +76,19 @@ def _set_up_problem(ws: Workspace, part: float) -> None:
     assemble_delassus(ws)
 
 
-@kernel("void(Contact, f8)")
-def _move_points(contact: Contact, part: float) -> None:
-    """Move the witness points of a contact by a ``part`` of their displacements."""
-    (ax, ay, az), (bx, by, bz) = contact.jump_a, contact.jump_b
-    contact.point_a = (
-        contact.point_a_before_jump[0] + part * ax,
-        contact.point_a_before_jump[1] + part * ay,
-        contact.point_a_before_jump[2] + part * az,
-    )
-    contact.point_b = (
-        contact.point_b_before_jump[0] + part * bx,
-        contact.point_b_before_jump[1] + part * by,
-        contact.point_b_before_jump[2] + part * bz,
-    )
-    contact.version_a = NOT_EVALUATED
+@kernel("v3(v3, f8, v3)")
+def _moved(point: Vector, part: float, displacement: Vector) -> Vector:
+    """Point [m] after a ``part`` of a displacement [m]."""
+    x, y, z = scaled(part, displacement)
+    return point[0] + x, point[1] + y, point[2] + z
 
 
 @kernel("i8(ws)")
 def _release(ws: Workspace) -> int:
-    """Open the active contacts that pull, and let those past their static bound slide. Number of these contacts."""
+    """Open the active contacts that pull, and let those past their static bound slide. Number of these contacts.
+
+    The cause of each is written to ``release``.
+    """
     n_released = 0
     for active in ws.actives:
         contact = ws.contacts[active.contact]
@@ -113,8 +108,8 @@ def _release(ws: Workspace) -> int:
 def _apply_impulses(ws: Workspace, part: float) -> None:
     """Apply the impulses of the active contacts at a ``part`` of their displacements, and account for their work.
 
-    In the middle of a stretch they reverse the part of the velocity that the contacts resist. At both ends of the
-    stretch nothing of it is left. Only friction dissipates.
+    In the middle of a stretch they reverse the part of the velocity that the contacts resist. So this part is zero on
+    average over the stretch. Only friction dissipates.
     """
     _set_up_problem(ws, part)
     for _round in range(2 * ws.problem.n_active + 1):
@@ -134,6 +129,7 @@ def _apply_impulses(ws: Workspace, part: float) -> None:
             ws.floats[powers + DRIVEN] -= impulse * contact.prescribed_rate[r]
             ws.floats[powers + EXCHANGED] += abs(impulse * contact.prescribed_rate[r])
             if r != NORMAL_ROW and not active.sticks:
+                # the mean of the slips before and after the impulse
                 rate = 0.5 * add_product(ws, 2.0 * contact.rate[r], active.index, r, ws.problem.forces.start)
                 lost = -impulse * rate
                 ws.floats[powers + FRICTION_LOSS] += lost
@@ -145,36 +141,34 @@ def _store_points(ws: Workspace) -> None:
     """Store the contact points at the present state as the start of a jump."""
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     for i in range(ws.island.n_grouped):
-        c = ws.island.grouped[i]
-        contact = ws.contacts[c]
-        evaluate_geometry(ws, c)
+        contact = ws.contacts[ws.island.grouped[i]]
+        evaluate_geometry(ws, contact.index)
         contact.point_a_before_jump, contact.point_b_before_jump = contact.point_a, contact.point_b
 
 
 @kernel("i8(ws, f8, f8)")
 def _jumping_contact(ws: Workspace, h: float, rate: float) -> int:
-    """Contact whose point moves in the time ``h`` [s] faster than its bodies, to a place where they approach.
+    """Contact whose point moves in the time ``h`` [s] faster than its bodies, to a point where they approach.
 
-    They must approach faster than the gap ``rate`` [m/s]. The bodies must be evaluated at the end of that time. The
-    last such contact is returned, or ``NO_CONTACT``.
+    Their gap rate there must be below ``rate`` [m/s]. The bodies must be evaluated at the end of that time. The last
+    such contact is returned, or ``NO_CONTACT``.
     """
     which = NO_CONTACT
     for i in range(ws.island.n_grouped):
-        c = ws.island.grouped[i]
-        evaluate_geometry(ws, c)
-        evaluate_rates(ws, c)
-        contact = ws.contacts[c]
+        contact = ws.contacts[ws.island.grouped[i]]
+        evaluate_geometry(ws, contact.index)
+        evaluate_rates(ws, contact.index)
         spin_a, spin_b = frame_at(ws.floats, contact.frame_a).spin, frame_at(ws.floats, contact.frame_b).spin
         turning, moved = minus(spin_b, spin_a), minus(contact.point_b, contact.point_b_before_jump)
         speed = length(contact.slip) + contact.size * math.sqrt(dot(turning, turning))
         if contact.normal_rate < rate and dot(moved, moved) > (_LEAST_SPEED_RATIO * h * speed) ** 2:
-            which = c
+            which = contact.index
     return which
 
 
 @kernel()
 def evaluate_force_round_off(ws: Workspace) -> None:
-    """Write the force that counts as zero after a jump [N].
+    """Write the force that counts as zero after a jump [N]: a part of the largest force, or force to stop the bias.
 
     Forces before the jump are no measure of it: close to the flat place they may be unbounded.
     """
@@ -191,10 +185,10 @@ def evaluate_force_round_off(ws: Workspace) -> None:
 
 @kernel("b1(ws, f8)")
 def jump_contact_points(ws: Workspace, h: float) -> bool:
-    """Write the state after the time ``h`` [s], too short for steps, to ``y_new``. True if contact points jump.
+    """Write the state after the time ``h`` [s], which is too short for a step, to ``y_new``, if a contact point jumps.
 
-    ``slopes`` must hold the slope at ``y``, and the closed contacts must be grouped. ``release`` becomes the cause by
-    which the impulses released a contact.
+    True if one jumps, else False. ``slopes`` must hold the slope at ``y``, and the closed contacts must be grouped.
+    ``release`` becomes the cause by which the impulses released a contact.
     """
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]
@@ -218,10 +212,10 @@ def jump_contact_points(ws: Workspace, h: float) -> bool:
 
 @kernel("i8(ws)")
 def contact_past_flat_place(ws: Workspace) -> int:
-    """Closed contact whose point ran along a body within the step that was taken, or ``NO_CONTACT``.
+    """Closed contact whose point jumped within the step that was taken, or ``NO_CONTACT``.
 
-    After such a step the bodies approach faster than the tolerances allow: a face has fallen flat, and the other side
-    of its rim is the lower one.
+    After such a step the bodies approach faster than the tolerances allow: a face has fallen flat, and now the other
+    side of its rim is the lower one. Evaluates the bodies at the end of the step.
     """
     approaches, allowed = False, ALLOWED * ws.tolerance.velocity
     for i in range(ws.island.n_grouped):

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies
+from nonsmooth.engine.bodies.equations import energies, inverse_mass
 from nonsmooth.engine.bodies.kinematics import evaluate_geometry
 from nonsmooth.engine.flow.mean_work import account_for_mean_forces
 from nonsmooth.engine.memory.layout import EXCHANGED
@@ -27,14 +28,14 @@ NEGLIGIBLE = 1.0 / ALLOWED
 ADJACENT = 10.0
 """Gap and rate of surfaces that are next to each other at rest, in tolerances."""
 _ROUND_OFF = 1e-12
-"""Part of an energy that is round-off of the sums over a run."""
+"""Round-off of the energies that are summed over a run, relative to their absolute sum."""
 
 
 @kernel("void(ws, Status, i8, f8, f8)")
 def fail_check(ws: Workspace, status: Status, number: int, found: float, allowed: float) -> None:
     """End the run with a status, the number of the body or contact, the value that was found and the allowed one.
 
-    The first failure counts.
+    Only the first failure of a run is stored.
     """
     if ws.run.failure == Status.RUNNING:
         ws.run.failure, ws.run.failed_number, ws.run.found, ws.run.allowed = status, number, found, allowed
@@ -42,7 +43,7 @@ def fail_check(ws: Workspace, status: Status, number: int, found: float, allowed
 
 @kernel("f8(Contact)")
 def held_gap(contact: Contact) -> float:
-    """Gap that a closed contact must lose [m]. Past the end of its features the gap is only a distance, so it is 0."""
+    """Gap that a projection must close [m]. Past the end of the features the gap is only a distance, so it is 0."""
     return float(contact.gap if contact.past_feature <= 0.0 else 0.0)
 
 
@@ -50,7 +51,8 @@ def held_gap(contact: Contact) -> float:
 def tolerated_gap(ws: Workspace, c: int) -> float:
     """Gap that a closed contact may have, or overlap of an open one, by the tolerances [m].
 
-    They are those of gaps, of steps relative to the distances of the witness points, and of event times.
+    These are the tolerances of gaps, of steps (relative to the distances of the witness points from the origins of
+    space and bodies), and of event times.
     """
     contact = ws.contacts[c]
     farthest = 0.0
@@ -123,15 +125,16 @@ def _stored_energy(ws: Workspace, contact: Contact, depth: float) -> float:
     """Energy of a compliant contact at a depth [J]: the integral of its force at rest, by Gauss's three-point rule."""
     total = 0.0
     for i in range(-1, 2):
-        weight, place = (8.0 - 3.0 * i * i) / 18.0, 0.5 * (1.0 + i * math.sqrt(0.6))
+        # Gauss's rule on [0, 1]
+        weight, node = (8.0 - 3.0 * i * i) / 18.0, 0.5 * (1.0 + i * math.sqrt(0.6))
         parameters = at(ws.floats, contact.normal_parameters)
-        total += weight * call_compliance(contact.normal_function, place * depth, 0.0, contact.closing_rate, parameters)
+        total += weight * call_compliance(contact.normal_function, node * depth, 0.0, contact.closing_rate, parameters)
     return float(depth * total)
 
 
 @kernel("f8(ws, Contact, b1)")
 def _deepest_other(ws: Workspace, contact: Contact, after: bool) -> float:
-    """Least gap of the other closed contacts of the same two frames [m], before an event or ``after`` it."""
+    """Least gap of the other closed contacts of the same two frames, or 0 [m]; closed before or ``after`` an event."""
     deepest = 0.0
     for other in ws.contacts:
         mode = other.mode_agreed if after else other.mode
@@ -152,7 +155,7 @@ def check_new_springs(ws: Workspace) -> None:
         if not contact.is_compliant or (contact.mode == Mode.OPEN) == (contact.mode_agreed == Mode.OPEN):
             continue
         if contact.mode != Mode.OPEN:
-            # past its end, the depth is that of the contact which replaces it
+            # it opens past its end: its depth there is that of the contact which replaces it
             if contact.past_feature > 0.0:
                 depth = -_deepest_other(ws, contact, after=True)
                 ws.run.jumped_energy -= _stored_energy(ws, contact, depth)
@@ -169,7 +172,7 @@ def check_new_springs(ws: Workspace) -> None:
 
 @kernel("f8(ws)")
 def _accounted_energy(ws: Workspace) -> float:
-    """Energy that events supplied so far, by the account [J]."""
+    """Energy that events have supplied to the bodies so far, by the totals [J]: driven work minus all losses."""
     return float(ws.totals.driven_work - ws.totals.restitution_loss - ws.totals.friction_loss - ws.totals.closing_loss)
 
 
@@ -178,17 +181,16 @@ def energies_of_bodies(ws: Workspace) -> EnergyPair:
     """Kinetic and potential energy of the bodies at their last evaluation [J]."""
     kinetic = potential = 0.0
     for body in ws.bodies:
-        n_u = body.n_u
-        if n_u > 0:
-            energies = body.tail + body.n_q + n_u + n_u * n_u
-            kinetic += ws.floats[energies]
-            potential += ws.floats[energies + 1]
+        if body.n_u > 0:
+            energy = energies(ws, body)
+            kinetic += energy[0]
+            potential += energy[1]
     return kinetic, potential
 
 
 @kernel()
 def open_energy_account(ws: Workspace) -> None:
-    """Store energy and account before an event. The bodies must be evaluated."""
+    """Store the energies of the bodies and the account before an event. The bodies must be evaluated."""
     ws.island.has_energy_account = True
     ws.island.kinetic_before, ws.island.potential_before = energies_of_bodies(ws)
     ws.island.accounted_before = _accounted_energy(ws)
@@ -221,16 +223,16 @@ def scale_energy(ws: Workspace) -> float:
     """Kinetic energy of velocities as large as their scales [J]. The bodies must be evaluated."""
     total = 0.0
     for body in ws.bodies:
-        masses, scales = body.tail + body.n_q + body.n_u, ws.step.y_scale.start + ws.model.n_q + body.u
+        inverse = inverse_mass(ws, body)
         for i in range(body.n_u):
-            # TODO: this is the inverse mass matrix: an energy needs the reciprocal of its entries.
-            total += 0.5 * ws.floats[masses + i * (body.n_u + 1)] * ws.floats[scales + i] ** 2
+            # TODO: an energy needs the reciprocals of the diagonal of the inverse mass matrix.
+            total += 0.5 * inverse[i * (body.n_u + 1)] * ws.step.y_scale[ws.model.n_q + body.u + i] ** 2
     return total
 
 
 @kernel()
 def check_end(ws: Workspace) -> None:
-    """Check the state in which the run ends like one in which a step starts."""
+    """Check the state in which the run ends: gaps as at the start of a step, and the energy of the last event."""
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     for contact in ws.contacts:
         evaluate_geometry(ws, contact.index)

@@ -40,7 +40,10 @@ _SECOND_NODE = tableau.NODES[1] / tableau.NODES[2]
 
 @kernel("f8(ws, i8, i8, f8)")
 def _largest_error(ws: Workspace, first: int, end: int, worst: float) -> float:
-    """Largest error of the entries ``first`` to ``end`` of the state, relative to the tolerance, at least ``worst``."""
+    """Largest error of entries ``first`` to ``end`` - 1 of the state, relative to the tolerance, at least ``worst``.
+
+    ``y_stage`` holds the errors. An error that is not a number is passed on.
+    """
     for i in range(first, end):
         allowed = ws.tolerance.relative * (ws.step.y_scale[i] + max(abs(ws.island.y[i]), abs(ws.step.y_new[i])))
         error = abs(ws.step.y_stage[i])
@@ -52,13 +55,14 @@ def _largest_error(ws: Workspace, first: int, end: int, worst: float) -> float:
 
 @kernel("f8(ws)")
 def _relative_error(ws: Workspace) -> float:
-    """Largest error in ``y_stage`` of all that is integrated, relative to the tolerance."""
-    n, worst = ws.model.n_y, 0.0
+    """Largest error in ``y_stage`` of all that is integrated but the energy accounts, relative to the tolerance."""
+    worst = 0.0
     for span in range(ws.island.n_spans):
         first = ws.island.span_first[span]
         worst = _largest_error(ws, first, min(first + ws.island.span_length[span], ws.model.n_q + ws.model.n_u), worst)
     if ws.model.n_states > 0:
-        worst = _largest_error(ws, ws.model.n_q + ws.model.n_u + N_ACCOUNTS, n, worst)
+        # inner states of laws
+        worst = _largest_error(ws, ws.model.n_q + ws.model.n_u + N_ACCOUNTS, ws.model.n_y, worst)
     return worst
 
 
@@ -91,25 +95,23 @@ def _error_of_second_stage(ws: Workspace, h: float) -> float:
 def relaxation_rate(ws: Workspace) -> float:
     """Largest rate at which a slip direction relaxes at the start of the step [1/s].
 
-    It is 0 if an implicit step is of no use: it needs a closed contact that slides, and rigid closed contacts only.
+    It is 0 if no implicit step is possible: it needs a contact that slides, and all closed contacts must be rigid.
     """
     fastest = 0.0
     for i in range(ws.island.n_grouped):
-        c = ws.island.grouped[i]
-        contact = ws.contacts[c]
+        contact = ws.contacts[ws.island.grouped[i]]
         if contact.is_compliant:
             return 0.0
         if contact.mode == Mode.SLIDE and not contact.is_averaged:
             friction, speed = length((contact.force[1], contact.force[2])), length(contact.slip_at_end)
-            fastest = max(
-                fastest, contact.slip_per_force * friction / max(speed, _SMALLEST_SLIP * ws.tolerance.velocity)
-            )
+            slip = max(speed, _SMALLEST_SLIP * ws.tolerance.velocity)
+            fastest = max(fastest, contact.slip_per_force * friction / slip)
     return fastest
 
 
 @kernel("b1(ws)")
 def _are_modes_valid(ws: Workspace) -> bool:
-    """True if no force of a closed contact violates its mode. Explicit steps find the time at which one begins to."""
+    """True if no force of a closed contact violates its mode. Else explicit steps find the time at which one does."""
     for i in range(ws.island.n_grouped):
         if is_violated(ws, ws.island.grouped[i]):
             return False
@@ -118,7 +120,10 @@ def _are_modes_valid(ws: Workspace) -> bool:
 
 @kernel("void(ws, f8, i8, i8)")
 def _predict_stage(ws: Workspace, h: float, stage: int, out: int) -> None:
-    """Write the first guess of the state of a stage to ``out``, and the slope that leads there to ``slopes``."""
+    """Write the first guess of the state of a stage to ``out``, and the slope that leads there to the stage's slope.
+
+    The state is extrapolated from the stages before. Without the stage's own slope it is ``y_guess``.
+    """
     n, stages, predictor = ws.model.n_y, ws.coefficients.implicit_stages.start, ws.coefficients.implicit_predictor.start
     y, slopes = ws.island.y.start, ws.island.slopes.start
     here = slopes + stage * n
@@ -130,7 +135,7 @@ def _predict_stage(ws: Workspace, h: float, stage: int, out: int) -> None:
 
 @kernel("b1(ws, f8, i8)")
 def _solve_stage(ws: Workspace, h: float, stage: int) -> bool:
-    """Find the slope of a stage at the state to which it leads. True if it is found and keeps the modes.
+    """Find the slope of a stage of an implicit step at the state to which it leads. True if found in the present modes.
 
     Friction of slips is solved for. All else is iterated until the estimated remaining change is small: it is that of
     a geometric sequence. The last stage must have the slope of its own state, so its last change itself must be small.
@@ -168,7 +173,10 @@ def _evaluate_implicit_slope(ws: Workspace, t: float, y: int, out: int) -> None:
 
 @kernel("f8(ws, i8, i8)")
 def _change_of_stage(ws: Workspace, here: int, out: int) -> float:
-    """Add the change of a stage's slope to the state at ``out``. Largest change, relative to the tolerance."""
+    """Add the change of a stage's slope at ``here`` since ``y_guess`` to the state at ``out``.
+
+    Largest change of a coordinate or velocity, relative to the tolerance.
+    """
     worst = 0.0
     for i in range(ws.model.n_y):
         change = ws.island.stage_time * (ws.floats[here + i] - ws.step.y_guess[i])
@@ -180,9 +188,9 @@ def _change_of_stage(ws: Workspace, here: int, out: int) -> float:
 
 @kernel("b1(ws)")
 def _find_first_slope(ws: Workspace) -> bool:
-    """Write the slope at the start, with friction against the slip that a stage leads to. True if it is found.
+    """Write the slope at the start, with friction against the slip that a stage leads to, to that of the second stage.
 
-    It becomes the slope of the second stage, which an implicit step does not have.
+    An implicit step has no second stage. True if the slope is found and its forces keep the modes.
     """
     for i in range(ws.model.n_y):
         ws.step.y_guess[i] = 0.0
@@ -196,11 +204,11 @@ def _find_first_slope(ws: Workspace) -> bool:
 def _try_implicit_step(ws: Workspace, h: float) -> float:
     """Take one step of ``h`` [s] whose stages end with friction against their own slip. Its relative error.
 
-    The error is infinite if a stage is not found. The slopes become those from which the dense output of the explicit
-    step makes the interpolant of this step. If no implicit step came before, the slip may not have settled yet: the
-    slope on which it will settle replaces that at the start.
+    The error is infinite if a stage is not found. The slopes become those with which the dense output of the explicit
+    step gives the interpolant of this step. Right after an event the slip may not have settled yet: then the slope on
+    which it settles replaces the first one. ``first_slope`` keeps the first one for the next attempt.
     """
-    n = ws.model.n_y
+    n, slopes = ws.model.n_y, ws.island.slopes.start
     ws.island.stage_time = implicit_tableau.DIAGONAL * h
     for i in range(n):
         ws.island.slopes[n + i] = ws.island.slopes[i]
@@ -209,20 +217,18 @@ def _try_implicit_step(ws: Workspace, h: float) -> float:
     for stage in range(2, N_STAGES):
         if not _solve_stage(ws, h, stage):
             return math.inf
-    weigh_slopes(ws, ws.coefficients.implicit_errors.start, ws.island.slopes.start, n, h, ws.step.y_stage.start)
+    weigh_slopes(ws, ws.coefficients.implicit_errors.start, slopes, n, h, ws.step.y_stage.start)
     error = _relative_error(ws)
     ws.step.has_replaced_slope = True
     for i in range(n):
         ws.step.first_slope[i], ws.island.slopes[i] = ws.island.slopes[i], ws.island.slopes[n + i]
-    write_implicit_interpolant(
-        ws, ws.island.y.start, ws.step.y_new.start, ws.island.slopes.start, n, h, ws.step.y_stage.start
-    )
+    write_implicit_interpolant(ws, ws.island.y.start, ws.step.y_new.start, slopes, n, h, ws.step.y_stage.start)
     return error
 
 
 @kernel("f8(ws, f8)")
 def explicit_step(ws: Workspace, h: float) -> float:
-    """Take one explicit step of ``h`` [s] of all that is integrated. Its relative error."""
+    """Take one explicit step of ``h`` [s] of all that is integrated. Its error relative to the tolerance."""
     ws.island.stage_time = 0.0
     choose_spins_in_space(ws)
     if ws.island.n_integrated == 0:
@@ -243,7 +249,7 @@ def explicit_step(ws: Workspace, h: float) -> float:
 
 @kernel("void(ws, f8, i8, i8)")
 def _write_stage(ws: Workspace, h: float, stage: int, out: int) -> None:
-    """Write the state of a stage to ``out``, from the slopes of the stages before."""
+    """Write the integrated parts of the state of an explicit stage to ``out``, from the slopes of the stages before."""
     y, slopes = ws.island.y.start, ws.island.slopes.start
     for span in range(ws.island.n_spans):
         i, n = ws.island.span_first[span], ws.island.span_length[span]
@@ -299,7 +305,7 @@ def try_step(ws: Workspace, h: float) -> float:
 
 @kernel("f8(ws, f8)")
 def try_length(ws: Workspace, h: float) -> float:
-    """Take one step of ``h`` [s], implicit if an explicit one would be unstable. Its relative error."""
+    """Take one step of ``h`` [s], implicit only if an explicit one may be unstable. Error relative to the tolerance."""
     if h * ws.step.relaxation <= LARGEST_EXPLICIT:
         ws.island.stage_time = 0.0
     return float(try_step(ws, h))
