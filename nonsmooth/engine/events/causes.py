@@ -16,15 +16,15 @@ _VANISHED = 1e-9
 
 @kernel("Cause(Contact)")
 def _cause_of_closing(contact: Contact) -> Cause:
-    """Cause of the event in which a contact closes."""
+    """Cause of the event in which a contact closes: a rigid one collides, a compliant one only touches."""
     return Cause.TOUCH if contact.is_compliant else Cause.IMPACT
 
 
 @kernel("Cause(ws, i8)")
 def cause_of(ws: Workspace, guard: int) -> Cause:
-    """Cause of the event in which guard ``guard`` of a contact fires.
+    """Cause of the event in which guard ``guard``, a normal or friction guard, fires.
 
-    The static bound vanishes with the normal force. So friction that reaches it there is a lift-off.
+    The static bound vanishes with the normal force. So friction that reaches the bound at zero force is a lift-off.
     """
     contact = contact_at(ws, guard)
     if not is_friction_guard(ws, guard):
@@ -37,7 +37,7 @@ def cause_of(ws: Workspace, guard: int) -> Cause:
 
 @kernel("Cause(ws, i8)")
 def cause_at_start(ws: Workspace, which: int) -> Cause:
-    """Cause of the event of contact ``which`` that happens before any step."""
+    """Cause of an event of contact ``which`` at the start of a step: its gap is closed, or a guard is negative."""
     contact = ws.contacts[which]
     if contact.mode == Mode.OPEN:
         return _cause_of_closing(contact)

@@ -14,15 +14,15 @@ from nonsmooth.engine.native.kernel import Contact, Workspace, kernel
 from nonsmooth.engine.numerics.vectors import dot, minus
 
 _LARGEST_DIFFERENCE = 1e-5
-"""Difference of normals, and of places relative to the smaller body, up to which contacts coincide.
+"""Difference of normals, and of points relative to the size of the smaller body, up to which contacts coincide.
 
-The energy error of an approach is its square, which is below the energy tolerances.
+The relative error of the energy of an approach is its square, which is below the energy tolerances.
 """
 
 
 @kernel("b1(Contact, Contact)")
 def _coincide(one: Contact, other: Contact) -> bool:
-    """True if two rigid contacts of the same frames are at one place with the same normal."""
+    """True if two different rigid contacts of the same frames have the same point and normal within the tolerance."""
     if one.index == other.index or one.frame_a != other.frame_a or one.frame_b != other.frame_b:
         return False
     if one.is_compliant or other.is_compliant:
@@ -34,7 +34,7 @@ def _coincide(one: Contact, other: Contact) -> bool:
 
 @kernel("i8(ws, i8)")
 def closed_coincident(ws: Workspace, c: int) -> int:
-    """Closed contact that coincides with ``c`` and does not approach, or ``NO_CONTACT``."""
+    """First closed contact that coincides with contact ``c`` and does not approach, or ``NO_CONTACT``."""
     for other in ws.contacts:
         is_closed = other.mode != Mode.OPEN and other.normal_rate >= -ws.tolerance.velocity
         if is_closed and _coincide(ws.contacts[c], other):
@@ -44,9 +44,9 @@ def closed_coincident(ws: Workspace, c: int) -> int:
 
 @kernel("b1(ws, i8)")
 def has_replaced(ws: Workspace, c: int) -> bool:
-    """True if contact ``c``, or one that coincides with it, was closed before the event, and one of them is now.
+    """True if of contact ``c`` and those that coincide with it one was closed before the event, and one is closed now.
 
-    Both may be closed for a moment, while their margins overlap.
+    Two of them may be closed at once, while their margins overlap. So the contact changes its features only.
     """
     was_closed, is_closed = False, False
     for other in ws.contacts:
@@ -58,7 +58,10 @@ def has_replaced(ws: Workspace, c: int) -> bool:
 
 @kernel("b1(ws, i8)")
 def replace_coincident(ws: Workspace, c: int) -> bool:
-    """Close contact ``c`` in place of the closed contacts that coincide with it. False if there are none."""
+    """Close contact ``c`` in place of the closed contacts that coincide with it. True if there are any.
+
+    It takes the mode of the first of them. They open.
+    """
     contact = ws.contacts[c]
     replaced, has_taken_over = closed_coincident(ws, c), False
     while replaced != NO_CONTACT:

@@ -1,6 +1,7 @@
 """Modes and forces at an instant.
 
-They are guessed from the past and from the event, solved island by island, and adopted by all contacts at once.
+Modes are guessed from the past and from the event. Modes and forces are solved for island by island. Then all contacts
+adopt their modes at once.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from nonsmooth.engine.native.kernel import Contact, Workspace, kernel, result
 from nonsmooth.engine.numerics.vectors import length
 
 _VANISHED = 1e-9
-"""Normal force that counts as vanished, relative to the largest one at the start of the step."""
+"""Normal force that counts as vanished, relative to the largest one at the start of the step. It is round-off."""
 
 
 @result
@@ -30,7 +31,7 @@ class Solution(IntEnum):
     """Outcome of the contact problem of an instant."""
 
     NONE = 0
-    """An island has no forces. It stays the active one."""
+    """The problem of an island has no solution. The contacts of that island stay the active ones."""
     FOUND = 1
     """Every island has modes and forces."""
     FACING_TURNED = 2
@@ -39,7 +40,10 @@ class Solution(IntEnum):
 
 @kernel("void(ws, Cause, i8)")
 def guess_modes(ws: Workspace, cause: Cause, which: int) -> None:
-    """Collect the contacts that touch and do not separate, and guess their modes from the past and from the event."""
+    """Group the contacts that touch and do not separate, and guess their modes from the past and from the event.
+
+    A contact outside of the problem is open, or keeps its mode if its body has an own step.
+    """
     for contact in ws.contacts:
         contact.is_in_problem = False
         contact.mode_agreed = contact.mode if has_own_step(ws, contact.index) else Mode.OPEN
@@ -53,7 +57,7 @@ def guess_modes(ws: Workspace, cause: Cause, which: int) -> None:
 
 @kernel("Mode(ws, Contact, Cause, i8)")
 def _guessed_mode(ws: Workspace, contact: Contact, cause: Cause, which: int) -> Mode:
-    """Guess of the mode of a rigid contact that touches and does not separate."""
+    """Guess of the mode of a rigid contact that touches and does not separate, at an event of contact ``which``."""
     is_cause = contact.index == which
     if cause == Cause.STICK_TO_SLIP and (is_cause or _share_a_bound(ws, contact, which)):
         return Mode.SLIDE
@@ -67,7 +71,7 @@ def _guessed_mode(ws: Workspace, contact: Contact, cause: Cause, which: int) -> 
 
 @kernel("void(ws, Contact, Cause, i8)")
 def _guess_compliant_mode(ws: Workspace, contact: Contact, cause: Cause, which: int) -> None:
-    """Guess the mode of a compliant contact. Its normal force is given; its friction may be part of the problem."""
+    """Guess the mode of a compliant contact. Its normal force is known. Its friction may be part of the problem."""
     is_cause = contact.index == which
     if cause == Cause.LIFT_OFF and is_cause:
         contact.is_touching = False
@@ -86,7 +90,7 @@ def _guess_compliant_mode(ws: Workspace, contact: Contact, cause: Cause, which: 
 
 @kernel("b1(ws, Contact)")
 def _force_has_vanished(ws: Workspace, contact: Contact) -> bool:
-    """True if the normal force of a closed rigid contact has vanished together with the one that fired."""
+    """True if the normal force of a closed rigid contact is round-off, as is that of the contact which lifts off."""
     largest = 0.0
     for other in ws.contacts:
         if other.mode != Mode.OPEN and not other.is_compliant and not has_own_step(ws, other.index):
@@ -103,7 +107,7 @@ def _share_a_bound(ws: Workspace, contact: Contact, which: int) -> bool:
 
 @kernel("Solution(ws, b1)")
 def solve_islands(ws: Workspace, averaging_ends: bool) -> Solution:
-    """Find modes and forces of the collected contacts, island by island."""
+    """Find modes and forces of the grouped contacts, island by island: instantaneous, or averaged over time."""
     accelerate_touching(ws)
     accelerate_by_compliance(ws)
     ws.island.averaged_until = math.inf
@@ -125,7 +129,7 @@ def solve_islands(ws: Workspace, averaging_ends: bool) -> Solution:
 
 @kernel()
 def _use_guessed_modes(ws: Workspace) -> None:
-    """Start the solver of the active contacts from the guessed modes, and end their averaging."""
+    """Start the solver of the active contacts from the guessed modes, and end their averaging over time."""
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         if contact.is_averaged:
@@ -135,7 +139,7 @@ def _use_guessed_modes(ws: Workspace) -> None:
 
 @kernel("b1(ws)")
 def _take_solution(ws: Workspace) -> bool:
-    """Store what the solver found of the active contacts. True if anisotropic friction turned to face the other way."""
+    """Store what the solver found for the active contacts. True if anisotropic friction turned to face the other way."""
     has_turned = False
     for active in ws.actives:
         contact = ws.contacts[active.contact]
@@ -159,7 +163,7 @@ def coefficients_are_valid(ws: Workspace) -> bool:
 
 @kernel()
 def adopt_modes(ws: Workspace) -> None:
-    """Take over the modes and the slip directions that the contact problem found."""
+    """Give all contacts the modes and slip directions found for them. The laws of a contact that closes start anew."""
     for contact in ws.contacts:
         if contact.mode == Mode.OPEN and contact.mode_agreed != Mode.OPEN:
             start_inner_states(ws, contact.index)
@@ -172,7 +176,7 @@ def adopt_modes(ws: Workspace) -> None:
 
 @kernel("b1(ws)")
 def modes_have_changed(ws: Workspace) -> bool:
-    """True if a contact has another mode than before the event, or has begun or ended averaging its forces."""
+    """True if a contact has another mode than before the event, or its averaging over time has begun or ended."""
     for contact in ws.contacts:
         if mode_code(contact) != contact.code_before or contact.is_averaged != contact.was_averaged:
             return True

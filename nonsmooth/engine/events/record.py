@@ -1,4 +1,4 @@
-"""Recording of events and samples in the buffers that Python empties between calls.
+"""Recording of events and samples in the buffers that Python reads and empties between calls.
 
 An event is a row of floats and a row of integers. The floats are its head, the state, what was accounted for, and the
 numbers of each contact that takes part. The integers are its head, and number and code of each of these contacts. The
@@ -41,7 +41,7 @@ _CLOSED, _APPROACHES, _SLIPS = 1, 2, 4
 
 @kernel("i8(Contact)")
 def mode_code(contact: Contact) -> int:
-    """Bits of Eq. (29) of a contact in its present mode."""
+    """Bits of Eq. (29) of a contact in its present mode: 0 if it is open."""
     if contact.mode == Mode.OPEN:
         return 0
     return _CLOSED + _SLIPS if contact.mode == Mode.SLIDE else _CLOSED
@@ -102,16 +102,15 @@ def _write_contact(ws: Workspace, contact: Contact, out: int) -> None:
     ws.floats[out + SLIP_DIRECTION], ws.floats[out + SLIP_DIRECTION + 1] = contact.direction
     ws.floats[out + CLOSED_WITH], ws.floats[out + FACING] = contact.closing_rate, float(contact.facing)
     ws.floats[out + AVERAGED] = float(contact.mode_after_averaging.value)
-    candidate = contact.features
     for r in range(CANDIDATE):
-        ws.floats[out + FEATURES + r] = ws.floats[candidate + r] if candidate > 0 else 0.0
+        ws.floats[out + FEATURES + r] = ws.floats[contact.features + r] if contact.features > 0 else 0.0
 
 
 @entry_point("void(ws, Cause, i8, i8)")
 def record_event(ws: Workspace, cause: Cause, which: int, phases: int) -> None:
-    """Append an event of contact or guard ``which``: what was stored before it, and the state after it.
+    """Append an event of contact or user's guard ``which``: what was stored before it, and the state after it.
 
-    A resumed run repeats the events up to its start. They are in the buffers of the earlier run, so they are not kept.
+    A resumed run repeats events that the earlier run has recorded already: ``n_known_events`` of them are not kept.
     """
     ws.event.n_recorded += 1
     n_listed = _list_contacts(ws, NO_CONTACT if cause == Cause.GUARD else which)
@@ -134,7 +133,7 @@ def record_event(ws: Workspace, cause: Cause, which: int, phases: int) -> None:
 
 @kernel("i8(ws, i8)")
 def _write_event_state(ws: Workspace, row: int) -> int:
-    """Write head, state and totals of an event to ``row``. Returns where they end."""
+    """Write head, state and totals of an event to offset ``row``. Offset at which they end."""
     n_q, n_u, n_y = ws.model.n_q, ws.model.n_u, ws.model.n_y
     ws.event.head[TIME] = ws.island.time
     for i in range(EVENT_HEAD):
@@ -156,7 +155,10 @@ def _write_event_state(ws: Workspace, row: int) -> int:
 
 @kernel("void(ws, i8, Cause, i8, i8)")
 def _write_event_codes(ws: Workspace, codes: int, cause: Cause, which: int, phases: int) -> None:
-    """Write cause, contact or guard, phases, and whether it was cut short, of an event to ``codes``."""
+    """Write cause, contact or guard, phases, and whether the impact was cut short, of an event to offset ``codes``.
+
+    A contact is written by its number among the declared ones, since the number in the list changes.
+    """
     ws.integers[codes + CAUSE], ws.integers[codes + CONTACT], ws.integers[codes + PHASES] = cause, which, phases
     if which >= 0 and cause != Cause.GUARD:
         ws.integers[codes + CONTACT] = ws.contacts[which].declared
@@ -165,7 +167,7 @@ def _write_event_codes(ws: Workspace, codes: int, cause: Cause, which: int, phas
 
 @kernel("void(ws, Contact, i8)")
 def _write_contact_codes(ws: Workspace, contact: Contact, codes: int) -> None:
-    """Write the number of a declared contact and its code in an event to ``codes``."""
+    """Write the declared number of a contact and its code in an event, Eq. (29), to offset ``codes``."""
     before, during, after = contact.code_before << BEFORE, contact.code_during << DURING, mode_code(contact) << AFTER
     ws.integers[codes] = contact.declared
     ws.integers[codes + 1] = before | during | after
@@ -173,7 +175,10 @@ def _write_contact_codes(ws: Workspace, contact: Contact, codes: int) -> None:
 
 @kernel()
 def amend_last(ws: Workspace) -> None:
-    """Write the last event anew, with the modes and velocities in which the instant has ended."""
+    """Write the last event anew, with the modes and velocities at the end of the instant.
+
+    Nothing is done if the event is in no buffer, as it was known from an earlier run.
+    """
     if ws.output.n_events == 0 or ws.output.floats_used == ws.output.last_floats:
         return
     ws.output.floats_used, ws.output.integers_used = ws.output.last_floats, ws.output.last_integers
@@ -184,9 +189,9 @@ def amend_last(ws: Workspace) -> None:
 
 @entry_point("i8(ws)")
 def begin_sample(ws: Workspace) -> int:
-    """Append a sample at the time ``next_sample``, and set the next one. Returns the place of its state.
+    """Append a sample at the time ``next_sample``, and advance that time. Offset of the state of the sample.
 
-    The place is an offset in the floats of the workspace, where the caller writes q, u and what else is integrated.
+    There the caller writes q, u and the rest of the integrated state, in the floats of the workspace.
     """
     row = ws.output.samples.start + ws.output.n_samples * (1 + ws.model.n_y + BOOKED)
     ws.floats[row] = ws.output.next_sample

@@ -18,30 +18,30 @@ from nonsmooth.engine.native.kernel import Contact, Workspace, kernel
 from nonsmooth.engine.numerics.vectors import length
 
 _EXPLICIT_PART = 1.5
-"""Length of an explicit step relative to the predicted time of a stop. It goes beyond it, and the stop is located."""
+"""Length of an explicit step relative to the predicted time of a stop: it passes the stop, which is then located."""
 _IMPLICIT_PART = 0.98
 """Length of an implicit step relative to the predicted time of a stop. The slip must not stop within it."""
 _SMALLEST_PART = 1e-3
-"""Smallest part of a step that is left, and difference of a part from 1 within which the step ends at the stop."""
+"""Smallest part of a step that is taken. A part that differs from 1 by less makes the step end at the stop."""
 _LARGEST_PART = 0.9
-"""Largest part of a step that is left, so that it becomes shorter."""
+"""Largest part of a step that is taken if the step must become shorter."""
 _UNKNOWN_PART = 0.25
-"""Part of a step that is left if its slip does not decelerate, so that no stop is predicted."""
+"""Part of a step that is taken if no stop is predicted, because the slip does not decelerate at the start."""
 
 
 @kernel("f8(ws, Contact, f8)")
 def _part_before_stop_of(ws: Workspace, contact: Contact, h: float) -> float:
     """Part of the implicit step of ``h`` [s] to take, so that it ends at or before the stop of a slip.
 
-    If the slip stops at the end of the step, the part is 1, and the contact becomes ``halting_contact``.
+    The stop is predicted from slip and slip acceleration at the start. If the slip stops at the end of the step, the
+    part is 1, and the contact becomes ``halting_contact``.
     """
-    c = contact.index
-    first = length(contact.slip_at_end)
+    c, first = contact.index, length(contact.slip_at_end)
     v1, v2 = contact.slip_at_end
     du = ws.island.slopes.start + ws.model.n_q
     a1, a2 = row(ws, c, FIRST_ROW, du) + contact.bias[1], row(ws, c, SECOND_ROW, du) + contact.bias[2]
     decrease = -h * (v1 * a1 + v2 * a2) / first
-    # a slip that does not decrease tells nothing about its stop
+    # the shortest part is two time tolerances long
     part, least = _UNKNOWN_PART, 2.0 * ws.tolerance.time
     if decrease > 0.0:
         part = first / decrease

@@ -24,9 +24,9 @@ from nonsmooth.engine.native.kernel import Workspace, kernel
 
 @kernel()
 def end_averaging_span(ws: Workspace) -> None:
-    """Give the contacts of averaged forces the modes at the end of their span, and put them on their constraints.
+    """Give the contacts with averaged forces the modes after their span, and put them on their constraints.
 
-    Their rates must be those at the end of the span.
+    The contacts must be evaluated at the end of the span.
     """
     set_spans(ws)
     for contact in ws.contacts:
@@ -39,9 +39,9 @@ def end_averaging_span(ws: Workspace) -> None:
 
 @kernel("void(ws, b1)")
 def start_averaging_span(ws: Workspace, follows: bool) -> None:
-    """Find the mean forces of the islands that are averaged, from the present time on.
+    """Find the forces of the islands that are averaged over time, from the present time on.
 
-    A span that follows another one may be longer than a first one.
+    A span that ``follows`` another one may be longer than a first one. ``averaged_until`` becomes the first end.
     """
     ws.island.averaged_until = math.inf
     group_closed(ws)

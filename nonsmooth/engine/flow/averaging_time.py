@@ -13,6 +13,7 @@ import math
 
 from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_free_bodies
 from nonsmooth.engine.bodies.compliance import copy_inner_states
+from nonsmooth.engine.bodies.equations import coordinate_rates
 from nonsmooth.engine.bodies.kinematics import evaluate_contact, evaluate_geometry
 from nonsmooth.engine.contact.mean_forces import averaging_span, find_mean_impulses, gap_after, set_mean_forces
 from nonsmooth.engine.delassus.delassus import add_response
@@ -21,7 +22,7 @@ from nonsmooth.engine.flow.spins import square_of_quaternion
 from nonsmooth.engine.native.kernel import Contact, Workspace, kernel
 
 _ALLOWED_PART = 0.1
-"""Deviation of a gap that is allowed, relative to the error of a gap or of its work that the tolerances allow."""
+"""Deviation of a gap from the linear model that is allowed, relative to the allowed error of a gap, or of energy."""
 _LARGEST_DEVIATION = 0.5
 """Predicted deviation that is accepted, relative to the allowed one. It is predicted to second order only."""
 _SMALLEST_FACTOR = 0.1
@@ -46,6 +47,7 @@ def _extrapolate(ws: Workspace, time: float) -> None:
 
     The positions are of second order: they follow from the velocities in the middle of that time.
     """
+    # the change of the velocities is in y_guess, the extrapolated state in y_stage
     change, velocities = ws.step.y_guess.start + ws.model.n_q, ws.step.y_stage.start + ws.model.n_q
     for i in range(ws.model.n_u):
         ws.floats[change + i] = time * ws.island.du[i]
@@ -57,8 +59,9 @@ def _extrapolate(ws: Workspace, time: float) -> None:
         ws.floats[velocities + i] += 0.5 * ws.floats[change + i]
     evaluate_free_bodies(ws, ws.island.time, ws.step.y_stage.start, of_all_bodies=True)
     for body in ws.bodies:
+        rates = coordinate_rates(ws, body)
         for i in range(body.n_q):
-            ws.step.y_stage[body.q + i] += time * ws.floats[body.tail + i]
+            ws.step.y_stage[body.q + i] += time * rates[i]
     _normalise(ws)
     evaluate_bodies(ws, ws.island.time + time, ws.step.y_stage.start)
     for active in ws.actives:
@@ -67,15 +70,16 @@ def _extrapolate(ws: Workspace, time: float) -> None:
 
 @kernel("f8(ws)")
 def _allowed_work(ws: Workspace) -> float:
-    """Work that a contact force may do by the deviation of its gap [J], from the allowed error of the energy."""
+    """Work that a contact force may do by the deviation of its gap [J]: a part of the allowed error of the energy."""
     return float(_ALLOWED_PART * ALLOWED * ws.tolerance.relative * (energies_of_bodies(ws)[0] + scale_energy(ws)))
 
 
 @kernel("f8(ws, Contact, f8, f8, f8)")
 def _relative_deviation(ws: Workspace, contact: Contact, deviation: float, force: float, work: float) -> float:
-    """Deviation of a gap [m] relative to the allowed one.
+    """Deviation of a gap [m] from the linear model, relative to the allowed deviation.
 
-    The ``force`` [N] may do no more than ``work`` [J] by it. A gap within the gap tolerance is always allowed.
+    By the allowed one the ``force`` [N] does no more than ``work`` [J]. A deviation by the gap tolerance is always
+    allowed.
     """
     allowed = _ALLOWED_PART * tolerated_gap(ws, contact.index)
     if force * allowed > work:
@@ -85,9 +89,10 @@ def _relative_deviation(ws: Workspace, contact: Contact, deviation: float, force
 
 @kernel("f8(ws, f8)")
 def _largest_deviation(ws: Workspace, time: float) -> float:
-    """Largest deviation of a gap after a ``time`` [s] under the impulses, relative to the allowed one.
+    """Largest deviation of a gap from the linear model after a ``time`` [s] of impulses, relative to the allowed one.
 
-    Only contacts with a normal force count. The others may open. A gap that is not finite deviates infinitely.
+    Only contacts with a normal force count, as the others may open. The deviation of a gap that is not a number is
+    infinite. Bodies and contacts are evaluated at the present state again.
     """
     work = _allowed_work(ws)
     for active in ws.actives:
@@ -109,9 +114,9 @@ def _largest_deviation(ws: Workspace, time: float) -> float:
 
 @kernel("void(ws, b1)")
 def find_mean_forces(ws: Workspace, follows: bool) -> None:
-    """Write the mean forces of the active contacts, and the modes that they lead to at the end of the span.
+    """Write the mean forces of the active contacts over an averaging span, and the modes at the end of the span.
 
-    Rates and accelerations without forces must be written. A span that ``follows`` another one may be longer.
+    Rates and accelerations without contact forces must be written. A span that ``follows`` another one may be longer.
     """
     time = find_mean_impulses(ws, averaging_span(ws, follows))
     deviation = _largest_deviation(ws, time)
@@ -126,16 +131,16 @@ def find_mean_forces(ws: Workspace, follows: bool) -> None:
 
 @kernel("f8(ws)")
 def deviation_of_gaps(ws: Workspace) -> float:
-    """Largest present deviation of a gap under averaged forces, relative to the allowed one.
+    """Largest present deviation of a gap under averaged forces from that planned, relative to the allowed one.
 
-    Writes it to ``strayed``, and its contact to ``stray_contact``.
+    Writes it to ``strayed``, and its contact to ``stray_contact``: the next step starts by ending a span that is wrong.
     """
     work = _allowed_work(ws)
     ws.island.strayed = 0.0
     for contact in ws.contacts:
         if not contact.is_averaged or contact.is_compliant or contact.past_feature > 0.0:
             continue
-        # a gap that was left may close, and one that opens comes to rest
+        # a gap that was open at the start of the span may close, and one that opens comes to rest
         deviation = abs(contact.gap - contact.mean_gap) - abs(contact.mean_gap) - contact.mean_gap_change
         relative = _relative_deviation(ws, contact, max(0.0, deviation), contact.mean_force[0], work)
         if relative > ws.island.strayed:

@@ -16,14 +16,14 @@ from nonsmooth.engine.memory.modes import NO_CONTACT
 from nonsmooth.engine.native.kernel import Workspace, kernel
 
 _DOUBLINGS = 3
-"""Doublings of the time tolerance that are tried. A step shrinks by at most five at once, so one of five has failed."""
+"""Doublings of the time tolerance that are tried. A step shrinks at most to a fifth, so five tolerances have failed."""
 
 
 @kernel("i8(ws)")
 def find_feature_end(ws: Workspace) -> int:
-    """Closed contact whose features end or change within a few time tolerances, or ``NO_CONTACT``.
+    """Closed contact whose features end or change within eight time tolerances, or ``NO_CONTACT``.
 
-    The time to the end is written to ``step.h`` [s], the state there to ``y_new``. ``slopes`` must hold the slope at
+    The time to that end is written to ``step.h`` [s], the state there to ``y_new``. ``slopes`` must hold the slope at
     ``y``, and the closed contacts must be grouped.
     """
     ws.step.h = ws.tolerance.time

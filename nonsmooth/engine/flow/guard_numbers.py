@@ -47,7 +47,7 @@ def first_end_guard(ws: Workspace) -> int:
 
 @kernel("i8(ws)")
 def number_of_guards(ws: Workspace) -> int:
-    """Number of guards."""
+    """Number of all guards: two of each contact, those of the user, and the end guard of each contact."""
     return int(first_end_guard(ws) + ws.island.n_contacts)
 
 

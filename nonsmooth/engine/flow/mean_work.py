@@ -1,4 +1,4 @@
-"""Work of averaged forces: they act while their gaps change, so they exchange energy that an exact motion does not."""
+"""Work of forces averaged over time: they act while their gaps change, so they do work that exact forces do not."""
 
 from __future__ import annotations
 

@@ -39,33 +39,33 @@ from nonsmooth.engine.numerics.vectors import cross, dot, minus
 _ROUND_OFF = 8.0 * 2.0**-52
 """Difference of a squared unit length from 1 that is round-off."""
 _DAMPING = 1e-8
-"""Damping of a projection, relative to the diagonal of G.
+"""Damping of a projection, relative to the diagonal of G. A single contact needs none.
 
-It limits the displacement of a body to the gap over twice its square root. A single contact needs none.
+It limits the displacement of a body to the gap divided by twice the square root of the damping.
 """
 _LARGEST_CORRECTION = 10.0
-"""Largest displacement of a body by a correction, relative to the gap that the tolerances allow."""
+"""Largest displacement of a body by a projection, relative to the gap that the tolerances allow."""
 _MOST_ITERATIONS = 5
 """Most iterations of Newton's method for joints. It converges quadratically, so two or three suffice."""
 
 
 @result
 class Projected(NamedTuple):
-    """What the projection of an island did."""
+    """What the projection of an island has done."""
 
     loss: float
     """Kinetic energy that it removed [J]."""
     has_moved: bool
-    """It added velocities to ``y_stage``, which close gaps."""
+    """True if it added velocities that close gaps to ``y_stage``."""
 
 
 @entry_point("f8(ws, b1)")
 def project_rates(ws: Workspace, at_event: bool) -> float:
     """Bring gap rates of the active contacts, and slips of sticking ones, to zero. Energy that is removed [J].
 
-    At an event a slip within the velocity tolerance is removed too, because its direction is round-off. The correction
-    is the damped impulse of least kinetic energy, without friction on sliding contacts. The work of driven bodies is
-    accounted for.
+    At an event a slip within the velocity tolerance is removed too, because its direction is round-off. The impulses
+    are those of least kinetic energy, damped, and without friction on sliding contacts. The work of driven bodies is
+    added to the totals.
     """
     if ws.problem.n_active == 0:
         return 0.0
@@ -88,12 +88,16 @@ def project_rates(ws: Workspace, at_event: bool) -> float:
 
 @kernel("f8(ws, f8)")
 def _removed_energy(ws: Workspace, damping: float) -> float:
-    """Kinetic energy that the impulses of a projection removed [J]. Accounts for the work of driven bodies."""
+    """Kinetic energy that the impulses of a projection removed [J]. Adds the work of driven bodies to the totals.
+
+    With the enlarged diagonal the impulses leave a part of the rates: ``damping`` times their own entries of G.
+    """
     loss = 0.0
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         for r in range(3):
             impulse = active.force[r]
+            # the part of the diagonal of G that the damping has added
             added = diagonal_block(ws, active.index).entries[4 * r] * damping / (1.0 + damping)
             loss -= 0.5 * impulse * (contact.rate[r] - added * impulse)
             ws.totals.driven_work -= impulse * contact.prescribed_rate[r]
@@ -102,7 +106,7 @@ def _removed_energy(ws: Workspace, damping: float) -> float:
 
 @kernel("void(ws, f8)")
 def _damp(ws: Workspace, damping: float) -> None:
-    """Enlarge the diagonal of the Delassus matrix of the active contacts by the part ``damping``."""
+    """Enlarge the diagonal of the Delassus matrix G of the active contacts by the factor 1 + ``damping``."""
     for active in ws.actives:
         for r in range(3):
             diagonal_block(ws, active.index).entries[4 * r] *= 1.0 + damping
@@ -112,8 +116,8 @@ def _damp(ws: Workspace, damping: float) -> None:
 def _add_gaps(ws: Workspace) -> bool:
     """Add to ``y_stage`` the velocities that bring the gaps of the active contacts to zero in unit time.
 
-    They are those of damped least squares. The closer a gap is to the allowed one, the more they are damped. False if
-    all gaps are negligible, or if one is larger than allowed: then the check of gaps ends the run.
+    They are those of damped least squares. The closer a gap is to the allowed one, the more they are damped. True if
+    they were added, False if all gaps are negligible, or one is larger than allowed: the check of gaps ends the run.
     """
     largest = ratio = 0.0
     for active in ws.actives:
@@ -140,7 +144,7 @@ def _add_gaps(ws: Workspace) -> bool:
 
 @kernel("f8(ws)")
 def _project_lone_slip(ws: Workspace) -> float:
-    """Remove gap and gap rate of an island with one rigid contact that slides. Kinetic energy that is removed [J].
+    """Remove gap and gap rate of the active contact, a single rigid one that slides. Kinetic energy removed [J].
 
     Its geometry and rates must be evaluated. The velocity that closes the gap in unit time is added to ``y_stage``.
     """
@@ -148,12 +152,13 @@ def _project_lone_slip(ws: Workspace) -> float:
     contact = ws.contacts[c]
     evaluate_row(ws, c, NORMAL_ROW, contact.axis_n)
     evaluate_row_response(ws, c, NORMAL_ROW, NORMAL_ROW)
-    own, gap, rate = coupling(ws, c, NORMAL_ROW, c, NORMAL_ROW), held_gap(contact), contact.normal_rate
-    if own <= 0.0:
+    g_nn, gap, rate = coupling(ws, c, NORMAL_ROW, c, NORMAL_ROW), held_gap(contact), contact.normal_rate
+    # neither body can move along the normal
+    if g_nn <= 0.0:
         return 0.0
     if NEGLIGIBLE * ws.tolerance.gap < abs(gap) <= allowed_gap(ws, c):
-        push_response(ws, c, NORMAL_ROW, -gap / own, ws.step.y_stage.start + ws.model.n_q)
-    impulse, prescribed = -rate / own, rate - row(ws, c, NORMAL_ROW, ws.island.velocities)
+        push_response(ws, c, NORMAL_ROW, -gap / g_nn, ws.step.y_stage.start + ws.model.n_q)
+    impulse, prescribed = -rate / g_nn, rate - row(ws, c, NORMAL_ROW, ws.island.velocities)
     push_response(ws, c, NORMAL_ROW, impulse, ws.island.y.start + ws.model.n_q)
     ws.totals.driven_work -= impulse * prescribed
     return float(-0.5 * impulse * rate)
@@ -191,7 +196,7 @@ def _copy_coordinates(ws: Workspace, out: int) -> None:
 
 @kernel("f8(ws, i8)")
 def _allowed_motion(ws: Workspace, i: int) -> float:
-    """Displacement of coordinate ``i`` that the tolerances of steps, gaps and times allow a correction, in its unit."""
+    """Change of coordinate ``i`` by a projection that the tolerances of steps, gaps and times allow, in its unit."""
     step = ws.tolerance.relative * (ws.step.y_scale[i] + abs(ws.island.y[i]))
     return float(
         _LARGEST_CORRECTION * ALLOWED * (step + ws.tolerance.gap + ws.tolerance.time * abs(ws.island.slopes[i]))
@@ -200,7 +205,7 @@ def _allowed_motion(ws: Workspace, i: int) -> float:
 
 @kernel("f8(ws, Contact, i8)")
 def _speed_at(ws: Workspace, contact: Contact, number: int) -> float:
-    """Speed of the witness point of a contact on body ``number`` [m/s], 0 if the body has no part in the contact."""
+    """Speed of the witness point of a contact on body ``number`` [m/s], 0 if the contact is not on that body."""
     fastest = 0.0
     for side in range(2):
         if (contact.body_a if side == 0 else contact.body_b) == number:
@@ -213,14 +218,14 @@ def _speed_at(ws: Workspace, contact: Contact, number: int) -> float:
 
 @kernel("f8(ws, Body, i8)")
 def _allowed_motion_by_gaps(ws: Workspace, body: Body, i: int) -> float:
-    """Displacement of coordinate ``i`` of a body that closes the allowed gaps of its contacts, in its unit.
+    """Change of coordinate ``i`` of a body by a projection of the allowed gaps of its contacts, in its unit.
 
-    The angle that a length means depends on the offset of the contact point. So each contact alone is let push the body
-    until its witness point has moved by the allowed gap.
+    The angle that corresponds to a gap depends on the offset of the contact point. So each contact alone pushes the
+    body until its witness point has moved by the allowed gap. The sum of these motions is allowed.
     """
     total = 0.0
-    for place in range(ws.island.n_grouped):
-        c = ws.island.grouped[place]
+    for k in range(ws.island.n_grouped):
+        c = ws.island.grouped[k]
         if ws.contacts[c].is_compliant:
             continue
         _copy_coordinates(ws, ws.step.y_guess.start)
@@ -272,8 +277,9 @@ def _displace(ws: Workspace) -> None:
 def project_closed(ws: Workspace, at_event: bool, averaged: bool) -> float:
     """Put the closed contacts on their constraints, island by island. Energy that this removes [J].
 
-    The energy of closed gaps counts at an event only. Within a step it is an error of the step, which is in no account.
-    Either the islands with ``averaged`` forces are projected, at the end of their span, or all others.
+    If ``averaged``, the islands with forces averaged over time are projected, at the end of their span; else the rest.
+    Kinetic energy is always counted. The potential energy of closed gaps counts at an event only: after a step it is an
+    error of the step, which is in no account.
     """
     if at_event:
         group_closed(ws)
@@ -302,8 +308,8 @@ def project_closed(ws: Workspace, at_event: bool, averaged: bool) -> float:
 def _project_active(ws: Workspace, at_event: bool) -> Projected:
     """Project the rates of the active contacts, and add the velocities that close their gaps to ``y_stage``.
 
-    Nothing is projected past the end of a feature, where the rate is that of another gap. The event that comes next
-    opens the contact.
+    Nothing is projected past the end of a feature, where the rate is that of another gap. The next event opens such a
+    contact.
     """
     past = 0.0
     for active in ws.actives:
@@ -323,8 +329,8 @@ def _project_active(ws: Workspace, at_event: bool) -> Projected:
 def project_joints(ws: Workspace) -> None:
     """Bring residuals and rates of the joints to zero by the least motion, and evaluate the bodies there.
 
-    Newton's method ends at a negligible residual, or if round-off stops its progress: far from the origin that is more
-    than the tolerance. A residual that is larger than allowed is not reduced, but ends the run.
+    Newton's method ends at a negligible residual, or if round-off stops its progress: far from the origin round-off is
+    larger than the tolerance. If the first residual is larger than allowed, the run ends.
     """
     worst, before = 0.0, math.inf
     for iteration in range(_MOST_ITERATIONS):
@@ -357,7 +363,7 @@ def _allowed_residual(ws: Workspace) -> float:
 
 @kernel("f8(ws, Articulation, i8, i8)")
 def _subtract(ws: Workspace, articulation: Articulation, excess: int, out: int) -> float:
-    """Subtract Y^T times the residuals or rates at ``excess`` from the velocities at ``out``. The largest of them."""
+    """Subtract Y^T times the residuals or rates at ``excess`` from the velocities at ``out``. Their largest value."""
     worst = 0.0
     for line in range(articulation.n_rows):
         worst = max(worst, abs(ws.floats[excess + line]))

@@ -20,9 +20,9 @@ from nonsmooth.engine.native.kernel import Workspace, kernel
 
 @kernel("b1(ws)")
 def choose_forces_again(ws: Workspace) -> bool:
-    """Choose the redundant forces anew at the present state. True if all closed contacts can keep their bounds.
+    """Choose the redundant forces anew at the present state. True if the chosen forces keep all bounds.
 
-    A second choice within the time tolerance is not made: then all forces vanish.
+    False if no choice does, or if the last choice was less than the time tolerance ago: all forces may vanish then.
     """
     if ws.island.time - ws.island.last_choice <= ws.tolerance.time:
         return False
@@ -33,7 +33,10 @@ def choose_forces_again(ws: Workspace) -> bool:
 
 @kernel("void(ws, f8)")
 def blend_chosen_forces(ws: Workspace, theta: float) -> None:
-    """Blend the null-space forces chosen at the start and at the end of the step, at its fraction ``theta``."""
+    """Interpolate the null-space forces between the choices at both ends of the step, at its fraction ``theta``.
+
+    Nothing is written if there is no choice at the end.
+    """
     if not ws.step.is_blended:
         return
     for contact in ws.contacts:
@@ -46,7 +49,7 @@ def blend_chosen_forces(ws: Workspace, theta: float) -> None:
 def _choose_at(ws: Workspace, elapsed: float, y: int) -> bool:
     """Choose the redundant forces after ``elapsed`` [s] of the step, at the state ``y``. True if all keep their bounds.
 
-    If none do, the slack of the last choice is removed. Otherwise it would delay the end of the mode.
+    Else no choice keeps them, and the slack of the last choice is removed, which would delay the end of the mode.
     """
     if right_hand_side(ws, ws.island.time + elapsed, y, may_choose=True, of_all_bodies=False):
         return True
@@ -88,10 +91,10 @@ def choose_at_end(ws: Workspace, h: float) -> None:
 
 @kernel("b1(ws, f8)")
 def can_choose_within(ws: Workspace, high: float) -> bool:
-    """True if redundant forces can be chosen at the fraction ``high`` of the step though the blend exceeds a bound.
+    """True if redundant forces can be chosen at the fraction ``high`` of the step although the blend exceeds a bound.
 
-    This happens if the bounds allow a single choice only, which the motion curves. A shorter step has less curvature.
-    Within the time tolerance it is an event.
+    This happens if the bounds allow a single choice only, which changes nonlinearly over the step. A shorter step then
+    keeps the bounds. In a step within the time tolerance it is False: the bound is then an event.
     """
     if not ws.step.is_blended or high == 1.0 or ws.step.h <= ws.tolerance.time:
         return False
