@@ -35,7 +35,7 @@ from nonsmooth.engine.numerics.vectors import Vector, dot, opposite
 def _speed_along_row(floats: Floats, place: int, axis: Vector, point: Vector, moment: Vector) -> float:
     """Rate of a row for the frame at ``place`` [m/s]: axis . velocity of the point + moment . angular velocity."""
     velocity, spin = velocity_of_point(floats, place, point), frame_at(floats, place).spin
-    return dot(axis, velocity) + moment[0] * spin[0] + moment[1] * spin[1] + moment[2] * spin[2]
+    return float(dot(axis, velocity) + moment[0] * spin[0] + moment[1] * spin[1] + moment[2] * spin[2])
 
 
 @kernel("void(ws, Joint, Articulation)")

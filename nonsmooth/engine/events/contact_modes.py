@@ -139,7 +139,7 @@ def _use_guessed_modes(ws: Workspace) -> None:
 
 @kernel("b1(ws)")
 def _take_solution(ws: Workspace) -> bool:
-    """Store what the solver found for the active contacts. True if anisotropic friction turned to face the other way."""
+    """Store what the solver found for the active contacts. True if anisotropic friction faces the other way now."""
     has_turned = False
     for active in ws.actives:
         contact = ws.contacts[active.contact]

@@ -36,7 +36,7 @@ from nonsmooth.engine.flow.feature_end import find_feature_end
 from nonsmooth.engine.flow.flight import choose_integrated, take_off
 from nonsmooth.engine.flow.flow import is_violated, most_loaded_contact, slope
 from nonsmooth.engine.flow.follow import orient_slips
-from nonsmooth.engine.flow.guard_numbers import contact_of, end_of, first_end_guard, first_own_guard, normal_of
+from nonsmooth.engine.flow.guard_numbers import contact_of, end_of, first_end_guard, first_user_guard, normal_of
 from nonsmooth.engine.flow.guard_values import has_other_features, store_features, write_guards
 from nonsmooth.engine.flow.guards import is_of_redundant_force
 from nonsmooth.engine.flow.location import first_crossing, locate
@@ -157,7 +157,7 @@ def _step(ws: Workspace) -> Status:
         return _without_step(ws, status)
     ws.totals.n_steps += 1
     high = first_crossing(ws, ws.step.h)
-    for i in range(first_own_guard(ws), first_end_guard(ws)):
+    for i in range(first_user_guard(ws), first_end_guard(ws)):
         if not abs(ws.guards[i].at_end) < math.inf:
             return _up_to_end(ws, Status.NOT_FINITE)
     if high > 0.0:
@@ -315,9 +315,9 @@ def _event(ws: Workspace, h: float, guard: int) -> Status:
         changed = has_other_features(ws, ws.contacts[which])
         _commit(ws, h)
         return _pass_on(ws, which, changed)
-    if guard >= first_own_guard(ws):
+    if guard >= first_user_guard(ws):
         _commit(ws, h)
-        return _own_event(ws, guard - first_own_guard(ws))
+        return _own_event(ws, guard - first_user_guard(ws))
     cause, which = cause_of(ws, guard), contact_of(ws, guard)
     if cause == Cause.STICK_TO_SLIP:
         _break_direction(ws, which)

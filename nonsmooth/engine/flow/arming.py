@@ -10,7 +10,7 @@ from nonsmooth.engine.flow.deflation import start_from_zero
 from nonsmooth.engine.flow.guard_numbers import (
     contact_at,
     end_of,
-    first_own_guard,
+    first_user_guard,
     friction_guard,
     friction_of,
     is_friction_guard,
@@ -64,7 +64,7 @@ def arm_guards(ws: Workspace) -> None:
         _deflate_friction(ws, contact)
         _arm(ws, contact)
     for user in ws.own_guards:
-        guard = ws.guards[first_own_guard(ws) + user.index]
+        guard = ws.guards[first_user_guard(ws) + user.index]
         _start(guard)
         if user.has_just_fired:
             # it starts at zero, with a growth rate that is not known
@@ -142,7 +142,7 @@ def _arming_threshold(ws: Workspace, i: int) -> float:
 def arm_further(ws: Workspace, forces_are_known: bool) -> None:
     """Arm the guards that are positive at the present fraction of the step. Without known forces, skip force guards."""
     for i in range(number_of_guards(ws)):
-        guard, is_of_contact = ws.guards[i], i < first_own_guard(ws)
+        guard, is_of_contact = ws.guards[i], i < first_user_guard(ws)
         threshold = _arming_threshold(ws, i) if is_of_contact else 0.0
         is_known = not is_of_contact or forces_are_known or is_of_open_contact(ws, i)
         if guard.value > threshold and is_known:

@@ -8,7 +8,7 @@ guard ``guard.initial`` is the growth rate at t0, of any other the value at t0.
 
 from __future__ import annotations
 
-from nonsmooth.engine.flow.guard_numbers import first_end_guard, first_own_guard, is_of_open_contact
+from nonsmooth.engine.flow.guard_numbers import first_end_guard, first_user_guard, is_of_open_contact
 from nonsmooth.engine.flow.self_check import NEGLIGIBLE
 from nonsmooth.engine.native.kernel import Guard, Workspace, kernel
 
@@ -24,7 +24,7 @@ def deflated(ws: Workspace, i: int, value: float, elapsed: float) -> float:
     if not guard.is_deflated:
         return value
     rate = guard.initial
-    separates = i < first_own_guard(ws) and is_of_open_contact(ws, i) and rate > ws.tolerance.velocity
+    separates = i < first_user_guard(ws) and is_of_open_contact(ws, i) and rate > ws.tolerance.velocity
     if separates and rate * elapsed <= NEGLIGIBLE * ws.tolerance.gap:
         return rate
     return (value - guard.base) / elapsed

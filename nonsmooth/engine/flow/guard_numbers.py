@@ -34,7 +34,7 @@ def contact_of(ws: Workspace, i: int) -> int:
 
 
 @kernel("i8(ws)")
-def first_own_guard(ws: Workspace) -> int:
+def first_user_guard(ws: Workspace) -> int:
     """Number of the first guard of the user. The normal and friction guards are before it."""
     return int(2 * ws.island.n_contacts)
 
@@ -42,7 +42,7 @@ def first_own_guard(ws: Workspace) -> int:
 @kernel("i8(ws)")
 def first_end_guard(ws: Workspace) -> int:
     """Number of the end guard of the first contact. Those of the other contacts follow."""
-    return int(first_own_guard(ws) + ws.model.n_own_guards)
+    return int(first_user_guard(ws) + ws.model.n_own_guards)
 
 
 @kernel("i8(ws)")

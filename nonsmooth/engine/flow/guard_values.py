@@ -7,7 +7,7 @@ from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.bodies.kinematics import evaluate_kinematics
 from nonsmooth.engine.flow.deflation import deflate
 from nonsmooth.engine.flow.flow import right_hand_side, value_of_normal_guard, value_of_slip_guard
-from nonsmooth.engine.flow.guard_numbers import end_of, first_own_guard, friction_of, normal_of
+from nonsmooth.engine.flow.guard_numbers import end_of, first_user_guard, friction_of, normal_of
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Contact, Workspace, at, call_guard, entry_point, kernel
 
@@ -90,7 +90,7 @@ def _write_guards_without_gaps(ws: Workspace, t: float, y: int, forces_are_known
         value = call_guard(
             user.function, t, at(ws.floats, y), at(ws.floats, y + ws.model.n_q), at(ws.floats, user.parameters)
         )
-        ws.guards[first_own_guard(ws) + user.index].value = value
+        ws.guards[first_user_guard(ws) + user.index].value = value
     for contact in ws.contacts:
         may_end = contact.mode != Mode.OPEN and forces_are_known and not has_own_step(ws, contact.index)
         end_of(ws, contact).value = feature_guard(ws, contact) if may_end else 1.0

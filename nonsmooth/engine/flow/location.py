@@ -21,7 +21,7 @@ from nonsmooth.engine.flow.gap_search import (
 )
 from nonsmooth.engine.flow.guard_numbers import (
     contact_of,
-    first_own_guard,
+    first_user_guard,
     friction_guard,
     is_friction_guard,
     normal_guard,
@@ -427,7 +427,7 @@ def _hides_another(ws: Workspace, step: float, i: int) -> bool:
     It was between two looks that the features of that one came to face each other, and ceased to.  In a step in which
     no gap can become so deep it is the jump of an evaluator.
     """
-    if i >= first_own_guard(ws) or is_friction_guard(ws, i):
+    if i >= first_user_guard(ws) or is_friction_guard(ws, i):
         return False
     c = contact_of(ws, i)
     contact = ws.contacts[c]
@@ -447,7 +447,7 @@ def locate(ws: Workspace, h: float, high: float) -> float:
     """
     closed = _asks_forces(ws)
     first = first_fired(ws, forces_are_known=True, located=NO_GUARD)
-    of_contact = 0 <= first < first_own_guard(ws)
+    of_contact = 0 <= first < first_user_guard(ws)
     if ws.island.stage_time > 0.0 and of_contact and ws.contacts[contact_of(ws, first)].mode != Mode.OPEN:
         # explicit steps, which are short enough then, find out when
         return -1.0
@@ -483,7 +483,7 @@ def locate(ws: Workspace, h: float, high: float) -> float:
         return -1.0
     # a gap without a rate jumps where features come to face each other: there is nothing to follow on the step
     jumps = (
-        fired < first_own_guard(ws) and ws.contacts[contact_of(ws, fired)].mode == Mode.OPEN and not is_gap(ws, fired)
+        fired < first_user_guard(ws) and ws.contacts[contact_of(ws, fired)].mode == Mode.OPEN and not is_gap(ws, fired)
     )
     if ws.step.error <= NEGLIGIBLE or jumps:
         state_within(ws, h, theta, ws.step.y_new.start)

@@ -90,7 +90,7 @@ def project_rates(ws: Workspace, at_event: bool) -> float:
 def _removed_energy(ws: Workspace, damping: float) -> float:
     """Kinetic energy that the impulses of a projection removed [J]. Adds the work of driven bodies to the totals.
 
-    With the enlarged diagonal the impulses leave a part of the rates: ``damping`` times their own entries of G.
+    Because of the damping the impulses do not stop the rates wholly: the added diagonal times the impulses remains.
     """
     loss = 0.0
     for active in ws.actives:

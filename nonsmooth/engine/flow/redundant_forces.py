@@ -12,7 +12,7 @@ from __future__ import annotations
 from nonsmooth.engine.delassus.islands import group_closed
 from nonsmooth.engine.flow.flight import state_within
 from nonsmooth.engine.flow.flow import right_hand_side
-from nonsmooth.engine.flow.guard_numbers import first_own_guard
+from nonsmooth.engine.flow.guard_numbers import first_user_guard
 from nonsmooth.engine.flow.guard_values import write_guards
 from nonsmooth.engine.flow.guards import NO_GUARD, first_fired, has_fired, is_of_redundant_force
 from nonsmooth.engine.native.kernel import Workspace, kernel
@@ -61,7 +61,7 @@ def _choose_at(ws: Workspace, elapsed: float, y: int) -> bool:
 @kernel("b1(ws)")
 def _exceeds_bound(ws: Workspace) -> bool:
     """True if the guard of a redundant force has fired."""
-    for i in range(first_own_guard(ws)):
+    for i in range(first_user_guard(ws)):
         if is_of_redundant_force(ws, i) and has_fired(ws, i):
             return True
     return False
@@ -99,7 +99,7 @@ def can_choose_within(ws: Workspace, high: float) -> bool:
     if not ws.step.is_blended or high == 1.0 or ws.step.h <= ws.tolerance.time:
         return False
     fired = first_fired(ws, forces_are_known=True, located=NO_GUARD)
-    if not 0 <= fired < first_own_guard(ws) or not is_of_redundant_force(ws, fired):
+    if not 0 <= fired < first_user_guard(ws) or not is_of_redundant_force(ws, fired):
         return False
     state_within(ws, ws.step.h, high, ws.step.y_stage.start)
     return _choose_at(ws, high * ws.step.h, ws.step.y_stage.start)
