@@ -33,8 +33,9 @@ class Engine(Component, ABC):
        (:func:`nonsmooth.steps.step`) and with entry points of :mod:`nonsmooth.engine`. All numbers that it needs later,
        in another process too, are in the memory.
     6. Samples are due up to the time ``ws.island.time``, the first one at ``ws.output.next_sample``. ``begin_sample``
-       appends a sample and returns the place of its state. ``remember`` begins an event, before velocities change, and
-       ``record_event`` appends it. An engine pauses if its buffers are half full; it is called again with empty ones.
+       appends a sample and returns the place of its state. ``begin_event`` begins an event, before velocities change,
+       and ``record_event`` appends it. An engine pauses if its buffers are half full; it is called again with empty
+       ones.
     7. It returns ``STALLED`` if time stops passing. The memory then holds the state at that instant, and
        ``contact.burst_events`` counts the events of each contact that stalls. This does not yet end the run: an engine
        that is made of two may let the other one continue from there.

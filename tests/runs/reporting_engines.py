@@ -54,7 +54,7 @@ class Resting(Blind):
             index, memory[Island.time] = memory[Output.sample_index], memory[Output.next_sample]
             if index == 0:
                 memory[Island.time] += self.first * memory[Request.sample_interval]
-            call("remember")
+            call("begin_event")
             memory[Contact.mode][:n] = Mode.STICK
             memory[Contact.event_impulse][:n, 0] = IMPULSE
             call("record_event", modes.Cause.STEP if index else modes.Cause.START, -1, 0)

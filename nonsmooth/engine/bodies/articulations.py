@@ -40,7 +40,7 @@ def _speed_along_row(floats: Floats, place: int, axis: Vector, point: Vector, mo
 
 @kernel("void(ws, Joint, Articulation)")
 def _write_rows(ws: Workspace, joint: Joint, articulation: Articulation) -> None:
-    """Write Jacobian rows, residuals, rates and biases of a joint to the blocks of its articulation."""
+    """Write the rows of a joint to its articulation: Jacobian A, residuals [m], rates [m/s] and biases b [m/s^2]."""
     frame_a, frame_b = joint.frame_a, joint.frame_b
     a, b = at(ws.floats, frame_a), at(ws.floats, frame_b)
     call_pair(joint.function, a, b, at(ws.floats, joint.parameters), at(ws.floats, joint.out))
@@ -189,7 +189,7 @@ def _remove_prescribed_velocities(ws: Workspace, articulation: Articulation) -> 
 
 @kernel("void(ws, i8)")
 def constrain(ws: Workspace, number: int) -> None:
-    """Subtract from the accelerations ``du`` the part that the joints do not allow: Y^T (A du + bias)."""
+    """Subtract from the accelerations ``du`` of articulation ``number`` what the joints forbid: Y^T (A du + b)."""
     articulation = ws.articulations[number]
     n, m = articulation.n_u, articulation.n_rows
     du, x = ws.island.du.start + articulation.u, articulation.forces

@@ -29,7 +29,7 @@ from nonsmooth.engine.numerics.vectors import minus, opposite
 
 @kernel("void(ws, f8, i8, Body)")
 def _call_body(ws: Workspace, t: float, y: int, body: Body) -> None:
-    """Call the function of a body: it writes its output block at time ``t`` [s] and the state at offset ``y``."""
+    """Call the function of a body. It writes the output block of the body at time ``t`` [s] and the state at ``y``."""
     q, u = at(ws.floats, y + body.q), at(ws.floats, y + ws.model.n_q + body.u)
     call_body(body.function, t, q, u, at(ws.floats, body.parameters), at(ws.floats, body.out))
 
@@ -163,7 +163,10 @@ def _clear_forces(ws: Workspace, body: Body) -> None:
 
 @kernel("void(ws, i8)")
 def _evaluate_articulations(ws: Workspace, y: int) -> None:
-    """Evaluate the articulations with joints at the state ``y``. Kinematics then uses the velocities ``u_free``."""
+    """Evaluate the articulations with joints at the state ``y``.
+
+    Kinematics then uses ``u_free``, the velocities on which driven bodies prescribe nothing through joints.
+    """
     for i in range(ws.model.n_u):
         ws.island.u_free[i] = ws.floats[y + ws.model.n_q + i]
     ws.island.velocities = ws.island.u_free.start
@@ -181,7 +184,10 @@ def evaluate_bodies(ws: Workspace, t: float, y: int) -> None:
 
 @kernel("void(ws, i8, f8, i8)")
 def _apply_load(ws: Workspace, number: int, t: float, y: int) -> None:
-    """Add the generalised forces of a load at time ``t`` [s] to those of its bodies, and its power to the step."""
+    """Add the generalised forces of a load at time ``t`` [s] to those of its bodies, and its power to ``load_power``.
+
+    The wrench acts on the second body, and the opposite wrench on the first one. The state ``y`` has the velocities.
+    """
     load = ws.loads[number]
     frame_a, frame_b = at(ws.floats, load.frame_a), at(ws.floats, load.frame_b)
     call_load(load.function, t, frame_a, frame_b, at(ws.floats, load.parameters), at(ws.floats, load.out))

@@ -29,7 +29,7 @@ from nonsmooth.engine.numerics.vectors import Vector, dot, length, minus
 
 @kernel("void(ws, i8)")
 def evaluate_compliant_force(ws: Workspace, c: int) -> None:
-    """Write the normal force of the compliant contact ``c`` [N], after its geometry and rates."""
+    """Write the normal force of the compliant contact ``c`` [N]. Its geometry and rates must be evaluated."""
     contact = ws.contacts[c]
     depth, rate, parameters = -contact.gap, -contact.rate[0], at(ws.floats, contact.normal_parameters)
     contact.compliant_force = call_compliance(contact.normal_function, depth, rate, contact.closing_rate, parameters)
@@ -95,7 +95,10 @@ def start_inner_states(ws: Workspace, c: int) -> None:
 
 @kernel("void(ws, i8, i8)")
 def write_inner_rates(ws: Workspace, y: int, out: int) -> None:
-    """Write the rates of the inner states of all contacts to the slope ``out``. Those of open contacts are zero."""
+    """Write the rates of the inner states of all contacts, at the state ``y``, to the slope ``out``.
+
+    Those of open contacts are zero.
+    """
     if ws.model.n_states == 0:
         return
     for i in range(ws.model.n_states):

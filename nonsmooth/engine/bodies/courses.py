@@ -13,7 +13,7 @@ from nonsmooth.engine.native.kernel import Workspace, kernel
 
 @kernel("b1(ws, i8)")
 def has_own_step(ws: Workspace, c: int) -> bool:
-    """True if contact ``c`` is the one closed contact of a body that takes a step of its own (multirate)."""
+    """True if contact ``c`` is the one closed contact of a body with an own step (multirate)."""
     contact = ws.contacts[c]
     if contact.mode == Mode.OPEN:
         return False

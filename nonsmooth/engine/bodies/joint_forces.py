@@ -31,7 +31,7 @@ def _add_contact_forces(ws: Workspace, forces: int) -> None:
 
 @kernel("void(ws, Articulation, i8)")
 def _solve_rows(ws: Workspace, articulation: Articulation, forces: int) -> None:
-    """Write the multipliers of an articulation's rows [N], from the generalised forces at ``forces``."""
+    """Write the multipliers of an articulation's rows [N or N m], from the generalised forces at ``forces``."""
     n, m = articulation.n_u, articulation.n_rows
     for line in range(m):
         row, bias = articulation.response + line * n, ws.floats[articulation.bias + line]

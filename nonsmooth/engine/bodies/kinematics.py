@@ -137,7 +137,10 @@ def side_entries(floats: Floats, frame: int, first: int, axis: Vector, moment: V
 
 @kernel("void(F, i8, v3, v3, i8, i8)")
 def side_row(floats: Floats, frame: int, point: Vector, axis: Vector, n_u: int, out: int) -> None:
-    """Write the row of one body to ``out``: (axis, rho x axis) . J, where rho leads from its frame to the point."""
+    """Write the row of one body to ``out``: (axis, rho x axis) . J, of the velocity of a ``point`` along an ``axis``.
+
+    rho leads from the origin of the body's frame to the point. J is the Jacobian of the frame, with ``n_u`` columns.
+    """
     if n_u == 0:
         return
     moment, first = cross(minus(point, frame_at(floats, frame).origin), axis), frame + FRAME

@@ -18,8 +18,8 @@ from nonsmooth.engine.native.kernel import Contact, Workspace, entry_point, kern
 def touch(ws: Workspace) -> bool:
     """Find and evaluate the touching contacts. True if one of them approaches.
 
-    Closed contacts of bodies with a step of their own take no part. If anything else touches such a body, its own step
-    ends, and the search begins anew.
+    Closed contacts of bodies with an own step (multirate) take no part. If anything else touches such a body, its own
+    step ends, and the search begins anew.
     """
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     copy_inner_states(ws, ws.island.y.start)

@@ -27,7 +27,7 @@ from nonsmooth.engine.delassus.delassus import add_product, add_response, assemb
 from nonsmooth.engine.delassus.islands import activate_group, group_closed, group_touching
 from nonsmooth.engine.events.averaging import average_active
 from nonsmooth.engine.events.coincident import closed_coincident, replace_coincident
-from nonsmooth.engine.events.record import CLOSING_LOSS, DRIVEN_WORK, NO_PHASES, record_event, remember
+from nonsmooth.engine.events.record import CLOSING_LOSS, DRIVEN_WORK, NO_PHASES, begin_event, record_event
 from nonsmooth.engine.flow.projection import project_rates
 from nonsmooth.engine.flow.self_check import ALLOWED, NEGLIGIBLE
 from nonsmooth.engine.memory.layout import NORMAL_ROW
@@ -121,7 +121,7 @@ def _short_bounce(ws: Workspace) -> int:
 @kernel("void(ws, i8)")
 def _end_bounce(ws: Workspace, c: int) -> None:
     """Close contact ``c``, the only active one, in place of its last bounce, and record the closing."""
-    remember(ws)
+    begin_event(ws)
     contact = ws.contacts[c]
     contact.mode = Mode.SLIDE if length(contact.slip) > ws.tolerance.velocity else Mode.STICK
     work_before = ws.totals.driven_work
@@ -210,7 +210,7 @@ def stop_slow_islands(ws: Workspace) -> int:
         if fastest == NO_CONTACT or not (was_cut_short or _is_slow(ws, fastest)):
             continue
         if n_stopped == 0:
-            remember(ws)
+            begin_event(ws)
         n_stopped, which = n_stopped + 1, fastest
         _stop_active(ws)
     if n_stopped > 0:
@@ -308,7 +308,7 @@ def replace_coincident_contacts(ws: Workspace) -> bool:
         contact.takes_over = approaches
         if approaches and closed_coincident(ws, contact.index) == NO_CONTACT:
             return False
-    remember(ws)
+    begin_event(ws)
     which = NO_CONTACT
     for contact in ws.contacts:
         if contact.takes_over and replace_coincident(ws, contact.index):

@@ -99,7 +99,7 @@ def end_averaging(ws: Workspace) -> None:
 
 @kernel("void(ws, b1)")
 def agree_on_averaged_modes(ws: Workspace, follows: bool) -> None:
-    """Find the mean forces of the active contacts, and agree on their modes: a contact that slips now slides.
+    """Find the forces of the active contacts, averaged over a span, and their modes: a contact that slips now slides.
 
     A span that ``follows`` another one may be longer.
     """

@@ -26,9 +26,9 @@ from nonsmooth.engine.events.record import (
     DRIVEN_WORK,
     FRICTION_LOSS,
     RESTITUTION_LOSS,
+    begin_event,
     impact_code,
     record_event,
-    remember,
 )
 from nonsmooth.engine.flow.self_check import ALLOWED
 from nonsmooth.engine.impact.end import how_over
@@ -47,7 +47,7 @@ def collide(ws: Workspace, cause: Cause, which: int, seed: float) -> Status:
     ``RUNNING``, or why an island has no impulses; then the velocities are those before. An impact without collision
     starts from rest and needs a speed ``seed`` [m/s] to begin with. ``which`` is the contact that is recorded.
     """
-    remember(ws)
+    begin_event(ws)
     accelerate_touching(ws)
     accelerate_by_compliance(ws)
     group_touching(ws)
@@ -176,7 +176,7 @@ def _restore_velocities(ws: Workspace) -> None:
 
 @kernel()
 def _set_provisional_modes(ws: Workspace) -> None:
-    """Give the contacts the modes that their rates after an impact suggest, until the instant is settled."""
+    """Give the contacts the modes that their rates after an impact suggest, until those of the instant are found."""
     release_sticking_anisotropic(ws)
     touch(ws)
     for contact in ws.contacts:
@@ -187,7 +187,7 @@ def _set_provisional_modes(ws: Workspace) -> None:
 
 @kernel("Status(ws, i8)")
 def resolve_jam(ws: Workspace, which: int) -> Status:
-    """Stop the slip of contact ``which``, which jams, and its island with it. Returns the status."""
+    """Stop the slip of contact ``which``, which jams, by an impact of its island. ``RUNNING``, or why that fails."""
     if ws.options.painleve_policy == Painleve.REFUSE:
         return Status.PARADOX_REFUSED
     return collide(ws, Cause.JAM, which, 0.0)
@@ -195,7 +195,7 @@ def resolve_jam(ws: Workspace, which: int) -> Status:
 
 @kernel("Status(ws)")
 def collide_without_approach(ws: Workspace) -> Status:
-    """Start an impact from rest at the active contacts whose sliding has no force. Returns the status.
+    """Start an impact from rest at the active contacts whose sliding has no force. ``RUNNING``, or why there is none.
 
     There the friction of a unit of normal force presses the contact together more than the force pushes it apart: the
     reduced normal coefficient is not positive.

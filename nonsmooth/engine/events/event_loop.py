@@ -24,9 +24,9 @@ from nonsmooth.engine.events.record import (
     LISTED,
     MOST_EVENTS,
     NO_PHASES,
+    begin_event,
     record_event,
     record_samples,
-    remember,
 )
 from nonsmooth.engine.events.step_length import accepted_step, is_held, longest_wanted
 from nonsmooth.engine.events.stopping import stopped_contact
@@ -338,7 +338,7 @@ def _pass_on(ws: Workspace, which: int, has_changed: bool) -> Status:
 @kernel("Status(ws, i8)")
 def _own_event(ws: Workspace, number: int) -> Status:
     """Record the event of a guard of the scenario's own; return the status."""
-    remember(ws)
+    begin_event(ws)
     record_event(ws, Cause.GUARD, number, NO_PHASES)
     guard = ws.own_guards[number]
     guard.has_just_fired = True

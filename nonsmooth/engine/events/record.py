@@ -62,7 +62,7 @@ def impact_code(ws: Workspace, c: int) -> int:
 
 
 @entry_point()
-def remember(ws: Workspace) -> None:
+def begin_event(ws: Workspace) -> None:
     """Store modes and velocities before an event, and set the energies and impulses of the event to zero."""
     for contact in ws.contacts:
         contact.code_before = mode_code(contact)
@@ -78,7 +78,7 @@ def remember(ws: Workspace) -> None:
 
 @kernel("i8(ws, i8)")
 def _list_contacts(ws: Workspace, which: int) -> int:
-    """List the contacts that take part in an event: all that are or were closed, and ``which``. Their number."""
+    """List the contacts that take part in an event: all that are or were closed, and ``which``. Number of contacts."""
     n = 0
     for contact in ws.contacts:
         if contact.index == which or contact.code_before + contact.code_during + mode_code(contact) > 0:
@@ -89,14 +89,14 @@ def _list_contacts(ws: Workspace, which: int) -> int:
 
 @kernel("void(ws, i8)")
 def _write_accounts(ws: Workspace, out: int) -> None:
-    """Write the totals of the energies that are not integrated with the state to ``out`` [J]."""
+    """Write the totals of the energies of instants to offset ``out`` [J]: driven work, and the three losses."""
     ws.floats[out], ws.floats[out + 1] = ws.totals.driven_work, ws.totals.restitution_loss
     ws.floats[out + 2], ws.floats[out + 3] = ws.totals.friction_loss, ws.totals.closing_loss
 
 
 @kernel("void(ws, Contact, i8)")
 def _write_contact(ws: Workspace, contact: Contact, out: int) -> None:
-    """Write the impulses of a contact in an event, and its state from which a run can resume, to ``out``."""
+    """Write the impulses of a contact in an event, and its state from which a run can resume, to offset ``out``."""
     for r in range(3):
         ws.floats[out + IMPULSES + r] = contact.event_impulse[r]
     ws.floats[out + SLIP_DIRECTION], ws.floats[out + SLIP_DIRECTION + 1] = contact.direction

@@ -215,7 +215,7 @@ def _has_drifted(ws: Workspace, contact: Contact) -> bool:
 
 @kernel("b1(ws)")
 def has_drifted(ws: Workspace) -> bool:
-    """True if some closed contact has left its constraints by more than ``_DRIFT`` tolerances."""
+    """True if some closed contact has left its constraints by more than ``_DRIFT`` tolerances: it must be projected."""
     for contact in ws.contacts:
         if _has_drifted(ws, contact):
             return True

@@ -138,7 +138,7 @@ def _apply_impulses(ws: Workspace, part: float) -> None:
 
 @kernel()
 def _store_points(ws: Workspace) -> None:
-    """Store the contact points at the present state as the start of a jump."""
+    """Evaluate the grouped contacts at the present state, and store their contact points as those before a jump."""
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]

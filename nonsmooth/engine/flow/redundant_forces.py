@@ -60,7 +60,7 @@ def _choose_at(ws: Workspace, elapsed: float, y: int) -> bool:
 
 @kernel("b1(ws)")
 def _exceeds_bound(ws: Workspace) -> bool:
-    """True if the guard of a redundant force has fired."""
+    """True if a guard that depends on a redundant force has fired."""
     for i in range(first_user_guard(ws)):
         if is_of_redundant_force(ws, i) and has_fired(ws, i):
             return True
@@ -71,7 +71,8 @@ def _exceeds_bound(ws: Workspace) -> bool:
 def choose_at_end(ws: Workspace, h: float) -> None:
     """Choose the redundant forces at the end of the step of ``h`` [s] too, if those of its start exceed a bound there.
 
-    The guards must be written there. They are written anew for the choice.
+    Only forces that were chosen at the very start are, and only in explicit steps. The guards must be written at the
+    end of the step. They are written anew if forces were chosen.
     """
     ws.step.is_blended = False
     is_chosen_at_start = ws.island.last_choice == ws.island.time

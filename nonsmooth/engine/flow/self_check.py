@@ -69,7 +69,7 @@ def tolerated_gap(ws: Workspace, c: int) -> float:
 
 @kernel("f8(ws, i8)")
 def allowed_gap(ws: Workspace, c: int) -> float:
-    """Gap that a closed contact may have by the tolerances and by averaged forces, under which it comes to rest [m]."""
+    """Gap that a closed contact may have [m], by the tolerances and by motion until averaged forces bring it to rest."""
     contact = ws.contacts[c]
     change = contact.mean_gap_change if contact.is_averaged else 0.0
     return float(tolerated_gap(ws, c) + change)
@@ -77,7 +77,7 @@ def allowed_gap(ws: Workspace, c: int) -> float:
 
 @kernel("b1(ws, Contact)")
 def _has_closed_contact(ws: Workspace, contact: Contact) -> bool:
-    """True if some contact of the same two frames is closed."""
+    """True if some contact of the same two frames as ``contact`` is closed."""
     for other in ws.contacts:
         if other.mode != Mode.OPEN and other.frame_a == contact.frame_a and other.frame_b == contact.frame_b:
             return True
@@ -97,9 +97,10 @@ def _allowed_overlap(ws: Workspace, number: int) -> float:
 
 @kernel()
 def check_gaps(ws: Workspace) -> None:
-    """Check pairs and gaps at the start of a step: open contacts must be apart, closed rigid ones closed.
+    """Check pairs and gaps at the start of a step: open contacts must be apart, and closed rigid ones without gap.
 
-    The features of compliant bodies may overlap as long as one contact of the two bodies is closed.
+    The features of compliant bodies may overlap while a contact of the two bodies is closed. A check that fails ends
+    the run.
     """
     if ws.model.n_pairs > 0:
         check_pairs(ws)
@@ -220,7 +221,7 @@ def close_energy_account(ws: Workspace) -> None:
 
 @kernel("f8(ws)")
 def scale_energy(ws: Workspace) -> float:
-    """Kinetic energy of velocities as large as their scales [J]. The bodies must be evaluated."""
+    """Kinetic energy if all velocities were as large as their scales ``y_scale`` [J]. The bodies must be evaluated."""
     total = 0.0
     for body in ws.bodies:
         inverse = inverse_mass(ws, body)

@@ -75,7 +75,7 @@ def _changes_direction(floats: Floats, spin: int, rate: int) -> bool:
 
 @kernel()
 def choose_spins_in_space(ws: Workspace) -> None:
-    """List the bodies whose spin changes direction at the start of the step: it is integrated along axes in space."""
+    """List the integrated bodies whose spin changes direction at the start of the step. It is integrated in space."""
     ws.island.n_spinning = 0
     for i in range(ws.island.n_integrated):
         number = ws.island.integrated[i]

@@ -259,7 +259,7 @@ def _write_stage(ws: Workspace, h: float, stage: int, out: int) -> None:
 
 @kernel("void(ws, f8)")
 def _write_errors(ws: Workspace, h: float) -> None:
-    """Write the error estimate of a step of ``h`` [s] to ``y_stage``."""
+    """Write the error estimates of the integrated parts of the state, in a step of ``h`` [s], to ``y_stage``."""
     errors, slopes = ws.step.y_stage.start, ws.island.slopes.start
     for span in range(ws.island.n_spans):
         i, n = ws.island.span_first[span], ws.island.span_length[span]
@@ -269,9 +269,10 @@ def _write_errors(ws: Workspace, h: float) -> None:
 
 @kernel("f8(ws, f8)")
 def _step_integrated(ws: Workspace, h: float) -> float:
-    """Take one step of ``h`` [s] of all that is integrated. Its relative error.
+    """Take one step of ``h`` [s] of all that is integrated. Its error relative to the tolerance.
 
-    It is implicit if the last one was, or if an explicit one fails that is longer than its stability allows.
+    It is implicit if the last one was, or if an explicit step fails and is longer than its stability allows. If no
+    implicit step is found, it is explicit.
     """
     if ws.island.stage_time > 0.0:
         error = _try_implicit_step(ws, h)

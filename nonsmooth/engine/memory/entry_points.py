@@ -52,7 +52,7 @@ ENTRY_POINTS = (
     "group_members",
     "assemble_delassus",
     "write_guards",
-    "remember",
+    "begin_event",
     "record_event",
     "begin_sample",
 )

@@ -104,7 +104,7 @@ def _axis_of_frame(floats: Floats, frame_place: int, axis: int) -> Vector:
 
 @kernel("v3(ws, i8)")
 def _between_middles(ws: Workspace, number: int) -> Vector:
-    """Direction from the middle of the first part of a pair to that of the second."""
+    """Unit vector from the middle of the first part of pair ``number`` to that of the second, or z if they coincide."""
     pair = ws.pairs[number]
     between = minus(middle_of(ws.floats, pair.frame_b, pair.part_b), middle_of(ws.floats, pair.frame_a, pair.part_a))
     return _unit(between, (0.0, 0.0, 1.0))

@@ -125,7 +125,7 @@ def middle_of(floats: Floats, frame_place: int, place: int) -> Vector:
 
 @kernel("v3(F, i8, i8, v3)")
 def _farthest(floats: Floats, frame_place: int, place: int, n: Vector) -> Vector:
-    """Support point of a part along a unit vector of the world [m]."""
+    """Support point of a part along the unit vector ``n`` [m], both in the world."""
     along = to_part(floats, frame_place, place, n)
     rx, ry, rz = _farthest_on_circles(floats, place, along)
     ax, ay, az = _farthest_of_summands(floats, place, along)
@@ -136,7 +136,7 @@ def _farthest(floats: Floats, frame_place: int, place: int, n: Vector) -> Vector
 
 @kernel("v3(ws, i8, v3)")
 def closest_difference(ws: Workspace, number: int, n: Vector) -> Vector:
-    """Vector from the support point of the first part along ``n`` to that of the second against ``n`` [m].
+    """Vector from the support point of the first part of a pair along ``n`` to that of the second along -``n`` [m].
 
     The separation s(n) is its component along ``n``.
     """
