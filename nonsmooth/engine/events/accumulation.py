@@ -32,7 +32,7 @@ from nonsmooth.engine.flow.projection import project_rates
 from nonsmooth.engine.flow.self_check import ALLOWED, NEGLIGIBLE
 from nonsmooth.engine.memory.layout import NORMAL_ROW
 from nonsmooth.engine.memory.modes import NO_CONTACT, NO_RELEASE, Cause, Mode, Truncation
-from nonsmooth.engine.native.kernel import Workspace, kernel
+from nonsmooth.engine.native.kernel import Contact, Workspace, kernel
 from nonsmooth.engine.numerics.vectors import length
 
 _PART_AT_REST = 1.0 - 1e-6
@@ -296,6 +296,12 @@ def _has_creeping_contact(ws: Workspace) -> bool:
     return False
 
 
+@kernel("b1(ws, Contact)")
+def _approaches(ws: Workspace, contact: Contact) -> bool:
+    """True if a contact touches, is rigid and approaches faster than the velocity tolerance."""
+    return not contact.is_compliant and contact.is_touching and contact.normal_rate < -ws.tolerance.velocity
+
+
 @kernel("b1(ws)")
 def replace_coincident_contacts(ws: Workspace) -> bool:
     """Replace closed contacts by approaching ones that coincide with them, stop what still approaches, and record that.
@@ -304,14 +310,12 @@ def replace_coincident_contacts(ws: Workspace) -> bool:
     event names the last contact that replaces another.
     """
     for contact in ws.contacts:
-        approaches = not contact.is_compliant and contact.is_touching and contact.normal_rate < -ws.tolerance.velocity
-        contact.takes_over = approaches
-        if approaches and closed_coincident(ws, contact.index) == NO_CONTACT:
+        if _approaches(ws, contact) and closed_coincident(ws, contact.index) == NO_CONTACT:
             return False
     begin_event(ws)
     which = NO_CONTACT
     for contact in ws.contacts:
-        if contact.takes_over and replace_coincident(ws, contact.index):
+        if _approaches(ws, contact) and replace_coincident(ws, contact.index):
             which = contact.index
     group_touching(ws)
     for group in range(ws.island.n_groups):

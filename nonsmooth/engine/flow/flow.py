@@ -234,7 +234,7 @@ def slope(ws: Workspace, t: float, y: int, out: int, may_choose: bool, of_all_bo
                 accelerate_in_flight(ws, t, ws.island.ballistic[i])
     of_bodies = _write_slope_of_bodies(ws, y, out, of_all_bodies)
     lost = _power_of_friction(ws)
-    _watch_modes(ws)
+    _update_least_guards(ws)
     powers = out + ws.model.n_q + ws.model.n_u
     ws.floats[powers + DRIVEN], ws.floats[powers + LOADS] = ws.step.driven_power, ws.step.load_power
     ws.floats[powers + FRICTION_LOSS] = lost
@@ -276,11 +276,11 @@ def _power_of_friction(ws: Workspace) -> float:
 
 
 @kernel()
-def _watch_modes(ws: Workspace) -> None:
+def _update_least_guards(ws: Workspace) -> None:
     """Update the least normal guard of each closed contact in the stages of the step.
 
-    ``has_doubtful_force`` becomes true if a guard may have been negative at this stage: that of a normal force, of a
-    slip, or of a static bound, whose distance is not compared here.
+    ``has_doubtful_force`` becomes true if a normal guard or a slip guard is negative at this stage, or if a contact
+    sticks, as the distance to its static bound is not evaluated here.
     """
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]

@@ -69,7 +69,7 @@ def tolerated_gap(ws: Workspace, c: int) -> float:
 
 @kernel("f8(ws, i8)")
 def allowed_gap(ws: Workspace, c: int) -> float:
-    """Gap that a closed contact may have [m], by the tolerances and by motion until averaged forces bring it to rest."""
+    """Gap that a closed contact may have [m]: by the tolerances, and until averaged forces have brought it to rest."""
     contact = ws.contacts[c]
     change = contact.mean_gap_change if contact.is_averaged else 0.0
     return float(tolerated_gap(ws, c) + change)

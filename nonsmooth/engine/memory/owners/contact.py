@@ -242,7 +242,6 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     prescribed_rate: Floats = row(_EVENT, 3, "m/s", "Part of the rates that driven bodies prescribe.")
     mode_agreed: Mode = one_of(Mode, _EVENT, "Mode that the contact problem found.")
     direction_agreed: tuple[float, float] = vector(_EVENT, 2, "1", "Slip direction that the contact problem found.")
-    takes_over: bool = question(_EVENT, "The contact takes the place of a closed one.")
     has_no_force: bool = question(_EVENT, "Sliding has no contact force (Painleve).")
     release: Cause = one_of(
         Cause, _STATE, "Cause by which a jump of the contact point released it at this instant, else `NO_RELEASE`."
