@@ -58,7 +58,7 @@ def _match(ws: Workspace, contact: DeclaredContact, found: int, n_found: int) ->
 def find_candidates(ws: Workspace) -> Status:
     """Assign the pairs of features that are nearer than the margin of the list to contacts.
 
-    ``RUNNING``, ``NO_SLOT`` if there are more pairs than contacts, ``NOT_FINITE`` if a search finds no number of pairs.
+    ``RUNNING``, ``NO_SLOT`` if there are more pairs than contacts, ``NOT_FINITE`` if a search fails.
     """
     for search in ws.searches:
         n_found = _find(ws, search)

@@ -118,8 +118,8 @@ def agree_on_averaged_modes(ws: Workspace, follows: bool) -> None:
 def contact_of_burst(ws: Workspace) -> int:
     """Contact at which evaluations of forces accumulate so that time hardly passes, or ``NO_CONTACT``.
 
-    The contact is the one whose slip direction turns fastest, if that is by more than 1 rad per contact time, or else
-    the one with the most events in its present burst. Updates the measure of evaluations.
+    The contact is the one whose slip direction relaxes fastest, if more than once per contact time, or else the one
+    with the most events in its present burst. Updates the measure of evaluations.
     """
     if _update_burst(ws) <= _LARGEST_BURST:
         return NO_CONTACT

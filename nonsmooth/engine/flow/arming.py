@@ -115,7 +115,7 @@ def _deflate_friction(ws: Workspace, contact: Contact) -> None:
 def _arm(ws: Workspace, contact: Contact) -> None:
     """Arm the normal and the friction guard of a contact if they start above their thresholds.
 
-    A gap that starts closed is armed at once: it may only separate.
+    A gap that starts closed is armed at once: its guard is its growth, which is negative as soon as it closes further.
     """
     c, normal, friction = contact.index, normal_of(ws, contact), friction_of(ws, contact)
     rests = contact.mode == Mode.OPEN and normal.is_deflated
