@@ -155,6 +155,7 @@ def _power(ws: Workspace, articulation: Articulation) -> float:
     power, velocities = 0.0, ws.island.u_free.start
     for number in range(articulation.first_body, articulation.first_body + articulation.n_bodies):
         body = ws.bodies[number]
+        # the forces follow the coordinate rates in the output block of a body
         power = product(ws.floats, power, body.tail + body.n_q, velocities + body.u, body.n_u)
     return power
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.bodies.articulations import evaluate_articulation
+from nonsmooth.engine.bodies.equations import force_without_contacts
 from nonsmooth.engine.bodies.kinematics import entry_of_column, evaluate_contact
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.native.kernel import (
@@ -156,9 +157,9 @@ def evaluate_free_bodies(ws: Workspace, t: float, y: int, of_all_bodies: bool) -
 def _clear_forces(ws: Workspace, body: Body) -> None:
     """Set the generalised forces of a body to zero, as loads add to them, and a body may not write them."""
     if ws.model.n_loads > 0 and body.ballistic_function == 0:
-        force = body.tail + body.n_q
+        force = force_without_contacts(ws, body)
         for j in range(body.n_u):
-            ws.floats[force + j] = 0.0
+            force[j] = 0.0
 
 
 @kernel("void(ws, i8)")
@@ -195,7 +196,7 @@ def _apply_load(ws: Workspace, number: int, t: float, y: int) -> None:
     for side in range(2):
         body = ws.bodies[load.body_a if side == 0 else load.body_b]
         frame = load.frame_a if side == 0 else load.frame_b
-        n_u, generalised = body.n_u, body.tail + body.n_q
+        n_u, generalised = body.n_u, force_without_contacts(ws, body)
         force = opposite(wrench.force) if side == 0 else wrench.force
         moment = opposite(wrench.moment) if side == 0 else wrench.moment
         rx, ry, rz = minus(wrench.point, frame_at(ws.floats, frame).origin)
@@ -206,7 +207,7 @@ def _apply_load(ws: Workspace, number: int, t: float, y: int) -> None:
         mz = moment[2] + rx * fy - ry * fx
         for j in range(n_u):
             added = entry_of_column(ws.floats, frame + FRAME + j, n_u, force, (mx, my, mz))
-            ws.floats[generalised + j] += added
+            generalised[j] += added
             ws.step.load_power += added * ws.floats[y + ws.model.n_q + body.u + j]
 
 

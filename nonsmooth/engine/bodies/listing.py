@@ -57,8 +57,7 @@ def _enter(ws: Workspace, declared: int) -> bool:
 @kernel()
 def _leave(ws: Workspace) -> None:
     """Empty all slots; modes, and what the last event left of the contacts, go back to the catalogue."""
-    for c in range(ws.island.n_contacts):
-        contact = ws.contacts[c]
+    for contact in ws.contacts:
         copy_fields(contact, ws.declared_contacts[contact.declared])
     ws.island.n_contacts = 0
 
@@ -149,8 +148,7 @@ def list_contacts(ws: Workspace) -> Status:
             _enter(ws, declared)
         return Status.RUNNING
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
-    for number in range(ws.model.n_spheres):
-        unit = ws.spheres[number]
+    for unit in ws.spheres:
         frame = frame_at(ws.floats, unit.frame)
         unit.place = frame.origin
         for i in range(9):
@@ -231,9 +229,8 @@ def overran_list(ws: Workspace, h: float) -> bool:
 
     No point of a path of length l between two points is farther off than half of l and of the ends' distances.
     """
-    for number in range(ws.model.n_spheres):
-        unit = ws.spheres[number]
-        path = h * max(unit.speed, _unit_speed(ws, number))
-        if unit.distance + _way(ws, number) + path > ws.island.list_margin:
+    for unit in ws.spheres:
+        path = h * max(unit.speed, _unit_speed(ws, unit.index))
+        if unit.distance + _way(ws, unit.index) + path > ws.island.list_margin:
             return True
     return False

@@ -297,7 +297,7 @@ def _has_creeping_contact(ws: Workspace) -> bool:
 
 
 @kernel("b1(ws, Contact)")
-def _approaches(ws: Workspace, contact: Contact) -> bool:
+def _is_approaching(ws: Workspace, contact: Contact) -> bool:
     """True if a contact touches, is rigid and approaches faster than the velocity tolerance."""
     return not contact.is_compliant and contact.is_touching and contact.normal_rate < -ws.tolerance.velocity
 
@@ -310,12 +310,12 @@ def replace_coincident_contacts(ws: Workspace) -> bool:
     event names the last contact that replaces another.
     """
     for contact in ws.contacts:
-        if _approaches(ws, contact) and closed_coincident(ws, contact.index) == NO_CONTACT:
+        if _is_approaching(ws, contact) and closed_coincident(ws, contact.index) == NO_CONTACT:
             return False
     begin_event(ws)
     which = NO_CONTACT
     for contact in ws.contacts:
-        if _approaches(ws, contact) and replace_coincident(ws, contact.index):
+        if _is_approaching(ws, contact) and replace_coincident(ws, contact.index):
             which = contact.index
     group_touching(ws)
     for group in range(ws.island.n_groups):

@@ -26,6 +26,7 @@ from nonsmooth.engine.bodies.compliance import (
     write_inner_rates,
 )
 from nonsmooth.engine.bodies.courses import has_own_step
+from nonsmooth.engine.bodies.equations import coordinate_rates
 from nonsmooth.engine.bodies.kinematics import evaluate_bias, evaluate_geometry, evaluate_rates
 from nonsmooth.engine.contact.closed_contacts import add_contact_forces, write_rows
 from nonsmooth.engine.contact.forces import friction_of_slip
@@ -252,9 +253,10 @@ def _write_slope_of_bodies(ws: Workspace, y: int, out: int, of_all_bodies: bool)
     power = 0.0
     for i in range(ws.model.n_bodies if of_all_bodies else ws.island.n_integrated):
         body = ws.bodies[i if of_all_bodies else ws.island.integrated[i]]
-        rates, forces, velocities = body.tail, body.tail + body.n_q, ws.model.n_q + body.u
+        # the forces follow the coordinate rates in the output block of a body
+        rates, forces, velocities = coordinate_rates(ws, body), body.tail + body.n_q, ws.model.n_q + body.u
         for j in range(body.n_q):
-            ws.floats[out + body.q + j] = ws.floats[rates + j]
+            ws.floats[out + body.q + j] = rates[j]
         for j in range(body.n_u):
             ws.floats[out + velocities + j] = ws.island.du[body.u + j]
         if not body.is_ballistic:

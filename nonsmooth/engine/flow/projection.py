@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 from nonsmooth.engine.bodies.articulations import subtract_response
 from nonsmooth.engine.bodies.bodies import evaluate_bodies, evaluate_body, evaluate_free_bodies
+from nonsmooth.engine.bodies.equations import coordinate_rates
 from nonsmooth.engine.bodies.kinematics import (
     evaluate_jacobian,
     evaluate_kinematics,
@@ -233,7 +234,7 @@ def _allowed_motion_by_gaps(ws: Workspace, body: Body, i: int) -> float:
         evaluate_body(ws, ws.island.time, ws.step.y_guess.start, body.index)
         speed = _speed_at(ws, ws.contacts[c], body.index)
         if speed > 0.0:
-            total += abs(ws.floats[body.tail + i]) * allowed_gap(ws, c) / speed
+            total += abs(coordinate_rates(ws, body)[i]) * allowed_gap(ws, c) / speed
     evaluate_body(ws, ws.island.time, ws.step.y_stage.start, body.index)
     return float(_LARGEST_CORRECTION * total)
 
@@ -258,8 +259,10 @@ def _displace(ws: Workspace) -> None:
         if not _is_displaced(ws, body):
             continue
         evaluate_body(ws, ws.island.time, ws.step.y_stage.start, body.index)
+        rates = coordinate_rates(ws, body)
         for i in range(body.n_q):
-            motion, allowed = ws.floats[body.tail + i], _allowed_motion(ws, body.q + i)
+            # in unit time the body moves by its rates
+            motion, allowed = rates[i], _allowed_motion(ws, body.q + i)
             # the bound by gaps is costly
             if abs(motion) > allowed:
                 allowed += _allowed_motion_by_gaps(ws, body, i)
@@ -268,8 +271,9 @@ def _displace(ws: Workspace) -> None:
                 return
     for body in ws.bodies:
         if _is_displaced(ws, body):
+            rates = coordinate_rates(ws, body)
             for i in range(body.n_q):
-                ws.island.y[body.q + i] += ws.floats[body.tail + i]
+                ws.island.y[body.q + i] += rates[i]
     normalise_quaternions(ws)
 
 
