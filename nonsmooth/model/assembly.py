@@ -18,7 +18,7 @@ from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import entry_addresses
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.articulations import Articulation, articulations
-from nonsmooth.model.block_ends import BlockEnds
+from nonsmooth.model.blocks import marks_behind_blocks
 from nonsmooth.model.broad_phase import BroadPhase, find_broad_phase, lay_broad_phase
 from nonsmooth.model.checks import check_guards, check_start
 from nonsmooth.model.contact_table import ContactTable
@@ -68,10 +68,8 @@ def assemble(system: System, engine: Engine) -> LaidOut:
     InvalidInput
         If bodies overlap at the start, a joint is not closed there, or a guard has no value.
     """
-    model = lay(system, engine)
-    ends = BlockEnds.of(model.memory)
-    _place(model)
-    check_start(model, ends)
+    model = lay_out(system, engine)
+    check_start(model)
     return model
 
 
@@ -84,14 +82,9 @@ def lay_out(system: System, engine: Engine) -> LaidOut:
         If too many contacts are near each other.
     """
     model = lay(system, engine)
-    _place(model)
-    return model
-
-
-def _place(model: LaidOut) -> None:
-    """Write the start of each body, and make the neighbour list."""
-    model.memory[owners.Island.y][: model.n_q + model.n_u] = np.concatenate(model.system.starts())
+    model.memory[owners.Island.y][: model.n_q + model.n_u] = np.concatenate(system.starts())
     model.list_contacts()
+    return model
 
 
 def lay(system: System, engine: Engine) -> LaidOut:
@@ -120,9 +113,10 @@ def lay(system: System, engine: Engine) -> LaidOut:
     lay_part_pairs(memory, blocks, parts.pairs, frames)
     lay_searches(memory, blocks, parts.broad_phase.searches, parts.table, parts.broad_phase.frames)
     lay_guards(system, memory, blocks)
-    model = LaidOut(system, blocks.close(), counts["n_q"], counts["n_u"], counts["n_states"])
+    memory = blocks.close()
+    model = LaidOut(system, memory, counts["n_q"], counts["n_u"], counts["n_states"], marks_behind_blocks(memory))
     for scalar, value in settings.items():
-        model.memory[scalar] = value
+        memory[scalar] = value
     engine.prepare(model)
     return model
 

@@ -15,7 +15,6 @@ from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.interfaces.guard import guard_value
 from nonsmooth.model.articulations import articulations
-from nonsmooth.model.block_ends import BlockEnds
 from nonsmooth.model.blocks import block_overrun
 from nonsmooth.model.immobile import REMEDY, held_by, immobile_contact
 from nonsmooth.model.laid_out import LaidOut, energies
@@ -27,8 +26,8 @@ _OPEN = 1e-9
 """Largest residual or rate of a closed joint, relative to the largest coordinate or velocity: round-off of a start."""
 
 
-def check_start(model: LaidOut, ends: BlockEnds) -> None:
-    """Check the start that the memory holds; ``ends`` are the ends of the model's blocks.
+def check_start(model: LaidOut) -> None:
+    """Check the start that the memory holds.
 
     Raises
     ------
@@ -39,7 +38,7 @@ def check_start(model: LaidOut, ends: BlockEnds) -> None:
         If a function writes past its block.
     """
     gaps = model.gaps()
-    if overrun := block_overrun(model, ends):
+    if overrun := block_overrun(model):
         raise PluginError(overrun[0].upper() + overrun[1:])
     _check_energy(model)
     _check_gaps(model, gaps)
@@ -68,8 +67,7 @@ def _check_gaps(model: LaidOut, gaps: Vector) -> None:
 
 def _check_energy(model: LaidOut) -> None:
     """Check that the energies are finite, which they are not if a number of the start is too large."""
-    bodies = model.system.bodies
-    found = energies(bodies, model.memory[owners.Body.tail][: len(bodies)], model.memory.floats)
+    found = energies(model.system.bodies, model.memory[owners.Body.tail], model.memory.floats)
     for what, value in zip(("kinetic", "potential"), found, strict=True):
         if not math.isfinite(value):
             thing, rule = f"start: the {what} energy", "must be finite [J]"

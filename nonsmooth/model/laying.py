@@ -85,7 +85,8 @@ def lay_bodies(system: System, memory: Memory, blocks: Heap) -> dict[int, BodyLa
     layouts = {}
     q = u = 0
     for number, body in enumerate(system.bodies):
-        available, start = {**body.parameters(), **gravity}, (0.0, *map(tuple, system.start(body)))
+        available = {**body.parameters(), **gravity}
+        start: Sequence[float | Sequence[float]] = (0.0, *map(tuple, system.start(body)))
         width, n = FRAME + 6 * body.n_u, body.n_q + body.n_u
         tail = len(body.frames) * width
         fields = _function(blocks, body.evaluator, "body", body, available, tail + n + body.n_u**2 + 2, start)

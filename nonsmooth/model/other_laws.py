@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from nonsmooth.engine.memory import owners
@@ -39,7 +41,7 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
         places = starts[:, None] + np.arange(first, len(after.block))
         memory.floats[places] = after.block[first:]
     lay_law_floats(memory, contacts, kinds)
-    return LaidOut(system, memory, model.n_q, model.n_u, model.n_states)
+    return replace(model, system=system)
 
 
 def _check_same(one: System, other: System) -> None:

@@ -58,15 +58,13 @@ class FolderSink(OutputSink):
     _thread: ThreadPoolExecutor = field(default_factory=lambda: ThreadPoolExecutor(1))
     _commit: Future[None] | None = None
 
-    @property
     def steps(self) -> int:
         """Number of steps that take about 0.15 s."""
         return self._steps
 
     def begin(self, checkpoint: Checkpoint) -> None:
         """Write the start of the run."""
-        self.folder.begin(*self.records.unwritten(), self.state_at(checkpoint), self.wall)
-        self.records.n_written = self.records.n_parts
+        self.folder.begin(*self.records.take_unwritten(), self.state_at(checkpoint), self.wall)
         self._last_call = time.perf_counter()
 
     def write(self, checkpoint: Checkpoint) -> None:
@@ -78,17 +76,14 @@ class FolderSink(OutputSink):
             self._wait()
             self._next_commit = now + _COMMIT_INTERVAL
             self.records.drain()
-            n, (events, rows) = self.records.n_parts, self.records.unwritten()
-            wall = self.wall + now - self._start
-            self._commit = self._thread.submit(self.folder.append, events, rows, self.state_at(checkpoint), wall)
-            self.records.n_written = n
+            state, wall = self.state_at(checkpoint), self.wall + now - self._start
+            self._commit = self._thread.submit(self.folder.append, *self.records.take_unwritten(), state, wall)
         self._last_call = time.perf_counter()
 
     def finish(self, solution: Solution) -> None:
         """Write the remaining results and the end of the run."""
         self._wait()
-        events, rows = self.records.unwritten()
-        self.folder.finish(events, rows, solution)
+        self.folder.finish(*self.records.take_unwritten(), solution)
 
     def close(self) -> None:
         """Wait for the last commit, and release the folder."""

@@ -53,15 +53,13 @@ class Records:
         The model that runs.
     earlier : tuple, optional
         Events and samples of the same run in an earlier process.
-    n_written : int
-        Number of parts that are in the output folder.
     """
 
     model: LaidOut
     earlier: tuple[Events, Floats] | None = None
-    n_written: int = 0
     _parts: dict[int, tuple[Floats, Integers, Floats]] = field(default_factory=dict)
     _n_drained: int = 0
+    _n_taken: int = 0
 
     @property
     def _width(self) -> int:
@@ -164,11 +162,6 @@ class Records:
         row = np.concatenate([[t], memory[owners.Island.y][: self.model.n_y], floats[_ACCOUNTED]])
         self._parts[_END_PART] = np.zeros(0), np.zeros(0, np.int64), row[None]
 
-    @property
-    def n_parts(self) -> int:
-        """Number of parts."""
-        return len(self._parts)
-
     def joined(self, engine: Engine) -> Recorded:
         """Events and samples of the whole run, which ``engine`` integrated."""
         floats, integers, samples = self._joined(0)
@@ -177,9 +170,10 @@ class Records:
         events, rows = self.earlier
         return Recorded(np.concatenate([rows, samples]), engine, floats, integers, self.model.sizes, events)
 
-    def unwritten(self) -> tuple[Events, Floats]:
-        """Events and samples of the parts that are not in the output folder."""
-        floats, integers, samples = self._joined(self.n_written)
+    def take_unwritten(self) -> tuple[Events, Floats]:
+        """Events and samples of the parts that no earlier call returned, for the output folder."""
+        floats, integers, samples = self._joined(self._n_taken)
+        self._n_taken = len(self._parts)
         return Events.from_buffers(floats, integers, *self.model.sizes), samples
 
     def _joined(self, first: int) -> tuple[Floats, Integers, Floats]:

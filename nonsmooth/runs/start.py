@@ -6,16 +6,21 @@ a run, the memory gets the content of a checkpoint, and the engine repeats the l
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
+from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import Mode
+from nonsmooth.engine.memory.tables import places
 from nonsmooth.errors import InvalidInput
-from nonsmooth.model.candidates import check_candidates
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.runs.state_checks import check_candidates
+from nonsmooth.solution.request import RunRequest
 from nonsmooth.solution.state import Integers, State
 
 _COUNTERS = (
@@ -27,6 +32,17 @@ _COUNTERS = (
     owners.Totals.n_listings,
     owners.Totals.n_steps_limited,
 )
+_T_END, _INTERVAL, _FIRST, _NEXT, _SPAN, _INDEX, _CAPACITY = places(
+    "request.t_end",
+    "request.sample_interval",
+    "request.sample_start",
+    "output.next_sample",
+    "request.sample_span",
+    "output.sample_index",
+    "model.sample_capacity",
+).tolist()
+_BUFFER_PART = 0.5
+"""Part of the buffer of samples that one step may fill. The engine pauses if more than half of the buffer is full."""
 
 
 def begin(model: LaidOut, blank: Checkpoint, state: State) -> None:
@@ -88,9 +104,9 @@ def _check_features(model: LaidOut, blank: Checkpoint, state: State) -> None:
         If the search finds other features.
     """
     _write(model, blank, state, np.full(len(state.modes), Mode.OPEN))
-    places = model.memory.declared(owners.Contact.features)
-    for number in np.flatnonzero((places > 0) & (state.modes != Mode.OPEN)).tolist():
-        if not np.array_equal(model.memory.floats[places[number] :][:CANDIDATE], state.features[number]):
+    features = model.memory.declared(owners.Contact.features)
+    for number in np.flatnonzero((features > 0) & (state.modes != Mode.OPEN)).tolist():
+        if not np.array_equal(model.memory.floats[features[number] :][:CANDIDATE], state.features[number]):
             raise InvalidInput(
                 f"State.features[{number}], of the closed {model.system.contacts[number]},",
                 "must be features that are near each other",
@@ -104,14 +120,29 @@ def _write(model: LaidOut, blank: Checkpoint, state: State, modes: Integers) -> 
     blank.put(model.memory)
     memory = model.memory
     memory[owners.Island.time] = state.time
-    y = memory[owners.Island.y][: model.n_y]
+    y = memory[owners.Island.y]
     y[: model.n_q], y[model.n_q : model.n_q + model.n_u] = state.q, state.u
     y[model.n_q + model.n_u + N_ACCOUNTS :] = state.law_states
     memory.declared(owners.Contact.mode)[:] = modes
     memory.declared(owners.Contact.closing_rate)[:] = state.closing_rates
     memory.declared(owners.Contact.direction)[:] = state.slip_directions
-    places = memory.declared(owners.Contact.features)
-    for number in np.flatnonzero((places > 0) & (state.features[:, 0] != 0.0)).tolist():
-        memory.floats[places[number] :][:CANDIDATE] = state.features[number]
-    memory[owners.OwnGuard.has_just_fired][: len(model.system.guards)] = state.guards_spent
+    features = memory.declared(owners.Contact.features)
+    found = np.flatnonzero((features > 0) & (state.features[:, 0] != 0.0))
+    memory.floats[features[found, None] + np.arange(CANDIDATE)] = state.features[found]
+    memory[owners.OwnGuard.has_just_fired] = state.guards_spent
     model.list_contacts()
+
+
+def write_request(memory: Memory, request: RunRequest) -> None:
+    """Write the end time, and the times of samples."""
+    floats, integers = memory.cells
+    floats[_T_END], floats[_FIRST], floats[_INTERVAL] = request.t_end, request.sample_start, request.sample_interval
+    # the end time must not change the steps; the samples by default depend on it, and all of them fit the buffer
+    longest = _BUFFER_PART * integers.item(_CAPACITY) * request.sample_interval
+    floats[_SPAN] = math.inf if request.has_default_samples else longest
+
+
+def write_first_sample(memory: Memory, request: RunRequest) -> None:
+    """Let the next sample be the first one of the request."""
+    floats, integers = memory.cells
+    floats[_NEXT], integers[_INDEX] = request.sample_start, 0

@@ -100,3 +100,32 @@ def check_closed(model: LaidOut, state: State) -> None:
                 int(state.modes[number]),
                 "If you changed q, begin with State.at(system, time, q, u).",
             )
+
+
+def check_candidates(model: LaidOut) -> None:
+    """Check that the features of each contact with a search are features of its shapes.
+
+    Its kinematics uses the numbers of features as places in a table, and a wrong number would read outside of it.
+
+    Raises
+    ------
+    InvalidInput
+        If a feature does not exist.
+    """
+    places = model.memory.declared(owners.Contact.features)
+    numbers = np.flatnonzero(places > 0)
+    for number in numbers[model.memory.floats[places[numbers]] != 0.0].tolist():
+        contact = model.system.contacts[number]
+        search = contact.kinematics.candidates
+        assert search is not None
+        kind, *features, distance = model.memory.floats[places[number] :][: CANDIDATE + 1].tolist()
+        pair = zip(features, search.counts.get(kind, (0, 0)), strict=True)
+        exist = all(feature.is_integer() and 0 <= feature < count for feature, count in pair)
+        if not (exist and 0.0 <= distance < np.inf):
+            kinds = " or ".join(f"({key:g}, below {one}, below {two})" for key, (one, two) in search.counts.items())
+            raise InvalidInput(
+                f"State.continuation: the features of the {contact}",
+                f"must be one of {kinds}, with a finite distance",
+                (kind, *features, distance),
+                "The file is damaged: take another.",
+            )
