@@ -18,6 +18,7 @@ from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.interfaces import Body
 from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.feature_searches import FeatureSearch, find_searches
+from nonsmooth.model.laying import write_record
 from nonsmooth.system.contact import Contact
 from nonsmooth.types import Array
 
@@ -140,18 +141,15 @@ def lay_broad_phase(memory: Memory, broad_phase: BroadPhase, frames: dict[tuple[
     if n == 0:
         return
     for side, sphere in broad_phase.frames.items():
-        memory[owners.Sphere.frame][:n][sphere] = frames[side]
-    memory[owners.Sphere.radius][:n] = broad_phase.radii
-    memory[owners.Island.sphere_order][:n] = range(n)
+        memory[owners.Sphere.frame][sphere] = frames[side]
+    memory[owners.Sphere.radius] = broad_phase.radii
+    memory[owners.Island.sphere_order] = range(n)
     memory[owners.Island.list_margin] = memory[owners.Options.widest_margin] = _MARGIN * float(broad_phase.radii.min())
     one, two = broad_phase.pairs.T
-    memory[owners.Sphere.first_partner][: n + 1][1:] = np.cumsum(np.bincount(one, minlength=n))
-    memory[owners.Model.partner][: len(two)] = two
-    memory[owners.Model.partner_contact][: len(two) + 1][1:] = np.cumsum(broad_phase.counts)
-    memory[owners.Model.paired_contact][: len(broad_phase.contacts)] = broad_phase.contacts
+    memory[owners.Sphere.first_partner][1:] = np.cumsum(np.bincount(one, minlength=n))
+    memory[owners.Model.partner] = two
+    memory[owners.Model.partner_contact][1:] = np.cumsum(broad_phase.counts)
+    memory[owners.Model.paired_contact] = broad_phase.contacts
     for i, half_space in enumerate(broad_phase.half_spaces):
-        memory[owners.HalfSpace.contact][i] = half_space.contact
-        memory[owners.HalfSpace.sphere][i] = half_space.sphere
-        memory[owners.HalfSpace.frame][i] = frames[half_space.side]
-        memory[owners.HalfSpace.ceiling][i] = half_space.ceiling
-        memory[owners.HalfSpace.is_steady][i] = half_space.is_steady
+        fields = {name: getattr(half_space, name) for name in ("contact", "sphere", "ceiling", "is_steady")}
+        write_record(memory, owners.HalfSpace, i, {**fields, "frame": frames[half_space.side]})

@@ -46,10 +46,9 @@ def immobile_contact(model: LaidOut) -> ImmobileContact | None:
         return None
     memory = model.memory
     call_entry("touch", memory)
-    n = int(memory[owners.Island.n_contacts])
-    touching, active = memory[owners.Contact.is_touching][:n], memory[owners.Contact.declared][:n]
-    for index in np.flatnonzero(touching == 1).tolist():
-        contact = model.system.contacts[int(active[index])]
+    active = model.active
+    for index in np.flatnonzero(memory[owners.Contact.is_touching][: len(active)]).tolist():
+        contact = model.system.contacts[active[index]]
         if isinstance(contact.normal, CompliantNormalLaw):
             continue
         held = free = 0.0

@@ -15,7 +15,6 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import GAP, NORMAL
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
-from nonsmooth.model.active_contacts import active_contacts
 from nonsmooth.solids.placed import Placed, overlap
 from nonsmooth.system.contact import Contact
 
@@ -55,7 +54,7 @@ def check_overlaps(model: LaidOut) -> None:
     InvalidInput
         If two overlap.
     """
-    found = first_overlap(model, active_contacts(model.memory).tolist())
+    found = first_overlap(model, model.active.tolist())
     if found is not None:
         kinds = " and ".join(type(shape).__name__ for shape in found.contact.shapes)
         raise InvalidInput(
@@ -79,10 +78,8 @@ def first_overlap(model: LaidOut, numbers: Sequence[int]) -> Overlap | None:
     numbers : sequence of int
         The contacts whose bodies are compared.
     """
-    contacts, memory = model.system.contacts, model.memory
-    active = active_contacts(memory).tolist()
-    blocks = memory[owners.Contact.geometry][: len(active)]
-    indices = {number: index for index, number in enumerate(active)}
+    contacts, blocks = model.system.contacts, model.memory[owners.Contact.geometry]
+    indices = {number: index for index, number in enumerate(model.active.tolist())}
     for same, one, two in solid_pairs(model, numbers, within=0.0):
         contact, near = contacts[same[0]], [indices[number] for number in same if number in indices]
         least = min((float(blocks[index, GAP]) for index in near), default=0.0)

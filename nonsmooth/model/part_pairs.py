@@ -19,6 +19,7 @@ from nonsmooth.engine.memory.memory import Heap, Memory
 from nonsmooth.engine.pairs.overlaps import NO_PAIR
 from nonsmooth.interfaces import ConvexPart
 from nonsmooth.model.contact_table import ContactTable
+from nonsmooth.model.laying import write_record
 from nonsmooth.system.contact import Contact
 
 _ALLOWED = 1e-7
@@ -157,27 +158,22 @@ def lay_part_pairs(
     of_contact[:] = NO_PAIR
     carriers = carriers_of(pairs)
     numbers = {side: number for number, side in enumerate(carriers)}
-    memory[owners.Carrier.frame][: len(carriers)] = [frames[side] for side in carriers]
-    memory[owners.Carrier.radius][: len(carriers)] = list(carriers.values())
+    memory[owners.Carrier.frame] = [frames[side] for side in carriers]
+    memory[owners.Carrier.radius] = list(carriers.values())
     starts: dict[tuple[int, int], int] = {}
     for number, pair in enumerate(pairs):
         for key, part in zip(pair.shapes, pair.parts, strict=True):
             if key not in starts:
                 starts[key] = blocks.store(numbers_of(part))
-        fields: Mapping[str, float] = {
-            "carrier_a": numbers[pair.sides[0]],
-            "carrier_b": numbers[pair.sides[1]],
-            "frame_a": frames[pair.sides[0]],
-            "frame_b": frames[pair.sides[1]],
-            "part_a": starts[pair.shapes[0]],
-            "part_b": starts[pair.shapes[1]],
+        fields: dict[str, float] = {
             "group": pair.group,
             "contact": pair.contacts[0],
             "are_both_flat": all(part.is_flat for part in pair.parts),
             "allowed": _ALLOWED * pair.size,
             "size": pair.size,
         }
-        for name, value in fields.items():
-            memory[getattr(owners.Pair, name)][number] = value
+        for name, side, key in zip("ab", pair.sides, pair.shapes, strict=True):
+            fields |= {f"carrier_{name}": numbers[side], f"frame_{name}": frames[side], f"part_{name}": starts[key]}
+        write_record(memory, owners.Pair, number, fields)
         if number == pair.group:
             of_contact[np.array(pair.contacts)] = number

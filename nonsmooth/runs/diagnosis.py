@@ -64,7 +64,7 @@ def _failing_function(model: LaidOut, status: int) -> str:
     found = first_without_value(_law_findings(model)) or _failing_guard(model)
     if found:
         return found
-    if not np.all(np.isfinite(model.memory[owners.Island.y][: model.n_y])):
+    if not np.all(np.isfinite(model.memory[owners.Island.y])):
         return "The state itself is not finite: check the motions and the bodies."
     return ""
 
@@ -82,7 +82,7 @@ def _immobile(model: LaidOut) -> str:
 
 def _law_findings(model: LaidOut) -> Iterator[Finding | None]:
     memory, contact = model.memory, owners.Contact
-    states = memory[owners.Island.y][: model.n_y][model.n_q + model.n_u + N_ACCOUNTS :]
+    states = memory[owners.Island.y][model.n_q + model.n_u + N_ACCOUNTS :]
     for number, declared in enumerate(model.system.contacts):
         start, n = (int(memory.declared(one)[number]) for one in (contact.inner_states, contact.n_inner_states))
         for part in law_functions(declared.friction, declared.impact, declared.normal):
@@ -126,8 +126,7 @@ def _failing_map(model: LaidOut) -> str:
         fault = "gives impulses that are not finite"
     except Exception as error:
         fault = raised(law.impulses, error)
-    active = memory[owners.Contact.declared][: int(memory[owners.Island.n_contacts])]
-    contacts = [str(model.system.contacts[int(i)]) for i in active[memory[owners.Problem.active][:n]]]
+    contacts = [str(model.system.contacts[i]) for i in model.active[memory[owners.Problem.active][:n]]]
     before = " ".join(np.array2string(rates.reshape(n, 3), precision=6, threshold=30, separator=", ").split())
     return (
         f"{type(law).__name__}: {described(law.impulses)}, {fault} for the rates {before} m/s "

@@ -37,7 +37,7 @@ def interpenetration(model: LaidOut, rows: Floats) -> str:
     try:
         for row in rows[_moved_samples(rows[:, 1 : 1 + model.n_q], least_move)]:
             model.memory[owners.Island.time] = row[0]
-            model.memory[owners.Island.y][: model.n_y] = row[1 : 1 + model.n_y]
+            model.memory[owners.Island.y] = row[1 : 1 + model.n_y]
             model.list_contacts()
             model.evaluate()
             if found := first_overlap(model, numbers):

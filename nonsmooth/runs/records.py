@@ -159,7 +159,7 @@ class Records:
         t, interval = floats.item(_T), floats.item(_INTERVAL)
         if integers.item(_INDEX) > 0 and t - (floats.item(_NEXT) - interval) <= _ROUND_OFF * interval:
             return
-        row = np.concatenate([[t], memory[owners.Island.y][: self.model.n_y], floats[_ACCOUNTED]])
+        row = np.concatenate([[t], memory[owners.Island.y], floats[_ACCOUNTED]])
         self._parts[_END_PART] = np.zeros(0), np.zeros(0, np.int64), row[None]
 
     def joined(self, engine: Engine) -> Recorded:

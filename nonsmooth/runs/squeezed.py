@@ -88,7 +88,7 @@ def squeezed_body(model: LaidOut, status: int) -> str:
         return ""
     memory = model.memory
     call_entry("evaluate_at", memory)
-    contacts = [one for index in range(int(memory[owners.Island.n_contacts])) for one in _contact(model, index)]
+    contacts = [one for index in range(len(model.active)) for one in _contact(model, index)]
     for one, two in (*itertools.combinations(contacts, 2), *itertools.product(contacts, _joints(model))):
         between = two.point - one.point
         length = float(np.linalg.norm(between))
@@ -124,7 +124,7 @@ def _velocity(model: LaidOut, place: int, point: np.ndarray) -> np.ndarray:
 def _contact(model: LaidOut, index: int) -> list[_Support]:
     """The active contact of an index, if it is closed, rigid, and between a free and a driven body; else nothing."""
     memory = model.memory
-    contact = model.system.contacts[int(memory[owners.Contact.declared][index])]
+    contact = model.system.contacts[model.active[index]]
     block = memory[owners.Contact.geometry][index]
     found = _free_body(model, contact.first, contact.second)
     is_closed = block[GAP] <= _CLOSED * float(memory[owners.Tolerance.gap])

@@ -65,7 +65,7 @@ class StallMonitor:
 
     def __post_init__(self) -> None:
         self._t = self._t_start = float(self.start[owners.Island.time])
-        self._limits = self._limits_before = self.start[owners.Totals.n_steps_limited][: len(LIMITS)]
+        self._limits = self._limits_before = self.start[owners.Totals.n_steps_limited]
 
     def observe(self, status: int) -> None:
         """Evaluate the last call of the engine, which ended with a status. Its buffers must not be drained yet.
@@ -76,7 +76,7 @@ class StallMonitor:
             If time hardly passes, once in a run.
         """
         memory, t_before = self.model.memory, self._t
-        t, limits = float(memory[owners.Island.time]), memory[owners.Totals.n_steps_limited][: len(LIMITS)].copy()
+        t, limits = float(memory[owners.Island.time]), memory[owners.Totals.n_steps_limited].copy()
         n_steps = int(np.sum(limits - self._limits))
         self._t, self._limits = t, limits
         passes = t - t_before > _SHORT_STEP * n_steps * (float(memory[owners.Request.t_end]) - self._t_start)
@@ -154,7 +154,7 @@ def _last_contacts(model: LaidOut) -> str:
     """Sentence that names the contacts of the last contact problem, or ""."""
     memory = model.memory
     in_problem = memory[owners.Problem.active][: int(memory[owners.Problem.n_active])]
-    numbers = memory[owners.Contact.declared][: int(memory[owners.Island.n_contacts])][in_problem].tolist()
+    numbers = model.active[in_problem].tolist()
     if not numbers:
         return ""
     names = model.system.names.contacts
