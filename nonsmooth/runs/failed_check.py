@@ -32,9 +32,9 @@ def failed_check(model: LaidOut, status: int) -> str:
         return _overlap(model, number, found, allowed)
     if status == Status.GAP_UNDECIDED:
         return (
-            f"The {model.system.contacts[model.active[number]]}: its gap is {found:.3g} m and hardly changes within a step of "
-            f"{model.memory[owners.Step.h]:.3g} s. Place the bodies farther apart or in contact, or "
-            "take a smaller tolerance: EventDriven(tolerance=...)."
+            f"The {model.system.contacts[model.active[number]]}: its gap is {found:.3g} m and hardly changes within a "
+            f"step of {model.memory[owners.Step.h]:.3g} s. Place the bodies farther apart or in contact, or take a "
+            "smaller tolerance: EventDriven(tolerance=...)."
         )
     if status == Status.JOINTS_APART:
         return f"They are apart by {found:.3g} m or rad; the tolerances allow {allowed:.3g}.{_lightest(model)}"
