@@ -10,13 +10,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from nonsmooth.binding.compile import parameter_names
 from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, LISTED, MOST_EVENTS
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.layout import BOOKED, N_ACCOUNTS
 from nonsmooth.engine.memory.memory import Heap, allocate
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import entry_addresses
-from nonsmooth.interfaces import Engine
+from nonsmooth.interfaces import Engine, ImpactMap
 from nonsmooth.model.articulations import Articulation, articulations
 from nonsmooth.model.blocks import marks_behind_blocks
 from nonsmooth.model.broad_phase import BroadPhase, find_broad_phase, lay_broad_phase
@@ -24,16 +25,17 @@ from nonsmooth.model.checks import check_guards, check_start
 from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.engine_parts import check_report, counts_of, laid_own, settings_of
 from nonsmooth.model.feature_searches import lay_searches
-from nonsmooth.model.laid_out import LaidOut, map_width
+from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.laying import lay_bodies, lay_guards, lay_joints, lay_loads
 from nonsmooth.model.laying_contacts import Kinds, by_kind, initial_state, lay_contacts
 from nonsmooth.model.part_pairs import PartPair, carriers_of, find_part_pairs, lay_part_pairs
+from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
 
 _EVENTS = 2048
 """Number of events of the usual size that the buffers hold. To empty them costs little per event then."""
 _CONTACTS_PER_EVENT = 32
-"""Number of active contacts in an event of the usual size. A larger event leaves room for fewer events."""
+"""Number of active contacts in an event of the usual size. Fewer events fit into the buffers if they are larger."""
 _SAMPLES = 4096
 """Number of samples that the buffer holds."""
 
@@ -49,6 +51,7 @@ class _Parts(NamedTuple):
 
     @classmethod
     def of(cls, system: System) -> _Parts:
+        """Find the parts of a system."""
         bodies, contacts = system.bodies, system.contacts
         table = ContactTable.of(bodies, contacts)
         return cls(
@@ -74,7 +77,7 @@ def assemble(system: System, engine: Engine) -> LaidOut:
 
 
 def lay_out(system: System, engine: Engine) -> LaidOut:
-    """Layout of a system at its start, with the neighbour list there, but without other checks of the start.
+    """Layout of a system at its start, with the neighbour list there. The start is not checked.
 
     Raises
     ------
@@ -88,7 +91,7 @@ def lay_out(system: System, engine: Engine) -> LaidOut:
 
 
 def lay(system: System, engine: Engine) -> LaidOut:
-    """Layout of a system without a state.
+    """Layout of a system whose memory holds no state yet.
 
     Raises
     ------
@@ -148,16 +151,26 @@ def _counts(system: System, engine: Engine, parts: _Parts) -> dict[str, int]:
         "n_u": n_u,
         "n_y": n_y,
         "n_states": n_states,
-        "map_width": map_width([contacts[numbers[0]] for numbers in parts.kinds]),
+        "map_width": _map_width([contacts[numbers[0]] for numbers in parts.kinds]),
         "event_floats": _length_of_events(EVENT_HEAD + n_u + n_y + BOOKED, LISTED, n_slots),
         "event_integers": _length_of_events(CODE_HEAD, 2, n_slots),
         "sample_capacity": _SAMPLES,
     }
-    free = [name for name in COUNTS if name not in counts]
-    return {**dict.fromkeys(COUNTS, 0), **counts, **counts_of(engine, n_slots, free)}
+    # the engine decides the others, or they are zero
+    others = dict.fromkeys((name for name in COUNTS if name not in counts), 0)
+    return {**counts, **others, **counts_of(engine, n_slots, others)}
+
+
+def _map_width(contacts: Sequence[Contact]) -> int:
+    """Number of parameters per contact of an impact map, 1 without one."""
+    maps = (contact.impact for contact in contacts if isinstance(contact.impact, ImpactMap))
+    return next((len(parameter_names(law.impulses, "map")) for law in maps), 1)
 
 
 def _length_of_events(head: int, per_contact: int, n_slots: int) -> int:
-    """Length of a buffer of events: many of the usual size, and all events of one instant."""
+    """Length of a buffer of events: 2048 of the usual size, and as many of the largest size as one instant may have.
+
+    An event takes ``head`` numbers, and ``per_contact`` for each of at most ``n_slots`` active contacts.
+    """
     usual, largest = head + per_contact * min(n_slots, _CONTACTS_PER_EVENT), head + per_contact * n_slots
     return _EVENTS * usual + MOST_EVENTS * largest

@@ -30,7 +30,7 @@ class Block(NamedTuple):
     Attributes
     ----------
     label : callable
-        Makes the names of the owner and of the function.
+        Makes the name of the owner and of the function, for messages.
     function : callable
         The function that writes the block.
     start, size : int
@@ -84,6 +84,7 @@ def _block_of_contact(model: LaidOut, index: int) -> Block:
 
 
 def _blocks_of_joints_and_laws(model: LaidOut) -> Iterator[Block]:
+    """The blocks of joints, then of traction laws and of the rates of inner states."""
     memory, contacts = model.memory, model.system.contacts
     ties = [tie for articulation in articulations(model.system) for tie in articulation.joints]
     for tie, out in zip(ties, memory[owners.Joint.out].tolist(), strict=True):
@@ -100,6 +101,7 @@ def _blocks_of_joints_and_laws(model: LaidOut) -> Iterator[Block]:
 
 
 def _blocks_of_searches(model: LaidOut) -> Iterator[Block]:
+    """The blocks of the searches for candidate features."""
     searches = find_searches(model.system.contacts)
     for search, out in zip(searches, model.memory[owners.Search.out].tolist(), strict=True):
         yield _block(search.owner, search.candidates.function, out, search.size)
@@ -117,8 +119,9 @@ def marks_behind_blocks(memory: Memory) -> NDArray[np.int64]:
 
 
 def block_overrun(model: LaidOut) -> str:
-    """Sentences that name a function that wrote past its block, or ""."""
+    """Sentences that name a function that wrote past its block, or "" if no mark has changed."""
     memory = model.memory
+    # an impact map has marks of its own, which the engine checks at each impact
     n_past_map = int(memory[owners.Run.n_past_map])
     if np.all(memory.floats[model.marks] == UNTOUCHED) and n_past_map <= 0:
         return ""

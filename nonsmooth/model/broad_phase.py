@@ -23,7 +23,7 @@ from nonsmooth.system.contact import Contact
 from nonsmooth.types import Array
 
 SMALL = 64
-"""Largest number of declared contacts that are all active. To evaluate so many costs less than the broad phase."""
+"""Largest number of declared contacts that need no broad phase. To evaluate so many costs less than it does."""
 _CONTACTS_PER_SPHERE = 16
 """Least number of active contacts per sphere that the memory can hold. Contacts need little memory."""
 _NEIGHBOURS = 6
@@ -43,7 +43,7 @@ class HalfSpace:
     side : tuple of int
         Number of the body that carries it, and its frame.
     sphere : int
-        Number of the sphere that it may touch, 0 if there is none.
+        Number of the sphere that it may touch. Without one it is 0, and `is_steady` is False.
     ceiling : float
         Height over the frame's origin above which it has no point [m].
     is_steady : bool
@@ -95,17 +95,22 @@ class BroadPhase:
 
 
 def find_broad_phase(contacts: Sequence[Contact], table: ContactTable, bodies: Sequence[Body]) -> BroadPhase:
-    """Spheres and half-spaces of contacts. Few contacts without searches have no sphere, and are all active."""
+    """Spheres and half-spaces of the contacts of a system with these bodies.
+
+    Up to :data:`SMALL` contacts without searches have no sphere: all of them are active.
+    """
     searches = find_searches(contacts)
     is_bounded = np.all(np.isfinite(table.extents), axis=1)
     if len(contacts) <= SMALL and not searches:
         is_bounded[:] = False
     numbers = np.flatnonzero(is_bounded)
+    # a frame of a body is known by one integer
     n_frames = int(table.frames.max(initial=0)) + 1
     known, sides = np.unique(n_frames * table.bodies[numbers] + table.frames[numbers], return_inverse=True)
     frames = {divmod(key, n_frames): sphere for sphere, key in enumerate(known.tolist())}
     radii = np.zeros(len(frames))
     np.maximum.at(radii, sides.ravel(), table.extents[numbers].ravel())
+    # contacts of the same two spheres are listed together
     one, two = np.sort(sides.reshape(-1, 2), axis=1).T
     keys = one * len(frames) + two
     order = np.argsort(keys, kind="stable")
@@ -124,10 +129,13 @@ def _half_space(
     frames: Mapping[tuple[int, int], int],
     radii: Array,
 ) -> HalfSpace:
-    """The unbounded shape of a contact. The sphere of the other shape grows in ``radii``, to hold this shape."""
-    own, other = (0, 1) if not math.isfinite(contact.extents[0]) else (1, 0)
-    sides = [(int(table.bodies[number, i]), int(table.frames[number, i])) for i in (own, other)]
-    sphere, ceiling = frames.get(sides[1]), contact.shapes[own].ceiling
+    """The unbounded shape of a contact.
+
+    The other shape's sphere may have been made for other contacts: its radius in ``radii`` grows to hold this shape.
+    """
+    unbounded, other = (0, 1) if not math.isfinite(contact.extents[0]) else (1, 0)
+    sides = [(int(table.bodies[number, i]), int(table.frames[number, i])) for i in (unbounded, other)]
+    sphere, ceiling = frames.get(sides[1]), contact.shapes[unbounded].ceiling
     body = bodies[sides[0][0]]
     is_steady = sphere is not None and math.isfinite(ceiling) and body.n_u == 0 and math.isinf(body.time_scale)
     if sphere is not None and math.isfinite(contact.extents[other]):
@@ -136,7 +144,7 @@ def _half_space(
 
 
 def lay_broad_phase(memory: Memory, broad_phase: BroadPhase, frames: dict[tuple[int, int], int]) -> None:
-    """Write spheres and half-spaces, unless there are none; ``frames`` has the place of each frame in the memory."""
+    """Write spheres and half-spaces, or neither if there is no sphere; ``frames`` has the offset of each frame."""
     n = len(broad_phase.radii)
     if n == 0:
         return

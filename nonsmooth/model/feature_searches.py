@@ -120,7 +120,7 @@ def _lay_function(blocks: Heap, search: FeatureSearch) -> dict[str, int]:
 
 
 def failed_search(memory: Memory, contacts: Sequence[Contact]) -> str:
-    """Sentence that names the first search that gave no number of features, or ""."""
+    """Sentence that names the first search whose number of features is negative or not a number, or ""."""
     for number, search in enumerate(find_searches(contacts)):
         found = memory.floats[int(memory[owners.Search.out][number])]
         if not found >= 0.0:

@@ -6,14 +6,12 @@ An active contact is a declared contact on the neighbour list. The others belong
 from __future__ import annotations
 
 import functools
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.binding.compile import parameter_names
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import FRAME, GAP
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
@@ -21,18 +19,17 @@ from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import Status
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.errors import InvalidInput, PluginError
-from nonsmooth.interfaces import Body, ImpactMap
+from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.distance_backend import Place
 from nonsmooth.model.feature_searches import failed_search
 from nonsmooth.model.part_pairs import contacts_without_parts
-from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
 from nonsmooth.watch import Watch
 
 
 @dataclass(frozen=True)
 class LaidOut:
-    """A system in memory, ready to run.
+    """A system in the memory of the engine.
 
     Attributes
     ----------
@@ -70,12 +67,12 @@ class LaidOut:
 
     @functools.cached_property
     def watch(self) -> Watch:
-        """Calls of the engine that may take long are made through it: it reports progress, and Ctrl-C stops them."""
+        """Makes the calls of the engine that may take long: it reports progress, and Ctrl-C stops them."""
         return Watch(self.memory)
 
     @functools.cached_property
     def contacts_without_parts(self) -> list[int]:
-        """Numbers of the contacts whose bodies the engine cannot check for overlap."""
+        """Numbers of the contacts of shapes without convex parts, whose bodies the engine cannot check for overlap."""
         return contacts_without_parts(self.system.contacts)
 
     def list_contacts(self) -> None:
@@ -136,23 +133,15 @@ class LaidOut:
         return gaps, rates
 
 
-def energies(bodies: tuple[Body, ...], tails: np.ndarray, numbers: np.ndarray) -> tuple[float, float]:
+def energies(bodies: tuple[Body, ...], rates: np.ndarray, numbers: np.ndarray) -> tuple[float, float]:
     """Kinetic and potential energy [J] of bodies, which are read from ``numbers``.
 
-    ``tails`` has, for each body, the place of its q' there; force, inverse mass and the energies follow.
+    ``rates`` has, for each body, the place of its q' there; force, inverse mass and the energies follow.
     """
     kinetic = potential = 0.0
-    for body, tail in zip(bodies, tails.tolist(), strict=True):
+    for body, start in zip(bodies, rates.tolist(), strict=True):
         if body.n_u > 0:
-            energy = tail + body.n_q + body.n_u + body.n_u**2
+            energy = start + body.n_q + body.n_u + body.n_u**2
             kinetic += float(numbers[energy])
             potential += float(numbers[energy + 1])
     return kinetic, potential
-
-
-def map_width(contacts: Sequence[Contact]) -> int:
-    """Number of parameters per contact of an impact law that maps velocities, 1 without such a law."""
-    for contact in contacts:
-        if isinstance(contact.impact, ImpactMap):
-            return len(parameter_names(contact.impact.impulses, "map"))
-    return 1

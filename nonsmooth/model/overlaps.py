@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from nonsmooth.model.laid_out import LaidOut
 
 _POSE = 12
-"""Numbers of a frame with its position and its rotation matrix."""
+"""Length of position and rotation matrix of a frame, with which its numbers begin."""
 
 
 class Overlap(NamedTuple):
@@ -32,9 +32,9 @@ class Overlap(NamedTuple):
     Attributes
     ----------
     contact : Contact
-        A contact of theirs.
+        A contact between them.
     depth : float
-        Least depth of the overlap [m].
+        Lower bound of the depth of the overlap [m].
     """
 
     contact: Contact
@@ -67,7 +67,7 @@ def check_overlaps(model: LaidOut) -> None:
 
 
 def first_overlap(model: LaidOut, numbers: Sequence[int]) -> Overlap | None:
-    """The first overlap beyond the tolerance, or None.
+    """The first overlap of solids deeper than is allowed, or None.
 
     Compliant bodies may overlap if a gap of theirs is negative, because the contact force is then positive.
 
@@ -82,10 +82,10 @@ def first_overlap(model: LaidOut, numbers: Sequence[int]) -> Overlap | None:
     indices = {number: index for index, number in enumerate(model.active.tolist())}
     for same, one, two in solid_pairs(model, numbers, within=0.0):
         contact, near = contacts[same[0]], [indices[number] for number in same if number in indices]
-        least = min((float(blocks[index, GAP]) for index in near), default=0.0)
-        if least < 0.0 and isinstance(contact.normal, CompliantNormalLaw):
+        if np.any(blocks[near, GAP] < 0.0) and isinstance(contact.normal, CompliantNormalLaw):
             continue
         allowed = overlap_allowed(contact) + one.solid.set_back + two.solid.set_back
+        # the solids are compared along the normal of the least gap first
         nearest = min(near, key=lambda index: abs(float(blocks[index, GAP])), default=None)
         normal = np.array([0.0, 0.0, 1.0]) if nearest is None else blocks[nearest, NORMAL : NORMAL + 3]
         depth = overlap(one, two, allowed, normal)

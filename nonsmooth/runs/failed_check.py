@@ -53,7 +53,7 @@ def failed_check(model: LaidOut, status: int) -> str:
 
 
 def _gap(model: LaidOut, index: int, found: float, allowed: float) -> str:
-    """Sentences about an active contact whose gap [m] the tolerances do not allow."""
+    """Sentences about the gap ``found`` of an active contact, which is larger than the tolerances allow [m]."""
     contact = model.system.contacts[model.active[index]]
     text = f"The {contact}: the gap is {found:.3g} m; the tolerances allow {allowed:.3g} m."
     if model.memory[owners.Contact.mode][index] != Mode.OPEN and (others := _other_closed(model, contact)):
@@ -73,7 +73,7 @@ def _overlap(model: LaidOut, number: int, found: float, allowed: float) -> str:
 
 
 def _lightest(model: LaidOut) -> str:
-    """Sentences on the joined body whose inertia is within round-off of the largest one, or ""."""
+    """Sentences on the joined body whose inertia is least, if round-off of the largest inertia moves it, else ""."""
     bodies, joined = model.system.bodies, {id(body) for tie in model.system.joints for body in (tie.first, tie.second)}
     inverse_inertias = [
         (float(value), model.system.names.bodies[number], unit)
@@ -96,7 +96,7 @@ def _lightest(model: LaidOut) -> str:
 
 
 def _other_closed(model: LaidOut, contact: Contact) -> str:
-    """Names of closed contacts of other pairs of bodies that share a free body with a contact, or ""."""
+    """Names of closed contacts that share a free body with a contact, one for each other pair of bodies, or ""."""
     modes = model.memory[owners.Contact.mode][: len(model.active)]
     free = {id(body) for body in (contact.first, contact.second) if body.n_u > 0}
     pairs = dict[tuple[int, int], str]()

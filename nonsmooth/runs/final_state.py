@@ -40,7 +40,7 @@ class FixedPlaces(NamedTuple):
 
     Attributes
     ----------
-    tails : array
+    rates : array
         Place among the blocks of q' of each body, behind which are force, inverse mass and energies.
     features : array
         Place among the blocks of the features of each declared contact, negative if it has none.
@@ -48,19 +48,19 @@ class FixedPlaces(NamedTuple):
         Which numbers a run may change (:attr:`nonsmooth.engine.memory.memory.Memory.changing`).
     """
 
-    tails: Integers
+    rates: Integers
     features: Integers
     changing: tuple[Booleans, ...]
 
     @classmethod
     def of(cls, memory: Memory) -> FixedPlaces:
         """The places in checkpoints of a memory."""
-        tails, features = memory[owners.Body.tail], memory.declared(owners.Contact.features)
-        return cls(tails - memory.blocks, features - memory.blocks, memory.changing)
+        rates, features = memory[owners.Body.tail], memory.declared(owners.Contact.features)
+        return cls(rates - memory.blocks, features - memory.blocks, memory.changing)
 
 
 class FinalState(NamedTuple):
-    """The memory of a model after a run, and what it is read with.
+    """The memory of a model after a run, and all that its reading needs.
 
     Attributes
     ----------
@@ -144,6 +144,7 @@ class FinalState(NamedTuple):
         return found
 
     def _counters(self, wall: float) -> Counters:
+        """Counters of the run, which took a wall time [s]."""
         now, totals = self.now, owners.Totals
         limits = now[totals.n_steps_limited]
         return Counters(
@@ -177,7 +178,7 @@ class FinalState(NamedTuple):
         )
 
     def _verdict(self) -> dict[Measure, float]:
-        """The numbers by which the engine judges a run."""
+        """The measures by which the engine judges a run: numbers of its own part of the workspace."""
         own = self.now.parts[0].view(record_with(own_of(self.engine)))[0]
         return {
             measure: float(own[f"{part.key}.{measure.name}"])
@@ -190,25 +191,24 @@ class FinalState(NamedTuple):
         return any(isinstance(one.friction, (StatefulFrictionLaw, TractionLaw)) for one in self.system.contacts)
 
     def _least_scale(self) -> float:
-        """Work of the forces on all bodies over a distance of the size of each [J].
+        """Scale of the energy account of bodies that hardly move [J].
 
-        It is the scale of the energy account of bodies that hardly move.
+        It is the work of the force on each body over a distance of its size.
         """
-        now, total = self.now, 0.0
-        for body, tail in zip(self.system.bodies, self.places.tails.tolist(), strict=True):
-            size = size_of(body)
+        total = 0.0
+        for body, rates in zip(self.system.bodies, self.places.rates.tolist(), strict=True):
+            size, first = size_of(body), rates + body.n_q
             if body.n_u > 0 and math.isfinite(size):
-                force = now.blocks[tail + body.n_q : tail + body.n_q + body.n_u]
-                total += float(np.linalg.norm(force)) * size
+                total += float(np.linalg.norm(self.now.blocks[first : first + body.n_u])) * size
         return total
 
     def _account(self, integrated: Floats) -> EnergyAccount:
-        """Energy account, with the energies that the engine integrated."""
+        """Energy account. ``integrated`` begins with the energies that the engine integrates with the state [J]."""
         now, totals = self.now, owners.Totals
         driven, dissipated, exchanged, loads = integrated[:N_ACCOUNTS].tolist()
         return EnergyAccount(
             *self.start_energy,
-            *energies(self.system.bodies, self.places.tails, now.blocks),
+            *energies(self.system.bodies, self.places.rates, now.blocks),
             driven_work=now[totals.driven_work] + driven,
             restitution_loss=now[totals.restitution_loss],
             friction_loss=now[totals.friction_loss] + dissipated,
