@@ -93,7 +93,7 @@ class EngineDriver:
         return status
 
     def _holds(self, checkpoint: Checkpoint) -> bool:
-        """True if the memory holds a checkpoint, apart from the counters of calls: the engine has done nothing since."""
+        """True if the memory holds a checkpoint, apart from counters of calls: the engine has done nothing since."""
         if self._memory[owners.Island.time] != checkpoint[owners.Island.time]:
             return False
         (scalars, *arrays), (old_scalars, *old_arrays) = self._memory.kept, checkpoint.parts

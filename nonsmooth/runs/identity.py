@@ -54,6 +54,7 @@ def _is_copied(one: Declaration) -> bool:
 
 
 def _options(engine: Engine) -> bytes:
+    """Class of an engine, and the values of its options."""
     return repr((type(engine).__qualname__, {name: getattr(engine, name) for name in rules(type(engine))})).encode()
 
 

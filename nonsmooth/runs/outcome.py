@@ -29,12 +29,13 @@ class Outcome(NamedTuple):
 
 
 def cause_of(engine: Engine, status: int) -> Cause | None:
-    """The engine's own cause with a status as its code, or None."""
+    """The cause, among those that an engine declares itself, whose code is a status; None for a common status."""
     return next((cause for cause in engine.causes if cause.code == status), None)
 
 
 def outcome(model: LaidOut, ending: Ending, engine: Engine) -> Outcome:
     """Status and message of a run of an engine that has ended."""
+    # a function that wrote past its block may have changed anything, so it is the reason before all others
     overrun, status = block_overrun(model), ending.status
     at = f"At t = {model.memory[owners.Island.time]:.9g} s"
     if ending.output_error:

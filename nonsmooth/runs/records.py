@@ -26,12 +26,14 @@ from nonsmooth.solution.state import Floats, Integers, State
 from nonsmooth.solution.track import row_of
 
 _START_PART, _END_PART = -1, -2
-"""Numbers of the parts before the first call and after the last one."""
+"""Keys of the parts before the first call and after the last one. The others have the number of their call."""
 _ROUND_OFF = 1e-9
 """Difference of two times relative to the sample interval, below which they are the same."""
 _ACCOUNTED = places("totals.driven_work", "totals.restitution_loss", "totals.friction_loss", "totals.closing_loss")
 _ALWAYS = 1 << BEFORE | 1 << DURING | 1 << AFTER
 """Factor that turns the code of a mode into that of a contact with this mode before, during and after an event."""
+_STICK_CODE, _SLIDE_CODE = 1, 5
+"""Codes of the modes of a closed contact, bits of Eq. (29)."""
 _FILLED = places(
     "output.n_events", "output.n_samples", "output.floats_used", "output.integers_used", "output.last_floats"
 ).tolist()
@@ -63,11 +65,12 @@ class Records:
 
     @property
     def _width(self) -> int:
+        """Length of a sample: time, integrated state and accounted energies."""
         return 1 + self.model.n_y + BOOKED
 
     @property
     def n_events(self) -> int:
-        """Number of events so far, without those that a continued run repeats."""
+        """Number of events so far, with those of an earlier process, without those that a continued run repeats."""
         _, integers = self.model.memory.cells
         earlier = 0 if self.earlier is None else len(self.earlier[0])
         return earlier + self._n_drained + int(integers.item(_N_EVENTS) - integers.item(_N_KNOWN))
@@ -79,18 +82,17 @@ class Records:
         return bool(integers.item(_N_SAMPLES) > 0 or integers.item(_N_EVENTS) > 0)
 
     def drain(self) -> None:
-        """Copy the buffers of the engine, and empty them."""
+        """Copy the buffers of the engine, unless those of its last call are copied already, and empty them."""
         memory, width = self.model.memory, self._width
         _, integers = memory.cells
         key, n_events, n_samples = integers.item(_N_CALLS), integers.item(_N_EVENTS), integers.item(_N_SAMPLES)
         if key not in self._parts:
-            part = (
+            self._parts[key] = (
                 memory[owners.Output.event_numbers][: integers.item(_N_FLOATS)].copy(),
                 memory[owners.Output.event_codes][: integers.item(_N_INTEGERS)].copy(),
                 memory[owners.Output.samples][: n_samples * width].reshape(n_samples, width).copy(),
             )
             self._n_drained += n_events
-            self._parts[key] = part
         for place in _FILLED:
             integers[place] = 0
 
@@ -100,7 +102,7 @@ class Records:
         The engine records none there, because the run has started before.
         """
         closed = np.flatnonzero(state.modes != Mode.OPEN)
-        codes = _ALWAYS * np.where(state.modes[closed] == Mode.SLIDE, 5, 1)
+        codes = _ALWAYS * np.where(state.modes[closed] == Mode.SLIDE, _SLIDE_CODE, _STICK_CODE)
         head = np.zeros(EVENT_HEAD)
         head[0] = state.time
         contacts = np.zeros((len(closed), LISTED))
@@ -134,6 +136,7 @@ class Records:
             )
 
     def _check_events(self, engine: Engine) -> None:
+        """Check the events of a system with contacts; errors as :meth:`check_complete`."""
         if not self.model.system.contacts:
             return
         thing, start = f"{type(engine).__name__}.advance", self.model.memory.cells[0].item(_START)
@@ -177,6 +180,7 @@ class Records:
         return Events.from_buffers(floats, integers, *self.model.sizes), samples
 
     def _joined(self, first: int) -> tuple[Floats, Integers, Floats]:
+        """Floats and integers of events, and samples, of the parts from number ``first`` on."""
         parts = list(self._parts.values())[first:]
         if len(parts) == 1:
             return parts[0]

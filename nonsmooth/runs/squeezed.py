@@ -16,19 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from nonsmooth.certificates import coefficient_of
-from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.blocks import (
-    AXIS,
-    GAP,
-    JOINT_ROW,
-    MOMENT,
-    NORMAL,
-    POINT_A,
-    POINT_B,
-    POSITION,
-    SPIN,
-    VELOCITY,
-)
+from nonsmooth.engine.memory import blocks, owners
 from nonsmooth.engine.memory.modes import Status
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.interfaces import Body, FrictionLaw
@@ -75,9 +63,11 @@ class _Support(NamedTuple):
     friction: FrictionLaw | None
 
     def bears(self, direction: np.ndarray) -> bool:
-        """True if it can exert a force along a unit vector, into the free body."""
+        """True if the support can exert a force along a unit vector, into the free body."""
         if self.friction is not None:
+            # the friction cone at rest
             return bool(direction @ self.normal >= math.cos(math.atan(coefficient_of(self.friction)(0.0))))
+        # the part of the direction that no combination of the axes gives
         rest = direction - self.normal.T @ np.linalg.lstsq(self.normal.T, direction, rcond=None)[0]
         return float(np.linalg.norm(rest)) <= _ALONG
 
@@ -109,16 +99,18 @@ def squeezed_body(model: LaidOut, status: int) -> str:
 def _free_body(model: LaidOut, first: Body, second: Body) -> tuple[int, bool] | None:
     """Number of the free one of a free and a driven body, and whether it is the second; None for other pairs."""
     bodies = model.system.bodies
-    pair = [next(i for i, body in enumerate(bodies) if body is own) for own in (first, second)]
+    pair = [next(i for i, body in enumerate(bodies) if body is one) for one in (first, second)]
     free = [i for i in pair if bodies[i].n_u > 0]
     return (free[0], pair[1] == free[0]) if len(free) == 1 else None
 
 
 def _velocity(model: LaidOut, place: int, point: np.ndarray) -> np.ndarray:
-    """Velocity [m/s] of a point [m] that moves with the frame at a place."""
+    """Velocity [m/s] of a point [m] that moves with the frame at a place among the floats of the memory."""
     frame = model.memory.floats[place:]
-    offset = point - frame[POSITION : POSITION + 3]
-    return np.asarray(frame[VELOCITY : VELOCITY + 3] + np.cross(frame[SPIN : SPIN + 3], offset))
+    offset = point - frame[blocks.POSITION : blocks.POSITION + 3]
+    return np.asarray(
+        frame[blocks.VELOCITY : blocks.VELOCITY + 3] + np.cross(frame[blocks.SPIN : blocks.SPIN + 3], offset)
+    )
 
 
 def _contact(model: LaidOut, index: int) -> list[_Support]:
@@ -127,15 +119,15 @@ def _contact(model: LaidOut, index: int) -> list[_Support]:
     contact = model.system.contacts[model.active[index]]
     block = memory[owners.Contact.geometry][index]
     found = _free_body(model, contact.first, contact.second)
-    is_closed = block[GAP] <= _CLOSED * float(memory[owners.Tolerance.gap])
+    is_closed = block[blocks.GAP] <= _CLOSED * float(memory[owners.Tolerance.gap])
     if found is None or not is_closed or not isinstance(contact.friction, FrictionLaw):
         return []
     body, is_second = found
-    own, other = (POINT_B, POINT_A) if is_second else (POINT_A, POINT_B)
+    free_point, driven_point = (blocks.POINT_B, blocks.POINT_A) if is_second else (blocks.POINT_A, blocks.POINT_B)
     place = int(memory[owners.Contact.frame_a if is_second else owners.Contact.frame_b][index])
-    velocity = _velocity(model, place, block[other : other + 3])
-    normal = (1.0 if is_second else -1.0) * block[NORMAL : NORMAL + 3]
-    return [_Support(str(contact), body, block[own : own + 3].copy(), velocity, normal, contact.friction)]
+    velocity = _velocity(model, place, block[driven_point : driven_point + 3])
+    normal = (1.0 if is_second else -1.0) * block[blocks.NORMAL : blocks.NORMAL + 3]
+    return [_Support(str(contact), body, block[free_point : free_point + 3].copy(), velocity, normal, contact.friction)]
 
 
 def _joints(model: LaidOut) -> Iterator[_Support]:
@@ -144,12 +136,20 @@ def _joints(model: LaidOut) -> Iterator[_Support]:
     for number, joint in enumerate(model.system.joints):
         found = _free_body(model, joint.first, joint.second)
         count, start = (int(memory[one][number]) for one in (owners.Joint.n_rows, owners.Joint.out))
-        rows = memory.floats[start : start + JOINT_ROW * count].reshape(count, JOINT_ROW)
-        rows = rows[~np.any(rows[:, MOMENT : MOMENT + 3], axis=1)]
+        rows = memory.floats[start : start + blocks.JOINT_ROW * count].reshape(count, blocks.JOINT_ROW)
+        # rows with a moment constrain an angle, and bear no force at a point
+        rows = rows[~np.any(rows[:, blocks.MOMENT : blocks.MOMENT + 3], axis=1)]
         if found is None or len(rows) == 0:
             continue
         body, is_second = found
-        own, other = (POINT_B, POINT_A) if is_second else (POINT_A, POINT_B)
+        free_point, driven_point = (blocks.POINT_B, blocks.POINT_A) if is_second else (blocks.POINT_A, blocks.POINT_B)
         place = int(memory[owners.Joint.frame_a if is_second else owners.Joint.frame_b][number])
-        velocity = _velocity(model, place, rows[0, other : other + 3])
-        yield _Support(str(joint), body, rows[0, own : own + 3].copy(), velocity, rows[:, AXIS : AXIS + 3], None)
+        velocity = _velocity(model, place, rows[0, driven_point : driven_point + 3])
+        yield _Support(
+            str(joint),
+            body,
+            rows[0, free_point : free_point + 3].copy(),
+            velocity,
+            rows[:, blocks.AXIS : blocks.AXIS + 3],
+            None,
+        )

@@ -34,6 +34,7 @@ _N_NAMED = 3
 """Largest number of contacts, events or limits that a message names."""
 _REMEDY = "Try a lower restitution, a compliant law or more room between these bodies."
 _STATUSES_AT_AN_INSTANT = (Status.IMPACT_ENDLESS, Status.NO_CONTACT_SOLUTION, Status.UPDATE_ENDLESS)
+"""Statuses of runs that failed in the contact problems of one instant."""
 
 _Event = tuple[int, int]
 """Cause, and contact or guard."""
@@ -79,10 +80,12 @@ class StallMonitor:
         t, limits = float(memory[owners.Island.time]), memory[owners.Totals.n_steps_limited].copy()
         n_steps = int(np.sum(limits - self._limits))
         self._t, self._limits = t, limits
+        # time passes if the mean length of the new steps is not short
         passes = t - t_before > _SHORT_STEP * n_steps * (float(memory[owners.Request.t_end]) - self._t_start)
         if passes:
             self._n_short, self._short_time, self._limits_before = 0, 0.0, limits
             self._last_events.clear()
+        # the events of a call that ended in a failure are counted in any case
         if not passes or status not in (Status.PAUSED, Status.DONE, Status.STOPPED):
             self._last_events.extend(self._new_events())
             self._n_short, self._short_time = self._n_short + n_steps, self._short_time + t - t_before
@@ -101,6 +104,7 @@ class StallMonitor:
         return _last_contacts(self.model) if status in _STATUSES_AT_AN_INSTANT else ""
 
     def _new_events(self) -> Iterable[_Event]:
+        """The events that the buffers of the engine hold."""
         memory = self.model.memory
         codes = memory[owners.Output.event_codes][: int(memory[owners.Output.integers_used])].tolist()
         at = 0
@@ -123,6 +127,7 @@ class StallMonitor:
         return " ".join(f"The steps were limited by: {limits}. {error} {self._counted_events()}".split())
 
     def _counted_events(self) -> str:
+        """Sentence with the most frequent of the last events and their numbers, or "" if there are none."""
         names = self.model.system.names
         counted = Counter(event for event in self._last_events if event[0] != Cause.START)
         if not counted:
@@ -140,8 +145,10 @@ def _largest_error(model: LaidOut) -> str:
     error, scale, y = (memory[one] for one in (owners.Step.y_stage, owners.Step.y_scale, owners.Island.y))
     size = scale + np.abs(y)
     relative = np.divide(np.abs(error), size, out=np.zeros(n), where=size > 0.0)
+    # the energy accounts do not limit steps
     relative[model.n_q + model.n_u :][:N_ACCOUNTS] = 0.0
     worst = int(np.argmax(np.nan_to_num(relative, nan=np.inf)))
+    # q of all bodies comes first, then u of all, then the inner states
     for letter, count in (("q", "n_q"), ("u", "n_u")):
         for name, body in zip(model.system.names.bodies, model.system.bodies, strict=True):
             if worst < getattr(body, count):
@@ -162,5 +169,6 @@ def _last_contacts(model: LaidOut) -> str:
 
 
 def _enumeration(words: list[str], total: int) -> str:
+    """The words, and the number of others if there are ``total`` in all."""
     more = [f"{total - len(words)} others"] if total > len(words) else []
     return ", ".join([*words, *more])

@@ -42,7 +42,7 @@ _T_END, _INTERVAL, _FIRST, _NEXT, _SPAN, _INDEX, _CAPACITY = places(
     "model.sample_capacity",
 ).tolist()
 _BUFFER_PART = 0.5
-"""Part of the buffer of samples that one step may fill. The engine pauses if more than half of the buffer is full."""
+"""Part of the buffer of samples that one step may fill. The engine pauses if the other half is full."""
 
 
 def begin(model: LaidOut, blank: Checkpoint, state: State) -> None:
@@ -61,7 +61,9 @@ def begin(model: LaidOut, blank: Checkpoint, state: State) -> None:
 
 
 def continue_run(model: LaidOut, blank: Checkpoint, state: State) -> None:
-    """Put the memory where the run that left a state continues, with its counters at zero.
+    """Put the memory where the run that left a state continues, with the counters at zero.
+
+    The engine repeats the events after the checkpoint, and must not record them again: the memory holds their number.
 
     Raises
     ------
@@ -76,7 +78,7 @@ def continue_run(model: LaidOut, blank: Checkpoint, state: State) -> None:
 
 
 def resume_run(model: LaidOut, blank: Checkpoint, state: State) -> None:
-    """Put the memory where the run that left a state was cut off, with its counters.
+    """Put the memory where the run that left a state was cut off, with the counters of this run.
 
     Raises
     ------
@@ -92,11 +94,12 @@ def resume_run(model: LaidOut, blank: Checkpoint, state: State) -> None:
     if not t <= state.time or n_known_events < 0:
         rule = f"must begin before {state.time:.9g} s"
         raise InvalidInput("State.continuation", rule, (t, n_known_events), "It is damaged: take another.")
+    # a run that was cut off before its first instant starts anew
     memory[owners.Request.is_resumed] = memory[owners.Run.has_started]
 
 
 def _check_features(model: LaidOut, blank: Checkpoint, state: State) -> None:
-    """Check that the features of each closed contact are near each other, by a search for them.
+    """Check that a search finds the features of each closed contact; it leaves the state in the memory, all open.
 
     Raises
     ------
@@ -116,7 +119,7 @@ def _check_features(model: LaidOut, blank: Checkpoint, state: State) -> None:
 
 
 def _write(model: LaidOut, blank: Checkpoint, state: State, modes: Integers) -> None:
-    """Write a state into the memory, with these modes, and make the neighbour list."""
+    """Write a state into the memory, but with these modes of the contacts, and make the neighbour list."""
     blank.put(model.memory)
     memory = model.memory
     memory[owners.Island.time] = state.time
@@ -134,15 +137,15 @@ def _write(model: LaidOut, blank: Checkpoint, state: State, modes: Integers) -> 
 
 
 def write_request(memory: Memory, request: RunRequest) -> None:
-    """Write the end time, and the times of samples."""
+    """Write the end time and the times of samples [s], by places of scalars: names take longer in a short run."""
     floats, integers = memory.cells
     floats[_T_END], floats[_FIRST], floats[_INTERVAL] = request.t_end, request.sample_start, request.sample_interval
-    # the end time must not change the steps; the samples by default depend on it, and all of them fit the buffer
+    # the default interval depends on the end time, which must not change the steps; its samples fit the buffer
     longest = _BUFFER_PART * integers.item(_CAPACITY) * request.sample_interval
     floats[_SPAN] = math.inf if request.has_default_samples else longest
 
 
 def write_first_sample(memory: Memory, request: RunRequest) -> None:
-    """Let the next sample be the first one of the request."""
+    """Write that the next sample is the first one of a request."""
     floats, integers = memory.cells
     floats[_NEXT], integers[_INDEX] = request.sample_start, 0
