@@ -59,3 +59,8 @@ def articulations(system: System) -> list[Articulation]:
         found.append(Articulation(first, members, joints))
         first = end + 1
     return found
+
+
+def joints_in_order(system: System) -> list[Tie]:
+    """The joints of a system in the order in which the memory has them: articulation by articulation."""
+    return [joint for articulation in articulations(system) for joint in articulation.joints]

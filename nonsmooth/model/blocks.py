@@ -18,7 +18,7 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT, FRAME, GEOMETRY, GUARD, JOINT_ROW, LOAD, PAIR, UNTOUCHED
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.interfaces import ImpactMap, Joint, Load, StatefulFrictionLaw, TractionLaw
-from nonsmooth.model.articulations import articulations
+from nonsmooth.model.articulations import joints_in_order
 from nonsmooth.model.feature_searches import find_searches
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.system.contact import Contact, Tie
@@ -86,8 +86,7 @@ def _block_of_contact(model: LaidOut, index: int) -> Block:
 def _blocks_of_joints_and_laws(model: LaidOut) -> Iterator[Block]:
     """The blocks of joints, then of traction laws and of the rates of inner states."""
     memory, contacts = model.memory, model.system.contacts
-    ties = [tie for articulation in articulations(model.system) for tie in articulation.joints]
-    for tie, out in zip(ties, memory[owners.Joint.out].tolist(), strict=True):
+    for tie, out in zip(joints_in_order(model.system), memory[owners.Joint.out].tolist(), strict=True):
         assert isinstance(tie.component, Joint)
         yield _block(tie, tie.component.evaluator, out, JOINT_ROW * tie.component.n_rows)
     traction, rates = (memory.declared(out) for out in (owners.Contact.traction_out, owners.Contact.rates_out))

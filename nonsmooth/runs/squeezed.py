@@ -20,6 +20,7 @@ from nonsmooth.engine.memory import blocks, owners
 from nonsmooth.engine.memory.modes import Status
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.interfaces import Body, FrictionLaw
+from nonsmooth.model.articulations import joints_in_order
 from nonsmooth.model.laid_out import LaidOut
 
 _STATUSES = (
@@ -104,13 +105,18 @@ def _free_body(model: LaidOut, first: Body, second: Body) -> tuple[int, bool] | 
     return (free[0], pair[1] == free[0]) if len(free) == 1 else None
 
 
-def _velocity(model: LaidOut, place: int, point: np.ndarray) -> np.ndarray:
-    """Velocity [m/s] of a point [m] that moves with the frame at a place among the floats of the memory."""
-    frame = model.memory.floats[place:]
-    offset = point - frame[blocks.POSITION : blocks.POSITION + 3]
-    return np.asarray(
-        frame[blocks.VELOCITY : blocks.VELOCITY + 3] + np.cross(frame[blocks.SPIN : blocks.SPIN + 3], offset)
-    )
+def _point_and_velocity(
+    model: LaidOut, frames: tuple[int, int], is_second: bool, row: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Point of the free body at which the driven one acts [m], and velocity of the driven body there [m/s].
+
+    The first numbers of ``row`` hold a point on either body, ``frames`` are the places of the frames of both bodies,
+    and ``is_second`` is True if the second body is the free one.
+    """
+    free, driven = (blocks.POINT_B, blocks.POINT_A) if is_second else (blocks.POINT_A, blocks.POINT_B)
+    frame = model.memory.floats[frames[0] if is_second else frames[1] :]
+    position, velocity, spin = (frame[at : at + 3] for at in (blocks.POSITION, blocks.VELOCITY, blocks.SPIN))
+    return row[free : free + 3].copy(), velocity + np.cross(spin, row[driven : driven + 3] - position)
 
 
 def _contact(model: LaidOut, index: int) -> list[_Support]:
@@ -123,17 +129,16 @@ def _contact(model: LaidOut, index: int) -> list[_Support]:
     if found is None or not is_closed or not isinstance(contact.friction, FrictionLaw):
         return []
     body, is_second = found
-    free_point, driven_point = (blocks.POINT_B, blocks.POINT_A) if is_second else (blocks.POINT_A, blocks.POINT_B)
-    place = int(memory[owners.Contact.frame_a if is_second else owners.Contact.frame_b][index])
-    velocity = _velocity(model, place, block[driven_point : driven_point + 3])
+    frames = memory[owners.Contact.frame_a][index], memory[owners.Contact.frame_b][index]
+    point, velocity = _point_and_velocity(model, frames, is_second, block)
     normal = (1.0 if is_second else -1.0) * block[blocks.NORMAL : blocks.NORMAL + 3]
-    return [_Support(str(contact), body, block[free_point : free_point + 3].copy(), velocity, normal, contact.friction)]
+    return [_Support(str(contact), body, point, velocity, normal, contact.friction)]
 
 
 def _joints(model: LaidOut) -> Iterator[_Support]:
     """The joints between a free and a driven body that constrain a point along one axis or more."""
     memory = model.memory
-    for number, joint in enumerate(model.system.joints):
+    for number, joint in enumerate(joints_in_order(model.system)):
         found = _free_body(model, joint.first, joint.second)
         count, start = (int(memory[one][number]) for one in (owners.Joint.n_rows, owners.Joint.out))
         rows = memory.floats[start : start + blocks.JOINT_ROW * count].reshape(count, blocks.JOINT_ROW)
@@ -142,14 +147,6 @@ def _joints(model: LaidOut) -> Iterator[_Support]:
         if found is None or len(rows) == 0:
             continue
         body, is_second = found
-        free_point, driven_point = (blocks.POINT_B, blocks.POINT_A) if is_second else (blocks.POINT_A, blocks.POINT_B)
-        place = int(memory[owners.Joint.frame_a if is_second else owners.Joint.frame_b][number])
-        velocity = _velocity(model, place, rows[0, driven_point : driven_point + 3])
-        yield _Support(
-            str(joint),
-            body,
-            rows[0, free_point : free_point + 3].copy(),
-            velocity,
-            rows[:, blocks.AXIS : blocks.AXIS + 3],
-            None,
-        )
+        frames = memory[owners.Joint.frame_a][number], memory[owners.Joint.frame_b][number]
+        point, velocity = _point_and_velocity(model, frames, is_second, rows[0])
+        yield _Support(str(joint), body, point, velocity, rows[:, blocks.AXIS : blocks.AXIS + 3], None)
