@@ -107,7 +107,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
     memory = allocate(counts, laid_own(engine, counts))
     blocks = Heap(memory)
     memory[owners.Model.entry_points][: len(entry_addresses())] = entry_addresses()
-    bodies = lay_bodies(system, memory, blocks)
+    bodies = lay_bodies(system, memory, blocks, parts.articulations)
     lay_joints(memory, blocks, parts.articulations, bodies)
     lay_loads(system, memory, blocks, bodies)
     lay_contacts(memory, blocks, contacts, parts.table, parts.kinds, bodies)
@@ -126,21 +126,16 @@ def lay(system: System, engine: Engine) -> LaidOut:
 
 def _counts(system: System, engine: Engine, parts: _Parts) -> dict[str, int]:
     """All counts that the memory is allocated for."""
-    contacts, broad_phase = system.contacts, parts.broad_phase
+    contacts, n_slots = system.contacts, parts.broad_phase.n_slots
     n_q = sum(body.n_q for body in system.bodies)
     n_u = sum(body.n_u for body in system.bodies)
     n_states = sum(len(numbers) * len(initial_state(contacts[numbers[0]])) for numbers in parts.kinds)
     n_y = n_q + n_u + N_ACCOUNTS + n_states
-    n_slots = broad_phase.n_slots
     counts = {
         "n_bodies": len(system.bodies),
         "n_slots": n_slots,
         "n_declared": len(contacts),
-        "n_spheres": len(broad_phase.radii),
-        "n_partners": len(broad_phase.pairs),
-        "n_paired": len(broad_phase.contacts),
-        "n_half_spaces": len(broad_phase.half_spaces) if len(broad_phase.radii) > 0 else 0,
-        "n_searches": len(broad_phase.searches),
+        **parts.broad_phase.lengths,
         "n_pairs": len(parts.pairs),
         "n_carriers": len(carriers_of(parts.pairs)),
         "n_own_guards": len(system.guards),

@@ -93,6 +93,19 @@ class BroadPhase:
         per_sphere = max(_CONTACTS_PER_SPHERE, _NEIGHBOURS * int(self.counts.max(initial=0)))
         return len(self.half_spaces) + min(len(self.contacts), per_sphere * len(self.frames))
 
+    @property
+    def lengths(self) -> dict[str, int]:
+        """Counts of the memory for spheres, their pairs and contacts, half-spaces and searches."""
+        n_spheres = len(self.radii)
+        return {
+            "n_spheres": n_spheres,
+            "n_partners": len(self.pairs),
+            "n_paired": len(self.contacts),
+            # without spheres all contacts are active
+            "n_half_spaces": len(self.half_spaces) if n_spheres > 0 else 0,
+            "n_searches": len(self.searches),
+        }
+
 
 def find_broad_phase(contacts: Sequence[Contact], table: ContactTable, bodies: Sequence[Body]) -> BroadPhase:
     """Spheres and half-spaces of the contacts of a system with these bodies.

@@ -18,7 +18,7 @@ from nonsmooth.system.contact import Tie
 from nonsmooth.system.system import System
 
 
-@dataclass
+@dataclass(frozen=True)
 class BodyLayout:
     """Where the numbers of a body are.
 
@@ -42,9 +42,9 @@ class BodyLayout:
     n_u: int
     u: int
     frames: tuple[int, ...]
-    articulation: int = -1
-    column: int = 0
-    articulation_n_u: int = 0
+    articulation: int
+    column: int
+    articulation_n_u: int
 
 
 BodyLayouts = Mapping[int, BodyLayout]
@@ -76,32 +76,48 @@ def _function(
     return {"function": address, "parameters": blocks.store(values), "out": blocks.output(size)}
 
 
-def lay_bodies(system: System, memory: Memory, blocks: Heap) -> dict[int, BodyLayout]:
+def lay_bodies(
+    system: System, memory: Memory, blocks: Heap, articulations: Sequence[Articulation]
+) -> dict[int, BodyLayout]:
     """Write the bodies; the result has the layout of each, by its identity."""
-    gravity = dict(zip(("gravity_x", "gravity_y", "gravity_z"), system.gravity, strict=True))
     n_q = sum(body.n_q for body in system.bodies)
-    scale = memory[owners.Step.y_scale][: int(memory[owners.Model.n_y])]
-    constrained = {id(body) for tie in (*system.joints, *system.loads) for body in (tie.first, tie.second)}
-    layouts = {}
+    scale = memory[owners.Step.y_scale]
+    tied = {id(body) for tie in (*system.joints, *system.loads) for body in (tie.first, tie.second)}
+    layouts: dict[int, BodyLayout] = {}
     q = u = 0
-    for number, body in enumerate(system.bodies):
-        available = {**body.parameters(), **gravity}
-        start: Sequence[float | Sequence[float]] = (0.0, *map(tuple, system.start(body)))
-        width, n = FRAME + 6 * body.n_u, body.n_q + body.n_u
-        tail = len(body.frames) * width
-        fields = _function(blocks, body.evaluator, "body", body, available, tail + n + body.n_u**2 + 2, start)
-        out = fields["out"]
-        fields |= {"q": q, "u": u, "n_q": body.n_q, "n_u": body.n_u, "tail": out + tail}
-        fields |= {"quaternion": body.quaternion, "spin": body.spin}
-        # the closed form of ballistic motion knows neither joints nor loads
-        if body.flight is not None and id(body) not in constrained:
-            ballistic = _function(blocks, body.flight, "body", body, available, n, start)
-            fields |= {f"ballistic_{name}": value for name, value in ballistic.items()}
-        write_record(memory, owners.Body, number, fields)
-        layouts[id(body)] = BodyLayout(number, body.n_u, u, tuple(range(out, out + tail, width)))
-        scale[q : q + body.n_q], scale[n_q + u : n_q + u + body.n_u] = body.scales
-        q, u = q + body.n_q, u + body.n_u
+    for index, articulation in enumerate(articulations):
+        first_u, n_u = u, sum(body.n_u for body in articulation.bodies)
+        for number, body in enumerate(articulation.bodies, articulation.first):
+            frames = _lay_body(system, memory, blocks, number, id(body) in tied, {"q": q, "u": u})
+            layouts[id(body)] = BodyLayout(number, body.n_u, u, frames, index, u - first_u, n_u)
+            scale[q : q + body.n_q], scale[n_q + u : n_q + u + body.n_u] = body.scales
+            q, u = q + body.n_q, u + body.n_u
     return layouts
+
+
+def _lay_body(
+    system: System, memory: Memory, blocks: Heap, number: int, is_tied: bool, fields: dict[str, int]
+) -> tuple[int, ...]:
+    """Write a body; the result has the places of its frames.
+
+    ``is_tied`` is True if it has a joint or a load, and ``fields`` have its first coordinate and velocity.
+    """
+    body = system.bodies[number]
+    gravity = dict(zip(("gravity_x", "gravity_y", "gravity_z"), system.gravity, strict=True))
+    available = {**body.parameters(), **gravity}
+    start: Sequence[float | Sequence[float]] = (0.0, *map(tuple, system.start(body)))
+    width, n = FRAME + 6 * body.n_u, body.n_q + body.n_u
+    # behind the frames are q', force, inverse mass and two energies
+    tail = len(body.frames) * width
+    fields |= _function(blocks, body.evaluator, "body", body, available, tail + n + body.n_u**2 + 2, start)
+    out = fields["out"]
+    fields |= {"n_q": body.n_q, "n_u": body.n_u, "tail": out + tail, "quaternion": body.quaternion, "spin": body.spin}
+    # the closed form of ballistic motion knows neither joints nor loads
+    if body.flight is not None and not is_tied:
+        ballistic = _function(blocks, body.flight, "body", body, available, n, start)
+        fields |= {f"ballistic_{name}": value for name, value in ballistic.items()}
+    write_record(memory, owners.Body, number, fields)
+    return tuple(range(out, out + tail, width))
 
 
 def lay_joints(memory: Memory, blocks: Heap, articulations: Sequence[Articulation], layouts: BodyLayouts) -> None:
@@ -109,15 +125,14 @@ def lay_joints(memory: Memory, blocks: Heap, articulations: Sequence[Articulatio
     joint = 0
     for number, articulation in enumerate(articulations):
         bodies, ties = articulation.bodies, articulation.joints
-        u, n = layouts[id(bodies[0])].u, sum(body.n_u for body in bodies)
-        for layout in (layouts[id(body)] for body in bodies):
-            layout.articulation, layout.column, layout.articulation_n_u = number, layout.u - u, n
+        layout = layouts[id(bodies[0])]
+        n = layout.articulation_n_u
         first, rows = joint, 0
         for tie in ties:
             rows += _lay_joint(memory, blocks, joint, tie, rows, layouts)
             joint += 1
         fields = {
-            "u": u,
+            "u": layout.u,
             "n_u": n,
             "first_body": articulation.first,
             "n_bodies": len(bodies),

@@ -68,7 +68,7 @@ class Model:
         self._start_checkpoint = Checkpoint.of(laid.memory)
         self._records = Records(laid)
         self._runs = threading.Lock()
-        # the memory holds the start when this is called; only the first call that succeeds does anything
+        # called while the memory holds the default start; only the first call that succeeds does anything
         self._check_start = functools.cache(partial(check_start, laid))
 
     @classmethod
@@ -297,12 +297,12 @@ class Model:
             energy, wall = (state.energy.kinetic_start, state.energy.potential_start), folder.wall_seconds
             sink = FolderSink(folder, self._records, self._states_from(energy), wall)
             start = Checkpoint.of(laid.memory)
-            return self._complete(
-                EngineLoop(self._engine, laid, self._records, start, sink, progress, until), energy, wall
-            )
+            loop = EngineLoop(self._engine, laid, self._records, start, sink, progress, until)
+            return self._complete(loop, energy, wall)
 
     @functools.cached_property
     def _undeclared(self) -> Undeclared:
+        """The pairs of bodies without a contact, for warnings."""
         return Undeclared.of(self._laid.system)
 
     @functools.cached_property
@@ -352,7 +352,10 @@ class Model:
         return lambda checkpoint: self._final_state(start_energy, checkpoint, 0).state()
 
     def _final_state(self, start_energy: tuple[float, float], resumable: Checkpoint, n_known_events: int) -> FinalState:
-        """The state of the memory now, ``n_known_events`` events after a checkpoint."""
+        """The state of the memory now, ``n_known_events`` events after the checkpoint ``resumable``.
+
+        The energy account starts at ``start_energy`` [J].
+        """
         laid = self._laid
         laid.evaluate()
         return FinalState(
@@ -370,12 +373,14 @@ class Model:
     def _run(
         self, request: RunRequest, state: State, progress: Progress | None, output: Output | None, until: Until | None
     ) -> Solution:
+        """Run from a state, while the memory is reserved."""
         laid = self._laid
         self._records = Records(laid)
         energy = self._put_start(state)
         write_request(laid.memory, request)
         write_first_sample(laid.memory, request)
-        # with many contacts a checkpoint takes milliseconds
+        # with many contacts a checkpoint takes milliseconds, so that of the default start is taken once; only a folder
+        # needs the time of the first sample in it
         is_known = state is self._start and output is None
         start = self._start_checkpoint if is_known else Checkpoint.of(laid.memory)
         sink = OutputSink()
