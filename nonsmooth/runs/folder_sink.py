@@ -16,7 +16,7 @@ from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
 
 _COMMIT_INTERVAL = 0.5
-"""Time from one commit to the next [s]. The cost of a commit is then small beside the run."""
+"""Time from one commit to the next [s]. A commit then costs little compared with the run."""
 _FIRST_COMMIT = 0.25
 """Time from the start to the first commit [s]. A run shorter than this is written once, at its end."""
 _CALL_TIME = 0.15
@@ -24,7 +24,7 @@ _CALL_TIME = 0.15
 _FEWEST_STEPS = 4
 """Least number of steps per call. Near the end time the engine pauses after fewer anyway."""
 _FIRST_STEPS = 64
-"""Number of steps of the first call, before the time of a step is known."""
+"""Number of steps of the first call, before the wall time of a step is known."""
 _MOST_STEPS = 2000
 """Largest number of steps per call. More gain no time."""
 
@@ -43,7 +43,7 @@ class FolderSink(OutputSink):
     state_at : callable
         Makes the state of a checkpoint.
     wall : float
-        Wall time of the run before this process [s].
+        Wall time of the run in earlier processes [s].
     """
 
     folder: SolutionFolder
@@ -68,7 +68,7 @@ class FolderSink(OutputSink):
         self._last_call = time.perf_counter()
 
     def write(self, checkpoint: Checkpoint) -> None:
-        """Start a commit of the new results, if it is time and the last commit has ended."""
+        """Start a commit of the new results, if it is time and the last commit has ended; adapt the steps per call."""
         now = time.perf_counter()
         wanted = self._steps * _CALL_TIME / max(now - self._last_call, 1e-6)
         self._steps = int(min(_MOST_STEPS, 4 * self._steps, max(_FEWEST_STEPS, wanted)))
@@ -91,6 +91,12 @@ class FolderSink(OutputSink):
         self.folder.close()
 
     def _wait(self) -> None:
-        """Wait for the last commit, and raise the error that it ended with."""
+        """Wait for the last commit.
+
+        Raises
+        ------
+        FileError
+            If it could not be written.
+        """
         if self._commit is not None:
             self._commit.result()

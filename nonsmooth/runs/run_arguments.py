@@ -14,7 +14,7 @@ _DEFAULT_SAMPLES = 2000
 _MOST_SAMPLES = 10**8
 """Largest number of samples of a run. Those of one small body then take more memory than most machines have."""
 _MOST_STEPS = 10**10
-"""Largest number of steps of a run. At a microsecond a step, the least possible, they take three hours."""
+"""Largest number of steps of a run. At a microsecond each, the least possible, they take three hours."""
 
 
 def check_calls(name: str, until: Until | None, progress: Progress | None) -> None:

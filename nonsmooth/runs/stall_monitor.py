@@ -60,6 +60,7 @@ class StallMonitor:
     model: LaidOut
     start: Checkpoint
     _last_events: deque[_Event] = field(default_factory=lambda: deque(maxlen=_N_LAST_EVENTS))
+    # number and time [s] of the steps since time passed last
     _n_short: int = 0
     _short_time: float = 0.0
     _has_warned: bool = False
@@ -69,7 +70,9 @@ class StallMonitor:
         self._limits = self._limits_before = self.start[owners.Totals.n_steps_limited]
 
     def observe(self, status: int) -> None:
-        """Evaluate the last call of the engine, which ended with a status. Its buffers must not be drained yet.
+        """Count steps and events of the last call of the engine, which ended with a status.
+
+        Its buffers must not be drained yet.
 
         Warns
         -----
@@ -96,7 +99,7 @@ class StallMonitor:
             warnings.warn(text, TimeHardlyPasses, stacklevel=7)
 
     def hint(self, status: int) -> str:
-        """Sentences about where a run failed that ended with a status, or ""."""
+        """Sentences about what a failed run was doing when it ended with a status; "" for other statuses."""
         if status == Status.STALLED:
             return f"{self._counted_events()} {_REMEDY}"
         if status == Status.STEP_TOO_SMALL:
@@ -104,7 +107,7 @@ class StallMonitor:
         return _last_contacts(self.model) if status in _STATUSES_AT_AN_INSTANT else ""
 
     def _new_events(self) -> Iterable[_Event]:
-        """The events that the buffers of the engine hold."""
+        """Cause, and contact or guard, of the events that the buffers of the engine hold."""
         memory = self.model.memory
         codes = memory[owners.Output.event_codes][: int(memory[owners.Output.integers_used])].tolist()
         at = 0
@@ -140,7 +143,10 @@ class StallMonitor:
 
 
 def _largest_error(model: LaidOut) -> str:
-    """Sentence that names the coordinate, velocity or inner state with the largest relative error of the last step."""
+    """Sentence that names the coordinate, velocity or inner state with the largest relative error of the last step.
+
+    A step that is too small was rejected, and its error is still where stages are written.
+    """
     memory, n = model.memory, model.n_y
     error, scale, y = (memory[one] for one in (owners.Step.y_stage, owners.Step.y_scale, owners.Island.y))
     size = scale + np.abs(y)

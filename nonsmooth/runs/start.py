@@ -15,7 +15,6 @@ from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.memory.tables import places
 from nonsmooth.errors import InvalidInput
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
@@ -32,15 +31,6 @@ _COUNTERS = (
     owners.Totals.n_listings,
     owners.Totals.n_steps_limited,
 )
-_T_END, _INTERVAL, _FIRST, _NEXT, _SPAN, _INDEX, _CAPACITY = places(
-    "request.t_end",
-    "request.sample_interval",
-    "request.sample_start",
-    "output.next_sample",
-    "request.sample_span",
-    "output.sample_index",
-    "model.sample_capacity",
-).tolist()
 _BUFFER_PART = 0.5
 """Part of the buffer of samples that one step may fill. The engine pauses if the other half is full."""
 
@@ -137,15 +127,15 @@ def _write(model: LaidOut, blank: Checkpoint, state: State, modes: Integers) -> 
 
 
 def write_request(memory: Memory, request: RunRequest) -> None:
-    """Write the end time and the times of samples [s], by places of scalars: names take longer in a short run."""
-    floats, integers = memory.cells
-    floats[_T_END], floats[_FIRST], floats[_INTERVAL] = request.t_end, request.sample_start, request.sample_interval
+    """Write the end time and the times of samples [s]."""
+    memory[owners.Request.t_end] = request.t_end
+    memory[owners.Request.sample_start] = request.sample_start
+    memory[owners.Request.sample_interval] = request.sample_interval
     # the default interval depends on the end time, which must not change the steps; its samples fit the buffer
-    longest = _BUFFER_PART * integers.item(_CAPACITY) * request.sample_interval
-    floats[_SPAN] = math.inf if request.has_default_samples else longest
+    longest = _BUFFER_PART * memory[owners.Model.sample_capacity] * request.sample_interval
+    memory[owners.Request.sample_span] = math.inf if request.has_default_samples else longest
 
 
 def write_first_sample(memory: Memory, request: RunRequest) -> None:
     """Write that the next sample is the first one of a request."""
-    floats, integers = memory.cells
-    floats[_NEXT], integers[_INDEX] = request.sample_start, 0
+    memory[owners.Output.next_sample], memory[owners.Output.sample_index] = request.sample_start, 0
