@@ -15,6 +15,7 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import GAP, NORMAL
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
+from nonsmooth.model.part_pairs import by_shapes
 from nonsmooth.solids.placed import Placed, overlap
 from nonsmooth.system.contact import Contact
 
@@ -108,14 +109,8 @@ def solid_pairs(
     within : float
         Shapes whose bounding spheres are farther apart than this are left out [m].
     """
-    pairs: dict[tuple[int, ...], list[int]] = {}
-    contacts = model.system.contacts
-    for number in numbers:
-        contact = contacts[number]
-        key = (*map(id, (contact.first, contact.second, *contact.shapes)), *contact.frames)
-        pairs.setdefault(key, []).append(number)
-    for same in pairs.values():
-        contact = contacts[same[0]]
+    for same in by_shapes(model.system.contacts, numbers):
+        contact = model.system.contacts[same[0]]
         solids = [solid for shape in contact.shapes if (solid := shape.solid) is not None]
         if len(solids) < len(contact.shapes):
             continue
