@@ -21,6 +21,7 @@ from nonsmooth.interfaces import ImpactMap, Joint, Load, StatefulFrictionLaw, Tr
 from nonsmooth.model.articulations import joints_in_order
 from nonsmooth.model.feature_searches import find_searches
 from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.model.laying import place_of_inverse_mass
 from nonsmooth.system.contact import Contact, Tie
 
 
@@ -60,10 +61,9 @@ def _blocks_of_bodies(model: LaidOut) -> Iterator[Block]:
         assert isinstance(tie.component, Load)
         yield _block(tie, tie.component.evaluator, out, LOAD)
     named = list(zip(system.names.bodies, system.bodies, strict=True))
-    outs, tails = memory[owners.Body.out].tolist(), memory[owners.Body.tail].tolist()
-    for (name, body), start, tail in zip(named, outs, tails, strict=True):
-        # a driven body writes its motion only; others write the inverse mass and the energies behind q' and force
-        force_end = tail - start + body.n_q + body.n_u
+    for number, ((name, body), start) in enumerate(zip(named, memory[owners.Body.out].tolist(), strict=True)):
+        # a driven body writes its motion only; others write frames, q' and force, then inverse mass and two energies
+        force_end = place_of_inverse_mass(memory, number) - start
         n_written = FRAME if body.n_u == 0 else force_end
         label = functools.partial("body {!r}, {!r}:".format, name, body)
         yield Block(label, body.evaluator, start, force_end + body.n_u**2 + 2, n_written)

@@ -19,12 +19,12 @@ from nonsmooth.interfaces.engine_report import FIRST_CODE
 
 
 def counts_of(engine: Engine, n_slots: int, free: Collection[str]) -> Mapping[str, int]:
-    """Counts that the engine decides for at most ``n_slots`` active contacts; only ``free`` ones may be among them.
+    """Counts that the engine decides for at most ``n_slots`` active contacts; it may only decide those in ``free``.
 
     Raises
     ------
     InvalidInput
-        If another count is among them, or one is no length.
+        If it decides another count, or a count is no length.
     """
     found = engine.counts(n_slots)
     for name in _known(engine, "counts", found, free):

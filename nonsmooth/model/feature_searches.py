@@ -52,7 +52,7 @@ class FeatureSearch:
 
 
 def find_searches(contacts: Sequence[Contact]) -> list[FeatureSearch]:
-    """The searches, in the order of their contacts.
+    """The searches, in the order of their contacts. The contacts of a search are consecutive.
 
     Raises
     ------
@@ -63,7 +63,7 @@ def find_searches(contacts: Sequence[Contact]) -> list[FeatureSearch]:
     candidates = list(map(attrgetter("kinematics.candidates"), contacts))
     numbers = [number for number, one in enumerate(candidates) if one is not None]
     for _, group in itertools.groupby(numbers, lambda number: id(candidates[number])):
-        first, *more = group
+        first, *others = group
         contact, search = contacts[first], candidates[first]
         assert search is not None
         for shape, extent in zip(contact.shapes, contact.extents, strict=True):
@@ -75,7 +75,7 @@ def find_searches(contacts: Sequence[Contact]) -> list[FeatureSearch]:
                     "Give the shape a finite `extent`, or return contacts of given features from `between`.",
                 )
         owner = f"{type(contact.kinematics).__name__} ({contact})"
-        found.append(FeatureSearch(search, range(first, first + 1 + len(more)), owner))
+        found.append(FeatureSearch(search, range(first, first + 1 + len(others)), owner))
     return found
 
 

@@ -16,6 +16,7 @@ from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engine.numerics.linear import SINGULAR
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.model.laying import place_of_inverse_mass
 from nonsmooth.system.contact import Contact, Tie
 
 REMEDY = "Leave a clearance between its bodies there."
@@ -86,10 +87,8 @@ def _inverse_masses(model: LaidOut, index: int, side: str) -> tuple[float, float
 
 def inverse_mass(model: LaidOut, number: int) -> np.ndarray:
     """Inverse mass matrix of a body without joints, as it was evaluated last, shape [n_u, n_u]."""
-    memory, body = model.memory, model.system.bodies[number]
-    # behind q' and force
-    start = int(memory[owners.Body.tail][number]) + body.n_q + body.n_u
-    return np.asarray(memory.floats[start : start + body.n_u**2].reshape(body.n_u, body.n_u))
+    n_u, start = model.system.bodies[number].n_u, place_of_inverse_mass(model.memory, number)
+    return np.asarray(model.memory.floats[start : start + n_u**2].reshape(n_u, n_u))
 
 
 def _free_inverse_mass(model: LaidOut, number: int, row: np.ndarray, start: int) -> float:

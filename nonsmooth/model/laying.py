@@ -20,7 +20,7 @@ from nonsmooth.system.system import System
 
 @dataclass(frozen=True)
 class BodyLayout:
-    """Where the numbers of a body are.
+    """Where the memory has the numbers of a body.
 
     Attributes
     ----------
@@ -108,26 +108,26 @@ def _lay_body(
     start: Sequence[float | Sequence[float]] = (0.0, *map(tuple, system.start(body)))
     width, n = FRAME + 6 * body.n_u, body.n_q + body.n_u
     # behind the frames are q', force, inverse mass and two energies
-    tail = len(body.frames) * width
-    fields |= _function(blocks, body.evaluator, "body", body, available, tail + n + body.n_u**2 + 2, start)
+    n_of_frames = len(body.frames) * width
+    fields |= _function(blocks, body.evaluator, "body", body, available, n_of_frames + n + body.n_u**2 + 2, start)
     out = fields["out"]
-    fields |= {"n_q": body.n_q, "n_u": body.n_u, "tail": out + tail, "quaternion": body.quaternion, "spin": body.spin}
+    fields |= {"n_q": body.n_q, "n_u": body.n_u, "tail": out + n_of_frames}
+    fields |= {"quaternion": body.quaternion, "spin": body.spin}
     # the closed form of ballistic motion knows neither joints nor loads
     if body.flight is not None and not is_tied:
         ballistic = _function(blocks, body.flight, "body", body, available, n, start)
         fields |= {f"ballistic_{name}": value for name, value in ballistic.items()}
     write_record(memory, owners.Body, number, fields)
-    return tuple(range(out, out + tail, width))
+    return tuple(range(out, out + n_of_frames, width))
 
 
 def lay_joints(memory: Memory, blocks: Heap, articulations: Sequence[Articulation], layouts: BodyLayouts) -> None:
-    """Write the articulations, and the joints in the order of the articulations."""
+    """Write the articulations with their matrices, and the joints in the order of the articulations."""
     joint = 0
     for number, articulation in enumerate(articulations):
         bodies, ties = articulation.bodies, articulation.joints
         layout = layouts[id(bodies[0])]
-        n = layout.articulation_n_u
-        first, rows = joint, 0
+        n, first, rows = layout.articulation_n_u, joint, 0
         for tie in ties:
             rows += _lay_joint(memory, blocks, joint, tie, rows, layouts)
             joint += 1
@@ -137,7 +137,7 @@ def lay_joints(memory: Memory, blocks: Heap, articulations: Sequence[Articulatio
             "first_body": articulation.first,
             "n_bodies": len(bodies),
             # without joints the inverse mass is the one that the body writes
-            "inverse": blocks.block(n * n) if ties else _inverse_mass(memory, articulation.first),
+            "inverse": blocks.block(n * n) if ties else place_of_inverse_mass(memory, articulation.first),
             "first_joint": first,
             "n_joints": len(ties),
             "n_rows": rows,
@@ -149,8 +149,8 @@ def lay_joints(memory: Memory, blocks: Heap, articulations: Sequence[Articulatio
         write_record(memory, owners.Articulation, number, fields)
 
 
-def _inverse_mass(memory: Memory, body: int) -> int:
-    """Offset in the memory of the inverse mass of a body, which its function writes behind q' and its force."""
+def place_of_inverse_mass(memory: Memory, body: int) -> int:
+    """Place of the inverse mass of a body among the floats. Its function writes it behind q' and the force."""
     return int(memory[owners.Body.tail][body] + memory[owners.Body.n_q][body] + memory[owners.Body.n_u][body])
 
 

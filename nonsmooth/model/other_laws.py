@@ -17,7 +17,7 @@ _OF_GEOMETRY = (owners.Contact.geometry_parameters, owners.Contact.features)
 
 
 def lay_laws(model: LaidOut, system: System) -> LaidOut:
-    """Layout of a system with other laws, in the memory of a model, which is blank.
+    """Layout of a system with other laws, in the memory of a model that holds no run.
 
     Raises
     ------

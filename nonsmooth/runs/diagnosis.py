@@ -71,7 +71,7 @@ def _failing_function(model: LaidOut, status: int) -> str:
 
 
 def _immobile(model: LaidOut) -> str:
-    """Sentence that names a contact whose force is not determined, or ""."""
+    """Sentence that names a contact that joints prevent from moving along its normal, or ""."""
     found = immobile_contact(model)
     if found is None:
         return ""
@@ -93,7 +93,7 @@ def _law_findings(model: LaidOut) -> Iterator[Finding | None]:
 
 
 def _failing_block(model: LaidOut) -> str:
-    """Sentence that names a body, load or contact without finite numbers, or "".
+    """Sentence that names a body, load or contact whose function gives no finite numbers, or "".
 
     They are evaluated at the last state, at its time, at the end of the failed step and shortly after: functions of
     time may fail between two steps.
@@ -113,7 +113,7 @@ def _failing_block(model: LaidOut) -> str:
 
 
 def _failing_map(model: LaidOut) -> str:
-    """Sentence about the impact map of the last impact, called again as plain Python, or ""."""
+    """Sentence about the impact map if its last impulses are not finite, called again as plain Python, or ""."""
     memory = model.memory
     n = int(memory[owners.Problem.n_active])
     law = model.system.contacts[0].impact if model.system.contacts else None

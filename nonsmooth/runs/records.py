@@ -59,6 +59,7 @@ class Records:
 
     model: LaidOut
     earlier: tuple[Events, Floats] | None = None
+    # floats and integers of events, and samples
     _parts: dict[int, tuple[Floats, Integers, Floats]] = field(default_factory=dict)
     _n_drained: int = 0
     _n_taken: int = 0
@@ -101,6 +102,7 @@ class Records:
 
         The engine records none there, because the run has started before.
         """
+        # an event: time, q, u before and after, the rest of the integrated state, and numbers of the closed contacts
         closed = np.flatnonzero(state.modes != Mode.OPEN)
         codes = _ALWAYS * np.where(state.modes[closed] == Mode.SLIDE, _SLIDE_CODE, _STICK_CODE)
         head = np.zeros(EVENT_HEAD)
@@ -147,6 +149,7 @@ class Records:
                 f"{self._n_drained} events",
                 "Let records_contacts return True, and keep the mode and event_impulse of each contact.",
             )
+        # the floats of an event begin with its time
         first = next((floats.item(0) for floats, _, _ in self._parts.values() if len(floats)), math.inf)
         if self.earlier is None and engine.records_contacts and first > start:
             raise InvalidInput(
@@ -157,7 +160,7 @@ class Records:
             )
 
     def add_last_sample(self) -> None:
-        """Add a sample at the end of the run, unless there is one."""
+        """Add a sample at the time reached, unless the last sample is there."""
         memory, (floats, integers) = self.model.memory, self.model.memory.cells
         t, interval = floats.item(_T), floats.item(_INTERVAL)
         if integers.item(_INDEX) > 0 and t - (floats.item(_NEXT) - interval) <= _ROUND_OFF * interval:

@@ -48,7 +48,7 @@ def check_steps(duration: float, largest_step: float) -> None:
 
 
 def check_times(name: str, t_end: float, sample_interval: float | None, start: float = 0.0) -> float:
-    """Check the times [s] of a run from ``start``; the result is the time between samples [s].
+    """Check the times [s] of a run from ``start``; the result is the time between samples, by default a 2000th of it.
 
     Raises
     ------
