@@ -62,7 +62,7 @@ def _blocks_of_bodies(model: LaidOut) -> Iterator[Block]:
         yield _block(tie, tie.component.evaluator, out, LOAD)
     named = list(zip(system.names.bodies, system.bodies, strict=True))
     for number, ((name, body), start) in enumerate(zip(named, memory[owners.Body.out].tolist(), strict=True)):
-        # a driven body writes its motion only; others write frames, q' and force, then inverse mass and two energies
+        # a driven body must write the motion of a frame only, another one all up to the force; energies come last
         force_end = place_of_inverse_mass(memory, number) - start
         n_written = FRAME if body.n_u == 0 else force_end
         label = functools.partial("body {!r}, {!r}:".format, name, body)
@@ -70,10 +70,8 @@ def _blocks_of_bodies(model: LaidOut) -> Iterator[Block]:
     functions, outs = memory[owners.Body.ballistic_function].tolist(), memory[owners.Body.ballistic_out].tolist()
     for (name, body), function, start in zip(named, functions, outs, strict=True):
         if body.flight is not None and function != 0:
-            label, size = (
-                functools.partial("body {!r}, {!r} in ballistic motion:".format, name, body),
-                body.n_q + body.n_u,
-            )
+            label = functools.partial("body {!r}, {!r} in ballistic motion:".format, name, body)
+            size = body.n_q + body.n_u
             yield Block(label, body.flight, start, size, size)
 
 
