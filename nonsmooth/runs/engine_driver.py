@@ -82,7 +82,7 @@ class EngineDriver:
         InvalidInput
             If the engine breaks its contract.
         """
-        status = self.advance(most_steps, False)
+        status = self.advance(most_steps, pauses_before_end=False)
         if status == Status.PAUSED and self._holds(checkpoint):
             raise InvalidInput(
                 self._name,

@@ -162,7 +162,8 @@ class EngineLoop:
         self._n_calls += 1
         before = None if run is None else run.reached
         # a condition is evaluated at the start, before any step, and after each step
-        status = driver.advance(sink.steps() if run is None else min(self._n_calls - 1, 1), True)
+        most_steps = sink.steps() if run is None else min(self._n_calls - 1, 1)
+        status = driver.advance(most_steps, pauses_before_end=True)
         # with a condition, the engine has paused before its step if it did nothing
         is_near_end = status == Status.PAUSED and (run is None or before == run.reached)
         if is_near_end or (status == Status.PAUSED and self._n_calls % sink.steps() == 0):
