@@ -66,12 +66,12 @@ def check_numbers(model: LaidOut, state: State) -> None:
     InvalidInput
         If a number is not finite, or a quaternion has another length.
     """
-    values = [getattr(state, name).ravel() for name in _REALS]
-    if not np.isfinite(np.concatenate(values)).all():
-        name, value = next((n, v) for n, v in zip(_REALS, values, strict=True) if not np.isfinite(v).all())
-        number = int(np.flatnonzero(~np.isfinite(value))[0])
-        remedy = f"Correct entry {number}. A failed run may leave such a state."
-        raise InvalidInput(f"State.{name}", "must be finite numbers", float(value[number]), remedy)
+    for name in _REALS:
+        value = getattr(state, name).ravel()
+        wrong = np.flatnonzero(~np.isfinite(value))
+        if len(wrong) > 0:
+            remedy = f"Correct entry {wrong[0]}. A failed run may leave such a state."
+            raise InvalidInput(f"State.{name}", "must be finite numbers", float(value[wrong[0]]), remedy)
     first = 0
     for body in model.system.bodies:
         check_quaternion(f"State.q of {model.system.name_of(body)!r}", body, state.q[first : first + body.n_q])
