@@ -33,13 +33,14 @@ class Articulation:
 
 
 def articulations(system: System) -> list[Articulation]:
-    """Split the bodies into the shortest runs of consecutive bodies such that no joint ties movable bodies of two runs.
+    """The articulations of a system, in the order of its bodies; each body belongs to one.
 
-    A run of bodies is an articulation: its velocities are consecutive, and joints couple them. A body between two of a
-    run belongs to it even without a joint. That costs time and does not change the motion. Each joint must have a
-    movable body.
+    They are the shortest ranges of consecutive bodies such that no joint ties movable bodies of two ranges. A body
+    between two tied ones belongs to their range even without a joint. That costs time and does not change the motion.
+    Each joint must have a movable body.
     """
     bodies = system.bodies
+    # of each body the last one that a joint ties to it
     last = list(range(len(bodies)))
     for tie in system.joints:
         numbers = [i for i, body in enumerate(bodies) if (body is tie.first or body is tie.second) and body.n_u > 0]
@@ -48,6 +49,7 @@ def articulations(system: System) -> list[Articulation]:
     first = 0
     while first < len(bodies):
         end = number = first
+        # the range grows by the bodies that are tied to those in it
         while number <= end:
             end = max(end, last[number])
             number += 1
@@ -57,3 +59,8 @@ def articulations(system: System) -> list[Articulation]:
         found.append(Articulation(first, members, joints))
         first = end + 1
     return found
+
+
+def joints_in_order(system: System) -> list[Tie]:
+    """The joints of a system in the order in which the memory has them: articulation by articulation."""
+    return [joint for articulation in articulations(system) for joint in articulation.joints]

@@ -10,30 +10,32 @@ from typing import NamedTuple
 
 import numpy as np
 
+from nonsmooth.binding.compile import parameter_names
 from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, LISTED, MOST_EVENTS
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.layout import BOOKED, N_ACCOUNTS
 from nonsmooth.engine.memory.memory import Heap, allocate
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import entry_addresses
-from nonsmooth.interfaces import Engine
+from nonsmooth.interfaces import Engine, ImpactMap
 from nonsmooth.model.articulations import Articulation, articulations
-from nonsmooth.model.block_ends import BlockEnds
+from nonsmooth.model.blocks import marks_behind_blocks
 from nonsmooth.model.broad_phase import BroadPhase, find_broad_phase, lay_broad_phase
 from nonsmooth.model.checks import check_guards, check_start
 from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.engine_parts import check_report, counts_of, laid_own, settings_of
 from nonsmooth.model.feature_searches import lay_searches
-from nonsmooth.model.laid_out import LaidOut, map_width
+from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.model.laying import lay_bodies, lay_guards, lay_joints, lay_loads
 from nonsmooth.model.laying_contacts import Kinds, by_kind, initial_state, lay_contacts
 from nonsmooth.model.part_pairs import PartPair, carriers_of, find_part_pairs, lay_part_pairs
+from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
 
 _EVENTS = 2048
 """Number of events of the usual size that the buffers hold. To empty them costs little per event then."""
 _CONTACTS_PER_EVENT = 32
-"""Number of active contacts in an event of the usual size. A larger event leaves room for fewer events."""
+"""Number of active contacts in an event of the usual size. Fewer events fit into the buffers if they are larger."""
 _SAMPLES = 4096
 """Number of samples that the buffer holds."""
 
@@ -49,6 +51,7 @@ class _Parts(NamedTuple):
 
     @classmethod
     def of(cls, system: System) -> _Parts:
+        """Find the parts of a system."""
         bodies, contacts = system.bodies, system.contacts
         table = ContactTable.of(bodies, contacts)
         return cls(
@@ -68,15 +71,13 @@ def assemble(system: System, engine: Engine) -> LaidOut:
     InvalidInput
         If bodies overlap at the start, a joint is not closed there, or a guard has no value.
     """
-    model = lay(system, engine)
-    ends = BlockEnds.of(model.memory)
-    _place(model)
-    check_start(model, ends)
+    model = lay_out(system, engine)
+    check_start(model)
     return model
 
 
 def lay_out(system: System, engine: Engine) -> LaidOut:
-    """Layout of a system at its start, with the neighbour list there, but without other checks of the start.
+    """Layout of a system at its start, with the neighbour list there. The start is not checked.
 
     Raises
     ------
@@ -84,18 +85,13 @@ def lay_out(system: System, engine: Engine) -> LaidOut:
         If too many contacts are near each other.
     """
     model = lay(system, engine)
-    _place(model)
+    model.memory[owners.Island.y][: model.n_q + model.n_u] = np.concatenate(system.starts())
+    model.list_contacts()
     return model
 
 
-def _place(model: LaidOut) -> None:
-    """Write the start of each body, and make the neighbour list."""
-    model.memory[owners.Island.y][: model.n_q + model.n_u] = np.concatenate(model.system.starts())
-    model.list_contacts()
-
-
 def lay(system: System, engine: Engine) -> LaidOut:
-    """Layout of a system without a state.
+    """Layout of a system whose memory holds no state yet.
 
     Raises
     ------
@@ -111,7 +107,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
     memory = allocate(counts, laid_own(engine, counts))
     blocks = Heap(memory)
     memory[owners.Model.entry_points][: len(entry_addresses())] = entry_addresses()
-    bodies = lay_bodies(system, memory, blocks)
+    bodies = lay_bodies(system, memory, blocks, parts.articulations)
     lay_joints(memory, blocks, parts.articulations, bodies)
     lay_loads(system, memory, blocks, bodies)
     lay_contacts(memory, blocks, contacts, parts.table, parts.kinds, bodies)
@@ -120,30 +116,26 @@ def lay(system: System, engine: Engine) -> LaidOut:
     lay_part_pairs(memory, blocks, parts.pairs, frames)
     lay_searches(memory, blocks, parts.broad_phase.searches, parts.table, parts.broad_phase.frames)
     lay_guards(system, memory, blocks)
-    model = LaidOut(system, blocks.close(), counts["n_q"], counts["n_u"], counts["n_states"])
+    memory = blocks.close()
+    model = LaidOut(system, memory, counts["n_q"], counts["n_u"], counts["n_states"], marks_behind_blocks(memory))
     for scalar, value in settings.items():
-        model.memory[scalar] = value
+        memory[scalar] = value
     engine.prepare(model)
     return model
 
 
 def _counts(system: System, engine: Engine, parts: _Parts) -> dict[str, int]:
     """All counts that the memory is allocated for."""
-    contacts, broad_phase = system.contacts, parts.broad_phase
+    contacts, n_slots = system.contacts, parts.broad_phase.n_slots
     n_q = sum(body.n_q for body in system.bodies)
     n_u = sum(body.n_u for body in system.bodies)
     n_states = sum(len(numbers) * len(initial_state(contacts[numbers[0]])) for numbers in parts.kinds)
     n_y = n_q + n_u + N_ACCOUNTS + n_states
-    n_slots = broad_phase.n_slots
     counts = {
         "n_bodies": len(system.bodies),
         "n_slots": n_slots,
         "n_declared": len(contacts),
-        "n_spheres": len(broad_phase.radii),
-        "n_partners": len(broad_phase.pairs),
-        "n_paired": len(broad_phase.contacts),
-        "n_half_spaces": len(broad_phase.half_spaces) if len(broad_phase.radii) > 0 else 0,
-        "n_searches": len(broad_phase.searches),
+        **parts.broad_phase.lengths,
         "n_pairs": len(parts.pairs),
         "n_carriers": len(carriers_of(parts.pairs)),
         "n_own_guards": len(system.guards),
@@ -154,16 +146,26 @@ def _counts(system: System, engine: Engine, parts: _Parts) -> dict[str, int]:
         "n_u": n_u,
         "n_y": n_y,
         "n_states": n_states,
-        "map_width": map_width([contacts[numbers[0]] for numbers in parts.kinds]),
+        "map_width": _map_width([contacts[numbers[0]] for numbers in parts.kinds]),
         "event_floats": _length_of_events(EVENT_HEAD + n_u + n_y + BOOKED, LISTED, n_slots),
         "event_integers": _length_of_events(CODE_HEAD, 2, n_slots),
         "sample_capacity": _SAMPLES,
     }
-    free = [name for name in COUNTS if name not in counts]
-    return {**dict.fromkeys(COUNTS, 0), **counts, **counts_of(engine, n_slots, free)}
+    # the engine decides the others, or they are zero
+    others = dict.fromkeys((name for name in COUNTS if name not in counts), 0)
+    return {**counts, **others, **counts_of(engine, n_slots, others)}
+
+
+def _map_width(contacts: Sequence[Contact]) -> int:
+    """Number of parameters per contact of an impact map, 1 without one."""
+    maps = (contact.impact for contact in contacts if isinstance(contact.impact, ImpactMap))
+    return next((len(parameter_names(law.impulses, "map")) for law in maps), 1)
 
 
 def _length_of_events(head: int, per_contact: int, n_slots: int) -> int:
-    """Length of a buffer of events: many of the usual size, and all events of one instant."""
+    """Length of a buffer of events: 2048 of the usual size, and as many of the largest size as one instant may have.
+
+    An event takes ``head`` numbers, and ``per_contact`` for each of at most ``n_slots`` active contacts.
+    """
     usual, largest = head + per_contact * min(n_slots, _CONTACTS_PER_EVENT), head + per_contact * n_slots
     return _EVENTS * usual + MOST_EVENTS * largest

@@ -1,21 +1,27 @@
-"""The blocks that plug-ins write, with their owners, and the plug-in that wrote past the end of its block."""
+"""The blocks that plug-ins write, with their owners, and the plug-in that wrote past the end of its block.
+
+Behind each block is a mark: a few numbers that nothing writes. A changed mark shows that a plug-in wrote past its
+block.
+"""
 
 from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Iterator
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nonsmooth.binding.source import described
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT, FRAME, GEOMETRY, GUARD, JOINT_ROW, LOAD, PAIR, UNTOUCHED
+from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.interfaces import ImpactMap, Joint, Load, StatefulFrictionLaw, TractionLaw
-from nonsmooth.model.articulations import articulations
-from nonsmooth.model.block_ends import BlockEnds
+from nonsmooth.model.articulations import joints_in_order
 from nonsmooth.model.feature_searches import find_searches
 from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.model.laying import place_of_inverse_mass
 from nonsmooth.system.contact import Contact, Tie
 
 
@@ -25,7 +31,7 @@ class Block(NamedTuple):
     Attributes
     ----------
     label : callable
-        Makes the names of the owner and of the function.
+        Makes the name of the owner and of the function, for messages.
     function : callable
         The function that writes the block.
     start, size : int
@@ -44,104 +50,86 @@ class Block(NamedTuple):
 def blocks(model: LaidOut) -> Iterator[Block]:
     """The blocks of loads, bodies and active contacts, in the order in which one may spoil the next."""
     yield from _blocks_of_bodies(model)
-    yield from _blocks_of_ballistic_motion(model)
-    for index in range(int(model.memory[owners.Island.n_contacts])):
+    for index in range(len(model.active)):
         yield _block_of_contact(model, index)
 
 
 def _blocks_of_bodies(model: LaidOut) -> Iterator[Block]:
-    system = model.system
-    for i, tie in enumerate(system.loads):
+    """The blocks of loads, then of bodies, then of bodies whose ballistic motion has a closed form."""
+    system, memory = model.system, model.memory
+    for tie, out in zip(system.loads, memory[owners.Load.out].tolist(), strict=True):
         assert isinstance(tie.component, Load)
-        function = tie.component.evaluator
-        yield Block(_label(tie, function), function, _entry(model, owners.Load.out, i), LOAD, LOAD)
-    names = system.names.bodies
-    for i, body in enumerate(system.bodies):
-        start = _entry(model, owners.Body.out, i)
-        rates = _entry(model, owners.Body.tail, i) - start + body.n_q + body.n_u
-        n_written = FRAME if body.n_u == 0 else rates
-        yield Block(
-            functools.partial("body {!r}, {!r}:".format, names[i], body),
-            body.evaluator,
-            start,
-            rates + body.n_u**2 + 2,
-            n_written,
-        )
-
-
-def _blocks_of_ballistic_motion(model: LaidOut) -> Iterator[Block]:
-    names = model.system.names.bodies
-    for i, body in enumerate(model.system.bodies):
-        if body.flight is not None and _entry(model, owners.Body.ballistic_function, i) != 0:
-            label, size = (
-                functools.partial("body {!r}, {!r} in ballistic motion:".format, names[i], body),
-                body.n_q + body.n_u,
-            )
-            yield Block(label, body.flight, _entry(model, owners.Body.ballistic_out, i), size, size)
+        yield _block(tie, tie.component.evaluator, out, LOAD)
+    named = list(zip(system.names.bodies, system.bodies, strict=True))
+    for number, ((name, body), start) in enumerate(zip(named, memory[owners.Body.out].tolist(), strict=True)):
+        # a driven body must write the motion of a frame only, another one all up to the force; energies come last
+        force_end = place_of_inverse_mass(memory, number) - start
+        n_written = FRAME if body.n_u == 0 else force_end
+        label = functools.partial("body {!r}, {!r}:".format, name, body)
+        yield Block(label, body.evaluator, start, force_end + body.n_u**2 + 2, n_written)
+    functions, outs = memory[owners.Body.ballistic_function].tolist(), memory[owners.Body.ballistic_out].tolist()
+    for (name, body), function, start in zip(named, functions, outs, strict=True):
+        if body.flight is not None and function != 0:
+            label = functools.partial("body {!r}, {!r} in ballistic motion:".format, name, body)
+            size = body.n_q + body.n_u
+            yield Block(label, body.flight, start, size, size)
 
 
 def _block_of_contact(model: LaidOut, index: int) -> Block:
-    contact = model.system.contacts[_entry(model, owners.Contact.declared, index)]
-    function, first = contact.kinematics.evaluator, model.memory.start(owners.Contact.geometry)
-    return Block(_label(contact, function), function, first + GEOMETRY * index, PAIR, PAIR)
+    """The geometry block of the active contact at an index of the neighbour list."""
+    contact, first = model.system.contacts[model.active[index]], model.memory.start(owners.Contact.geometry)
+    return _block(contact, contact.kinematics.evaluator, first + GEOMETRY * index, PAIR)
 
 
 def _blocks_of_joints_and_laws(model: LaidOut) -> Iterator[Block]:
-    ties = [tie for articulation in articulations(model.system) for tie in articulation.joints]
-    for number, tie in enumerate(ties):
+    """The blocks of joints, then of traction laws and of the rates of inner states."""
+    memory, contacts = model.memory, model.system.contacts
+    for tie, out in zip(joints_in_order(model.system), memory[owners.Joint.out].tolist(), strict=True):
         assert isinstance(tie.component, Joint)
-        function, size = tie.component.evaluator, JOINT_ROW * tie.component.n_rows
-        yield Block(_label(tie, function), function, _entry(model, owners.Joint.out, number), size, size)
-    contacts = model.system.contacts
-    traction, rates = (
-        model.memory.declared(place) for place in (owners.Contact.traction_out, owners.Contact.rates_out)
-    )
-    for i in np.flatnonzero(traction):
+        yield _block(tie, tie.component.evaluator, out, JOINT_ROW * tie.component.n_rows)
+    traction, rates = (memory.declared(out) for out in (owners.Contact.traction_out, owners.Contact.rates_out))
+    for i in np.flatnonzero(traction).tolist():
         law = contacts[i].friction
-        assert isinstance(law, (TractionLaw, StatefulFrictionLaw))
         if isinstance(law, TractionLaw):
-            function, start, size = law.traction, int(traction[i]), FORCE_AND_MOMENT + len(law.initial_state)
+            yield _block(contacts[i], law.traction, int(traction[i]), FORCE_AND_MOMENT + len(law.initial_state))
         else:
-            function, start, size = law.rates, int(rates[i]), len(law.initial_state)
-        yield Block(_label(contacts[i], function), function, start, size, size)
+            assert isinstance(law, StatefulFrictionLaw)
+            yield _block(contacts[i], law.rates, int(rates[i]), len(law.initial_state))
 
 
 def _blocks_of_searches(model: LaidOut) -> Iterator[Block]:
-    for number, search in enumerate(find_searches(model.system.contacts)):
-        function = search.candidates.function
-        label = functools.partial(_names, search.owner, function)
-        yield Block(label, function, _entry(model, owners.Search.out, number), search.size, 1)
+    """The blocks of the searches for candidate features."""
+    searches = find_searches(model.system.contacts)
+    for search, out in zip(searches, model.memory[owners.Search.out].tolist(), strict=True):
+        yield _block(search.owner, search.candidates.function, out, search.size)
 
 
-def _label(owner: Tie | Contact, function: Callable[..., None]) -> Callable[[], str]:
-    return lambda: _names(str(owner), function)
+def _block(owner: Tie | Contact | str, function: Callable[..., None], start: int, size: int) -> Block:
+    """A block all of which a function of an owner writes."""
+    return Block(lambda: f"{owner}: {described(function)},", function, start, size, size)
 
 
-def _names(owner: str, function: Callable[..., None]) -> str:
-    return f"{owner}: {described(function)},"
+def marks_behind_blocks(memory: Memory) -> NDArray[np.int64]:
+    """Places of the marks behind blocks among the floats of a memory on which no plug-in was called yet."""
+    arrays, _, blocks = memory.early
+    return np.concatenate([np.flatnonzero(arrays == UNTOUCHED), memory.blocks + np.flatnonzero(blocks == UNTOUCHED)])
 
 
-def _entry(model: LaidOut, declared: Any, i: int) -> int:
-    return int(model.memory[declared][i])
-
-
-def block_overrun(model: LaidOut, ends: BlockEnds) -> str:
-    """Sentences that name a function that wrote past its block, or ""; ``ends`` are the ends of the model's blocks."""
+def block_overrun(model: LaidOut) -> str:
+    """Sentences that name a function that wrote past its block, or "" if no mark has changed."""
     memory = model.memory
+    # an impact map has marks of its own, which the engine checks at each impact
     n_past_map = int(memory[owners.Run.n_past_map])
-    if ends.are_intact(memory) and n_past_map <= 0:
+    if np.all(memory.floats[model.marks] == UNTOUCHED) and n_past_map <= 0:
         return ""
-    places, n_active = memory[owners.Model.n_slots], memory[owners.Island.n_contacts]
-    overrun = np.flatnonzero(np.any(memory[owners.Contact.geometry][:places][:, PAIR:] != UNTOUCHED, axis=1))
+    overrun = np.flatnonzero(np.any(memory[owners.Contact.geometry][:, PAIR:] != UNTOUCHED, axis=1)).tolist()
     for block in (
         *_blocks_of_bodies(model),
-        *_blocks_of_ballistic_motion(model),
-        *(_block_of_contact(model, int(index)) for index in overrun if index < n_active),
+        *(_block_of_contact(model, index) for index in overrun if index < len(model.active)),
         *_blocks_of_searches(model),
         *_blocks_of_joints_and_laws(model),
     ):
-        end = block.start + block.size
-        is_changed = memory.floats[end : end + GUARD] != UNTOUCHED
+        is_changed = memory.floats[block.start + block.size :][:GUARD] != UNTOUCHED
         if np.any(is_changed):
             return _sentences(block.label(), block.size, block.size + int(np.argmax(is_changed)))
     if n_past_map > 0:

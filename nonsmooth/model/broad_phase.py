@@ -18,11 +18,12 @@ from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.interfaces import Body
 from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.feature_searches import FeatureSearch, find_searches
+from nonsmooth.model.laying import write_record
 from nonsmooth.system.contact import Contact
 from nonsmooth.types import Array
 
 SMALL = 64
-"""Largest number of declared contacts that are all active. To evaluate so many costs less than the broad phase."""
+"""Largest number of declared contacts that need no broad phase. To evaluate so many costs less than it does."""
 _CONTACTS_PER_SPHERE = 16
 """Least number of active contacts per sphere that the memory can hold. Contacts need little memory."""
 _NEIGHBOURS = 6
@@ -42,7 +43,7 @@ class HalfSpace:
     side : tuple of int
         Number of the body that carries it, and its frame.
     sphere : int
-        Number of the sphere that it may touch, 0 if there is none.
+        Number of the sphere that it may touch. Without one it is 0, and `is_steady` is False.
     ceiling : float
         Height over the frame's origin above which it has no point [m].
     is_steady : bool
@@ -92,19 +93,37 @@ class BroadPhase:
         per_sphere = max(_CONTACTS_PER_SPHERE, _NEIGHBOURS * int(self.counts.max(initial=0)))
         return len(self.half_spaces) + min(len(self.contacts), per_sphere * len(self.frames))
 
+    @property
+    def lengths(self) -> dict[str, int]:
+        """Counts of the memory for spheres, their pairs and contacts, half-spaces and searches."""
+        n_spheres = len(self.radii)
+        return {
+            "n_spheres": n_spheres,
+            "n_partners": len(self.pairs),
+            "n_paired": len(self.contacts),
+            # without spheres all contacts are active
+            "n_half_spaces": len(self.half_spaces) if n_spheres > 0 else 0,
+            "n_searches": len(self.searches),
+        }
+
 
 def find_broad_phase(contacts: Sequence[Contact], table: ContactTable, bodies: Sequence[Body]) -> BroadPhase:
-    """Spheres and half-spaces of contacts. Few contacts without searches have no sphere, and are all active."""
+    """Spheres and half-spaces of the contacts of a system with these bodies.
+
+    Up to :data:`SMALL` contacts without searches have no sphere: all of them are active.
+    """
     searches = find_searches(contacts)
     is_bounded = np.all(np.isfinite(table.extents), axis=1)
     if len(contacts) <= SMALL and not searches:
         is_bounded[:] = False
     numbers = np.flatnonzero(is_bounded)
+    # a frame of a body is known by one integer
     n_frames = int(table.frames.max(initial=0)) + 1
     known, sides = np.unique(n_frames * table.bodies[numbers] + table.frames[numbers], return_inverse=True)
     frames = {divmod(key, n_frames): sphere for sphere, key in enumerate(known.tolist())}
     radii = np.zeros(len(frames))
     np.maximum.at(radii, sides.ravel(), table.extents[numbers].ravel())
+    # contacts of the same two spheres are listed together
     one, two = np.sort(sides.reshape(-1, 2), axis=1).T
     keys = one * len(frames) + two
     order = np.argsort(keys, kind="stable")
@@ -123,10 +142,13 @@ def _half_space(
     frames: Mapping[tuple[int, int], int],
     radii: Array,
 ) -> HalfSpace:
-    """The unbounded shape of a contact. The sphere of the other shape grows in ``radii``, to hold this shape."""
-    own, other = (0, 1) if not math.isfinite(contact.extents[0]) else (1, 0)
-    sides = [(int(table.bodies[number, i]), int(table.frames[number, i])) for i in (own, other)]
-    sphere, ceiling = frames.get(sides[1]), contact.shapes[own].ceiling
+    """The unbounded shape of a contact.
+
+    The other shape's sphere may have been made for other contacts: its radius in ``radii`` grows to hold this shape.
+    """
+    unbounded, other = (0, 1) if not math.isfinite(contact.extents[0]) else (1, 0)
+    sides = [(int(table.bodies[number, i]), int(table.frames[number, i])) for i in (unbounded, other)]
+    sphere, ceiling = frames.get(sides[1]), contact.shapes[unbounded].ceiling
     body = bodies[sides[0][0]]
     is_steady = sphere is not None and math.isfinite(ceiling) and body.n_u == 0 and math.isinf(body.time_scale)
     if sphere is not None and math.isfinite(contact.extents[other]):
@@ -135,23 +157,20 @@ def _half_space(
 
 
 def lay_broad_phase(memory: Memory, broad_phase: BroadPhase, frames: dict[tuple[int, int], int]) -> None:
-    """Write spheres and half-spaces, unless there are none; ``frames`` has the place of each frame in the memory."""
+    """Write spheres and half-spaces, or neither if there is no sphere; ``frames`` has the offset of each frame."""
     n = len(broad_phase.radii)
     if n == 0:
         return
     for side, sphere in broad_phase.frames.items():
-        memory[owners.Sphere.frame][:n][sphere] = frames[side]
-    memory[owners.Sphere.radius][:n] = broad_phase.radii
-    memory[owners.Island.sphere_order][:n] = range(n)
+        memory[owners.Sphere.frame][sphere] = frames[side]
+    memory[owners.Sphere.radius] = broad_phase.radii
+    memory[owners.Island.sphere_order] = range(n)
     memory[owners.Island.list_margin] = memory[owners.Options.widest_margin] = _MARGIN * float(broad_phase.radii.min())
     one, two = broad_phase.pairs.T
-    memory[owners.Sphere.first_partner][: n + 1][1:] = np.cumsum(np.bincount(one, minlength=n))
-    memory[owners.Model.partner][: len(two)] = two
-    memory[owners.Model.partner_contact][: len(two) + 1][1:] = np.cumsum(broad_phase.counts)
-    memory[owners.Model.paired_contact][: len(broad_phase.contacts)] = broad_phase.contacts
+    memory[owners.Sphere.first_partner][1:] = np.cumsum(np.bincount(one, minlength=n))
+    memory[owners.Model.partner] = two
+    memory[owners.Model.partner_contact][1:] = np.cumsum(broad_phase.counts)
+    memory[owners.Model.paired_contact] = broad_phase.contacts
     for i, half_space in enumerate(broad_phase.half_spaces):
-        memory[owners.HalfSpace.contact][i] = half_space.contact
-        memory[owners.HalfSpace.sphere][i] = half_space.sphere
-        memory[owners.HalfSpace.frame][i] = frames[half_space.side]
-        memory[owners.HalfSpace.ceiling][i] = half_space.ceiling
-        memory[owners.HalfSpace.is_steady][i] = half_space.is_steady
+        fields = {name: getattr(half_space, name) for name in ("contact", "sphere", "ceiling", "is_steady")}
+        write_record(memory, owners.HalfSpace, i, {**fields, "frame": frames[half_space.side]})

@@ -2,7 +2,11 @@
 
 These are the numbers that outlive a step by the field table, and the blocks that plug-ins write. Every other number is
 written before it is read, so a run from a checkpoint gives the same bits. Parameters, sizes and addresses are left out,
-so that a file cannot change them.
+so that a file cannot change them. An active contact, which is a declared contact on the neighbour list, has copies of
+its parameters; they are copied again if a checkpoint changes the list.
+
+The engine uses integers of a checkpoint as offsets and as codes without any check, so a wrong one from a file would
+read outside of an array. The field table declares the range of each.
 """
 
 from __future__ import annotations
@@ -10,25 +14,31 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable
 from dataclasses import dataclass
+from enum import IntEnum
 from typing import Any, cast, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.declare import Part
+from nonsmooth.engine.memory.declare import Declaration, Life, Part, declarations
 from nonsmooth.engine.memory.memory import Memory, counts_in, view_of
 from nonsmooth.engine.memory.sizes import Counts
-from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, N_SCALARS, SCALARS
+from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, N_SCALARS, OWNERS, SCALARS
 from nonsmooth.errors import InvalidInput
-from nonsmooth.model.active_contacts import active_contacts, copy_parameters
-from nonsmooth.model.values import check_values
 from nonsmooth.packing import packed, unpacked
 from nonsmooth.types import Array
 
 Integers = NDArray[np.int64]
 Booleans = NDArray[np.bool_]
 _REMEDY = "It is damaged, or of another model: take the state of a run of this model."
+_CHECKED = tuple(
+    one
+    for owner in OWNERS
+    for one in declarations(owner).values()
+    if one.outlives_a_step and not one.inside[0] and (one.below is not None or one.kind not in (int, float))
+)
+"""Numbers that outlive a step and are offsets, codes or booleans."""
 
 
 @final
@@ -40,17 +50,14 @@ class Checkpoint:
     ----------
     parts : tuple of array
         Copies of :attr:`nonsmooth.engine.memory.memory.Memory.kept`, as integers of the same bits.
-    first : int
-        Place of the first block among the floats of the memory.
     """
 
     parts: tuple[Integers, ...]
-    first: int
 
     @classmethod
     def of(cls, memory: Memory) -> Checkpoint:
         """Copy the content of a memory."""
-        return cls(tuple([part.copy() for part in memory.kept]), memory.blocks)
+        return cls(tuple([part.copy() for part in memory.kept]))
 
     @functools.cached_property
     def record(self) -> np.void:
@@ -84,11 +91,11 @@ class Checkpoint:
 
     def put(self, memory: Memory) -> None:
         """Write this content into a memory of the same model."""
-        active = active_contacts(memory).copy()
-        for own, kept in zip(memory.kept, self.parts, strict=True):
-            own[:] = kept
-        if not np.array_equal(active, active_contacts(memory)):
-            copy_parameters(memory)
+        active = _active(memory).copy()
+        for numbers, kept in zip(memory.kept, self.parts, strict=True):
+            numbers[:] = kept
+        if not np.array_equal(active, _active(memory)):
+            _copy_parameters(memory)
 
 
 @final
@@ -146,27 +153,66 @@ class Difference:
             If it does not fit the memory, or a number is outside of its range.
         """
         self._check(memory)
-        for own, places, bits in zip(memory.kept, self.places, self.bits, strict=True):
-            own[places] = bits
-        check_values(memory)
-        copy_parameters(memory)
+        for numbers, places, bits in zip(memory.kept, self.places, self.bits, strict=True):
+            numbers[places] = bits
+        _check_values(memory)
+        _copy_parameters(memory)
 
     def _check(self, memory: Memory) -> None:
-        """Check that it has the parts of a memory, and that a run may change each place.
+        """Check that the difference has as many parts as a memory, and that a run may change each of its places.
 
         Raises
         ------
         InvalidInput
-            If that is not so.
+            If it has other parts or another place.
         """
         found = [(len(places), len(bits)) for places, bits in zip(self.places, self.bits, strict=False)]
         fits = len(self.places) == len(self.bits) == len(memory.kept) and all(a == b for a, b in found)
         if not fits:
             raise InvalidInput("State.continuation", f"must have {len(memory.kept)} parts", found, _REMEDY)
         for places, may_change in zip(self.places, memory.changing, strict=True):
-            wrong = places[(places < 0) | (places >= len(may_change))]
-            if len(wrong) == 0:
-                wrong = places[~may_change[places]]
+            wrong = np.setdiff1d(places, np.flatnonzero(may_change))
             if len(wrong) > 0:
                 rule = f"must be places of {len(may_change)} numbers that a run may change"
                 raise InvalidInput("State.continuation: places", rule, int(wrong[0]), _REMEDY)
+
+
+def _active(memory: Memory) -> Integers:
+    """Number of the declared contact of each active contact, a view."""
+    return cast(Integers, memory[owners.Contact.declared][: memory[owners.Island.n_contacts]])
+
+
+def _copy_parameters(memory: Memory) -> None:
+    """Copy the parameters of its declared contact to each active contact, as the engine does when it lists one."""
+    active = _active(memory)
+    for name, one in declarations(owners.DeclaredContact).items():
+        if one.life is Life.PARAMETER and not one.inside[0]:
+            memory[getattr(owners.Contact, name)][: len(active)] = memory[one][active]
+
+
+def _check_values(memory: Memory) -> None:
+    """Check that each number that the engine uses as an offset, a code or a boolean is within its range.
+
+    Raises
+    ------
+    InvalidInput
+        If a number is no member of its enumeration, or exceeds the count that it refers to.
+    """
+    counts = counts_in(memory.record)
+    for one in _CHECKED:
+        numbers = np.atleast_1d(np.asarray(memory[one]))
+        if one.owner is owners.Contact:
+            numbers = numbers[: memory[owners.Island.n_contacts]]
+        least, end = _bounds(one, counts)
+        wrong = numbers[(numbers < least) | (numbers >= end)]
+        if len(wrong) > 0:
+            rule = f"must be from {least} to {end - 1}"
+            raise InvalidInput(f"State.continuation: {one.name}", rule, int(wrong[0]), _REMEDY)
+
+
+def _bounds(one: Declaration, counts: Counts) -> tuple[int, int]:
+    """Least value of a number, and the first value that is too large."""
+    least = min(int(one.begin), 0)
+    if one.below is not None:
+        return least, one.below(counts)
+    return least, max(one.kind) + 1 if issubclass(one.kind, IntEnum) else 2

@@ -15,7 +15,6 @@ from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.interfaces.guard import guard_value
 from nonsmooth.model.articulations import articulations
-from nonsmooth.model.block_ends import BlockEnds
 from nonsmooth.model.blocks import block_overrun
 from nonsmooth.model.immobile import REMEDY, held_by, immobile_contact
 from nonsmooth.model.laid_out import LaidOut, energies
@@ -24,11 +23,12 @@ from nonsmooth.system.contact import Tie
 from nonsmooth.system.system import System
 
 _OPEN = 1e-9
-"""Largest residual or rate of a closed joint, relative to the largest coordinate or velocity: round-off of a start."""
+"""Largest residual or rate of a closed joint, relative to the largest coordinate or velocity, which is taken as at
+least 1 (SI). A start is rounded to about this part."""
 
 
-def check_start(model: LaidOut, ends: BlockEnds) -> None:
-    """Check the start that the memory holds; ``ends`` are the ends of the model's blocks.
+def check_start(model: LaidOut) -> None:
+    """Check the start that the memory holds.
 
     Raises
     ------
@@ -39,7 +39,7 @@ def check_start(model: LaidOut, ends: BlockEnds) -> None:
         If a function writes past its block.
     """
     gaps = model.gaps()
-    if overrun := block_overrun(model, ends):
+    if overrun := block_overrun(model):
         raise PluginError(overrun[0].upper() + overrun[1:])
     _check_energy(model)
     _check_gaps(model, gaps)
@@ -68,8 +68,7 @@ def _check_gaps(model: LaidOut, gaps: Vector) -> None:
 
 def _check_energy(model: LaidOut) -> None:
     """Check that the energies are finite, which they are not if a number of the start is too large."""
-    bodies = model.system.bodies
-    found = energies(bodies, model.memory[owners.Body.tail][: len(bodies)], model.memory.floats)
+    found = energies(model.system.bodies, model.memory[owners.Body.tail], model.memory.floats)
     for what, value in zip(("kinetic", "potential"), found, strict=True):
         if not math.isfinite(value):
             thing, rule = f"start: the {what} energy", "must be finite [J]"
@@ -77,11 +76,14 @@ def _check_energy(model: LaidOut) -> None:
 
 
 def _check_shapes(model: LaidOut, number: int) -> None:
-    """Evaluate the support points of the shapes of a contact along each other's axes; a wrong function raises there."""
-    (p, a), (q, b) = ((frame[:3], frame[3:].reshape(3, 3)) for frame in frames_of(model, number))
-    directions = np.array([*a.T, *b.T, q - p])
+    """Evaluate support points of both shapes of a contact, because a wrong support function raises there.
+
+    The directions are the axes of both frames and the line between their origins, both ways.
+    """
+    (origin_a, axes_a), (origin_b, axes_b) = ((one[:3], one[3:].reshape(3, 3)) for one in frames_of(model, number))
+    directions = np.array([*axes_a.T, *axes_b.T, origin_b - origin_a])
     directions = directions[np.any(directions, axis=1)]
-    for shape, axes in zip(model.system.contacts[number].shapes, (a, b), strict=True):
+    for shape, axes in zip(model.system.contacts[number].shapes, (axes_a, axes_b), strict=True):
         if shape.solid is not None:
             for direction in (*directions, *-directions):
                 shape.solid.support(direction @ axes)
@@ -94,23 +96,20 @@ def _check_joints(model: LaidOut) -> None:
     memory = model.memory
     # round-off of a rate is relative to the velocities of the bodies
     scale = max(1.0, float(np.max(np.abs(memory[owners.Island.y][: model.n_q + model.n_u]), initial=0.0)))
-    number = 0
-    for index, articulation in enumerate(articulations(model.system)):
-        for tie in articulation.joints:
-            _check_joint(model, tie, number, index, _OPEN * scale)
-            number += 1
+    ties = [(i, tie) for i, articulation in enumerate(articulations(model.system)) for tie in articulation.joints]
+    for number, (articulation, tie) in enumerate(ties):
+        _check_joint(model, tie, number, articulation, _OPEN * scale)
 
 
 def _check_joint(model: LaidOut, tie: Tie, number: int, articulation: int, allowed: float) -> None:
+    """Check a joint by its number in the memory, in units of its rows [m, m/s, rad or rad/s]."""
     memory = model.memory
-    rows = int(memory[owners.Joint.n_rows][number])
-    first = int(memory[owners.Joint.first_row][number])
+    rows, first = (int(memory[one][number]) for one in (owners.Joint.n_rows, owners.Joint.first_row))
     for what, unit, place in (
         ("residual", "m or rad", owners.Articulation.residual),
         ("rate", "m/s or rad/s", owners.Articulation.rate),
     ):
-        start = int(memory[place][articulation]) + first
-        values = memory.floats[start : start + rows]
+        values = memory.floats[int(memory[place][articulation]) + first :][:rows]
         if not float(np.max(np.abs(values))) <= allowed:
             raise InvalidInput(
                 f"start of the {tie}",
@@ -143,7 +142,7 @@ def _check_mobility(model: LaidOut) -> None:
 
 
 def check_guards(system: System, t: float, q: Vector, u: Vector) -> None:
-    """Check that the guards of the user have finite values at a time [s], for coordinates and velocities of a system.
+    """Check that the guards of the user have finite values at a time [s], for coordinates q and velocities u.
 
     Raises
     ------

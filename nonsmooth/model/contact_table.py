@@ -24,9 +24,11 @@ class ContactTable:
     bodies, frames : array
         Numbers of the bodies, and of their frames, shape [n, 2].
     extents, support_radii : array
-        Extents and levers of the shapes (:class:`nonsmooth.interfaces.Shape`) [m], shape [n, 2].
+        Radii about the origins of the frames that hold the shapes, and largest offsets with which a turn about these
+        origins moves a surface along its normal (`extent` and `lever` of :class:`nonsmooth.interfaces.Shape`) [m],
+        shape [n, 2].
     revolutions : array
-        Axis of revolution of the shape with the smaller lever, or zero, shape [n, 3].
+        Axis of revolution of the shape with the smaller support radius, or zero, shape [n, 3].
     """
 
     bodies: NDArray[np.int64]
@@ -37,7 +39,7 @@ class ContactTable:
 
     @classmethod
     def of(cls, bodies: Sequence[Body], contacts: Sequence[Contact]) -> ContactTable:
-        """The table of contacts between these bodies."""
+        """The table of all contacts of a system with these bodies."""
         number = {id(body): i for i, body in enumerate(bodies)}
         sides = [[number[i] for i in map(id, map(attrgetter(side), contacts))] for side in ("first", "second")]
         frames, extents, support_radii = (

@@ -11,7 +11,7 @@ from nonsmooth.engine.native.kernel import PLAIN
 
 
 def copied(memory: Memory) -> Memory:
-    """Memory with the same content, without buffers of output, that reads the same tables.
+    """Memory with the same content, except for empty buffers of output, that reads the same tables.
 
     The number that refers to a table is a distance in floats. Pointers of the compiled engine have no bounds, so it may
     point into the other memory. In plain mode there are arrays instead, and the tables are copied.
@@ -25,8 +25,8 @@ def copied(memory: Memory) -> Memory:
         integers=np.zeros_like(memory.integers),
         owner=None if PLAIN else owner,
     )
-    for own, other in zip(made.early, memory.early, strict=True):
-        own[:] = other
+    for new, old in zip(made.early, memory.early, strict=True):
+        new[:] = old
     floats[memory.tables :] = owner.floats[memory.tables : len(floats)]
     distance = 0 if PLAIN else (owner.floats.ctypes.data - floats.ctypes.data) // floats.itemsize
     for place, start, table in memory.references:

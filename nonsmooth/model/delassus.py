@@ -14,7 +14,7 @@ Floats = NDArray[np.float64]
 
 
 def write_delassus(memory: Memory, matrix: Floats) -> None:
-    """Write a matrix of shape [3 n, 3 n] for the contacts 0 to n - 1, in this order.
+    """Write a Delassus matrix [1/kg] of shape [3 n, 3 n] for the contacts 0 to n - 1, in this order.
 
     Two contacts with zero blocks both ways do not act on each other, and get no block.
 
@@ -38,7 +38,7 @@ def write_delassus(memory: Memory, matrix: Floats) -> None:
 
 
 def read_delassus(memory: Memory, n: int) -> Floats:
-    """Matrix of the contacts 0 to n - 1, shape [3 n, 3 n]."""
+    """Delassus matrix [1/kg] of the contacts 0 to n - 1, shape [3 n, 3 n]."""
     starts = memory[owners.Island.block_start][: n + 1]
     columns = memory[owners.Island.block_column][: int(starts[-1])]
     rows = np.repeat(np.arange(n), np.diff(starts))

@@ -1,4 +1,4 @@
-"""Checks of what an engine declares: counts, settings, a part of its own, causes and measures.
+"""Checks of what an engine declares: counts, settings, its own part of the workspace, causes and measures.
 
 An engine may be a plug-in. A wrong declaration is found before the memory is laid out, and the message names it.
 """
@@ -19,12 +19,12 @@ from nonsmooth.interfaces.engine_report import FIRST_CODE
 
 
 def counts_of(engine: Engine, n_slots: int, free: Collection[str]) -> Mapping[str, int]:
-    """Counts that the engine decides, by the largest number of active contacts; only ``free`` ones may be among them.
+    """Counts that the engine decides for at most ``n_slots`` active contacts; it may only decide those in ``free``.
 
     Raises
     ------
     InvalidInput
-        If another count is among them, or one is no length.
+        If it decides another count, or a count is no length.
     """
     found = engine.counts(n_slots)
     for name in _known(engine, "counts", found, free):
@@ -72,7 +72,7 @@ def own_of(engine: Engine) -> tuple[type[Part], ...]:
 
 
 def laid_own(engine: Engine, counts: Mapping[str, int]) -> tuple[type[Part], ...]:
-    """The engine's own part, checked for a system of these counts.
+    """The engine's own part of the workspace, checked for a system of these counts, as a tuple of one or none.
 
     Raises
     ------
@@ -91,6 +91,7 @@ def laid_own(engine: Engine, counts: Mapping[str, int]) -> tuple[type[Part], ...
 
 
 def _check_length(thing: str, declared: Declaration, counts: Mapping[str, int]) -> None:
+    """Check that the counts of a system give an array its length; a scalar has none."""
     if declared.size is None:
         return
     try:
@@ -119,13 +120,12 @@ def check_report(engine: Engine) -> None:
         raise InvalidInput(f"{_name(engine)}.causes", rule, codes, "Number the causes again.")
     promised = engine.promised_residual
     if promised is not None and not (isinstance(promised, Real) and math.isfinite(promised) and promised > 0.0):
-        rule = "must be a positive finite number or None"
-        raise InvalidInput(
-            f"{_name(engine)}.promised_residual", rule, promised, "Give it relative to the energy exchanged."
-        )
+        thing, rule = f"{_name(engine)}.promised_residual", "must be a positive finite number or None"
+        raise InvalidInput(thing, rule, promised, "Give it relative to the energy exchanged.")
 
 
 def _known(engine: Engine, what: str, names: Iterable[str], known: Collection[str]) -> tuple[str, ...]:
+    """The names, checked to be among the known ones; ``what`` is the attribute of the engine that has them."""
     for name in (found := tuple(names)):
         if name not in known:
             raise UnknownName(f"{_name(engine)}.{what}", name, known)

@@ -22,6 +22,7 @@ from nonsmooth.engine.memory.memory import Heap, Memory
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CandidateSearch
 from nonsmooth.model.contact_table import ContactTable
+from nonsmooth.model.laying import write_record
 from nonsmooth.parameters import Table
 from nonsmooth.system.contact import Contact
 
@@ -51,7 +52,7 @@ class FeatureSearch:
 
 
 def find_searches(contacts: Sequence[Contact]) -> list[FeatureSearch]:
-    """The searches, in the order of their contacts.
+    """The searches, in the order of their contacts. The contacts of a search are consecutive.
 
     Raises
     ------
@@ -62,7 +63,7 @@ def find_searches(contacts: Sequence[Contact]) -> list[FeatureSearch]:
     candidates = list(map(attrgetter("kinematics.candidates"), contacts))
     numbers = [number for number, one in enumerate(candidates) if one is not None]
     for _, group in itertools.groupby(numbers, lambda number: id(candidates[number])):
-        first, *more = group
+        first, *others = group
         contact, search = contacts[first], candidates[first]
         assert search is not None
         for shape, extent in zip(contact.shapes, contact.extents, strict=True):
@@ -74,7 +75,7 @@ def find_searches(contacts: Sequence[Contact]) -> list[FeatureSearch]:
                     "Give the shape a finite `extent`, or return contacts of given features from `between`.",
                 )
         owner = f"{type(contact.kinematics).__name__} ({contact})"
-        found.append(FeatureSearch(search, range(first, first + 1 + len(more)), owner))
+        found.append(FeatureSearch(search, range(first, first + 1 + len(others)), owner))
     return found
 
 
@@ -90,26 +91,22 @@ def lay_searches(
     The features of a search may move as far as the farthest points of their spheres.
     """
     for number, search in enumerate(searches):
-        parameters = _lay_function(blocks, search)
+        fields = _lay_function(blocks, search)
         first = search.contacts.start
         sides = zip(table.bodies[first].tolist(), table.frames[first].tolist(), strict=True)
         sphere_a, sphere_b = (spheres[side] for side in sides)
-        row = {
-            **parameters,
-            "out": blocks.output(search.size),
-            "first_contact": first,
-            "n_contacts": len(search.contacts),
-            "sphere_a": sphere_a,
-            "sphere_b": sphere_b,
-        }
-        for name, value in row.items():
-            memory[getattr(owners.Search, name)][number] = value
+        fields |= {"first_contact": first, "n_contacts": len(search.contacts)}
+        fields |= {"sphere_a": sphere_a, "sphere_b": sphere_b}
+        write_record(memory, owners.Search, number, fields)
         for sphere in (sphere_a, sphere_b):
             memory[owners.Sphere.feature_radius][sphere] = memory[owners.Sphere.radius][sphere]
 
 
 def _lay_function(blocks: Heap, search: FeatureSearch) -> dict[str, int]:
-    """Compile and try out the function of a search, and store its parameters; the result has its fields."""
+    """Compile and try out the function of a search, and reserve its parameters and its output.
+
+    The result has the fields of a record.
+    """
     function, values = search.candidates.function, search.candidates.values
     tables = {name: value for name, value in values.items() if isinstance(value, Table)}
     address, numbers = bind(function, "pair", {**values, **dict.fromkeys(tables, ())}, search.owner)
@@ -119,11 +116,11 @@ def _lay_function(blocks: Heap, search: FeatureSearch) -> dict[str, int]:
     start = blocks.store(numbers)
     for name, table in tables.items():
         blocks.refer(start + parameter_place(function, "pair", name), start, table)
-    return {"function": address, "parameters": start}
+    return {"function": address, "parameters": start, "out": blocks.output(search.size)}
 
 
 def failed_search(memory: Memory, contacts: Sequence[Contact]) -> str:
-    """Sentence that names the first search that gave no number of features, or ""."""
+    """Sentence that names the first search whose number of features is negative or not a number, or ""."""
     for number, search in enumerate(find_searches(contacts)):
         found = memory.floats[int(memory[owners.Search.out][number])]
         if not found >= 0.0:

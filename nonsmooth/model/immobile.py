@@ -16,6 +16,7 @@ from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engine.numerics.linear import SINGULAR
 from nonsmooth.interfaces import CompliantNormalLaw
 from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.model.laying import place_of_inverse_mass
 from nonsmooth.system.contact import Contact, Tie
 
 REMEDY = "Leave a clearance between its bodies there."
@@ -46,16 +47,13 @@ def immobile_contact(model: LaidOut) -> ImmobileContact | None:
         return None
     memory = model.memory
     call_entry("touch", memory)
-    n = int(memory[owners.Island.n_contacts])
-    touching, active = memory[owners.Contact.is_touching][:n], memory[owners.Contact.declared][:n]
-    for index in np.flatnonzero(touching == 1).tolist():
-        contact = model.system.contacts[int(active[index])]
+    active = model.active
+    for index in np.flatnonzero(memory[owners.Contact.is_touching][: len(active)]).tolist():
+        contact = model.system.contacts[active[index]]
         if isinstance(contact.normal, CompliantNormalLaw):
             continue
-        held = free = 0.0
-        for side in ("a", "b"):
-            with_joints, without = _inverse_masses(model, index, side)
-            held, free = held + with_joints, free + without
+        sides = [_inverse_masses(model, index, side) for side in ("a", "b")]
+        held, free = (sum(values) for values in zip(*sides, strict=True))
         # two driven bodies have none, with or without joints
         if free > 0.0 and held <= SINGULAR * free:
             bodies = contact.first, contact.second
@@ -65,7 +63,7 @@ def immobile_contact(model: LaidOut) -> ImmobileContact | None:
 
 
 def held_by(joints: list[Tie]) -> str:
-    """Clause that names the joints that hold a contact."""
+    """Clause that names the joints that hold a contact: "the joint 'a' holds it there"."""
     names = ", ".join(f"the {tie}" for tie in joints)
     return f"{names} {'holds' if len(joints) == 1 else 'hold'} it there"
 
@@ -79,10 +77,9 @@ def _inverse_masses(model: LaidOut, index: int, side: str) -> tuple[float, float
         "b": (contact.articulation_b, contact.jacobian_b, contact.response_b),
     }
     number, *places = (int(memory[field][index]) for field in fields[side])
-    n_u, first, count, start = (
-        int(memory[field][number])
-        for field in (articulation.n_u, articulation.first_body, articulation.n_bodies, articulation.u)
-    )
+    sizes = articulation.n_u, articulation.first_body, articulation.n_bodies, articulation.u
+    n_u, first, count, start = (int(memory[field][number]) for field in sizes)
+    # row n of W^T, and K W: velocities of the articulation per gap rate, and accelerations per normal force
     row, response = (memory.floats[place : place + n_u] for place in places)
     free = sum(_free_inverse_mass(model, body, row, start) for body in range(first, first + count))
     return float(row @ response), free
@@ -90,17 +87,18 @@ def _inverse_masses(model: LaidOut, index: int, side: str) -> tuple[float, float
 
 def inverse_mass(model: LaidOut, number: int) -> np.ndarray:
     """Inverse mass matrix of a body without joints, as it was evaluated last, shape [n_u, n_u]."""
-    memory, body = model.memory, model.system.bodies[number]
-    tail = int(memory[owners.Body.tail][number])
-    start = tail + body.n_q + body.n_u
-    return np.asarray(memory.floats[start : start + body.n_u**2].reshape(body.n_u, body.n_u))
+    n_u, start = model.system.bodies[number].n_u, place_of_inverse_mass(model.memory, number)
+    return np.asarray(model.memory.floats[start : start + n_u**2].reshape(n_u, n_u))
 
 
 def _free_inverse_mass(model: LaidOut, number: int, row: np.ndarray, start: int) -> float:
-    """Effective inverse mass of a body without joints [1/kg], for a row over the velocities of its articulation."""
+    """Effective inverse mass of a body without joints [1/kg].
+
+    ``row`` has the gap rate per velocity of its articulation, the first of which is velocity ``start`` of the system.
+    """
     body = model.system.bodies[number]
     if body.n_u == 0:
         return 0.0
     u = int(model.memory[owners.Body.u][number])
-    own = row[u - start : u - start + body.n_u]
-    return float(own @ inverse_mass(model, number) @ own)
+    part = row[u - start : u - start + body.n_u]
+    return float(part @ inverse_mass(model, number) @ part)

@@ -1,14 +1,17 @@
-"""LaidOut: a system in the memory of the engine, and the quantities that are read from there."""
+"""LaidOut: a system in the memory of the engine, and the quantities that are read from there.
+
+An active contact is a declared contact on the neighbour list. The others belong to bodies that are far apart.
+"""
 
 from __future__ import annotations
 
 import functools
-from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
+from numpy.typing import NDArray
 
-from nonsmooth.binding.compile import parameter_names
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import FRAME, GAP
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
@@ -16,18 +19,17 @@ from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import Status
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.errors import InvalidInput, PluginError
-from nonsmooth.interfaces import Body, ImpactMap
+from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.distance_backend import Place
 from nonsmooth.model.feature_searches import failed_search
 from nonsmooth.model.part_pairs import contacts_without_parts
-from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
 from nonsmooth.watch import Watch
 
 
 @dataclass(frozen=True)
 class LaidOut:
-    """A system in memory, ready to run.
+    """A system in the memory of the engine.
 
     Attributes
     ----------
@@ -37,6 +39,8 @@ class LaidOut:
         The workspace of the engine.
     n_q, n_u, n_states : int
         Numbers of coordinates and velocities of all bodies, and of inner states of laws.
+    marks : array
+        Places, among the floats of the memory, of the marks behind blocks (:mod:`nonsmooth.model.blocks`).
     """
 
     system: System
@@ -44,6 +48,12 @@ class LaidOut:
     n_q: int
     n_u: int
     n_states: int
+    marks: NDArray[np.int64]
+
+    @property
+    def active(self) -> NDArray[np.int64]:
+        """Number of the declared contact of each active contact, a view."""
+        return cast(NDArray[np.int64], self.memory[owners.Contact.declared][: self.memory[owners.Island.n_contacts]])
 
     @property
     def n_y(self) -> int:
@@ -57,12 +67,12 @@ class LaidOut:
 
     @functools.cached_property
     def watch(self) -> Watch:
-        """Calls of the engine that may take long are made through it: it reports progress, and Ctrl-C stops them."""
+        """Makes the calls of the engine that may take long: it reports progress, and Ctrl-C stops them."""
         return Watch(self.memory)
 
     @functools.cached_property
     def contacts_without_parts(self) -> list[int]:
-        """Numbers of the contacts whose bodies the engine cannot check for overlap."""
+        """Numbers of the contacts of shapes without convex parts, whose bodies the engine cannot check for overlap."""
         return contacts_without_parts(self.system.contacts)
 
     def list_contacts(self) -> None:
@@ -93,13 +103,12 @@ class LaidOut:
     def energy(self) -> tuple[float, float]:
         """Kinetic and potential energy [J] at the current state."""
         self.evaluate()
-        bodies = self.system.bodies
-        return energies(bodies, self.memory[owners.Body.tail][: len(bodies)], self.memory.floats)
+        return energies(self.system.bodies, self.memory[owners.Body.tail], self.memory.floats)
 
     def places(self) -> list[list[Place]]:
         """Position [m] and rotation matrix of each frame of each body, as they were evaluated last."""
         found, memory = list[list[Place]](), self.memory
-        for body, start in zip(self.system.bodies, memory[owners.Body.out][: len(self.system.bodies)], strict=True):
+        for body, start in zip(self.system.bodies, memory[owners.Body.out], strict=True):
             width = FRAME + 6 * body.n_u
             frames = memory.floats[start : start + len(body.frames) * width].reshape(-1, width)
             found.append([(frame[:3].copy(), frame[3:12].reshape(3, 3).copy()) for frame in frames])
@@ -108,9 +117,8 @@ class LaidOut:
     def gaps(self) -> np.ndarray:
         """Gaps [m] at the current state, shape [n_contacts]; infinite for contacts that are not active."""
         self.evaluate()
-        n = int(self.memory[owners.Island.n_contacts])
-        gaps = np.full(len(self.system.contacts), np.inf)
-        gaps[self.memory[owners.Contact.declared][:n]] = self.memory[owners.Contact.geometry][:n][:, GAP]
+        gaps, active = np.full(len(self.system.contacts), np.inf), self.active
+        gaps[active] = self.memory[owners.Contact.geometry][: len(active), GAP]
         return gaps
 
     def rates(self) -> tuple[np.ndarray, np.ndarray]:
@@ -118,29 +126,22 @@ class LaidOut:
 
         They are nan for contacts that are not active.
         """
-        self.evaluate()
-        total, n = len(self.system.contacts), int(self.memory[owners.Island.n_contacts])
-        gaps, rates = np.full(total, np.nan), np.full((total, 3), np.nan)
-        active = self.memory[owners.Contact.declared][:n]
-        gaps[active] = self.memory[owners.Contact.geometry][:n][:, GAP]
-        rates[active] = self.memory[owners.Contact.rate][:n]
+        gaps, active = self.gaps(), self.active
+        gaps[np.delete(np.arange(len(gaps)), active)] = np.nan
+        rates = np.full((len(gaps), 3), np.nan)
+        rates[active] = self.memory[owners.Contact.rate][: len(active)]
         return gaps, rates
 
 
-def energies(bodies: tuple[Body, ...], tails: np.ndarray, numbers: np.ndarray) -> tuple[float, float]:
-    """Kinetic and potential energy [J] of bodies, from the tails of their output at these places in ``numbers``."""
+def energies(bodies: tuple[Body, ...], rates: np.ndarray, numbers: np.ndarray) -> tuple[float, float]:
+    """Kinetic and potential energy [J] of bodies, which are read from ``numbers``.
+
+    ``rates`` has, for each body, the place of its q' there; force, inverse mass and the energies follow.
+    """
     kinetic = potential = 0.0
-    for body, tail in zip(bodies, tails.tolist(), strict=True):
+    for body, start in zip(bodies, rates.tolist(), strict=True):
         if body.n_u > 0:
-            energy = tail + body.n_q + body.n_u + body.n_u**2
+            energy = start + body.n_q + body.n_u + body.n_u**2
             kinetic += float(numbers[energy])
             potential += float(numbers[energy + 1])
     return kinetic, potential
-
-
-def map_width(contacts: Sequence[Contact]) -> int:
-    """Number of parameters per contact of an impact law that maps velocities, 1 without such a law."""
-    for contact in contacts:
-        if isinstance(contact.impact, ImpactMap):
-            return len(parameter_names(contact.impact.impulses, "map"))
-    return 1

@@ -8,30 +8,22 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from operator import attrgetter, itemgetter
-from typing import Any, NamedTuple, TypeAlias
+from operator import attrgetter
+from typing import Any, TypeAlias
 
 import numpy as np
 
-from nonsmooth.binding.bounds import try_out
+from nonsmooth.binding.bounds import FRAMES, try_out
 from nonsmooth.binding.compile import bind, parameter_names, parameter_place, vector_place
+from nonsmooth.binding.law_failure import LawFunction, law_functions
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import CANDIDATE, FORCE_AND_MOMENT, FRAME, PAIR
 from nonsmooth.engine.memory.memory import Heap, Memory, output_block
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import (
-    AnisotropicFrictionLaw,
-    CompliantNormalLaw,
-    FrictionLaw,
-    ImpactMap,
-    ImpactProcess,
-    StatefulFrictionLaw,
-    TangentialLaw,
-    TractionLaw,
-)
+from nonsmooth.interfaces import AnisotropicFrictionLaw, CompliantNormalLaw, ImpactMap, StatefulFrictionLaw, TractionLaw
 from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.laying import BodyLayouts
 from nonsmooth.parameters import Table, Value
@@ -40,31 +32,6 @@ from nonsmooth.system.contact import Contact
 _CONTACT = owners.Contact
 Kinds: TypeAlias = Sequence[list[int]]
 """The numbers of the contacts of each kind."""
-
-
-class _Function(NamedTuple):
-    """A function of a contact.
-
-    Attributes
-    ----------
-    address, parameters : declaration
-        Fields of a contact for the address of the function, and for the place of its parameters.
-    function : callable
-        The function.
-    form : str
-        The form of its arguments.
-    available : mapping
-        Parameters that may be among its arguments.
-    part : object
-        The kinematics or law that has the function.
-    """
-
-    address: Any
-    parameters: Any
-    function: Callable[..., Any]
-    form: str
-    available: Mapping[str, Value]
-    part: object
 
 
 @dataclass
@@ -99,14 +66,19 @@ class Kind:
 
     def output(self, declared: Any, size: int) -> None:
         """Append numbers that a law writes, whose place is a field of the contact."""
-        self.written.append((self.store(declared, output_block(size)), size))
+        self.mark_written(declared, self.store(declared, output_block(size)), size)
+
+    def mark_written(self, declared: Any, place: int, size: int) -> None:
+        """Mark numbers of the block as written in a run, so that they are no parameters; their place is a field."""
+        self.offsets[declared] = place
+        self.written.append((place, size))
 
 
 def lay_contacts(
     memory: Memory, blocks: Heap, contacts: Sequence[Contact], table: ContactTable, kinds: Kinds, bodies: BodyLayouts
 ) -> None:
-    """Write the declared contacts, and reserve the Jacobians of the active ones."""
-    contact, tried = owners.Contact, set[tuple[Any, ...]]()
+    """Write the declared contacts, and reserve Jacobians for as many as the neighbour list can hold."""
+    tried = set[tuple[Any, ...]]()
     for numbers in kinds:
         kind = kind_of(memory, contacts[numbers[0]], tried)
         starts = blocks.repeat(kind.block, len(numbers)) + len(kind.block) * np.arange(len(numbers))
@@ -121,14 +93,12 @@ def lay_contacts(
                 blocks.refer(begin + place, begin + start, shared)
     _lay_states(memory, contacts, kinds)
     size = 3 * _lay_sides(memory, table, bodies)
-    memory.declared(contact.direction)[:, 0] = 1.0
-    memory.declared(contact.support_radius_a)[:] = table.support_radii[:, 0]
-    memory.declared(contact.support_radius_b)[:] = table.support_radii[:, 1]
-    memory.declared(contact.size)[:] = table.extents.min(axis=1)
-    memory.declared(contact.spin_axis)[:] = table.revolutions
+    memory.declared(_CONTACT.direction)[:, 0] = 1.0
+    memory.declared(_CONTACT.size)[:] = table.extents.min(axis=1)
+    memory.declared(_CONTACT.spin_axis)[:] = table.revolutions
     lay_law_floats(memory, contacts, kinds)
     n_slots = int(memory[owners.Model.n_slots])
-    for place in (contact.jacobian_a, contact.jacobian_b, contact.response_a, contact.response_b):
+    for place in (_CONTACT.jacobian_a, _CONTACT.jacobian_b, _CONTACT.response_a, _CONTACT.response_b):
         memory[place] = blocks.block(size * n_slots) + size * np.arange(n_slots)
 
 
@@ -143,45 +113,48 @@ def by_kind(contacts: Sequence[Contact]) -> Kinds:
 
 def _lay_states(memory: Memory, contacts: Sequence[Contact], kinds: Kinds) -> None:
     """Write the number of the first inner state of each contact, and the usual size of the inner states."""
+    laws = {
+        number: law
+        for numbers in kinds
+        if isinstance(law := contacts[numbers[0]].friction, (TractionLaw, StatefulFrictionLaw))
+        for number in numbers
+    }
     scales: list[float] = []
-    laws = [(numbers, contacts[numbers[0]].friction) for numbers in kinds]
-    with_states = [(numbers, law) for numbers, law in laws if isinstance(law, (TractionLaw, StatefulFrictionLaw))]
-    for number, law in sorted(((number, law) for numbers, law in with_states for number in numbers), key=itemgetter(0)):
-        memory.declared(owners.Contact.inner_states)[number] = len(scales)
-        scales += law.state_scale
+    for number in sorted(laws):
+        memory.declared(_CONTACT.inner_states)[number] = len(scales)
+        scales += laws[number].state_scale
     n_y = int(memory[owners.Model.n_y])
     memory[owners.Step.y_scale][:n_y][n_y - len(scales) :] = scales
 
 
 def _lay_sides(memory: Memory, table: ContactTable, bodies: BodyLayouts) -> int:
     """Write bodies and frames of each contact; the result is the largest number of velocities of an articulation."""
-    layouts, most = [*bodies.values()], 0
     # a mechanism without contacts may have no frame
-    first_frame = np.array([next(iter(layout.frames), 0) for layout in layouts], np.int64)
-    sizes = np.array([layout.articulation_n_u for layout in layouts], np.int64)
-    of_body = {
-        "n_u": np.array([layout.n_u for layout in layouts]),
-        "column": np.array([layout.column for layout in layouts]),
-        "articulation": np.array([layout.articulation for layout in layouts]),
-    }
-    for side, column in (("a", 0), ("b", 1)):
-        body, frame = table.bodies[:, column], table.frames[:, column]
-        fields = {"body": body, "frame": first_frame[body] + (FRAME + 6 * of_body["n_u"][body]) * frame}
-        for name, values in (fields | {name: values[body] for name, values in of_body.items()}).items():
-            memory.declared(getattr(owners.Contact, f"{name}_{side}"))[:] = values
-        most = max(most, int(sizes[body].max(initial=0)))
-    return most
+    rows = [(next(iter(b.frames), 0), b.n_u, b.column, b.articulation, b.articulation_n_u) for b in bodies.values()]
+    first_frame, n_u, column, articulation, n_u_together = np.array(rows, np.int64).reshape(-1, 5).T
+    for number, side in enumerate("ab"):
+        body = table.bodies[:, number]
+        fields = {
+            "body": body,
+            "frame": first_frame[body] + (FRAME + 6 * n_u[body]) * table.frames[:, number],
+            "n_u": n_u[body],
+            "column": column[body],
+            "articulation": articulation[body],
+            "support_radius": table.support_radii[:, number],
+        }
+        for name, values in fields.items():
+            memory.declared(getattr(_CONTACT, f"{name}_{side}"))[:] = values
+    return int(n_u_together[table.bodies].max(initial=0))
 
 
 def lay_law_floats(memory: Memory, contacts: Sequence[Contact], kinds: Kinds) -> None:
-    """Write the numbers of the laws that are fields of a declared contact."""
-    contact = owners.Contact
+    """Write the times and distances [s, m] of the laws, which are fields of a declared contact."""
     for numbers in kinds:
         normal, impact = contacts[numbers[0]].normal, contacts[numbers[0]].impact
-        memory.declared(contact.contact_time)[numbers] = 0.0 if impact is None else impact.contact_time
+        memory.declared(_CONTACT.contact_time)[numbers] = 0.0 if impact is None else impact.contact_time
         # the time-stepping fallback was not tried yet
-        memory.declared(contact.mean_forces_asked)[numbers] = -math.inf
-        memory.declared(contact.reach)[numbers] = normal.reach if isinstance(normal, CompliantNormalLaw) else 0.0
+        memory.declared(_CONTACT.mean_forces_asked)[numbers] = -math.inf
+        memory.declared(_CONTACT.reach)[numbers] = normal.reach if isinstance(normal, CompliantNormalLaw) else 0.0
 
 
 def initial_state(contact: Contact) -> tuple[float, ...]:
@@ -193,11 +166,13 @@ def initial_state(contact: Contact) -> tuple[float, ...]:
 def kind_of(memory: Memory, contact: Contact, tried: set[tuple[Any, ...]] | None = None) -> Kind:
     """Compile the functions of a contact, and collect the fields and the block of its kind.
 
-    ``tried`` holds the functions with tables that were tried out already. Without it no function with tables is tried.
+    A function with tables takes long to try out. ``tried`` holds those tried so far, and gets the new ones; None tries
+    none of them. The address of an impact map is written into the memory, because all contacts share it.
     """
-    made, law, impact = Kind(), contact.friction, contact.impact
-    for one in _functions(contact):
-        _add_function(made, contact, one, tried)
+    made, law, impact, kinematics = Kind(), contact.friction, contact.impact, contact.kinematics
+    geometry = LawFunction("geometry", kinematics, kinematics.evaluator, "pair")
+    for part in (geometry, *law_functions(law, impact, contact.normal)):
+        _add_function(made, contact, part, tried)
     start = initial_state(contact)
     if start or isinstance(law, TractionLaw):
         made.fields[_CONTACT.n_inner_states] = len(start)
@@ -213,106 +188,46 @@ def kind_of(memory: Memory, contact: Contact, tried: set[tuple[Any, ...]] | None
     return made
 
 
-def _functions(contact: Contact) -> Iterator[_Function]:
-    """The functions of the kinematics and of the laws, in the order of their parameters in the block."""
-    kinematics, normal, impact = contact.kinematics, contact.normal, contact.impact
-    yield _Function(
-        _CONTACT.geometry_function,
-        _CONTACT.geometry_parameters,
-        kinematics.evaluator,
-        "pair",
-        kinematics.parameters(),
-        kinematics,
-    )
-    yield from _friction_functions(contact.friction)
-    if isinstance(normal, CompliantNormalLaw):
-        yield _Function(
-            _CONTACT.normal_function,
-            _CONTACT.normal_parameters,
-            normal.force,
-            "compliance",
-            normal.parameters(),
-            normal,
-        )
-    if isinstance(impact, ImpactProcess):
-        yield _Function(
-            _CONTACT.impact_force_function,
-            _CONTACT.impact_force_parameters,
-            impact.force,
-            "scalar",
-            impact.parameters(),
-            impact,
-        )
-        yield _Function(
-            _CONTACT.efficiency_function,
-            _CONTACT.efficiency_parameters,
-            impact.efficiency,
-            "scalar",
-            impact.parameters(),
-            impact,
-        )
-
-
-def _friction_functions(law: TangentialLaw) -> Iterator[_Function]:
-    if isinstance(law, TractionLaw):
-        yield _Function(
-            _CONTACT.traction_function, _CONTACT.traction_parameters, law.traction, "traction", law.parameters(), law
-        )
-    elif isinstance(law, StatefulFrictionLaw):
-        with_state = {**law.parameters(), "state": law.initial_state}
-        yield _Function(
-            _CONTACT.friction_function, _CONTACT.friction_parameters, law.coefficient, "scalar", with_state, law
-        )
-        yield _Function(_CONTACT.rates_function, _CONTACT.rates_parameters, law.rates, "rates", law.parameters(), law)
-    else:
-        assert isinstance(law, FrictionLaw)
-        yield _Function(
-            _CONTACT.friction_function, _CONTACT.friction_parameters, law.coefficient, "scalar", law.parameters(), law
-        )
-
-
-def _add_function(made: Kind, contact: Contact, one: _Function, tried: set[tuple[Any, ...]] | None) -> None:
-    """Compile a function, try it out, and add its address and its parameters to a kind."""
-    function, form, available, part = one.function, one.form, one.available, one.part
-    owner = f"{type(part).__name__} ({contact})"
+def _add_function(made: Kind, contact: Contact, part: LawFunction, tried: set[tuple[Any, ...]] | None) -> None:
+    """Compile a function of the kinematics or of a law, try it out, and add its address and parameters to a kind."""
+    function, form, law, owner = part.function, part.form, part.law, f"{type(part.law).__name__} ({contact})"
+    available = law.parameters()
+    with_state = law if part.name == "friction" and isinstance(law, StatefulFrictionLaw) else None
+    if with_state is not None:
+        available = {**available, "state": with_state.initial_state}
     tables = {n: v for n in parameter_names(function, form) if isinstance(v := available.get(n), Table)}
     address, values = bind(function, form, {**available, **dict.fromkeys(tables, ())}, owner)
-    _try_function(contact, one, owner, values, tables, tried)
-    made.fields[one.address] = address
-    at = made.store(one.parameters, values)
-    made.tables += [(at + parameter_place(function, form, n), at, table) for n, table in tables.items()]
-    if one.parameters is _CONTACT.geometry_parameters and contact.kinematics.candidates is not None:
-        made.offsets[_CONTACT.features] = at + vector_place(function, form, values, "candidate")
-        # two features and their kind, and the distance to which they are valid
-        made.written.append((made.offsets[_CONTACT.features], CANDIDATE + 1))
-    if one.parameters is _CONTACT.friction_parameters and isinstance(part, StatefulFrictionLaw):
-        made.offsets[_CONTACT.inner_states_copy] = at + _place_of_state(part, values)
-        made.written.append((made.offsets[_CONTACT.inner_states_copy], len(part.initial_state)))
-
-
-def _try_function(
-    contact: Contact,
-    one: _Function,
-    owner: str,
-    values: Sequence[float],
-    tables: Mapping[str, Table],
-    tried: set[tuple[Any, ...]] | None,
-) -> None:
-    """Call a function that writes to a block once as Python, to find one that writes past it."""
-    function, form, available = one.function, one.form, one.available
-    start = initial_state(contact)
-    if form == "pair":
+    if tables and form == "pair":
         key = function, *map(id, tables.values())
-        if not tables or (tried is not None and key not in tried):
-            if tried is not None:
-                tried.add(key)
-            all_values = bind(function, form, available, owner)[1] if tables else values
-            try_out(function, form, available, all_values, PAIR, owner)
-    elif form == "traction":
-        arguments = 1.0, (0.1, 0.2, 0.3, 0.4, 0.5), start
-        try_out(function, form, available, values, FORCE_AND_MOMENT + len(start), owner, arguments)
-    elif form == "rates":
-        try_out(function, form, available, values, len(start), owner, (0.1, start))
+        if tried is not None and key not in tried:
+            tried.add(key)
+            _try_function(contact, part, bind(function, form, available, owner)[1])
+    else:
+        _try_function(contact, part, values)
+    made.fields[getattr(_CONTACT, f"{part.name}_function")] = address
+    start = made.store(getattr(_CONTACT, f"{part.name}_parameters"), values)
+    made.tables += [(start + parameter_place(function, form, n), start, table) for n, table in tables.items()]
+    if part.name == "geometry" and contact.kinematics.candidates is not None:
+        # two features and their kind, and the distance to which they are valid
+        made.mark_written(_CONTACT.features, start + vector_place(function, form, values, "candidate"), CANDIDATE + 1)
+    if with_state is not None:
+        place = start + _place_of_state(with_state, values)
+        made.mark_written(_CONTACT.inner_states_copy, place, len(with_state.initial_state))
+
+
+def _try_function(contact: Contact, part: LawFunction, values: Sequence[float]) -> None:
+    """Call a function that writes to a block once as Python, to find one that writes past it."""
+    start = initial_state(contact)
+    # size of the block, and arguments before the parameters
+    trials: Mapping[str, tuple[int, Sequence[float | Sequence[float]]]] = {
+        "pair": (PAIR, FRAMES),
+        "traction": (FORCE_AND_MOMENT + len(start), (1.0, (0.1, 0.2, 0.3, 0.4, 0.5), start)),
+        "rates": (len(start), (0.1, start)),
+    }
+    if part.form in trials:
+        size, arguments = trials[part.form]
+        owner = f"{type(part.law).__name__} ({contact})"
+        try_out(part.function, part.form, part.law.parameters(), values, size, owner, arguments)
 
 
 def _place_of_state(law: StatefulFrictionLaw, values: Sequence[float]) -> int:
@@ -335,7 +250,7 @@ def _place_of_state(law: StatefulFrictionLaw, values: Sequence[float]) -> int:
 
 
 def _map_values(memory: Memory, impact: ImpactMap) -> tuple[float, ...]:
-    """Compile an impact law that maps velocities; the result has its parameters, without the coefficient of friction.
+    """Compile an impact map, and write its address; the result has its parameters, without the friction coefficient.
 
     Raises
     ------

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from nonsmooth.engine.memory import owners
@@ -15,7 +17,7 @@ _OF_GEOMETRY = (owners.Contact.geometry_parameters, owners.Contact.features)
 
 
 def lay_laws(model: LaidOut, system: System) -> LaidOut:
-    """Layout of a system with other laws, in the memory of a model, which is blank.
+    """Layout of a system with other laws, in the memory of a model that holds no run.
 
     Raises
     ------
@@ -31,15 +33,14 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
             _refuse(contacts[numbers[0]], model.system.contacts[numbers[0]])
         for declared, value in after.fields.items():
             memory.declared(declared)[numbers] = value
-        # the parameters of the geometry come first, and may refer to tables
-        first = min(
-            (at for declared, at in after.offsets.items() if declared not in _OF_GEOMETRY), default=len(after.block)
-        )
+        # the parameters of the geometry come first, and may refer to tables; those of the laws follow
+        of_laws = [offset for declared, offset in after.offsets.items() if declared not in _OF_GEOMETRY]
+        first = min(of_laws, default=len(after.block))
         starts = memory.declared(owners.Contact.geometry_parameters)[numbers]
         places = starts[:, None] + np.arange(first, len(after.block))
         memory.floats[places] = after.block[first:]
     lay_law_floats(memory, contacts, kinds)
-    return LaidOut(system, memory, model.n_q, model.n_u, model.n_states)
+    return replace(model, system=system)
 
 
 def _check_same(one: System, other: System) -> None:
@@ -57,6 +58,7 @@ def _check_same(one: System, other: System) -> None:
 
 
 def _refuse(after: Contact, before: Contact) -> None:
+    """Raise InvalidInput for a contact whose new laws need other blocks than the laws before."""
     laws = [", ".join(type(law).__name__ for law in (one.normal, one.friction, one.impact)) for one in (before, after)]
     raise InvalidInput(
         f"with_laws_of: the laws of the {after}",

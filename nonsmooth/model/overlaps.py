@@ -15,7 +15,7 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import GAP, NORMAL
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import CompliantNormalLaw
-from nonsmooth.model.active_contacts import active_contacts
+from nonsmooth.model.part_pairs import by_shapes
 from nonsmooth.solids.placed import Placed, overlap
 from nonsmooth.system.contact import Contact
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from nonsmooth.model.laid_out import LaidOut
 
 _POSE = 12
-"""Numbers of a frame with its position and its rotation matrix."""
+"""Length of position and rotation matrix of a frame, with which its numbers begin."""
 
 
 class Overlap(NamedTuple):
@@ -33,9 +33,9 @@ class Overlap(NamedTuple):
     Attributes
     ----------
     contact : Contact
-        A contact of theirs.
+        A contact between them.
     depth : float
-        Least depth of the overlap [m].
+        Lower bound of the depth of the overlap [m].
     """
 
     contact: Contact
@@ -55,7 +55,7 @@ def check_overlaps(model: LaidOut) -> None:
     InvalidInput
         If two overlap.
     """
-    found = first_overlap(model, active_contacts(model.memory).tolist())
+    found = first_overlap(model, model.active.tolist())
     if found is not None:
         kinds = " and ".join(type(shape).__name__ for shape in found.contact.shapes)
         raise InvalidInput(
@@ -68,7 +68,7 @@ def check_overlaps(model: LaidOut) -> None:
 
 
 def first_overlap(model: LaidOut, numbers: Sequence[int]) -> Overlap | None:
-    """The first overlap beyond the tolerance, or None.
+    """The first overlap of solids deeper than is allowed, or None.
 
     Compliant bodies may overlap if a gap of theirs is negative, because the contact force is then positive.
 
@@ -79,16 +79,14 @@ def first_overlap(model: LaidOut, numbers: Sequence[int]) -> Overlap | None:
     numbers : sequence of int
         The contacts whose bodies are compared.
     """
-    contacts, memory = model.system.contacts, model.memory
-    active = active_contacts(memory).tolist()
-    blocks = memory[owners.Contact.geometry][: len(active)]
-    indices = {number: index for index, number in enumerate(active)}
+    contacts, blocks = model.system.contacts, model.memory[owners.Contact.geometry]
+    indices = {number: index for index, number in enumerate(model.active.tolist())}
     for same, one, two in solid_pairs(model, numbers, within=0.0):
         contact, near = contacts[same[0]], [indices[number] for number in same if number in indices]
-        least = min((float(blocks[index, GAP]) for index in near), default=0.0)
-        if least < 0.0 and isinstance(contact.normal, CompliantNormalLaw):
+        if np.any(blocks[near, GAP] < 0.0) and isinstance(contact.normal, CompliantNormalLaw):
             continue
         allowed = overlap_allowed(contact) + one.solid.set_back + two.solid.set_back
+        # the solids are compared along the normal of the least gap first
         nearest = min(near, key=lambda index: abs(float(blocks[index, GAP])), default=None)
         normal = np.array([0.0, 0.0, 1.0]) if nearest is None else blocks[nearest, NORMAL : NORMAL + 3]
         depth = overlap(one, two, allowed, normal)
@@ -111,14 +109,8 @@ def solid_pairs(
     within : float
         Shapes whose bounding spheres are farther apart than this are left out [m].
     """
-    pairs: dict[tuple[int, ...], list[int]] = {}
-    contacts = model.system.contacts
-    for number in numbers:
-        contact = contacts[number]
-        key = (*map(id, (contact.first, contact.second, *contact.shapes)), *contact.frames)
-        pairs.setdefault(key, []).append(number)
-    for same in pairs.values():
-        contact = contacts[same[0]]
+    for same in by_shapes(model.system.contacts, numbers):
+        contact = model.system.contacts[same[0]]
         solids = [solid for shape in contact.shapes if (solid := shape.solid) is not None]
         if len(solids) < len(contact.shapes):
             continue

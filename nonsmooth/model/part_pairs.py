@@ -8,8 +8,8 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from operator import attrgetter
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from nonsmooth.engine.memory.memory import Heap, Memory
 from nonsmooth.engine.pairs.overlaps import NO_PAIR
 from nonsmooth.interfaces import ConvexPart
 from nonsmooth.model.contact_table import ContactTable
+from nonsmooth.model.laying import write_record
 from nonsmooth.system.contact import Contact
 
 _ALLOWED = 1e-7
@@ -28,8 +29,25 @@ _UNBOUNDED = float(np.finfo(np.float64).max)
 """Distance to the farthest point of a half-space [m]. It is finite, so that its product with no rotation is zero."""
 
 
-@dataclass(frozen=True, eq=False)
-class PartPair:
+class PairSide(NamedTuple):
+    """A convex part of a shape on its body.
+
+    Attributes
+    ----------
+    carrier : tuple of int
+        Number of the body, and frame, that carries the part.
+    part : ConvexPart
+        The part.
+    key : tuple of int
+        Identity of the shape, and number of the part in the shape.
+    """
+
+    carrier: tuple[int, int]
+    part: ConvexPart
+    key: tuple[int, int]
+
+
+class PartPair(NamedTuple):
     """Two convex parts of shapes with contacts.
 
     Attributes
@@ -38,21 +56,15 @@ class PartPair:
         Number of the first pair of the same shapes.
     contacts : tuple of int
         Numbers of the contacts of the shapes.
-    sides : tuple
-        Number of the body, and frame, of each part.
-    parts : tuple of ConvexPart
+    sides : tuple of PairSide
         The parts. A half-space comes first, and the larger one of two discs.
-    shapes : tuple of int
-        Identity of the shape of each part, and number of the part in the shape.
     size : float
         Extent of the smaller shape [m].
     """
 
     group: int
     contacts: tuple[int, ...]
-    sides: tuple[tuple[int, int], tuple[int, int]]
-    parts: tuple[ConvexPart, ConvexPart]
-    shapes: tuple[tuple[int, int], tuple[int, int]]
+    sides: tuple[PairSide, PairSide]
     size: float
 
 
@@ -60,49 +72,41 @@ def find_part_pairs(contacts: Sequence[Contact], table: ContactTable) -> list[Pa
     """The pairs of parts that need a check for overlap."""
     parts_of: dict[int, tuple[ConvexPart, ...]] = {}
     found: list[PartPair] = []
-    for numbers in _groups(contacts):
-        contact = contacts[numbers[0]]
-        sides = [(int(table.bodies[numbers[0], i]), int(table.frames[numbers[0], i])) for i in (0, 1)]
-        for shape in contact.shapes:
+    for numbers in by_shapes(contacts, range(len(contacts))):
+        contact, group = contacts[numbers[0]], len(found)
+        choices: list[list[PairSide]] = []
+        for shape, body, frame in zip(contact.shapes, table.bodies[numbers[0]], table.frames[numbers[0]], strict=True):
             if id(shape) not in parts_of:
                 parts_of[id(shape)] = shape.parts
-        group = len(found)
-        choices = [list(enumerate(parts_of[id(shape)])) for shape in contact.shapes]
-        for one, two in itertools.product(*choices):
-            if needs_overlap_check(one[1], two[1], len(numbers)):
-                both = ((one, sides[0], id(contact.shapes[0])), (two, sides[1], id(contact.shapes[1])))
-                larger = one[1].is_disc and two[1].is_disc and two[1].radius > one[1].radius
-                first, second = both[::-1] if two[1].is_half_space or larger else both
-                found.append(
-                    PartPair(
-                        group,
-                        tuple(numbers),
-                        (first[1], second[1]),
-                        (first[0][1], second[0][1]),
-                        ((first[2], first[0][0]), (second[2], second[0][0])),
-                        contact.size,
-                    )
-                )
+            carrier, parts = (int(body), int(frame)), parts_of[id(shape)]
+            choices.append([PairSide(carrier, part, (id(shape), number)) for number, part in enumerate(parts)])
+        for first, second in itertools.product(*choices):
+            one, two = first.part, second.part
+            if needs_overlap_check(one, two, len(numbers)):
+                is_larger = one.is_disc and two.is_disc and two.radius > one.radius
+                sides = (second, first) if two.is_half_space or is_larger else (first, second)
+                found.append(PartPair(group, tuple(numbers), sides, contact.size))
     return found
 
 
 def carriers_of(pairs: Sequence[PartPair]) -> dict[tuple[int, int], float]:
     """Bodies and frames that carry parts, each with the distance to its farthest point [m]."""
     radii: dict[tuple[int, int], float] = {}
-    for pair in pairs:
-        for side, part in zip(pair.sides, pair.parts, strict=True):
-            reach = _UNBOUNDED if part.is_half_space else math.hypot(*part.place) + part.radius
-            radii[side] = max(reach, radii.get(side, 0.0))
+    for side in itertools.chain.from_iterable(pair.sides for pair in pairs):
+        reach = _UNBOUNDED if side.part.is_half_space else math.hypot(*side.part.place) + side.part.radius
+        radii[side.carrier] = max(reach, radii.get(side.carrier, 0.0))
     return radii
 
 
 def needs_overlap_check(one: ConvexPart, two: ConvexPart, contacts: int) -> bool:
-    """True if two parts can overlap without a negative gap of a contact."""
+    """True if two parts can overlap without a negative gap of any of their contacts, the number of which is known."""
     if one.is_half_space and two.is_half_space:
         return False
-    simple = all(part.is_ball or part.is_half_space for part in (one, two))
-    flat = one.is_flat and two.is_flat
-    return not (simple and contacts == 1) and (not flat or (one.is_disc and two.is_disc))
+    # the one contact of balls and half-spaces has the gap of the whole parts
+    if contacts == 1 and all(part.is_ball or part.is_half_space for part in (one, two)):
+        return False
+    # flat parts have no volume; of these only discs may overlap
+    return not (one.is_flat and two.is_flat) or (one.is_disc and two.is_disc)
 
 
 def contacts_without_parts(contacts: Sequence[Contact]) -> list[int]:
@@ -116,17 +120,17 @@ def contacts_without_parts(contacts: Sequence[Contact]) -> list[int]:
 
 def unchecked_contacts(contacts: Sequence[Contact]) -> list[str]:
     """Names of contacts of a shape without convex parts and without a solid: only their gaps show an overlap."""
-    parts = {id(shape): shape.parts for contact in contacts for shape in contact.shapes}
-    bare = {id(shape) for contact in contacts for shape in contact.shapes if not parts[id(shape)] and not shape.solid}
+    shapes = {id(shape): shape for contact in contacts for shape in contact.shapes}
+    bare = {key for key, shape in shapes.items() if not shape.parts and not shape.solid}
     return [contact.name for contact in contacts if not bare.isdisjoint(map(id, contact.shapes))]
 
 
-def _groups(contacts: Sequence[Contact]) -> list[list[int]]:
-    """Numbers of the contacts of each pair of shapes."""
+def by_shapes(contacts: Sequence[Contact], numbers: Sequence[int]) -> list[list[int]]:
+    """Numbers of contacts, for each pair of shapes on the same frames."""
     groups: dict[tuple[int, ...], list[int]] = {}
-    names = "first", "second"
-    sides = [list(map(id, map(attrgetter(name), contacts))) for name in names]
-    for number, (contact, first, second) in enumerate(zip(contacts, *sides, strict=True)):
+    chosen = [contacts[number] for number in numbers]
+    bodies = [map(id, map(attrgetter(name), chosen)) for name in ("first", "second")]
+    for number, contact, first, second in zip(numbers, chosen, *bodies, strict=True):
         key = first, second, *contact.frames, *map(id, contact.shapes)
         groups.setdefault(key, []).append(number)
     return list(groups.values())
@@ -136,16 +140,7 @@ def numbers_of(part: ConvexPart) -> list[float]:
     """Numbers of a part as the engine reads them (:mod:`nonsmooth.engine.memory.blocks`)."""
     n_rings = -1 if part.is_half_space else len(part.rings)
     function_place = PART_RINGS + RING * len(part.rings) if part.function else 0
-    head = [
-        *part.place,
-        *np.ravel(part.axes),
-        *part.semi,
-        *part.powers,
-        part.ball,
-        part.radius,
-        function_place,
-        n_rings,
-    ]
+    head = *part.place, *np.ravel(part.axes), *part.semi, *part.powers, part.ball, part.radius, function_place, n_rings
     return [float(number) for number in (*head, *np.ravel(part.rings), *part.function)]
 
 
@@ -157,27 +152,23 @@ def lay_part_pairs(
     of_contact[:] = NO_PAIR
     carriers = carriers_of(pairs)
     numbers = {side: number for number, side in enumerate(carriers)}
-    memory[owners.Carrier.frame][: len(carriers)] = [frames[side] for side in carriers]
-    memory[owners.Carrier.radius][: len(carriers)] = list(carriers.values())
+    memory[owners.Carrier.frame] = [frames[side] for side in carriers]
+    memory[owners.Carrier.radius] = list(carriers.values())
     starts: dict[tuple[int, int], int] = {}
     for number, pair in enumerate(pairs):
-        for key, part in zip(pair.shapes, pair.parts, strict=True):
-            if key not in starts:
-                starts[key] = blocks.store(numbers_of(part))
-        fields: Mapping[str, float] = {
-            "carrier_a": numbers[pair.sides[0]],
-            "carrier_b": numbers[pair.sides[1]],
-            "frame_a": frames[pair.sides[0]],
-            "frame_b": frames[pair.sides[1]],
-            "part_a": starts[pair.shapes[0]],
-            "part_b": starts[pair.shapes[1]],
+        for side in pair.sides:
+            if side.key not in starts:
+                starts[side.key] = blocks.store(numbers_of(side.part))
+        fields: dict[str, float] = {
             "group": pair.group,
             "contact": pair.contacts[0],
-            "are_both_flat": all(part.is_flat for part in pair.parts),
+            "are_both_flat": all(side.part.is_flat for side in pair.sides),
             "allowed": _ALLOWED * pair.size,
             "size": pair.size,
         }
-        for name, value in fields.items():
-            memory[getattr(owners.Pair, name)][number] = value
+        for name, side in zip("ab", pair.sides, strict=True):
+            fields |= {f"carrier_{name}": numbers[side.carrier], f"frame_{name}": frames[side.carrier]}
+            fields[f"part_{name}"] = starts[side.key]
+        write_record(memory, owners.Pair, number, fields)
         if number == pair.group:
             of_contact[np.array(pair.contacts)] = number

@@ -53,24 +53,25 @@ def failing_function(model: LaidOut, status: int) -> str:
 
 
 def _failing_function(model: LaidOut, status: int) -> str:
+    """The sentence of :func:`failing_function`. Diagnoses that need few calls come first; one may raise."""
     if status in _FAILED_CHECKS:
         return failed_check(model, status)
     if found := squeezed_body(model, status):
         return found
     found = _immobile(model) or _failing_map(model) if status == Status.NOT_FINITE else ""
     found = found or failed_search(model.memory, model.system.contacts) or _failing_block(model)
+    # a law without a finite value may also reject steps until they are too small
     if found or status not in (Status.NOT_FINITE, Status.STEP_TOO_SMALL):
         return found
-    found = first_without_value(_law_findings(model)) or _failing_guard(model)
-    if found:
+    if found := first_without_value(_law_findings(model)) or _failing_guard(model):
         return found
-    if not np.all(np.isfinite(model.memory[owners.Island.y][: model.n_y])):
+    if not np.all(np.isfinite(model.memory[owners.Island.y])):
         return "The state itself is not finite: check the motions and the bodies."
     return ""
 
 
 def _immobile(model: LaidOut) -> str:
-    """Sentence that names a contact whose force is not determined, or ""."""
+    """Sentence that names a contact that joints prevent from moving along its normal, or ""."""
     found = immobile_contact(model)
     if found is None:
         return ""
@@ -81,8 +82,9 @@ def _immobile(model: LaidOut) -> str:
 
 
 def _law_findings(model: LaidOut) -> Iterator[Finding | None]:
+    """For each function of the laws of each contact: the last input without a finite value, or None."""
     memory, contact = model.memory, owners.Contact
-    states = memory[owners.Island.y][: model.n_y][model.n_q + model.n_u + N_ACCOUNTS :]
+    states = memory[owners.Island.y][model.n_q + model.n_u + N_ACCOUNTS :]
     for number, declared in enumerate(model.system.contacts):
         start, n = (int(memory.declared(one)[number]) for one in (contact.inner_states, contact.n_inner_states))
         for part in law_functions(declared.friction, declared.impact, declared.normal):
@@ -91,13 +93,14 @@ def _law_findings(model: LaidOut) -> Iterator[Finding | None]:
 
 
 def _failing_block(model: LaidOut) -> str:
-    """Sentence that names a body, load or contact without finite numbers, or "".
+    """Sentence that names a body, load or contact whose function gives no finite numbers, or "".
 
     They are evaluated at the last state, at its time, at the end of the failed step and shortly after: functions of
     time may fail between two steps.
     """
     memory = model.memory
     t = memory[owners.Island.time]
+    # ten time tolerances after an event: a function of time has switched there
     for time in (t, t + memory[owners.Step.h], t + 10.0 * memory[owners.Tolerance.time]):
         memory[owners.Island.time] = time
         call_entry("evaluate_at", memory)
@@ -110,7 +113,7 @@ def _failing_block(model: LaidOut) -> str:
 
 
 def _failing_map(model: LaidOut) -> str:
-    """Sentence about the impact map of the last impact, called again as plain Python, or ""."""
+    """Sentence about the impact map if its last impulses are not finite, called again as plain Python, or ""."""
     memory = model.memory
     n = int(memory[owners.Problem.n_active])
     law = model.system.contacts[0].impact if model.system.contacts else None
@@ -126,8 +129,7 @@ def _failing_map(model: LaidOut) -> str:
         fault = "gives impulses that are not finite"
     except Exception as error:
         fault = raised(law.impulses, error)
-    active = memory[owners.Contact.declared][: int(memory[owners.Island.n_contacts])]
-    contacts = [str(model.system.contacts[int(i)]) for i in active[memory[owners.Problem.active][:n]]]
+    contacts = [str(model.system.contacts[i]) for i in model.active[memory[owners.Problem.active][:n]]]
     before = " ".join(np.array2string(rates.reshape(n, 3), precision=6, threshold=30, separator=", ").split())
     return (
         f"{type(law).__name__}: {described(law.impulses)}, {fault} for the rates {before} m/s "
@@ -137,12 +139,12 @@ def _failing_map(model: LaidOut) -> str:
 
 def _failing_guard(model: LaidOut) -> str:
     """Sentence that names a guard of the user without a finite value at the end of the failed step, or ""."""
-    memory, state = model.memory, model.memory[owners.Step.y_new]
+    state, h = model.memory[owners.Step.y_new], model.memory[owners.Step.h]
     q, u = state[: model.n_q], state[model.n_q : model.n_q + model.n_u]
     for watched in model.system.watched:
         guard = watched.guard
-        value = guard_value(guard, memory[owners.Island.time] + memory[owners.Step.h], q, u)
+        value = guard_value(guard, model.memory[owners.Island.time] + h, q, u)
         if not isinstance(value, float) or not math.isfinite(value):
             fault = raised(guard.value, value) if isinstance(value, Exception) else f"gives {value!r}"
-            return f"{watched}: {described(guard.value)}, {fault} within {memory[owners.Step.h]:g} s."
+            return f"{watched}: {described(guard.value)}, {fault} within {h:g} s."
     return ""

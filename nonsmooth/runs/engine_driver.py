@@ -27,7 +27,7 @@ _CALL_COUNTERS = places("request.n_work", "request.work_budget", "run.n_calls")
 
 @final
 class EngineDriver:
-    """Calls an engine on a model.
+    """Calls an engine on a model, and checks each call.
 
     Parameters
     ----------
@@ -47,7 +47,8 @@ class EngineDriver:
     def advance(self, most_steps: int, pauses_before_end: bool) -> int:
         """Advance the run by at most ``most_steps`` steps; the result is the status.
 
-        With ``pauses_before_end`` the engine pauses before a step whose length depends on the end time.
+        With ``pauses_before_end`` the engine pauses before a step whose length depends on the end time. The engine may
+        do nothing, for example if it pauses there at once.
 
         Raises
         ------
@@ -72,16 +73,16 @@ class EngineDriver:
         return int(status)
 
     def advance_past(self, checkpoint: Checkpoint, most_steps: int) -> int:
-        """Advance a run with empty buffers past a checkpoint, which its memory holds now; the result is the status.
+        """Advance a run past a checkpoint that its memory holds now, with empty buffers; the result is the status.
 
-        The engine may take steps that the end time shortens, so it must take one.
+        The engine need not pause before steps that the end time shortens, so it must take one step at least.
 
         Raises
         ------
         InvalidInput
             If the engine breaks its contract.
         """
-        status = self.advance(most_steps, False)
+        status = self.advance(most_steps, pauses_before_end=False)
         if status == Status.PAUSED and self._holds(checkpoint):
             raise InvalidInput(
                 self._name,
@@ -92,7 +93,7 @@ class EngineDriver:
         return status
 
     def _holds(self, checkpoint: Checkpoint) -> bool:
-        """True if the memory holds a checkpoint, apart from the counters of calls."""
+        """True if the memory holds a checkpoint, apart from counters of calls: the engine has done nothing since."""
         if self._memory[owners.Island.time] != checkpoint[owners.Island.time]:
             return False
         (scalars, *arrays), (old_scalars, *old_arrays) = self._memory.kept, checkpoint.parts

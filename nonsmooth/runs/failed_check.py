@@ -32,9 +32,9 @@ def failed_check(model: LaidOut, status: int) -> str:
         return _overlap(model, number, found, allowed)
     if status == Status.GAP_UNDECIDED:
         return (
-            f"The {_active_contact(model, number)}: its gap is {found:.3g} m and hardly changes within a step of "
-            f"{model.memory[owners.Step.h]:.3g} s. Place the bodies farther apart or in contact, or "
-            "take a smaller tolerance: EventDriven(tolerance=...)."
+            f"The {model.system.contacts[model.active[number]]}: its gap is {found:.3g} m and hardly changes within a "
+            f"step of {model.memory[owners.Step.h]:.3g} s. Place the bodies farther apart or in contact, or take a "
+            "smaller tolerance: EventDriven(tolerance=...)."
         )
     if status == Status.JOINTS_APART:
         return f"They are apart by {found:.3g} m or rad; the tolerances allow {allowed:.3g}.{_lightest(model)}"
@@ -52,14 +52,9 @@ def failed_check(model: LaidOut, status: int) -> str:
     )
 
 
-def _active_contact(model: LaidOut, index: int) -> Contact:
-    active = model.memory[owners.Contact.declared][: model.memory[owners.Island.n_contacts]]
-    return model.system.contacts[int(active[index])]
-
-
 def _gap(model: LaidOut, index: int, found: float, allowed: float) -> str:
-    """Sentences about an active contact whose gap [m] the tolerances do not allow."""
-    contact = _active_contact(model, index)
+    """Sentences about the gap ``found`` of an active contact, which is larger than the tolerances allow [m]."""
+    contact = model.system.contacts[model.active[index]]
     text = f"The {contact}: the gap is {found:.3g} m; the tolerances allow {allowed:.3g} m."
     if model.memory[owners.Contact.mode][index] != Mode.OPEN and (others := _other_closed(model, contact)):
         return f"{text} It is closed, and {others} hold its bodies otherwise. {_COMPLIANT}"
@@ -78,7 +73,7 @@ def _overlap(model: LaidOut, number: int, found: float, allowed: float) -> str:
 
 
 def _lightest(model: LaidOut) -> str:
-    """Sentences on the joined body whose inertia is within round-off of the largest one, or ""."""
+    """Sentences on the joined body whose inertia is least, if round-off of the largest inertia moves it, else ""."""
     bodies, joined = model.system.bodies, {id(body) for tie in model.system.joints for body in (tie.first, tie.second)}
     inverse_inertias = [
         (float(value), model.system.names.bodies[number], unit)
@@ -101,13 +96,12 @@ def _lightest(model: LaidOut) -> str:
 
 
 def _other_closed(model: LaidOut, contact: Contact) -> str:
-    """Names of closed contacts of other pairs of bodies that share a free body with a contact, or ""."""
-    n = int(model.memory[owners.Island.n_contacts])
-    modes, active = model.memory[owners.Contact.mode][:n], model.memory[owners.Contact.declared][:n]
+    """Names of closed contacts that share a free body with a contact, one for each other pair of bodies, or ""."""
+    modes = model.memory[owners.Contact.mode][: len(model.active)]
     free = {id(body) for body in (contact.first, contact.second) if body.n_u > 0}
     pairs = dict[tuple[int, int], str]()
-    for number in active[modes != Mode.OPEN].tolist():
-        other = model.system.contacts[int(number)]
+    for number in model.active[modes != Mode.OPEN].tolist():
+        other = model.system.contacts[number]
         bodies = id(other.first), id(other.second)
         if free & {*bodies} and {*bodies} != {id(contact.first), id(contact.second)}:
             pairs.setdefault(bodies, f"the {other}")

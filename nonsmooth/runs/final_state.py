@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -17,13 +17,13 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.limits import LIMITS
+from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.tables import record_with
 from nonsmooth.interfaces import Engine, Measure, StatefulFrictionLaw, TractionLaw
-from nonsmooth.model.checkpoint import Checkpoint, Difference
+from nonsmooth.model.checkpoint import Booleans, Checkpoint, Difference, Integers
 from nonsmooth.model.engine_parts import own_of
 from nonsmooth.model.laid_out import energies
 from nonsmooth.queries.near import size_of
-from nonsmooth.runs.fixed_places import FixedPlaces
 from nonsmooth.runs.imbalance import imbalance_span
 from nonsmooth.runs.outcome import Outcome, cause_of
 from nonsmooth.solution.end import Counters, End
@@ -35,8 +35,32 @@ from nonsmooth.solution.suspicion import suspicions
 from nonsmooth.system.system import System
 
 
+class FixedPlaces(NamedTuple):
+    """Where a checkpoint of a model has the numbers that the state of a run needs. All runs of a model share it.
+
+    Attributes
+    ----------
+    rates : array
+        Place among the blocks of q' of each body, behind which are force, inverse mass and energies.
+    features : array
+        Place among the blocks of the features of each declared contact, negative if it has none.
+    changing : tuple of array
+        Which numbers a run may change (:attr:`nonsmooth.engine.memory.memory.Memory.changing`).
+    """
+
+    rates: Integers
+    features: Integers
+    changing: tuple[Booleans, ...]
+
+    @classmethod
+    def of(cls, memory: Memory) -> FixedPlaces:
+        """The places in checkpoints of a memory."""
+        rates, features = memory[owners.Body.tail], memory.declared(owners.Contact.features)
+        return cls(rates - memory.blocks, features - memory.blocks, memory.changing)
+
+
 class FinalState(NamedTuple):
-    """The memory of a model after a run, and what it is read with.
+    """The memory of a model after a run, and all that its reading needs.
 
     Attributes
     ----------
@@ -93,39 +117,36 @@ class FinalState(NamedTuple):
 
     def state(self) -> State:
         """State of the model now."""
-        now, contact = self.now, owners.Contact
-        n_q, n_u, n = now[owners.Model.n_q], now[owners.Model.n_u], now[owners.Model.n_declared]
-        y = now[owners.Island.y][: now[owners.Model.n_y]]
-        modes, rates, directions = (
-            now.declared(one).copy() for one in (contact.mode, contact.closing_rate, contact.direction)
-        )
-        # an active contact is newer than the record of its declared contact
-        n_active = now[owners.Island.n_contacts]
-        active = now[contact.declared][:n_active]
-        modes[active] = now[contact.mode][:n_active]
-        directions[active] = now[contact.direction][:n_active]
-        rates[active] = now[contact.closing_rate][:n_active]
-        features, places = np.zeros((n, CANDIDATE)), self.places.features
-        for number in np.flatnonzero(places > 0).tolist():
-            features[number] = now.blocks[places[number] - now.first :][:CANDIDATE]
+        now, contact, places = self.now, owners.Contact, self.places.features
+        n_q, n_u, y = now[owners.Model.n_q], now[owners.Model.n_u], now[owners.Island.y]
+        features, searched = np.zeros((len(places), CANDIDATE)), np.flatnonzero(places >= 0)
+        features[searched] = now.blocks[places[searched, None] + np.arange(CANDIDATE)]
         state = State(
             now[owners.Island.time],
             y[:n_q],
             y[n_q : n_q + n_u],
-            modes,
-            directions,
-            rates,
+            self._of_contacts(contact.mode),
+            self._of_contacts(contact.direction),
+            self._of_contacts(contact.closing_rate),
             features,
             y[n_q + n_u + N_ACCOUNTS :],
-            now[owners.OwnGuard.has_just_fired][: now[owners.Model.n_own_guards]],
+            now[owners.OwnGuard.has_just_fired],
             self._account(y[n_q + n_u :]),
         )
         difference = Difference.between(self.blank, self.resumable, self.places.changing)
         return state.with_continuation(Continuation(self.key(), difference, self.n_known_events))
 
+    def _of_contacts(self, declared: Any) -> np.ndarray:
+        """Numbers of all contacts. Those of an active contact are newer than the record of its declared contact."""
+        found = self.now.declared(declared).copy()
+        active = self.now[owners.Contact.declared][: self.now[owners.Island.n_contacts]]
+        found[active] = self.now[declared][: len(active)]
+        return found
+
     def _counters(self, wall: float) -> Counters:
+        """Counters of the run, which took a wall time [s]."""
         now, totals = self.now, owners.Totals
-        limits = now[totals.n_steps_limited][: len(LIMITS)]
+        limits = now[totals.n_steps_limited]
         return Counters(
             steps=now[totals.n_steps],
             rejected=now[totals.n_rejected],
@@ -157,7 +178,7 @@ class FinalState(NamedTuple):
         )
 
     def _verdict(self) -> dict[Measure, float]:
-        """The numbers by which the engine judges a run."""
+        """The measures by which the engine judges a run: numbers of its own part of the workspace."""
         own = self.now.parts[0].view(record_with(own_of(self.engine)))[0]
         return {
             measure: float(own[f"{part.key}.{measure.name}"])
@@ -170,25 +191,24 @@ class FinalState(NamedTuple):
         return any(isinstance(one.friction, (StatefulFrictionLaw, TractionLaw)) for one in self.system.contacts)
 
     def _least_scale(self) -> float:
-        """Work of the forces on all bodies over a distance of the size of each [J].
+        """Scale of the energy account of bodies that hardly move [J].
 
-        It is the scale of the energy account of bodies that hardly move.
+        It is the work of the force on each body over a distance of its size.
         """
-        now, total = self.now, 0.0
-        for body, tail in zip(self.system.bodies, self.places.tails.tolist(), strict=True):
-            size = size_of(body)
+        total = 0.0
+        for body, rates in zip(self.system.bodies, self.places.rates.tolist(), strict=True):
+            size, first = size_of(body), rates + body.n_q
             if body.n_u > 0 and math.isfinite(size):
-                force = now.blocks[tail + body.n_q : tail + body.n_q + body.n_u]
-                total += float(np.linalg.norm(force)) * size
+                total += float(np.linalg.norm(self.now.blocks[first : first + body.n_u])) * size
         return total
 
     def _account(self, integrated: Floats) -> EnergyAccount:
-        """Energy account, with the energies that the engine integrated."""
+        """Energy account. ``integrated`` begins with the energies that the engine integrates with the state [J]."""
         now, totals = self.now, owners.Totals
         driven, dissipated, exchanged, loads = integrated[:N_ACCOUNTS].tolist()
         return EnergyAccount(
             *self.start_energy,
-            *energies(self.system.bodies, self.places.tails, now.blocks),
+            *energies(self.system.bodies, self.places.rates, now.blocks),
             driven_work=now[totals.driven_work] + driven,
             restitution_loss=now[totals.restitution_loss],
             friction_loss=now[totals.friction_loss] + dissipated,

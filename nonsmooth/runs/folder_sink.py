@@ -16,7 +16,7 @@ from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
 
 _COMMIT_INTERVAL = 0.5
-"""Time from one commit to the next [s]. The cost of a commit is then small beside the run."""
+"""Time from one commit to the next [s]. A commit then costs little compared with the run."""
 _FIRST_COMMIT = 0.25
 """Time from the start to the first commit [s]. A run shorter than this is written once, at its end."""
 _CALL_TIME = 0.15
@@ -24,7 +24,7 @@ _CALL_TIME = 0.15
 _FEWEST_STEPS = 4
 """Least number of steps per call. Near the end time the engine pauses after fewer anyway."""
 _FIRST_STEPS = 64
-"""Number of steps of the first call, before the time of a step is known."""
+"""Number of steps of the first call, before the wall time of a step is known."""
 _MOST_STEPS = 2000
 """Largest number of steps per call. More gain no time."""
 
@@ -43,7 +43,7 @@ class FolderSink(OutputSink):
     state_at : callable
         Makes the state of a checkpoint.
     wall : float
-        Wall time of the run before this process [s].
+        Wall time of the run in earlier processes [s].
     """
 
     folder: SolutionFolder
@@ -58,19 +58,17 @@ class FolderSink(OutputSink):
     _thread: ThreadPoolExecutor = field(default_factory=lambda: ThreadPoolExecutor(1))
     _commit: Future[None] | None = None
 
-    @property
     def steps(self) -> int:
         """Number of steps that take about 0.15 s."""
         return self._steps
 
     def begin(self, checkpoint: Checkpoint) -> None:
         """Write the start of the run."""
-        self.folder.begin(*self.records.unwritten(), self.state_at(checkpoint), self.wall)
-        self.records.n_written = self.records.n_parts
+        self.folder.begin(*self.records.take_unwritten(), self.state_at(checkpoint), self.wall)
         self._last_call = time.perf_counter()
 
     def write(self, checkpoint: Checkpoint) -> None:
-        """Start a commit of the new results, if it is time and the last commit has ended."""
+        """Start a commit of the new results, if it is time and the last commit has ended; adapt the steps per call."""
         now = time.perf_counter()
         wanted = self._steps * _CALL_TIME / max(now - self._last_call, 1e-6)
         self._steps = int(min(_MOST_STEPS, 4 * self._steps, max(_FEWEST_STEPS, wanted)))
@@ -78,17 +76,14 @@ class FolderSink(OutputSink):
             self._wait()
             self._next_commit = now + _COMMIT_INTERVAL
             self.records.drain()
-            n, (events, rows) = self.records.n_parts, self.records.unwritten()
-            wall = self.wall + now - self._start
-            self._commit = self._thread.submit(self.folder.append, events, rows, self.state_at(checkpoint), wall)
-            self.records.n_written = n
+            state, wall = self.state_at(checkpoint), self.wall + now - self._start
+            self._commit = self._thread.submit(self.folder.append, *self.records.take_unwritten(), state, wall)
         self._last_call = time.perf_counter()
 
     def finish(self, solution: Solution) -> None:
         """Write the remaining results and the end of the run."""
         self._wait()
-        events, rows = self.records.unwritten()
-        self.folder.finish(events, rows, solution)
+        self.folder.finish(*self.records.take_unwritten(), solution)
 
     def close(self) -> None:
         """Wait for the last commit, and release the folder."""
@@ -96,6 +91,12 @@ class FolderSink(OutputSink):
         self.folder.close()
 
     def _wait(self) -> None:
-        """Wait for the last commit, and raise the error that it ended with."""
+        """Wait for the last commit.
+
+        Raises
+        ------
+        FileError
+            If it could not be written.
+        """
         if self._commit is not None:
             self._commit.result()

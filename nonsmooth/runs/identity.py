@@ -26,7 +26,7 @@ def digest(model: LaidOut, engine: Engine) -> str:
     """
     found = hashlib.blake2b(_LAYOUT + _classes(model) + _options(engine))
     for numbers in _parameters(model.memory):
-        # most numbers are zero, so places and values of the others are shorter
+        # most numbers are zero, so the places and bits of the others are fewer bytes
         bits = np.ascontiguousarray(numbers).view(np.uint8 if numbers.dtype == bool else np.int64).ravel()
         nonzero = np.flatnonzero(bits)
         found.update(nonzero.data)
@@ -35,14 +35,14 @@ def digest(model: LaidOut, engine: Engine) -> str:
 
 
 def _parameters(memory: Memory) -> Iterator[np.ndarray]:
-    """All numbers of a memory that no run changes and that are the same in every process."""
+    """All numbers of a memory that no run changes and that are the same in every process, array by array."""
     for owner in (*OWNERS, *memory.own):
         for one in declarations(owner).values():
             if one.life is Life.PARAMETER and not one.inside[0] and not one.is_address and not _is_copied(one):
                 yield np.atleast_1d(np.asarray(memory[one]))
     blocks = memory.floats[memory.blocks : memory.tables].copy()
     blocks[memory.written] = 0.0
-    # a copy of a model has other distances to the tables
+    # numbers that refer to tables: in the memory of a copy they are other distances
     blocks[[place - memory.blocks for place, _, _ in memory.references]] = 0.0
     yield blocks
     yield (memory.owner or memory).floats[memory.tables :]
@@ -54,6 +54,7 @@ def _is_copied(one: Declaration) -> bool:
 
 
 def _options(engine: Engine) -> bytes:
+    """Class of an engine, and the values of its options."""
     return repr((type(engine).__qualname__, {name: getattr(engine, name) for name in rules(type(engine))})).encode()
 
 

@@ -49,10 +49,11 @@ def imbalance_span(solution: Solution) -> str:
 
 
 def _span(imbalance: Floats) -> tuple[int, int]:
-    """First and last index of the largest change, without its negligible ends."""
+    """First and last index of the largest change of an imbalance [J], without ends where little changes."""
     first, last = sorted((int(np.argmin(imbalance)), int(np.argmax(imbalance))))
     if first == last:
         return first, last
+    # last index near the first value, and first index near the last value
     within, negligible = imbalance[first : last + 1], _NEGLIGIBLE * float(np.ptp(imbalance))
     last = first + int(np.argmax(np.abs(within - within[-1]) <= negligible))
     first += int(np.flatnonzero(np.abs(within - within[0]) <= negligible)[-1])

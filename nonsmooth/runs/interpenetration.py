@@ -20,14 +20,16 @@ _MOVED = 0.01
 
 
 def interpenetration(model: LaidOut, rows: Floats) -> str:
-    """Sentences about the first sample at which bodies overlap that must not, or "".
+    """Sentences about the first sample at which bodies of contacts overlap more than is allowed, or "".
+
+    The memory holds each sample in turn, and then its content of before.
 
     Parameters
     ----------
     model : LaidOut
         The model that ran.
     rows : Floats
-        Its samples, t and y first, shape [n, m].
+        Its samples, shape [n, m]: columns are t [s], q, u and more.
     """
     contacts, numbers = model.system.contacts, model.contacts_without_parts
     if not numbers:
@@ -37,7 +39,7 @@ def interpenetration(model: LaidOut, rows: Floats) -> str:
     try:
         for row in rows[_moved_samples(rows[:, 1 : 1 + model.n_q], least_move)]:
             model.memory[owners.Island.time] = row[0]
-            model.memory[owners.Island.y][: model.n_y] = row[1 : 1 + model.n_y]
+            model.memory[owners.Island.y] = row[1 : 1 + model.n_y]
             model.list_contacts()
             model.evaluate()
             if found := first_overlap(model, numbers):
@@ -49,6 +51,7 @@ def interpenetration(model: LaidOut, rows: Floats) -> str:
 
 
 def _sentences(model: LaidOut, t: float, overlap: Overlap) -> str:
+    """Sentences about an overlap at time t [s]."""
     contact = overlap.contact
     first, second = (model.system.name_of(body) for body in (contact.first, contact.second))
     return (

@@ -8,9 +8,11 @@ repeats these.
 
 from __future__ import annotations
 
+import functools
 import sys
 from collections.abc import Callable
-from typing import final
+from dataclasses import dataclass
+from typing import NamedTuple, final
 
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.modes import Status
@@ -18,7 +20,6 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.runs.ending import Ending
 from nonsmooth.runs.engine_driver import EngineDriver
 from nonsmooth.runs.output_sink import OutputSink
 from nonsmooth.runs.records import Records
@@ -33,78 +34,120 @@ _BYTES_PER_STEP = 1 << 13
 Progress = Callable[[float, float], None]
 
 
-def run_engine(
-    engine: Engine,
-    model: LaidOut,
-    records: Records,
-    start: Checkpoint,
-    progress: Progress | None,
-    sink: OutputSink,
-    until: Until | None = None,
-) -> Ending:
-    """Run to the end time, to a failure, until a condition is met or the user interrupts.
+class Ending(NamedTuple):
+    """How the calls of an engine ended.
 
-    ``start`` is the checkpoint of the start, which the memory holds.
-
-    Raises
-    ------
-    InvalidInput
-        If the engine breaks its contract, or ``until`` returns neither true nor false.
-    BaseException
-        An exception of ``progress`` or ``until``.
+    Attributes
+    ----------
+    status : int
+        Last status of the engine.
+    is_interrupted : bool
+        The user interrupted the run.
+    checkpoint : Checkpoint
+        The last content of the memory that does not depend on the end time. A continued run starts there.
+    n_known_events : int
+        Number of events after the checkpoint, which are recorded already.
+    hint : str
+        What a failed run stalled at, as a sentence; "" if that is unknown.
+    output_error : str
+        Why results were lost, "" if none were.
     """
-    loop = _Loop(engine, model, records, start, progress, sink, until)
-    # an engine may have codes of its own
-    status: int = Status.PAUSED
-    is_interrupted, output_error = False, ""
-    try:
-        status = loop.run()
-    except KeyboardInterrupt:
-        records.drain()
-        is_interrupted = True
-        # the program continues after this as if the run had ended, so the user must see it
-        text = f"interrupted at t = {model.memory[owners.Island.time]:.9g} s: the run returns what it has"
-        print(f"{text}, with the status 'interrupted'", file=sys.stderr, flush=True)
-    except FileError as error:
-        records.drain()
-        output_error = str(error)
-    except MemoryError as error:
-        # the records that were drained before are still there
-        output_error = f"the memory ran out: {error}."
-    if status == Status.DONE:
-        records.check_complete(engine)
-    records.add_last_sample()
-    return loop.ending(status, is_interrupted, output_error)
+
+    status: int
+    is_interrupted: bool
+    checkpoint: Checkpoint
+    n_known_events: int
+    hint: str
+    output_error: str = ""
 
 
 @final
-class _Loop:
-    def __init__(
-        self,
-        engine: Engine,
-        model: LaidOut,
-        records: Records,
-        start: Checkpoint,
-        progress: Progress | None,
-        sink: OutputSink,
-        until: Until | None,
-    ) -> None:
-        self._engine, self._model, self._records, self._sink = engine, model, records, sink
-        self._progress, self._until = progress, until
-        self._run_so_far = None if until is None else RunSoFar(model, records, engine)
-        self._start = self._checkpoint = start
-        self._n_events_before = records.n_events
-        self._monitor: StallMonitor | None = None
-        self._n_calls = 0
+@dataclass
+class EngineLoop:
+    """Calls an engine until a run ends.
 
-    def run(self) -> int:
+    Parameters
+    ----------
+    engine : Engine
+        The engine.
+    model : LaidOut
+        The model that runs.
+    records : Records
+        Takes events and samples.
+    start : Checkpoint
+        The checkpoint of the start, which the memory holds.
+    sink : OutputSink
+        Takes the results at checkpoints.
+    progress : callable, optional
+        ``progress(time, t_end)`` [s], called repeatedly.
+    until : callable, optional
+        The condition that ends the run.
+    """
+
+    engine: Engine
+    model: LaidOut
+    records: Records
+    start: Checkpoint
+    sink: OutputSink
+    progress: Progress | None = None
+    until: Until | None = None
+    _n_calls: int = 0
+
+    def __post_init__(self) -> None:
+        self._checkpoint, self._n_events_before = self.start, self.records.n_events
+        self._run_so_far = None if self.until is None else RunSoFar(self.model, self.records, self.engine)
+
+    def run(self) -> Ending:
+        """Run to the end time, to a failure, until a condition is met or the user interrupts.
+
+        Raises
+        ------
+        InvalidInput
+            If the engine breaks its contract, or ``until`` returns neither true nor false.
+        BaseException
+            An exception of ``progress`` or ``until``.
+        """
+        records = self.records
+        # an engine may have codes of its own
+        status: int = Status.PAUSED
+        is_interrupted, output_error = False, ""
+        try:
+            status = self._call_engine()
+        except KeyboardInterrupt:
+            records.drain()
+            is_interrupted = True
+            # the program continues after this as if the run had ended, so the user must see it
+            text = f"interrupted at t = {self.model.memory[owners.Island.time]:.9g} s: the run returns what it has"
+            print(f"{text}, with the status 'interrupted'", file=sys.stderr, flush=True)
+        except FileError as error:
+            records.drain()
+            output_error = str(error)
+        except MemoryError as error:
+            # the records that were drained before are still there
+            output_error = f"the memory ran out: {error}."
+        if status == Status.DONE:
+            records.check_complete(self.engine)
+        records.add_last_sample()
+        # these ends do not depend on the end time
+        if status in (Status.STOPPED, Status.CONDITION_MET, *(c.code for c in self.engine.causes if not c.is_failure)):
+            self._take_checkpoint()
+        n_known_events = records.n_events - self._n_events_before
+        hint = "" if status == Status.DONE else self._monitor.hint(status)
+        return Ending(status, is_interrupted, self._checkpoint, n_known_events, hint, output_error)
+
+    @functools.cached_property
+    def _monitor(self) -> StallMonitor:
+        """Monitor of the calls so far. A run of one call needs none."""
+        return StallMonitor(self.model, self.start)
+
+    def _call_engine(self) -> int:
         """Call the engine until the run ends; the result is the status."""
-        memory, progress = self._model.memory, self._progress
+        memory, progress = self.model.memory, self.progress
         t_end = float(memory[owners.Request.t_end])
         report = None if progress is None else lambda t: progress(t, t_end)
         status: int = Status.PAUSED
-        with self._model.watch.reporting(report) as watch:
-            driver = EngineDriver(self._engine, self._model, watch.call)
+        with self.model.watch.reporting(report) as watch:
+            driver = EngineDriver(self.engine, self.model, watch.call)
             while status == Status.PAUSED:
                 status = self._advance(driver)
                 if status == Status.PAUSED and self._is_condition_met():
@@ -113,50 +156,33 @@ class _Loop:
                     report(float(memory[owners.Island.time]))
         return status
 
-    def ending(self, status: int, is_interrupted: bool, output_error: str) -> Ending:
-        """How the run ended."""
-        # these ends do not depend on the end time
-        if status in (
-            Status.STOPPED,
-            Status.CONDITION_MET,
-            *(cause.code for cause in self._engine.causes if not cause.is_failure),
-        ):
-            self._take_checkpoint()
-        n_known_events = self._records.n_events - self._n_events_before
-        hint = "" if self._monitor is None else self._monitor.hint(status)
-        return Ending(status, is_interrupted, self._checkpoint, n_known_events, hint, output_error)
-
     def _advance(self, driver: EngineDriver) -> int:
         """Call the engine once, or twice near the end time, and drain its buffers; the result is the status."""
-        run, records = self._run_so_far, self._records
+        run, records, sink = self._run_so_far, self.records, self.sink
         self._n_calls += 1
         before = None if run is None else run.reached
-        # the condition is evaluated at the start, before any step, and after each step
-        status = driver.advance(self._sink.steps if run is None else min(self._n_calls - 1, 1), True)
+        # a condition is evaluated at the start, before any step, and after each step
+        most_steps = sink.steps() if run is None else min(self._n_calls - 1, 1)
+        status = driver.advance(most_steps, pauses_before_end=True)
+        # with a condition, the engine has paused before its step if it did nothing
         is_near_end = status == Status.PAUSED and (run is None or before == run.reached)
-        if is_near_end or (status == Status.PAUSED and self._n_calls % self._sink.steps == 0):
+        if is_near_end or (status == Status.PAUSED and self._n_calls % sink.steps() == 0):
             self._take_checkpoint()
-            self._sink.write(self._checkpoint)
+            sink.write(self._checkpoint)
         if is_near_end:
             if records.has_buffered:
                 # an engine with full buffers takes no step
-                self._stall_monitor().observe(status)
+                self._monitor.observe(status)
                 records.drain()
             most_steps = max(_STEPS_NEAR_END, self._checkpoint.size // _BYTES_PER_STEP)
             status = driver.advance_past(self._checkpoint, most_steps if run is None else 1)
         if status != Status.DONE:
-            self._stall_monitor().observe(status)
+            self._monitor.observe(status)
         records.drain()
         return status
 
     def _take_checkpoint(self) -> None:
-        self._checkpoint, self._n_events_before = Checkpoint.of(self._model.memory), self._records.n_events
-
-    def _stall_monitor(self) -> StallMonitor:
-        """The monitor of the run. A short run needs none."""
-        if self._monitor is None:
-            self._monitor = StallMonitor(self._model, self._start)
-        return self._monitor
+        self._checkpoint, self._n_events_before = Checkpoint.of(self.model.memory), self.records.n_events
 
     def _is_condition_met(self) -> bool:
         """True if there is a condition and it is met.
@@ -166,9 +192,9 @@ class _Loop:
         InvalidInput
             If it returns neither true nor false, such as an array.
         """
-        if self._until is None or self._run_so_far is None:
+        if self.until is None or self._run_so_far is None:
             return False
-        answer = self._until(self._run_so_far)
+        answer = self.until(self._run_so_far)
         try:
             return bool(answer)
         except ValueError as error:

@@ -6,10 +6,11 @@ gets back the content that it had before the first one, so that runs do not depe
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -20,7 +21,6 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.assembly import lay
-from nonsmooth.model.block_ends import BlockEnds
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.checks import check_start
 from nonsmooth.model.copying import copied
@@ -29,19 +29,17 @@ from nonsmooth.model.other_laws import lay_laws
 from nonsmooth.queries.undeclared import Undeclared
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
-from nonsmooth.runs.final_state import FinalState
-from nonsmooth.runs.fixed_places import FixedPlaces
+from nonsmooth.runs.final_state import FinalState, FixedPlaces
 from nonsmooth.runs.folder_sink import FolderSink
 from nonsmooth.runs.identity import digest
 from nonsmooth.runs.interpenetration import interpenetration
-from nonsmooth.runs.loop import Progress, run_engine
+from nonsmooth.runs.loop import EngineLoop, Progress
 from nonsmooth.runs.outcome import Outcome, outcome
-from nonsmooth.runs.output_sink import NoOutput, OutputSink
+from nonsmooth.runs.output_sink import OutputSink
 from nonsmooth.runs.records import Records
-from nonsmooth.runs.request_scalars import write_first_sample, write_request
 from nonsmooth.runs.run_arguments import check_calls, check_steps, check_times, checked_request
 from nonsmooth.runs.so_far import Until
-from nonsmooth.runs.start import begin, continue_run, resume_run
+from nonsmooth.runs.start import begin, continue_run, resume_run, write_first_sample, write_request
 from nonsmooth.runs.state_checks import check_arrays, check_closed, check_numbers
 from nonsmooth.solution.files import FileError
 from nonsmooth.solution.request import RunRequest
@@ -62,7 +60,6 @@ class Model:
 
     def __init__(self, laid: LaidOut, engine: Engine, start: State, key: Callable[[], str] | None = None) -> None:
         self._laid, self._engine, self._start = laid, engine, start
-        self._ends = BlockEnds.of(laid.memory)
         self._blank = Checkpoint.of(laid.memory)
         # only continued runs need the digest, and it takes as long as the layout
         self._key = key or functools.cache(partial(digest, laid, engine))
@@ -71,7 +68,8 @@ class Model:
         self._start_checkpoint = Checkpoint.of(laid.memory)
         self._records = Records(laid)
         self._runs = threading.Lock()
-        self._start_is_valid = False
+        # called while the memory holds the default start; only the first call that succeeds does anything
+        self._check_start = functools.cache(partial(check_start, laid))
 
     @classmethod
     def of(cls, system: System, engine: Engine) -> Model:
@@ -171,7 +169,7 @@ class Model:
         laid = lay_laws(self._copied(), system)
         self._engine.prepare(laid)
         made = Model(laid, self._engine, State.at(system))
-        check_start(made._laid, made._ends)
+        made._check_start()
         return made
 
     def run(
@@ -234,11 +232,8 @@ class Model:
         check_steps(t_end - state.time, float(self._laid.memory[owners.Tolerance.largest_step]))
         request = RunRequest(t_end, state.time, interval, sample_interval is None, until is not None)
         folder = None if output is None else Output.to(output)
-        self._acquire("run")
-        try:
+        with self._reserved("run"):
             return self._run(request, state, progress, folder, until)
-        finally:
-            self._runs.release()
 
     def contact_rates(self, state: State) -> tuple[Floats, Floats]:
         """Gaps and relative velocities of all contacts in a state; nan for bodies that are far apart.
@@ -260,12 +255,9 @@ class Model:
             If the state is of another model, or the model runs.
         """
         check_arrays(self._laid, state)
-        self._acquire("contact_rates")
-        try:
+        with self._reserved("contact_rates"):
             begin(self._laid, self._blank, state)
             return self._laid.rates()
-        finally:
-            self._runs.release()
 
     def resume(
         self, output: Output | Path | str, *, until: Until | None = None, progress: Progress | None = None
@@ -295,42 +287,30 @@ class Model:
             As for :meth:`run`.
         """
         check_calls("resume", until, progress)
-        folder = SolutionFolder.held(Output.to(output))
-        try:
+        with contextlib.closing(SolutionFolder.held(Output.to(output))) as folder, self._reserved("resume"):
             request = checked_request(folder, until)
             state = self._state_of(folder)
-            self._acquire("resume")
-        except BaseException:
-            folder.close()
-            raise
-        try:
             laid = self._laid
-            self._records = records = Records(laid, (folder.events(), folder.rows()))
+            self._records = Records(laid, (folder.events(), folder.rows()))
             resume_run(laid, self._blank, state)
             write_request(laid.memory, request)
-            energy = state.energy.kinetic_start, state.energy.potential_start
-            wall = folder.wall_seconds
-            sink = FolderSink(folder, records, self._states_from(energy), wall)
-            return self._complete(records, Checkpoint.of(laid.memory), energy, progress, sink, wall, until)
-        finally:
-            self._runs.release()
-            folder.close()
+            energy, wall = (state.energy.kinetic_start, state.energy.potential_start), folder.wall_seconds
+            sink = FolderSink(folder, self._records, self._states_from(energy), wall)
+            start = Checkpoint.of(laid.memory)
+            loop = EngineLoop(self._engine, laid, self._records, start, sink, progress, until)
+            return self._complete(loop, energy, wall)
 
     @functools.cached_property
     def _undeclared(self) -> Undeclared:
+        """The pairs of bodies without a contact, for warnings."""
         return Undeclared.of(self._laid.system)
 
     @functools.cached_property
     def _places(self) -> FixedPlaces:
-        return FixedPlaces.of(self._laid.memory, len(self._laid.system.bodies))
+        return FixedPlaces.of(self._laid.memory)
 
-    def _check_start(self) -> None:
-        """Check the start by default, at the first use only."""
-        if not self._start_is_valid:
-            check_start(self._laid, self._ends)
-            self._start_is_valid = True
-
-    def _acquire(self, method: str) -> None:
+    @contextlib.contextmanager
+    def _reserved(self, method: str) -> Iterator[None]:
         """Reserve the memory for a call of a method.
 
         Raises
@@ -340,14 +320,16 @@ class Model:
         """
         if not self._runs.acquire(blocking=False):
             raise InvalidInput(f"Model.{method}", "must not be called while it runs", "running", "Make a copy before.")
-
-    def _copied(self) -> LaidOut:
-        self._acquire("copy")
         try:
-            self._blank.put(self._laid.memory)
-            return replace(self._laid, memory=copied(self._laid.memory))
+            yield
         finally:
             self._runs.release()
+
+    def _copied(self) -> LaidOut:
+        """The model before any run, in another memory."""
+        with self._reserved("copy"):
+            self._blank.put(self._laid.memory)
+            return replace(self._laid, memory=copied(self._laid.memory))
 
     def _continues(self, state: State) -> bool:
         """True if a run of this model left a state, so that a run from there continues it."""
@@ -370,7 +352,10 @@ class Model:
         return lambda checkpoint: self._final_state(start_energy, checkpoint, 0).state()
 
     def _final_state(self, start_energy: tuple[float, float], resumable: Checkpoint, n_known_events: int) -> FinalState:
-        """The state of the memory now, ``n_known_events`` events after a checkpoint."""
+        """The state of the memory now, ``n_known_events`` events after the checkpoint ``resumable``.
+
+        The energy account starts at ``start_energy`` [J].
+        """
         laid = self._laid
         laid.evaluate()
         return FinalState(
@@ -388,27 +373,33 @@ class Model:
     def _run(
         self, request: RunRequest, state: State, progress: Progress | None, output: Output | None, until: Until | None
     ) -> Solution:
+        """Run from a state, while the memory is reserved."""
         laid = self._laid
-        records = self._records = Records(laid)
-        energy = self._put_start(state, records)
+        self._records = Records(laid)
+        energy = self._put_start(state)
         write_request(laid.memory, request)
         write_first_sample(laid.memory, request)
-        # with many contacts a checkpoint takes milliseconds
+        # with many contacts a checkpoint takes milliseconds, so that of the default start is taken once; only a folder
+        # needs the time of the first sample in it
         is_known = state is self._start and output is None
         start = self._start_checkpoint if is_known else Checkpoint.of(laid.memory)
-        sink: OutputSink = NoOutput()
+        sink = OutputSink()
         if output is not None:
             folder = SolutionFolder.created(output, laid.system, self._engine, request, laid.n_states)
-            sink = FolderSink(folder, records, self._states_from(energy), 0.0)
+            sink = FolderSink(folder, self._records, self._states_from(energy), 0.0)
         before = laid.places() if self._undeclared.any else []
-        solution = self._complete(records, start, energy, progress, sink, 0.0, until)
+        loop = EngineLoop(self._engine, laid, self._records, start, sink, progress, until)
+        solution = self._complete(loop, energy, 0.0)
         if self._undeclared.any:
             laid.evaluate()
             self._undeclared.warn_of_end(before, laid.places())
         return solution
 
-    def _put_start(self, state: State, records: Records) -> tuple[float, float]:
-        """Put the memory where a run starts; the result is kinetic and potential energy at the start [J]."""
+    def _put_start(self, state: State) -> tuple[float, float]:
+        """Put the memory where a run starts; the result is kinetic and potential energy at the start [J].
+
+        A run that continues another one has the start of the other one, and gets a start event.
+        """
         laid = self._laid
         if state is self._start:
             self._start_checkpoint.put(laid.memory)
@@ -416,32 +407,23 @@ class Model:
             return self._start_energy
         if self._continues(state):
             continue_run(laid, self._blank, state)
-            records.add_start(state)
+            self._records.add_start(state)
             return state.energy.kinetic_start, state.energy.potential_start
         begin(laid, self._blank, state)
         check_closed(laid, state)
-        check_start(laid, self._ends)
+        check_start(laid)
         return laid.energy()
 
-    def _complete(
-        self,
-        records: Records,
-        start: Checkpoint,
-        energy: tuple[float, float],
-        progress: Progress | None,
-        sink: OutputSink,
-        wall: float,
-        until: Until | None,
-    ) -> Solution:
-        """Run to the end from a checkpoint, which the memory holds.
+    def _complete(self, loop: EngineLoop, energy: tuple[float, float], wall: float) -> Solution:
+        """Run to the end from the start of a loop.
 
         ``energy`` [J] is that at the start of the energy account, ``wall`` [s] the wall time of the run before.
         """
-        laid, clock = self._laid, time.perf_counter()
+        laid, clock, records = self._laid, time.perf_counter(), loop.records
         try:
-            sink.begin(start)
-            ending = run_engine(self._engine, laid, records, start, progress, sink, until)
-            found = outcome(laid, self._ends, ending, self._engine)
+            loop.sink.begin(loop.start)
+            ending = loop.run()
+            found = outcome(laid, ending, self._engine)
             wall += time.perf_counter() - clock
             final = self._final_state(energy, ending.checkpoint, ending.n_known_events)
             recorded = records.joined(self._engine)
@@ -452,14 +434,17 @@ class Model:
                 # the solution reads its end here, and releases the memory
                 _ = solution.end
             has_failed = found.status == "failed"
-            if not ending.output_error and (error := _finish(sink, solution)):
+            try:
+                if not ending.output_error:
+                    loop.sink.finish(solution)
+            except FileError as error:
                 has_failed = True
-                end = replace(solution.end, status="failed", message=error)
+                end = replace(solution.end, status="failed", message=str(error))
                 solution = Solution.known(laid.system, recorded, end)
         except MemoryError as error:
             raise self._out_of_memory(error) from error
         finally:
-            sink.close()
+            loop.sink.close()
         if has_failed:
             raise RunFailed(f"{solution.message} What was computed is in the error's `solution`.", solution)
         return solution
@@ -471,12 +456,3 @@ class Model:
             f"At t = {reached:.9g} s the memory ran out: {error}. The results do not fit. Give an output folder, which "
             "keeps what is written so far, or take a shorter run or fewer samples."
         )
-
-
-def _finish(sink: OutputSink, solution: Solution) -> str:
-    """Write the end of a run; the result is the message of the error that prevents it, or ""."""
-    try:
-        sink.finish(solution)
-    except FileError as error:
-        return str(error)
-    return ""

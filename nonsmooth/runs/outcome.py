@@ -7,11 +7,10 @@ from typing import NamedTuple
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.modes import REASONS, Status
 from nonsmooth.interfaces import Cause, Engine
-from nonsmooth.model.block_ends import BlockEnds
 from nonsmooth.model.blocks import block_overrun
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.runs.diagnosis import failing_function
-from nonsmooth.runs.ending import Ending
+from nonsmooth.runs.loop import Ending
 
 
 class Outcome(NamedTuple):
@@ -30,13 +29,14 @@ class Outcome(NamedTuple):
 
 
 def cause_of(engine: Engine, status: int) -> Cause | None:
-    """The engine's own cause with a status as its code, or None."""
+    """The cause, among those that an engine declares itself, whose code is a status; None for a common status."""
     return next((cause for cause in engine.causes if cause.code == status), None)
 
 
-def outcome(model: LaidOut, ends: BlockEnds, ending: Ending, engine: Engine) -> Outcome:
-    """Status and message of a run that has ended; ``ends`` are the ends of the model's blocks."""
-    overrun, status = block_overrun(model, ends), ending.status
+def outcome(model: LaidOut, ending: Ending, engine: Engine) -> Outcome:
+    """Status and message of a run of an engine that has ended."""
+    # a function that wrote past its block may have changed anything, so it is the reason before all others
+    overrun, status = block_overrun(model), ending.status
     at = f"At t = {model.memory[owners.Island.time]:.9g} s"
     if ending.output_error:
         return Outcome("failed", f"{at} {ending.output_error}")

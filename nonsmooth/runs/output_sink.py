@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from typing import final
-
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.solution.solution import Solution
 
@@ -12,10 +9,10 @@ _STEPS_PER_CALL = 2000
 """Steps of the engine per call if nothing is written. So many cost far more than the call itself."""
 
 
-class OutputSink(ABC):
+class OutputSink:
     """Takes the results of a run at its checkpoints, from which another process could continue it.
 
-    The order of calls:
+    This class writes nothing, for a run whose results stay in memory. The order of calls:
 
     1. ``begin`` with the checkpoint at the start of the run.
     2. ``write`` with each checkpoint, which the memory holds at that moment. It may drain the records.
@@ -23,12 +20,10 @@ class OutputSink(ABC):
     4. ``close`` at the end, also if the run or a call failed.
     """
 
-    @property
-    @abstractmethod
     def steps(self) -> int:
         """Largest number of steps of the engine until the next call of ``write``."""
+        return _STEPS_PER_CALL
 
-    @abstractmethod
     def begin(self, checkpoint: Checkpoint) -> None:
         """Write the start of the run.
 
@@ -38,7 +33,6 @@ class OutputSink(ABC):
             If it cannot be written.
         """
 
-    @abstractmethod
     def write(self, checkpoint: Checkpoint) -> None:
         """Write the results up to a checkpoint, if it is time.
 
@@ -48,7 +42,6 @@ class OutputSink(ABC):
             If they cannot be written.
         """
 
-    @abstractmethod
     def finish(self, solution: Solution) -> None:
         """Write the remaining results and the end of the run.
 
@@ -58,28 +51,5 @@ class OutputSink(ABC):
             If they cannot be written.
         """
 
-    @abstractmethod
     def close(self) -> None:
         """Release files and threads."""
-
-
-@final
-class NoOutput(OutputSink):
-    """For a run whose results stay in memory."""
-
-    @property
-    def steps(self) -> int:
-        """A number of steps that makes calls cheap."""
-        return _STEPS_PER_CALL
-
-    def begin(self, checkpoint: Checkpoint) -> None:
-        """Do nothing."""
-
-    def write(self, checkpoint: Checkpoint) -> None:
-        """Do nothing."""
-
-    def finish(self, solution: Solution) -> None:
-        """Do nothing."""
-
-    def close(self) -> None:
-        """Do nothing."""

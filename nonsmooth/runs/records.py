@@ -26,12 +26,14 @@ from nonsmooth.solution.state import Floats, Integers, State
 from nonsmooth.solution.track import row_of
 
 _START_PART, _END_PART = -1, -2
-"""Numbers of the parts before the first call and after the last one."""
+"""Keys of the parts before the first call and after the last one. The others have the number of their call."""
 _ROUND_OFF = 1e-9
 """Difference of two times relative to the sample interval, below which they are the same."""
 _ACCOUNTED = places("totals.driven_work", "totals.restitution_loss", "totals.friction_loss", "totals.closing_loss")
 _ALWAYS = 1 << BEFORE | 1 << DURING | 1 << AFTER
 """Factor that turns the code of a mode into that of a contact with this mode before, during and after an event."""
+_STICK_CODE, _SLIDE_CODE = 1, 5
+"""Codes of the modes of a closed contact, bits of Eq. (29)."""
 _FILLED = places(
     "output.n_events", "output.n_samples", "output.floats_used", "output.integers_used", "output.last_floats"
 ).tolist()
@@ -53,23 +55,23 @@ class Records:
         The model that runs.
     earlier : tuple, optional
         Events and samples of the same run in an earlier process.
-    n_written : int
-        Number of parts that are in the output folder.
     """
 
     model: LaidOut
     earlier: tuple[Events, Floats] | None = None
-    n_written: int = 0
+    # floats and integers of events, and samples
     _parts: dict[int, tuple[Floats, Integers, Floats]] = field(default_factory=dict)
     _n_drained: int = 0
+    _n_taken: int = 0
 
     @property
     def _width(self) -> int:
+        """Length of a sample: time, integrated state and accounted energies."""
         return 1 + self.model.n_y + BOOKED
 
     @property
     def n_events(self) -> int:
-        """Number of events so far, without those that a continued run repeats."""
+        """Number of events so far, with those of an earlier process, without those that a continued run repeats."""
         _, integers = self.model.memory.cells
         earlier = 0 if self.earlier is None else len(self.earlier[0])
         return earlier + self._n_drained + int(integers.item(_N_EVENTS) - integers.item(_N_KNOWN))
@@ -81,18 +83,17 @@ class Records:
         return bool(integers.item(_N_SAMPLES) > 0 or integers.item(_N_EVENTS) > 0)
 
     def drain(self) -> None:
-        """Copy the buffers of the engine, and empty them."""
+        """Copy the buffers of the engine, unless those of its last call are copied already, and empty them."""
         memory, width = self.model.memory, self._width
         _, integers = memory.cells
         key, n_events, n_samples = integers.item(_N_CALLS), integers.item(_N_EVENTS), integers.item(_N_SAMPLES)
         if key not in self._parts:
-            part = (
+            self._parts[key] = (
                 memory[owners.Output.event_numbers][: integers.item(_N_FLOATS)].copy(),
                 memory[owners.Output.event_codes][: integers.item(_N_INTEGERS)].copy(),
                 memory[owners.Output.samples][: n_samples * width].reshape(n_samples, width).copy(),
             )
             self._n_drained += n_events
-            self._parts[key] = part
         for place in _FILLED:
             integers[place] = 0
 
@@ -101,8 +102,9 @@ class Records:
 
         The engine records none there, because the run has started before.
         """
+        # an event: time, q, u before and after, the rest of the integrated state, and numbers of the closed contacts
         closed = np.flatnonzero(state.modes != Mode.OPEN)
-        codes = _ALWAYS * np.where(state.modes[closed] == Mode.SLIDE, 5, 1)
+        codes = _ALWAYS * np.where(state.modes[closed] == Mode.SLIDE, _SLIDE_CODE, _STICK_CODE)
         head = np.zeros(EVENT_HEAD)
         head[0] = state.time
         contacts = np.zeros((len(closed), LISTED))
@@ -136,6 +138,7 @@ class Records:
             )
 
     def _check_events(self, engine: Engine) -> None:
+        """Check the events of a system with contacts; errors as :meth:`check_complete`."""
         if not self.model.system.contacts:
             return
         thing, start = f"{type(engine).__name__}.advance", self.model.memory.cells[0].item(_START)
@@ -146,6 +149,7 @@ class Records:
                 f"{self._n_drained} events",
                 "Let records_contacts return True, and keep the mode and event_impulse of each contact.",
             )
+        # the floats of an event begin with its time
         first = next((floats.item(0) for floats, _, _ in self._parts.values() if len(floats)), math.inf)
         if self.earlier is None and engine.records_contacts and first > start:
             raise InvalidInput(
@@ -156,18 +160,13 @@ class Records:
             )
 
     def add_last_sample(self) -> None:
-        """Add a sample at the end of the run, unless there is one."""
+        """Add a sample at the time reached, unless the last sample is there."""
         memory, (floats, integers) = self.model.memory, self.model.memory.cells
         t, interval = floats.item(_T), floats.item(_INTERVAL)
         if integers.item(_INDEX) > 0 and t - (floats.item(_NEXT) - interval) <= _ROUND_OFF * interval:
             return
-        row = np.concatenate([[t], memory[owners.Island.y][: self.model.n_y], floats[_ACCOUNTED]])
+        row = np.concatenate([[t], memory[owners.Island.y], floats[_ACCOUNTED]])
         self._parts[_END_PART] = np.zeros(0), np.zeros(0, np.int64), row[None]
-
-    @property
-    def n_parts(self) -> int:
-        """Number of parts."""
-        return len(self._parts)
 
     def joined(self, engine: Engine) -> Recorded:
         """Events and samples of the whole run, which ``engine`` integrated."""
@@ -177,12 +176,14 @@ class Records:
         events, rows = self.earlier
         return Recorded(np.concatenate([rows, samples]), engine, floats, integers, self.model.sizes, events)
 
-    def unwritten(self) -> tuple[Events, Floats]:
-        """Events and samples of the parts that are not in the output folder."""
-        floats, integers, samples = self._joined(self.n_written)
+    def take_unwritten(self) -> tuple[Events, Floats]:
+        """Events and samples of the parts that no earlier call returned, for the output folder."""
+        floats, integers, samples = self._joined(self._n_taken)
+        self._n_taken = len(self._parts)
         return Events.from_buffers(floats, integers, *self.model.sizes), samples
 
     def _joined(self, first: int) -> tuple[Floats, Integers, Floats]:
+        """Floats and integers of events, and samples, of the parts from number ``first`` on."""
         parts = list(self._parts.values())[first:]
         if len(parts) == 1:
             return parts[0]

@@ -14,7 +14,7 @@ _DEFAULT_SAMPLES = 2000
 _MOST_SAMPLES = 10**8
 """Largest number of samples of a run. Those of one small body then take more memory than most machines have."""
 _MOST_STEPS = 10**10
-"""Largest number of steps of a run. At a microsecond a step, the least possible, they take three hours."""
+"""Largest number of steps of a run. At a microsecond each, the least possible, they take three hours."""
 
 
 def check_calls(name: str, until: Until | None, progress: Progress | None) -> None:
@@ -48,7 +48,7 @@ def check_steps(duration: float, largest_step: float) -> None:
 
 
 def check_times(name: str, t_end: float, sample_interval: float | None, start: float = 0.0) -> float:
-    """Check the times [s] of a run from ``start``; the result is the time between samples [s].
+    """Check the times [s] of a run from ``start``; the result is the time between samples, by default a 2000th of it.
 
     Raises
     ------

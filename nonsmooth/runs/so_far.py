@@ -54,7 +54,7 @@ class RunSoFar:
 
     @property
     def reached(self) -> tuple[float, int]:
-        """Time [s] and number of events. Both are unchanged only if the engine did nothing."""
+        """Time reached [s] and number of events. Both are unchanged only if the engine did nothing."""
         return self.time, self.n_events
 
     @property

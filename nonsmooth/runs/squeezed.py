@@ -16,22 +16,11 @@ from typing import NamedTuple
 import numpy as np
 
 from nonsmooth.certificates import coefficient_of
-from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.blocks import (
-    AXIS,
-    GAP,
-    JOINT_ROW,
-    MOMENT,
-    NORMAL,
-    POINT_A,
-    POINT_B,
-    POSITION,
-    SPIN,
-    VELOCITY,
-)
+from nonsmooth.engine.memory import blocks, owners
 from nonsmooth.engine.memory.modes import Status
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.interfaces import Body, FrictionLaw
+from nonsmooth.model.articulations import joints_in_order
 from nonsmooth.model.laid_out import LaidOut
 
 _STATUSES = (
@@ -75,9 +64,11 @@ class _Support(NamedTuple):
     friction: FrictionLaw | None
 
     def bears(self, direction: np.ndarray) -> bool:
-        """True if it can exert a force along a unit vector, into the free body."""
+        """True if the support can exert a force along a unit vector, into the free body."""
         if self.friction is not None:
+            # the friction cone at rest
             return bool(direction @ self.normal >= math.cos(math.atan(coefficient_of(self.friction)(0.0))))
+        # the part of the direction that no combination of the axes gives
         rest = direction - self.normal.T @ np.linalg.lstsq(self.normal.T, direction, rcond=None)[0]
         return float(np.linalg.norm(rest)) <= _ALONG
 
@@ -88,7 +79,7 @@ def squeezed_body(model: LaidOut, status: int) -> str:
         return ""
     memory = model.memory
     call_entry("evaluate_at", memory)
-    contacts = [one for index in range(int(memory[owners.Island.n_contacts])) for one in _contact(model, index)]
+    contacts = [one for index in range(len(model.active)) for one in _contact(model, index)]
     for one, two in (*itertools.combinations(contacts, 2), *itertools.product(contacts, _joints(model))):
         between = two.point - one.point
         length = float(np.linalg.norm(between))
@@ -109,47 +100,53 @@ def squeezed_body(model: LaidOut, status: int) -> str:
 def _free_body(model: LaidOut, first: Body, second: Body) -> tuple[int, bool] | None:
     """Number of the free one of a free and a driven body, and whether it is the second; None for other pairs."""
     bodies = model.system.bodies
-    pair = [next(i for i, body in enumerate(bodies) if body is own) for own in (first, second)]
+    pair = [next(i for i, body in enumerate(bodies) if body is one) for one in (first, second)]
     free = [i for i in pair if bodies[i].n_u > 0]
     return (free[0], pair[1] == free[0]) if len(free) == 1 else None
 
 
-def _velocity(model: LaidOut, place: int, point: np.ndarray) -> np.ndarray:
-    """Velocity [m/s] of a point [m] that moves with the frame at a place."""
-    frame = model.memory.floats[place:]
-    offset = point - frame[POSITION : POSITION + 3]
-    return np.asarray(frame[VELOCITY : VELOCITY + 3] + np.cross(frame[SPIN : SPIN + 3], offset))
+def _point_and_velocity(
+    model: LaidOut, frames: tuple[int, int], is_second: bool, row: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Point of the free body at which the driven one acts [m], and velocity of the driven body there [m/s].
+
+    The first numbers of ``row`` hold a point on either body, ``frames`` are the places of the frames of both bodies,
+    and ``is_second`` is True if the second body is the free one.
+    """
+    free, driven = (blocks.POINT_B, blocks.POINT_A) if is_second else (blocks.POINT_A, blocks.POINT_B)
+    frame = model.memory.floats[frames[0] if is_second else frames[1] :]
+    position, velocity, spin = (frame[at : at + 3] for at in (blocks.POSITION, blocks.VELOCITY, blocks.SPIN))
+    return row[free : free + 3].copy(), velocity + np.cross(spin, row[driven : driven + 3] - position)
 
 
 def _contact(model: LaidOut, index: int) -> list[_Support]:
     """The active contact of an index, if it is closed, rigid, and between a free and a driven body; else nothing."""
     memory = model.memory
-    contact = model.system.contacts[int(memory[owners.Contact.declared][index])]
+    contact = model.system.contacts[model.active[index]]
     block = memory[owners.Contact.geometry][index]
     found = _free_body(model, contact.first, contact.second)
-    is_closed = block[GAP] <= _CLOSED * float(memory[owners.Tolerance.gap])
+    is_closed = block[blocks.GAP] <= _CLOSED * float(memory[owners.Tolerance.gap])
     if found is None or not is_closed or not isinstance(contact.friction, FrictionLaw):
         return []
     body, is_second = found
-    own, other = (POINT_B, POINT_A) if is_second else (POINT_A, POINT_B)
-    place = int(memory[owners.Contact.frame_a if is_second else owners.Contact.frame_b][index])
-    velocity = _velocity(model, place, block[other : other + 3])
-    normal = (1.0 if is_second else -1.0) * block[NORMAL : NORMAL + 3]
-    return [_Support(str(contact), body, block[own : own + 3].copy(), velocity, normal, contact.friction)]
+    frames = memory[owners.Contact.frame_a][index], memory[owners.Contact.frame_b][index]
+    point, velocity = _point_and_velocity(model, frames, is_second, block)
+    normal = (1.0 if is_second else -1.0) * block[blocks.NORMAL : blocks.NORMAL + 3]
+    return [_Support(str(contact), body, point, velocity, normal, contact.friction)]
 
 
 def _joints(model: LaidOut) -> Iterator[_Support]:
     """The joints between a free and a driven body that constrain a point along one axis or more."""
     memory = model.memory
-    for number, joint in enumerate(model.system.joints):
+    for number, joint in enumerate(joints_in_order(model.system)):
         found = _free_body(model, joint.first, joint.second)
         count, start = (int(memory[one][number]) for one in (owners.Joint.n_rows, owners.Joint.out))
-        rows = memory.floats[start : start + JOINT_ROW * count].reshape(count, JOINT_ROW)
-        rows = rows[~np.any(rows[:, MOMENT : MOMENT + 3], axis=1)]
+        rows = memory.floats[start : start + blocks.JOINT_ROW * count].reshape(count, blocks.JOINT_ROW)
+        # rows with a moment constrain an angle, and bear no force at a point
+        rows = rows[~np.any(rows[:, blocks.MOMENT : blocks.MOMENT + 3], axis=1)]
         if found is None or len(rows) == 0:
             continue
         body, is_second = found
-        own, other = (POINT_B, POINT_A) if is_second else (POINT_A, POINT_B)
-        place = int(memory[owners.Joint.frame_a if is_second else owners.Joint.frame_b][number])
-        velocity = _velocity(model, place, rows[0, other : other + 3])
-        yield _Support(str(joint), body, rows[0, own : own + 3].copy(), velocity, rows[:, AXIS : AXIS + 3], None)
+        frames = memory[owners.Joint.frame_a][number], memory[owners.Joint.frame_b][number]
+        point, velocity = _point_and_velocity(model, frames, is_second, rows[0])
+        yield _Support(str(joint), body, point, velocity, rows[:, blocks.AXIS : blocks.AXIS + 3], None)

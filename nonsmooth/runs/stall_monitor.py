@@ -34,6 +34,7 @@ _N_NAMED = 3
 """Largest number of contacts, events or limits that a message names."""
 _REMEDY = "Try a lower restitution, a compliant law or more room between these bodies."
 _STATUSES_AT_AN_INSTANT = (Status.IMPACT_ENDLESS, Status.NO_CONTACT_SOLUTION, Status.UPDATE_ENDLESS)
+"""Statuses of runs that failed in the contact problems of one instant."""
 
 _Event = tuple[int, int]
 """Cause, and contact or guard."""
@@ -59,16 +60,19 @@ class StallMonitor:
     model: LaidOut
     start: Checkpoint
     _last_events: deque[_Event] = field(default_factory=lambda: deque(maxlen=_N_LAST_EVENTS))
+    # number and time [s] of the steps since time passed last
     _n_short: int = 0
     _short_time: float = 0.0
     _has_warned: bool = False
 
     def __post_init__(self) -> None:
         self._t = self._t_start = float(self.start[owners.Island.time])
-        self._limits = self._limits_before = self.start[owners.Totals.n_steps_limited][: len(LIMITS)]
+        self._limits = self._limits_before = self.start[owners.Totals.n_steps_limited]
 
     def observe(self, status: int) -> None:
-        """Evaluate the last call of the engine, which ended with a status. Its buffers must not be drained yet.
+        """Count steps and events of the last call of the engine, which ended with a status.
+
+        Its buffers must not be drained yet.
 
         Warns
         -----
@@ -76,13 +80,15 @@ class StallMonitor:
             If time hardly passes, once in a run.
         """
         memory, t_before = self.model.memory, self._t
-        t, limits = float(memory[owners.Island.time]), memory[owners.Totals.n_steps_limited][: len(LIMITS)].copy()
+        t, limits = float(memory[owners.Island.time]), memory[owners.Totals.n_steps_limited].copy()
         n_steps = int(np.sum(limits - self._limits))
         self._t, self._limits = t, limits
+        # time passes if the mean length of the new steps is not short
         passes = t - t_before > _SHORT_STEP * n_steps * (float(memory[owners.Request.t_end]) - self._t_start)
         if passes:
             self._n_short, self._short_time, self._limits_before = 0, 0.0, limits
             self._last_events.clear()
+        # the events of a call that ended in a failure are counted in any case
         if not passes or status not in (Status.PAUSED, Status.DONE, Status.STOPPED):
             self._last_events.extend(self._new_events())
             self._n_short, self._short_time = self._n_short + n_steps, self._short_time + t - t_before
@@ -93,7 +99,7 @@ class StallMonitor:
             warnings.warn(text, TimeHardlyPasses, stacklevel=7)
 
     def hint(self, status: int) -> str:
-        """Sentences about where a run failed that ended with a status, or ""."""
+        """Sentences about what a failed run was doing when it ended with a status; "" for other statuses."""
         if status == Status.STALLED:
             return f"{self._counted_events()} {_REMEDY}"
         if status == Status.STEP_TOO_SMALL:
@@ -101,6 +107,7 @@ class StallMonitor:
         return _last_contacts(self.model) if status in _STATUSES_AT_AN_INSTANT else ""
 
     def _new_events(self) -> Iterable[_Event]:
+        """Cause, and contact or guard, of the events that the buffers of the engine hold."""
         memory = self.model.memory
         codes = memory[owners.Output.event_codes][: int(memory[owners.Output.integers_used])].tolist()
         at = 0
@@ -123,6 +130,7 @@ class StallMonitor:
         return " ".join(f"The steps were limited by: {limits}. {error} {self._counted_events()}".split())
 
     def _counted_events(self) -> str:
+        """Sentence with the most frequent of the last events and their numbers, or "" if there are none."""
         names = self.model.system.names
         counted = Counter(event for event in self._last_events if event[0] != Cause.START)
         if not counted:
@@ -135,13 +143,18 @@ class StallMonitor:
 
 
 def _largest_error(model: LaidOut) -> str:
-    """Sentence that names the coordinate, velocity or inner state with the largest relative error of the last step."""
+    """Sentence that names the coordinate, velocity or inner state with the largest relative error of the last step.
+
+    A step that is too small was rejected, and its error is still where stages are written.
+    """
     memory, n = model.memory, model.n_y
     error, scale, y = (memory[one] for one in (owners.Step.y_stage, owners.Step.y_scale, owners.Island.y))
     size = scale + np.abs(y)
     relative = np.divide(np.abs(error), size, out=np.zeros(n), where=size > 0.0)
+    # the energy accounts do not limit steps
     relative[model.n_q + model.n_u :][:N_ACCOUNTS] = 0.0
     worst = int(np.argmax(np.nan_to_num(relative, nan=np.inf)))
+    # q of all bodies comes first, then u of all, then the inner states
     for letter, count in (("q", "n_q"), ("u", "n_u")):
         for name, body in zip(model.system.names.bodies, model.system.bodies, strict=True):
             if worst < getattr(body, count):
@@ -154,7 +167,7 @@ def _last_contacts(model: LaidOut) -> str:
     """Sentence that names the contacts of the last contact problem, or ""."""
     memory = model.memory
     in_problem = memory[owners.Problem.active][: int(memory[owners.Problem.n_active])]
-    numbers = memory[owners.Contact.declared][: int(memory[owners.Island.n_contacts])][in_problem].tolist()
+    numbers = model.active[in_problem].tolist()
     if not numbers:
         return ""
     names = model.system.names.contacts
@@ -162,5 +175,6 @@ def _last_contacts(model: LaidOut) -> str:
 
 
 def _enumeration(words: list[str], total: int) -> str:
+    """The words, and the number of others if there are ``total`` in all."""
     more = [f"{total - len(words)} others"] if total > len(words) else []
     return ", ".join([*words, *more])

@@ -6,16 +6,20 @@ a run, the memory gets the content of a checkpoint, and the engine repeats the l
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
+from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.errors import InvalidInput
-from nonsmooth.model.candidates import check_candidates
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.runs.state_checks import check_candidates
+from nonsmooth.solution.request import RunRequest
 from nonsmooth.solution.state import Integers, State
 
 _COUNTERS = (
@@ -27,6 +31,8 @@ _COUNTERS = (
     owners.Totals.n_listings,
     owners.Totals.n_steps_limited,
 )
+_BUFFER_PART = 0.5
+"""Part of the buffer of samples that one step may fill. The engine pauses if the other half is full."""
 
 
 def begin(model: LaidOut, blank: Checkpoint, state: State) -> None:
@@ -45,7 +51,9 @@ def begin(model: LaidOut, blank: Checkpoint, state: State) -> None:
 
 
 def continue_run(model: LaidOut, blank: Checkpoint, state: State) -> None:
-    """Put the memory where the run that left a state continues, with its counters at zero.
+    """Put the memory where the run that left a state continues, with the counters at zero.
+
+    The engine repeats the events after the checkpoint, and must not record them again: the memory holds their number.
 
     Raises
     ------
@@ -60,7 +68,7 @@ def continue_run(model: LaidOut, blank: Checkpoint, state: State) -> None:
 
 
 def resume_run(model: LaidOut, blank: Checkpoint, state: State) -> None:
-    """Put the memory where the run that left a state was cut off, with its counters.
+    """Put the memory where the run that left a state was cut off, with the counters of this run.
 
     Raises
     ------
@@ -76,11 +84,12 @@ def resume_run(model: LaidOut, blank: Checkpoint, state: State) -> None:
     if not t <= state.time or n_known_events < 0:
         rule = f"must begin before {state.time:.9g} s"
         raise InvalidInput("State.continuation", rule, (t, n_known_events), "It is damaged: take another.")
+    # a run that was cut off before its first instant starts anew
     memory[owners.Request.is_resumed] = memory[owners.Run.has_started]
 
 
 def _check_features(model: LaidOut, blank: Checkpoint, state: State) -> None:
-    """Check that the features of each closed contact are near each other, by a search for them.
+    """Check that a search finds the features of each closed contact; it leaves the state in the memory, all open.
 
     Raises
     ------
@@ -88,9 +97,9 @@ def _check_features(model: LaidOut, blank: Checkpoint, state: State) -> None:
         If the search finds other features.
     """
     _write(model, blank, state, np.full(len(state.modes), Mode.OPEN))
-    places = model.memory.declared(owners.Contact.features)
-    for number in np.flatnonzero((places > 0) & (state.modes != Mode.OPEN)).tolist():
-        if not np.array_equal(model.memory.floats[places[number] :][:CANDIDATE], state.features[number]):
+    features = model.memory.declared(owners.Contact.features)
+    for number in np.flatnonzero((features > 0) & (state.modes != Mode.OPEN)).tolist():
+        if not np.array_equal(model.memory.floats[features[number] :][:CANDIDATE], state.features[number]):
             raise InvalidInput(
                 f"State.features[{number}], of the closed {model.system.contacts[number]},",
                 "must be features that are near each other",
@@ -100,18 +109,33 @@ def _check_features(model: LaidOut, blank: Checkpoint, state: State) -> None:
 
 
 def _write(model: LaidOut, blank: Checkpoint, state: State, modes: Integers) -> None:
-    """Write a state into the memory, with these modes, and make the neighbour list."""
+    """Write a state into the memory, but with these modes of the contacts, and make the neighbour list."""
     blank.put(model.memory)
     memory = model.memory
     memory[owners.Island.time] = state.time
-    y = memory[owners.Island.y][: model.n_y]
+    y = memory[owners.Island.y]
     y[: model.n_q], y[model.n_q : model.n_q + model.n_u] = state.q, state.u
     y[model.n_q + model.n_u + N_ACCOUNTS :] = state.law_states
     memory.declared(owners.Contact.mode)[:] = modes
     memory.declared(owners.Contact.closing_rate)[:] = state.closing_rates
     memory.declared(owners.Contact.direction)[:] = state.slip_directions
-    places = memory.declared(owners.Contact.features)
-    for number in np.flatnonzero((places > 0) & (state.features[:, 0] != 0.0)).tolist():
-        memory.floats[places[number] :][:CANDIDATE] = state.features[number]
-    memory[owners.OwnGuard.has_just_fired][: len(model.system.guards)] = state.guards_spent
+    features = memory.declared(owners.Contact.features)
+    found = np.flatnonzero((features > 0) & (state.features[:, 0] != 0.0))
+    memory.floats[features[found, None] + np.arange(CANDIDATE)] = state.features[found]
+    memory[owners.OwnGuard.has_just_fired] = state.guards_spent
     model.list_contacts()
+
+
+def write_request(memory: Memory, request: RunRequest) -> None:
+    """Write the end time and the times of samples [s]."""
+    memory[owners.Request.t_end] = request.t_end
+    memory[owners.Request.sample_start] = request.sample_start
+    memory[owners.Request.sample_interval] = request.sample_interval
+    # the default interval depends on the end time, which must not change the steps; its samples fit the buffer
+    longest = _BUFFER_PART * memory[owners.Model.sample_capacity] * request.sample_interval
+    memory[owners.Request.sample_span] = math.inf if request.has_default_samples else longest
+
+
+def write_first_sample(memory: Memory, request: RunRequest) -> None:
+    """Write that the next sample is the first one of a request."""
+    memory[owners.Output.next_sample], memory[owners.Output.sample_index] = request.sample_start, 0

@@ -66,12 +66,12 @@ def check_numbers(model: LaidOut, state: State) -> None:
     InvalidInput
         If a number is not finite, or a quaternion has another length.
     """
-    values = [getattr(state, name).ravel() for name in _REALS]
-    if not np.isfinite(np.concatenate(values)).all():
-        name, value = next((n, v) for n, v in zip(_REALS, values, strict=True) if not np.isfinite(v).all())
-        number = int(np.flatnonzero(~np.isfinite(value))[0])
-        remedy = f"Correct entry {number}. A failed run may leave such a state."
-        raise InvalidInput(f"State.{name}", "must be finite numbers", float(value[number]), remedy)
+    for name in _REALS:
+        value = getattr(state, name).ravel()
+        wrong = np.flatnonzero(~np.isfinite(value))
+        if len(wrong) > 0:
+            remedy = f"Correct entry {wrong[0]}. A failed run may leave such a state."
+            raise InvalidInput(f"State.{name}", "must be finite numbers", float(value[wrong[0]]), remedy)
     first = 0
     for body in model.system.bodies:
         check_quaternion(f"State.q of {model.system.name_of(body)!r}", body, state.q[first : first + body.n_q])
@@ -99,4 +99,33 @@ def check_closed(model: LaidOut, state: State) -> None:
                 f"must be 0, open, because its gap is {gaps[number]:.3g} m",
                 int(state.modes[number]),
                 "If you changed q, begin with State.at(system, time, q, u).",
+            )
+
+
+def check_candidates(model: LaidOut) -> None:
+    """Check that the features of each contact with a search are features of its shapes.
+
+    Its kinematics uses the numbers of features as places in a table, and a wrong number would read outside of it.
+
+    Raises
+    ------
+    InvalidInput
+        If a feature does not exist.
+    """
+    places = model.memory.declared(owners.Contact.features)
+    numbers = np.flatnonzero(places > 0)
+    for number in numbers[model.memory.floats[places[numbers]] != 0.0].tolist():
+        contact = model.system.contacts[number]
+        search = contact.kinematics.candidates
+        assert search is not None
+        kind, *features, distance = model.memory.floats[places[number] :][: CANDIDATE + 1].tolist()
+        pair = zip(features, search.counts.get(kind, (0, 0)), strict=True)
+        exist = all(feature.is_integer() and 0 <= feature < count for feature, count in pair)
+        if not (exist and 0.0 <= distance < np.inf):
+            kinds = " or ".join(f"({key:g}, below {one}, below {two})" for key, (one, two) in search.counts.items())
+            raise InvalidInput(
+                f"State.continuation: the features of the {contact}",
+                f"must be one of {kinds}, with a finite distance",
+                (kind, *features, distance),
+                "The file is damaged: take another.",
             )

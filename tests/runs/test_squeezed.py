@@ -63,3 +63,18 @@ def test_a_pendulum_that_a_plate_lifts_towards_its_joint_is_squeezed(impact: Imp
     system.place(ball, position=(0.004, 0.0, RADIUS))
     with pytest.raises(ns.RunFailed, match=r"'ball' is squeezed.*plate - ball.*joint.*compliant"):
         ns.simulate(system, 0.3)
+
+
+def test_joints_may_be_declared_in_another_order_than_their_bodies() -> None:
+    """The memory has the joints articulation by articulation: the joint of a later body, declared first, comes last."""
+    held, hook = (DrivenBody(Rest(position=place), (Sphere(0.002),)) for place in ((0.004, 0.0, 0.04), (1.0, 0.0, 1.0)))
+    plate, ball = Plate(ConstantVelocity((0.0, 0.0, 0.1), position=(0.0, 0.0, -0.01))), Ball(RADIUS)
+    other = Ball(RADIUS)
+    system = ns.System([plate, held, hook, ball, other])
+    system.contact(plate, ball, normal=Unilateral(), friction=Coulomb(0.5), impact=PlasticImpact())
+    system.joint(BallJoint((0.0, 0.0, 0.0), (0.0, 0.0, 0.03)), hook, other)
+    system.joint(BallJoint((0.0, 0.0, 0.0), (0.0, 0.0, 0.03)), held, ball)
+    system.place(ball, position=(0.004, 0.0, RADIUS))
+    system.place(other, position=(1.0, 0.0, 0.97))
+    with pytest.raises(ns.RunFailed, match=r"'ball 1' is squeezed.*driven body 1 - ball 1.*compliant"):
+        ns.simulate(system, 0.3)
