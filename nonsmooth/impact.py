@@ -174,12 +174,7 @@ def solve_impact(
 
 def _culprit(memory: Memory, impact: Sequence[ImpactProcess], friction: Sequence[FrictionLaw]) -> str:
     findings = (
-        without_value(
-            memory.floats[int(memory[getattr(owners.Contact, f"{part.name}_parameters")][i]) :],
-            part,
-            (),
-            f"contact {i}",
-        )
+        without_value(memory.floats[int(memory[part.parameters][i]) :], part, (), f"contact {i}")
         for i, laws in enumerate(zip(friction, impact, strict=True))
         for part in law_functions(*laws)
     )

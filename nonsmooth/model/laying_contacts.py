@@ -170,7 +170,9 @@ def kind_of(memory: Memory, contact: Contact, tried: set[tuple[Any, ...]] | None
     none of them. The address of an impact map is written into the memory, because all contacts share it.
     """
     made, law, impact, kinematics = Kind(), contact.friction, contact.impact, contact.kinematics
-    geometry = LawFunction("geometry", kinematics, kinematics.evaluator, "pair")
+    geometry = LawFunction(
+        _CONTACT.geometry_function, _CONTACT.geometry_parameters, kinematics, kinematics.evaluator, "pair"
+    )
     for part in (geometry, *law_functions(law, impact, contact.normal)):
         _add_function(made, contact, part, tried)
     start = initial_state(contact)
@@ -192,7 +194,8 @@ def _add_function(made: Kind, contact: Contact, part: LawFunction, tried: set[tu
     """Compile a function of the kinematics or of a law, try it out, and add its address and parameters to a kind."""
     function, form, law, owner = part.function, part.form, part.law, f"{type(part.law).__name__} ({contact})"
     available = law.parameters()
-    with_state = law if part.name == "friction" and isinstance(law, StatefulFrictionLaw) else None
+    is_coefficient = part.address is _CONTACT.friction_function
+    with_state = law if is_coefficient and isinstance(law, StatefulFrictionLaw) else None
     if with_state is not None:
         available = {**available, "state": with_state.initial_state}
     tables = {n: v for n in parameter_names(function, form) if isinstance(v := available.get(n), Table)}
@@ -204,10 +207,10 @@ def _add_function(made: Kind, contact: Contact, part: LawFunction, tried: set[tu
             _try_function(contact, part, bind(function, form, available, owner)[1])
     else:
         _try_function(contact, part, values)
-    made.fields[getattr(_CONTACT, f"{part.name}_function")] = address
-    start = made.store(getattr(_CONTACT, f"{part.name}_parameters"), values)
+    made.fields[part.address] = address
+    start = made.store(part.parameters, values)
     made.tables += [(start + parameter_place(function, form, n), start, table) for n, table in tables.items()]
-    if part.name == "geometry" and contact.kinematics.candidates is not None:
+    if part.address is _CONTACT.geometry_function and contact.kinematics.candidates is not None:
         # two features and their kind, and the distance to which they are valid
         made.mark_written(_CONTACT.features, start + vector_place(function, form, values, "candidate"), CANDIDATE + 1)
     if with_state is not None:

@@ -88,7 +88,7 @@ def _law_findings(model: LaidOut) -> Iterator[Finding | None]:
     for number, declared in enumerate(model.system.contacts):
         start, n = (int(memory.declared(one)[number]) for one in (contact.inner_states, contact.n_inner_states))
         for part in law_functions(declared.friction, declared.impact, declared.normal):
-            parameters = int(memory.declared(getattr(contact, f"{part.name}_parameters"))[number])
+            parameters = int(memory.declared(part.parameters)[number])
             yield without_value(memory.floats[parameters:], part, states[start:][:n], str(declared))
 
 
