@@ -1,4 +1,4 @@
-"""Arrays among the floats of the workspace: copies, sums and the largest entry. An argument is the offset of an array."""
+"""Arrays among the floats of the workspace: copies, sums, largest entry. ``a`` and ``out`` are offsets."""
 
 from __future__ import annotations
 

@@ -16,16 +16,7 @@ from nonsmooth.engine.memory.layout import MOST_ENTRIES
 from nonsmooth.engine.native.kernel import Floats, Workspace, kernel
 from nonsmooth.engine.numerics.arrays import clear, copy_numbers, largest_size, subtract_part
 from nonsmooth.engine.numerics.band_cholesky import factorise_band, invert_in_band, substitute_band
-from nonsmooth.engine.numerics.linear import (
-    SINGULAR,
-    band_row,
-    band_width,
-    clear,
-    copy_numbers,
-    eliminate,
-    largest_size,
-    subtract_part,
-)
+from nonsmooth.engine.numerics.linear import SINGULAR, band_row, band_width, eliminate
 
 _SHIFT = 1e-8
 """Shift of the diagonal of G, relative to its largest entry. It is larger than a pivot that counts as zero."""
@@ -58,7 +49,10 @@ def copy_shifted(floats: Floats, a: int, n: int, half: int, out: int, shift: flo
 
 @kernel("b1(ws, i8)")
 def solve_shifted(ws: Workspace, n: int) -> bool:
-    """Replace the right-hand side ``x`` by the solution of ``reduced`` with a shifted diagonal. False if it is singular."""
+    """Replace the right-hand side ``x`` by the solution of ``reduced`` with a shifted diagonal.
+
+    False if the shifted matrix is singular, too.
+    """
     shift = _SHIFT * largest_diagonal(ws.floats, ws.problem.reduced.start, n, ws.problem.half_band)
     copy_shifted(ws.floats, ws.problem.reduced.start, n, ws.problem.half_band, ws.problem.matrix.start, shift)
     return eliminate(ws.floats, ws.problem.matrix.start, n, ws.problem.half_band, ws.problem.x.start, SINGULAR)
