@@ -216,7 +216,7 @@ def _add_lone_force(ws: Workspace) -> bool:
         return False
     if contact.mode == Mode.SLIDE and inverse_mass < 0.0:
         ws.island.singular_contact = c
-    count_as_unique(ws, 1)
+    count_as_unique(ws, n=1)
     force = (-contact.bias[0] - row(ws, c, NORMAL_ROW, ws.island.du.start)) / inverse_mass
     active.normal_force = force
     push_response(ws, c, NORMAL_ROW, force, ws.island.du.start)
@@ -249,7 +249,7 @@ def _add_lone_sticking_force(ws: Workspace) -> bool:
     forces = solve_three(row_0, row_1, row_2, (y0, y1, y2), ILL_CONDITIONED)
     if math.isnan(forces[0]):
         return False
-    count_as_unique(ws, 3)
+    count_as_unique(ws, n=3)
     active.normal_force, active.friction = forces[0], (forces[1], forces[2])
     for r in range(3):
         push_response(ws, c, r, active.force[r], du)

@@ -8,8 +8,8 @@ friction, the contact problem is not a convex one.
 from __future__ import annotations
 
 from nonsmooth.engine.contact.cone import gauss_seidel
-from nonsmooth.engine.contact.polish import has_slip_that_begins, polish
-from nonsmooth.engine.contact.trial import hold_tried, verify
+from nonsmooth.engine.contact.slip_directions import find_slip_directions, has_slip_that_begins
+from nonsmooth.engine.contact.trial import find_tried_forces, verify
 from nonsmooth.engine.contact.unknowns import starts_to_slide
 from nonsmooth.engine.delassus.delassus import slip_acceleration
 from nonsmooth.engine.memory.modes import Mode
@@ -43,7 +43,7 @@ def enumerate_modes(ws: Workspace, first: int) -> int:
         has_slip = has_slip_that_begins(ws)
         if has_slip:
             _guess_directions(ws)
-            polish(ws)
+            find_slip_directions(ws)
         if verify(ws, is_lenient=False) or (has_slip and _verify_by_sweeps(ws)):
             return number + 1
     return 0
@@ -71,7 +71,7 @@ def _guess_directions(ws: Workspace) -> None:
         active.coefficient_kept = active.friction_coefficient
         if active.is_at_rest:
             active.friction_coefficient = 0.0
-    hold_tried(ws)
+    find_tried_forces(ws)
     for active in ws.actives:
         active.friction_coefficient = active.coefficient_kept
     for active in ws.actives:
@@ -93,5 +93,5 @@ def _verify_by_sweeps(ws: Workspace) -> bool:
     gauss_seidel(ws, _SWEEPS)
     for active in ws.actives:
         active.static_coefficient = active.static_kept
-    polish(ws)
+    find_slip_directions(ws)
     return verify(ws, is_lenient=False)

@@ -91,7 +91,7 @@ def _solve_lone_sticking(ws: Workspace) -> bool:
     forces = solve_three(rows[0], rows[1], rows[2], right, ILL_CONDITIONED)
     if math.isnan(forces[0]):
         return False
-    count_as_unique(ws, 3)
+    count_as_unique(ws, n=3)
     active.normal_force, active.friction = forces[0], (forces[1], forces[2])
     return True
 

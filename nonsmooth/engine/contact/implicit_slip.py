@@ -8,7 +8,7 @@ slip as it turns, which takes very small steps if the slip is slow.
 
 The modes are found by exchange: a slip whose friction would reverse it sticks, and a contact whose friction exceeds its
 bound slides against this friction. The directions of the slips are made exact after each exchange
-(:mod:`nonsmooth.engine.contact.polish`).
+(:mod:`nonsmooth.engine.contact.slip_directions`).
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ from nonsmooth.engine.bodies.kinematics import evaluate_contact, row
 from nonsmooth.engine.contact.distribution import distribute
 from nonsmooth.engine.contact.forces import friction_of_slip, reduced_coefficient
 from nonsmooth.engine.contact.null_space_forces import shift_forces
-from nonsmooth.engine.contact.polish import EXACT, has_slip_that_begins, polish
 from nonsmooth.engine.contact.problem import friction_coefficient, slip_coefficient
-from nonsmooth.engine.contact.trial import hold_tried
+from nonsmooth.engine.contact.slip_directions import EXACT, find_slip_directions, has_slip_that_begins
+from nonsmooth.engine.contact.trial import find_tried_forces
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus, diagonal_block, slip_acceleration
 from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW
 from nonsmooth.engine.memory.modes import Mode
@@ -108,7 +108,7 @@ def oppose_slips(ws: Workspace) -> bool:
     """
     has_restarted = False
     for _ in range(2 * (2 + ws.problem.n_active)):
-        is_exact = polish(ws)
+        is_exact = find_slip_directions(ws)
         if not is_exact:
             if has_restarted:
                 return False
@@ -116,7 +116,7 @@ def oppose_slips(ws: Workspace) -> bool:
             for active in ws.actives:
                 active.mode_tried = Mode.STICK if active.is_at_rest else active.mode_past
         if not is_exact or not has_slip_that_begins(ws) or ws.problem.is_deficient:
-            hold_tried(ws)
+            find_tried_forces(ws)
         if not _exchange_modes(ws):
             return True
     return False
@@ -184,7 +184,8 @@ def _solve_lone_slip(ws: Workspace) -> bool:
     False if the island is another one, or if no force is found. The only unknown is the direction d. Newton's method is
     applied to the acceleration across d, without matrices.
     """
-    active, g = ws.actives[0], diagonal_block(ws, 0)
+    active = ws.actives[0]
+    g = diagonal_block(ws, active.index)
     if ws.problem.n_active > 1 or active.mode_past != Mode.SLIDE or not active.is_at_rest or active.has_given_force:
         return False
     mu, (d1, d2) = active.friction_coefficient, active.direction

@@ -68,7 +68,7 @@ def search_by_pivots(ws: Workspace, stage: int) -> bool:
         return False
     n = _list_unknowns(ws)
     _write_tableau(ws, n, inverse_mass, size)
-    if _ends_in_ray(ws, n):
+    if _follow_path(ws, n):
         return True
     _read_forces(ws, n, inverse_mass, size)
     for active in ws.actives:
@@ -180,7 +180,7 @@ def _tableau_entry(ws: Workspace, i: int, j: int, inverse_mass: float) -> float:
 
 
 @kernel("b1(ws, i8)")
-def _ends_in_ray(ws: Workspace, n: int) -> bool:
+def _follow_path(ws: Workspace, n: int) -> bool:
     """Follow the path of pivots. True if it ends in a ray, so that no solution is found.
 
     The covering variable enters first. After each pivot, the complement of the variable that has left enters. The path

@@ -6,7 +6,7 @@ all the rest, in the same way for all solvers:
 1. A contact at rest gets its static coefficient, so that it sticks if it can. If it is found to slide, the search runs
    again, with its kinetic coefficient and without sticking.
 2. The solver improves the forces stage by stage. After each stage, modes are guessed from the forces.
-3. Slip directions are made exact (:mod:`nonsmooth.engine.contact.polish`).
+3. Slip directions are made exact (:mod:`nonsmooth.engine.contact.slip_directions`).
 4. The modes are verified by exact forces (:mod:`nonsmooth.engine.contact.trial`).
 
 A solver reads G, ``free``, ``is_at_rest``, ``friction_coefficient`` and, for sliding contacts, ``direction``. It writes
@@ -24,8 +24,8 @@ from nonsmooth.engine.contact.enumeration import enumerate_modes
 from nonsmooth.engine.contact.gauss_seidel import search_by_sweeps
 from nonsmooth.engine.contact.lemke import search_by_pivots
 from nonsmooth.engine.contact.newton import search_by_newton
-from nonsmooth.engine.contact.polish import polish
-from nonsmooth.engine.contact.trial import EQUAL, evaluate_accelerations, fulfils_laws, guess_modes_from_forces, verify
+from nonsmooth.engine.contact.slip_directions import find_slip_directions
+from nonsmooth.engine.contact.trial import EQUAL, check_laws, evaluate_accelerations, guess_modes_from_forces, verify
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.memory.solvers import ENUMERATION, GAUSS_SEIDEL, LEMKE
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, entry_point, kernel
@@ -242,7 +242,7 @@ def _verify_or_open(ws: Workspace) -> bool:
     True if the laws are fulfilled. If this fails, the modes are verified once more, leniently: tensile forces of least
     norm may then be replaced by compressive ones of the same motion. Directions of slips that begin are made exact.
     """
-    polish(ws)
+    find_slip_directions(ws)
     for active in ws.actives:
         active.mode_closed, active.direction_closed = active.mode_tried, active.direction
     if verify(ws, is_lenient=False):
@@ -251,7 +251,7 @@ def _verify_or_open(ws: Workspace) -> bool:
         return False
     # TODO: a single contact that must open is found only if it is the most tensile one at some step
     while ws.problem.effort < _MOST_EFFORT and _open_most_tensile(ws):
-        polish(ws)
+        find_slip_directions(ws)
         if verify(ws, is_lenient=False):
             return True
     # the contacts that were opened may carry a load that the others cannot
@@ -278,7 +278,7 @@ def _open_most_tensile(ws: Workspace) -> bool:
 
 @kernel("b1(ws)")
 def _verify_forces_of_solver(ws: Workspace) -> bool:
-    """Take the forces of the solver as they are. True if they fulfil the laws.
+    """Take the forces of the solver as they are, and count them as unique. True if they fulfil the laws.
 
     If sliding contacts are redundant, the motion depends on the distribution of their load, and the forces of least
     norm may violate the laws.
@@ -287,7 +287,7 @@ def _verify_forces_of_solver(ws: Workspace) -> bool:
     for active in ws.actives:
         active.has_redundant_force = False
     ws.problem.is_deficient = False
-    return fulfils_laws(ws, is_lenient=False) and _friction_opposes_slip(ws)
+    return check_laws(ws, is_lenient=False) and _friction_opposes_slip(ws)
 
 
 @kernel("b1(ws)")

@@ -51,7 +51,7 @@ class Verdict(IntEnum):
 
 
 @kernel()
-def hold_tried(ws: Workspace) -> None:
+def find_tried_forces(ws: Workspace) -> None:
     """Find the forces of the active contacts in the modes under trial [N], and count the effort."""
     for active in ws.actives:
         is_open = active.mode_tried == Mode.OPEN
@@ -111,12 +111,12 @@ def verify(ws: Workspace, is_lenient: bool) -> bool:
     motion are tried (:func:`nonsmooth.engine.contact.distribution.distribute`). If ``is_lenient``, this is done for
     tensile normal forces, too.
     """
-    hold_tried(ws)
-    return fulfils_laws(ws, is_lenient)
+    find_tried_forces(ws)
+    return check_laws(ws, is_lenient)
 
 
 @kernel("b1(ws, b1)")
-def fulfils_laws(ws: Workspace, is_lenient: bool) -> bool:
+def check_laws(ws: Workspace, is_lenient: bool) -> bool:
     """True if the forces fulfil the contact laws in the modes under trial, False if they violate one.
 
     Redundant forces outside their cones are distributed anew. For ``is_lenient`` see :func:`verify`.

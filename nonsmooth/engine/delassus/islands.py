@@ -20,7 +20,7 @@ _NO_GROUP = -1
 
 
 @kernel("i8(ws, i8)")
-def _root(ws: Workspace, number: int) -> int:
+def _find_root(ws: Workspace, number: int) -> int:
     """Representative of the set of articulation ``number``.
 
     Links the articulations on the path directly to it, so that the next query is short.
@@ -75,7 +75,7 @@ def _join_articulations(ws: Workspace) -> None:
     for contact in ws.contacts:
         a, b = contact.articulation_a, contact.articulation_b
         if contact.is_in_problem and ws.articulations[a].n_u > 0 and ws.articulations[b].n_u > 0:
-            ws.articulations[_root(ws, b)].root = _root(ws, a)
+            ws.articulations[_find_root(ws, b)].root = _find_root(ws, a)
 
 
 @kernel()
@@ -86,7 +86,7 @@ def _number_islands(ws: Workspace) -> None:
         if not contact.is_in_problem:
             continue
         number = _movable_articulation(ws, contact)
-        root = ws.articulations[_root(ws, number)]
+        root = ws.articulations[_find_root(ws, number)]
         # a contact between two driven bodies is an island of its own
         if ws.articulations[number].n_u == 0 or root.group == _NO_GROUP:
             root.group = n_groups

@@ -54,13 +54,13 @@ def change_clock(ws: Workspace) -> bool:
     if ws.impact.lone_contact == NO_CONTACT:
         if n_others != 1 or not _can_be_clock(ws, ws.actives[last]):
             return False
-        _keep(ws)
+        _store_state(ws)
         ws.impact.lone_contact = last
     elif n_others == 0:
         return False
     else:
         ws.impact.lone_contact, ws.impact.may_be_lone = NO_CONTACT, False
-        _restore(ws)
+        _restore_state(ws)
     prepare_guards(ws)
     return True
 
@@ -80,7 +80,7 @@ def _can_be_clock(ws: Workspace, active: ActiveContact) -> bool:
 
 
 @kernel()
-def _keep(ws: Workspace) -> None:
+def _store_state(ws: Workspace) -> None:
     """Keep the state of the impact, to which it may return."""
     copy_numbers(ws.floats, ws.impact.y.start, state_size(ws), ws.impact.y_kept.start)
     ws.impact.phases_kept = ws.event.n_phases
@@ -92,7 +92,7 @@ def _keep(ws: Workspace) -> None:
 
 
 @kernel()
-def _restore(ws: Workspace) -> None:
+def _restore_state(ws: Workspace) -> None:
     """Return to the state that was kept."""
     copy_numbers(ws.floats, ws.impact.y_kept.start, state_size(ws), ws.impact.y.start)
     ws.event.n_phases = ws.impact.phases_kept
@@ -107,7 +107,7 @@ def _restore(ws: Workspace) -> None:
 
 
 @kernel("Aim(ws, f8)")
-def aim(ws: Workspace, h: float) -> Aim:
+def aim_at_event(ws: Workspace, h: float) -> Aim:
     """Shorten a step of ``h`` of the lone contact to its next event, which its polynomials predict."""
     active = ws.actives[ws.impact.lone_contact]
     direction = ws.contacts[active.contact].direction

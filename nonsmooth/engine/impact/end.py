@@ -47,7 +47,7 @@ def account(ws: Workspace, active: ActiveContact) -> None:
 
 
 @kernel("void(ws, ActiveContact)")
-def empty(ws: Workspace, active: ActiveContact) -> None:
+def lose_energy(ws: Workspace, active: ActiveContact) -> None:
     """Set the energy and the deformation of an active contact to zero. The energy is lost to restitution."""
     state = state_of(ws, active)
     state.deformation = state.energy = state.lost = 0.0
@@ -59,11 +59,11 @@ def end_phase(ws: Workspace, active: ActiveContact) -> None:
     account(ws, active)
     active.phase = Phase.IDLE
     active.sticks = False
-    empty(ws, active)
+    lose_energy(ws, active)
 
 
 @kernel()
-def finish(ws: Workspace) -> None:
+def write_impact_results(ws: Workspace) -> None:
     """Write the impulses [N s] and energies [J] of the impact, and the rates [m/s] with which it ends."""
     for active in ws.actives:
         state = state_of(ws, active)

@@ -5,21 +5,21 @@ the velocities, Eq. (17) with impulses in place of forces:
 
 1. Slips at rest are stopped exactly. What is left of them is round-off, but its direction would act as that of a slip.
 2. Block Gauss-Seidel (:mod:`nonsmooth.engine.contact.cone`) finds sticking contacts and directions.
-3. Newton's method (:mod:`nonsmooth.engine.contact.polish`) makes the directions exact: next to the static bound they
-   decide whether a slip grows.
+3. Newton's method (:mod:`nonsmooth.engine.contact.slip_directions`) makes the directions exact. Next to the static
+   bound they decide whether a slip grows.
 4. Contacts that were found on their bounds but do not start to slip stick.
 
-Between two choices slips follow their own velocity, and :func:`stop_halted`, :func:`orient` and :func:`stays_slow` keep
-their directions well-defined.
+Between two choices the directions of slips follow from their velocities. :func:`count_stopped_slips`, :func:`orient`
+and :func:`count_slow_step` keep them well-defined.
 """
 
 from __future__ import annotations
 
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
 from nonsmooth.engine.contact.forces import friction_of_slip, resolve
-from nonsmooth.engine.contact.polish import polish
 from nonsmooth.engine.contact.problem import friction_coefficient, slip_coefficient
-from nonsmooth.engine.contact.trial import hold_tried
+from nonsmooth.engine.contact.slip_directions import find_slip_directions
+from nonsmooth.engine.contact.trial import find_tried_forces
 from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.impact.guards import GuardKind, guard_of
 from nonsmooth.engine.impact.rates import evaluate_impact_rates, slip_slope
@@ -154,10 +154,10 @@ def _refine_starting_slips(ws: Workspace) -> None:
         active.direction_found = active.direction
         acceleration = max(own.nn, own.t11, own.t22) * abs(active.normal_force)
         ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, acceleration)
-    if not polish(ws):
+    if not find_slip_directions(ws):
         for active in ws.actives:
             active.direction = active.direction_found
-        hold_tried(ws)
+        find_tried_forces(ws)
 
 
 @kernel()
@@ -195,7 +195,7 @@ def has_stopped(active: ActiveContact) -> bool:
 
 
 @kernel()
-def stop_halted(ws: Workspace) -> None:
+def count_stopped_slips(ws: Workspace) -> None:
     """Count the slips that the accepted step has stopped: they stick from now on.
 
     After an implicit step slips may have any direction, so that the directions are set anew.
@@ -223,7 +223,7 @@ def orient(ws: Workspace) -> None:
 
 
 @kernel("b1(ws)")
-def stays_slow(ws: Workspace) -> bool:
+def count_slow_step(ws: Workspace) -> bool:
     """True if friction must be chosen again: a slip next to rest slows down, or has been there for many steps.
 
     Next to rest the direction of a slip is stiff, and its speed is below the error. Counts the steps in ``slow_steps``.

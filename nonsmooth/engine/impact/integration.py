@@ -20,17 +20,17 @@ import math
 from enum import IntEnum
 from typing import NamedTuple
 
-from nonsmooth.engine.impact.clock import Aim, aim, change_clock, has_arrived
-from nonsmooth.engine.impact.end import cut_short, end_trapped, finish, has_faded, is_finished
-from nonsmooth.engine.impact.friction import choose_friction, orient, stays_slow, stop_halted
+from nonsmooth.engine.impact.clock import Aim, aim_at_event, change_clock, has_arrived
+from nonsmooth.engine.impact.end import cut_short, end_trapped, has_faded, is_finished, write_impact_results
+from nonsmooth.engine.impact.friction import choose_friction, count_slow_step, count_stopped_slips, orient
 from nonsmooth.engine.impact.guards import NO_GUARD, arm_impact_guards, first_fired, prepare_guards, write_impact_guards
 from nonsmooth.engine.impact.location import Switch, locate_switch
 from nonsmooth.engine.impact.phases import end_faint, has_reached_rim, start_phases, switch_phases
 from nonsmooth.engine.impact.rates import write_impact_slope
 from nonsmooth.engine.impact.scales import raise_impulse_scales, scale_impact
 from nonsmooth.engine.impact.state import NOISE, state_size
-from nonsmooth.engine.impact.step import let_go, try_impact_step, try_linear_step
-from nonsmooth.engine.impact.step_length import first_step, graded, lone_step, rejection_factor, step_after_switch
+from nonsmooth.engine.impact.step import reset_attempt, try_impact_step, try_linear_step
+from nonsmooth.engine.impact.step_length import first_step, graded_step, lone_step, rejection_factor, step_after_switch
 from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.memory.modes import NO_CONTACT, Truncation
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel, result
@@ -130,7 +130,7 @@ def run_impact(ws: Workspace, h: float, shortest: float, is_windowed: bool) -> O
         if interrupted(ws, _WORK * len(ws.actives)):
             return Outcome.ENDLESS
         if is_finished(ws):
-            finish(ws)
+            write_impact_results(ws)
             return Outcome.FINISHED
         attempt = _attempt(ws, pace.h)
         if not attempt.is_accepted:
@@ -141,7 +141,7 @@ def run_impact(ws: Workspace, h: float, shortest: float, is_windowed: bool) -> O
             continue
         copy_numbers(ws.floats, ws.impact.y_new.start, state_size(ws), ws.impact.y.start)
         raise_impulse_scales(ws)
-        stop_halted(ws)
+        count_stopped_slips(ws)
         if attempt.guard == NO_GUARD:
             pace = _next_pace(ws, pace, attempt)
             _continue(ws, shortest)
@@ -152,7 +152,7 @@ def run_impact(ws: Workspace, h: float, shortest: float, is_windowed: bool) -> O
             return Outcome.MOVED
         write_impact_slope(ws, ws.impact.slopes.start)
     cut_short(ws)
-    finish(ws)
+    write_impact_results(ws)
     return Outcome.ENDLESS
 
 
@@ -165,8 +165,8 @@ def _attempt(ws: Workspace, h: float) -> Attempt:
 
     If it is accepted, ``y_new`` holds the state at its end.
     """
-    let_go(ws)
-    aimed = aim(ws, h) if ws.impact.lone_contact != NO_CONTACT else Aim(h=graded(ws, h), guard=NO_GUARD)
+    reset_attempt(ws)
+    aimed = aim_at_event(ws, h) if ws.impact.lone_contact != NO_CONTACT else Aim(h=graded_step(ws, h), guard=NO_GUARD)
     is_linear = aimed.guard != NO_GUARD and try_linear_step(ws, aimed.h)
     error = 0.0 if is_linear else try_impact_step(ws, aimed.h)
     ws.totals.n_impact_steps += 1
@@ -217,7 +217,7 @@ def _continue(ws: Workspace, shortest: float) -> None:
 
     Friction is chosen anew if a slip stays next to rest.
     """
-    if stays_slow(ws):
+    if count_slow_step(ws):
         choose_friction(ws, first_step(ws, shortest), turns_rate=False)
         prepare_guards(ws)
         end_trapped(ws)

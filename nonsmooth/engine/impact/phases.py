@@ -16,7 +16,7 @@ in a symmetric impact, so all of them are checked wherever one fires.
 
 from __future__ import annotations
 
-from nonsmooth.engine.impact.end import account, empty, end_phase
+from nonsmooth.engine.impact.end import account, end_phase, lose_energy
 from nonsmooth.engine.impact.friction import break_away, choose_friction, has_stopped
 from nonsmooth.engine.impact.guards import TOGETHER, GuardKind, guard_of, is_rate_guard, prepare_guards
 from nonsmooth.engine.impact.rates import evaluate_impact_forces, gap_rate_slope
@@ -160,7 +160,7 @@ def _turn(ws: Workspace, active: ActiveContact) -> bool:
 @kernel("void(ws, ActiveContact)")
 def _hold(ws: Workspace, active: ActiveContact) -> None:
     """Lose the stored energy of an active contact without restitution. It is then held if it is pressed, else idle."""
-    empty(ws, active)
+    lose_energy(ws, active)
     active.phase = Phase.HELD
     evaluate_impact_forces(ws, ws.impact.y.start)
     if active.normal_force < 0.0:

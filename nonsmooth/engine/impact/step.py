@@ -48,7 +48,7 @@ def try_impact_step(ws: Workspace, h: float) -> float:
     A stiff step that the explicit pair rejects is taken implicitly. A slip that an implicit step stops sticks from then
     on, unless the step is tried again.
     """
-    let_go(ws)
+    reset_attempt(ws)
     n, slopes = state_size(ws), ws.impact.slopes.start
     for stage in range(1, N_STAGES):
         out = ws.impact.y_new.start if stage == LAST_STAGE else ws.impact.y_stage.start
@@ -57,7 +57,7 @@ def try_impact_step(ws: Workspace, h: float) -> float:
     weigh_part(ws, ws.coefficients.error_weights.start, slopes, n, n, h, ws.impact.y_stage.start)
     error = _relative_error(ws, ws.impact.y_stage.start)
     if not error <= 1.0:
-        if _is_stiff(ws, h):
+        if _check_stiffness(ws, h):
             return min(_try_implicit_step(ws, h), error)
         # the stiffness check has left other rates
         evaluate_impact_rates(ws, ws.impact.y_new.start)
@@ -65,8 +65,8 @@ def try_impact_step(ws: Workspace, h: float) -> float:
 
 
 @kernel()
-def let_go(ws: Workspace) -> None:
-    """Undo what the last attempt of a step has left: slips that it stopped slide again, and it counts as explicit."""
+def reset_attempt(ws: Workspace) -> None:
+    """Undo the last attempt of a step: slips that it stopped slide again, and the step counts as explicit."""
     ws.impact.is_step_implicit = False
     for active in ws.actives:
         if active.was_halted:
@@ -157,7 +157,7 @@ def _is_straight(ws: Workspace, active: ActiveContact, middle: int, end: int) ->
 
 
 @kernel("b1(ws, f8)")
-def _is_stiff(ws: Workspace, h: float) -> bool:
+def _check_stiffness(ws: Workspace, h: float) -> bool:
     """True if the direction of a slip follows the forces too fast for an explicit step of ``h``, and is in equilibrium.
 
     A slip that passes close to rest turns fast and changes fast. Its further direction depends on every digit, which

@@ -58,7 +58,7 @@ def lone_step(ws: Workspace) -> float:
 
 
 @kernel("f8(ws, f8)")
-def graded(ws: Workspace, h: float) -> float:
+def graded_step(ws: Workspace, h: float) -> float:
     """Length of a step, at most ``h``, in which no expanding contact loses more than a part of its deformation.
 
     So steps shrink geometrically towards the end of an expansion, down to a small deformation.

@@ -154,7 +154,7 @@ def _draw(ws: Workspace, fastest: float, is_first: bool) -> None:
         contact.layer, contact.is_at_rim = _OUTSIDE, False
         approaches = is_first and contact.normal_rate < -NOISE * fastest
         if approaches or contact.window_phase != Phase.IDLE:
-            _add(ws, contact, 0)
+            _add(ws, contact, layer=0)
     begin = 0
     for layer in range(1, _LAYERS + 1):
         end = ws.problem.n_active

@@ -5,7 +5,7 @@
 * Solution. The system with a small shift of its diagonal is regular. Its solution, without the part in the null space,
   is refined until the residual is round-off.
 
-The orthogonal decomposition of :mod:`nonsmooth.engine.numerics.linear` would fill the matrix.
+The orthogonal decompositions of :mod:`nonsmooth.engine.numerics.least_norm` would fill the matrix.
 """
 
 from __future__ import annotations
@@ -96,7 +96,7 @@ def _write_residual(ws: Workspace, n: int, x: int, out: int) -> float:
 
 @kernel("b1(ws, i8)")
 def _is_symmetric(ws: Workspace, n: int) -> bool:
-    """True if ``reduced`` is symmetric up to round-off."""
+    """True if ``reduced``, of ``n`` rows, is symmetric up to round-off."""
     small = _SYMMETRIC * largest_diagonal(ws.floats, ws.problem.reduced.start, n, ws.problem.half_band)
     for i in range(n):
         line = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band)

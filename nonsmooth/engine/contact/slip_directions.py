@@ -16,7 +16,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.contact.forces import eliminate_reduced, solve_reduced_for_least_norm
-from nonsmooth.engine.contact.trial import hold_tried
+from nonsmooth.engine.contact.trial import find_tried_forces
 from nonsmooth.engine.contact.unknowns import list_unknowns, starts_to_slide
 from nonsmooth.engine.delassus.delassus import diagonal_block, slip_acceleration
 from nonsmooth.engine.memory.blocks import DELASSUS
@@ -47,7 +47,7 @@ def has_slip_that_begins(ws: Workspace) -> bool:
 
 
 @entry_point("b1(ws)")
-def polish(ws: Workspace) -> bool:
+def find_slip_directions(ws: Workspace) -> bool:
     """Turn the directions of slips that begin until the slip accelerations oppose the friction.
 
     True if they do, or if no slip begins: the forces are then not computed. Else the forces are those of the final
@@ -57,7 +57,7 @@ def polish(ws: Workspace) -> bool:
         return True
     best = math.inf
     for _ in range(_STEPS):
-        hold_tried(ws)
+        find_tried_forces(ws)
         n = list_unknowns(ws, with_turns=True)
         worst = _write_residuals(ws, n)
         if worst <= EXACT or (worst <= _NEARLY_EXACT and worst >= best):
