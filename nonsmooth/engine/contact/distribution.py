@@ -141,7 +141,7 @@ def _write_excess_over_disc(ws: Workspace, active: ActiveContact, i: int) -> flo
 
 @kernel("void(ws, i8, i8, i8, f8, f8)")
 def _add_hessian(ws: Workspace, n: int, matrix: int, half: int, weight: float, inset: float) -> None:
-    """Add ``weight`` times the Hessian of phi to the band at ``matrix``, which has ``n`` rows and a ``half`` band."""
+    """Add ``weight`` times the Hessian of phi to the band of ``n`` rows and half band ``half`` at ``matrix``."""
     for i in range(n):
         unknown = ws.unknowns[i]
         active = ws.actives[unknown.contact]

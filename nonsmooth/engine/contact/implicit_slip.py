@@ -74,7 +74,10 @@ def _find_forces(ws: Workspace) -> bool:
 
 @kernel("void(ws, ActiveContact)")
 def _write_contact(ws: Workspace, active: ActiveContact) -> None:
-    """Write b, friction coefficient, mode and slip direction of a contact. The b of its slip includes v0 / tau."""
+    """Write the free acceleration b of a contact [m/s^2], its friction coefficient, mode and slip direction.
+
+    If the contact slides, the tangential parts of b include v0 / tau.
+    """
     c = active.contact
     contact = ws.contacts[c]
     contact.dissipated_by_spin = 0.0

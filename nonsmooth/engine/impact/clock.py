@@ -81,7 +81,7 @@ def _can_be_clock(ws: Workspace, active: ActiveContact) -> bool:
 
 @kernel()
 def _store_state(ws: Workspace) -> None:
-    """Keep the state of the impact, to which it may return."""
+    """Store the state of the impact before the clock changes."""
     copy_numbers(ws.floats, ws.impact.y.start, state_size(ws), ws.impact.y_kept.start)
     ws.impact.phases_kept = ws.event.n_phases
     for active in ws.actives:
@@ -93,7 +93,7 @@ def _store_state(ws: Workspace) -> None:
 
 @kernel()
 def _restore_state(ws: Workspace) -> None:
-    """Return to the state that was kept."""
+    """Return to the state of the impact before the clock changed."""
     copy_numbers(ws.floats, ws.impact.y_kept.start, state_size(ws), ws.impact.y.start)
     ws.event.n_phases = ws.impact.phases_kept
     for active in ws.actives:
