@@ -13,15 +13,7 @@ from typing import NamedTuple
 
 from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.impact.guards import NO_GUARD, GuardKind, guard_of, prepare_guards
-from nonsmooth.engine.impact.state import (
-    NOISE,
-    expansion_efficiency,
-    is_lone,
-    returned_part,
-    state_at,
-    state_of,
-    state_size,
-)
+from nonsmooth.engine.impact.state import NOISE, expansion_efficiency, returned_part, state_at, state_of, state_size
 from nonsmooth.engine.memory.modes import NO_CONTACT, Phase
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel, result
 from nonsmooth.engine.numerics.arrays import copy_numbers
@@ -48,7 +40,7 @@ def change_clock(ws: Workspace) -> bool:
     """Let the last contact with a load be the clock, or undo that if others follow. True if the clock has changed."""
     n_others, last = 0, NO_CONTACT
     for active in ws.actives:
-        if active.phase != Phase.IDLE and not is_lone(ws, active):
+        if active.phase != Phase.IDLE and active.index != ws.impact.lone_contact:
             n_others += 1
             last = active.index
     if ws.impact.lone_contact == NO_CONTACT:

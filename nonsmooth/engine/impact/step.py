@@ -190,6 +190,7 @@ def _try_implicit_step(ws: Workspace, h: float) -> float:
     has_solution = True
     for stage in range(2, N_STAGES):
         has_solution = has_solution and _solve_stage(ws, h, stage)
+    # a slip that the step has stopped sticks at its end
     for active in ws.actives:
         active.was_halted = active.mode_past == Mode.SLIDE and active.sticks
     if not has_solution:
@@ -210,7 +211,7 @@ def _begin_implicit_step(ws: Workspace) -> None:
             active.mode_past = Mode.OPEN
         null_space_force = ws.contacts[active.contact].null_space_force
         for r in range(3):
-            # the motion chooses forces that are not unique again after the impact
+            # redundant impulses are those of least norm; the motion chooses its forces anew after the impact
             null_space_force[r] = 0.0
     n, slopes = state_size(ws), ws.impact.slopes.start
     copy_numbers(ws.floats, slopes, n, slopes + n)
@@ -224,6 +225,7 @@ def _solve_stage(ws: Workspace, h: float, stage: int) -> bool:
     """
     n, slopes = state_size(ws), ws.impact.slopes.start
     out = ws.impact.y_new.start if stage == LAST_STAGE else ws.impact.y_stage.start
+    # the slope of the stage, its last iterate, and the pseudo-time from the explicit part of the stage to its end
     here, guess, ahead = slopes + stage * n, ws.impact.y_guess.start, implicit_tableau.DIAGONAL * h
     # the slope of the stage before is the first guess
     copy_numbers(ws.floats, here - n, n, here)
