@@ -58,7 +58,7 @@ def choose_friction(ws: Workspace, probe: float, turns_rate: bool) -> None:
         clear(ws.floats, ws.problem.free_accelerations.start, 3 * len(ws.actives))
         gauss_seidel(ws, SWEEPS)
         _refine_starting_slips(ws)
-        _hold_idle(ws)
+        _hold_slips_without_start(ws)
     for active in ws.actives:
         if active.normal_force <= 0.0:
             active.sticks = False
@@ -161,8 +161,8 @@ def _refine_starting_slips(ws: Workspace) -> None:
 
 
 @kernel()
-def _hold_idle(ws: Workspace) -> None:
-    """Let contacts stick that were found on their static bounds but do not start to slip.
+def _hold_slips_without_start(ws: Workspace) -> None:
+    """Let contacts stick that were found on their static bounds but whose slips do not start.
 
     The distribution of redundant friction is arbitrary, so some contacts are on their bounds by chance.
     """

@@ -17,16 +17,13 @@ from nonsmooth.engine.numerics.linear import band_width
 def _half_band(ws: Workspace) -> int:
     """Largest distance between the numbers of unknowns that act on one another.
 
-    ``first_unknown`` gives those of each contact. Coupled contacts are listed in ascending order, so the first of them
-    has the lowest unknowns.
+    Coupled contacts are listed in ascending order, so the first of them has the lowest unknowns.
     """
     half = 0
-    unknown = ws.problem.first_unknown.start
-    for a in range(ws.problem.n_active):
-        if ws.integers[unknown + a + 1] > ws.integers[unknown + a]:
-            row = ws.island.block_start.start + ws.problem.first_grouped + a
-            lowest = ws.integers[unknown + ws.island.block_column[ws.integers[row]]]
-            half = max(half, ws.integers[unknown + a + 1] - 1 - lowest)
+    for active in ws.actives:
+        if active.end_unknown > active.first_unknown:
+            first_coupled = ws.actives[ws.island.block_column[active.first_block]]
+            half = max(half, active.end_unknown - 1 - first_coupled.first_unknown)
     return half
 
 
