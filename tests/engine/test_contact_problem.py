@@ -232,7 +232,7 @@ def test_directions_are_found_beside_contacts_with_next_to_no_force(decades: int
         slip = (problem.delassus @ forces.ravel() + problem.bias).reshape(n, 3)[:, 1:]
         directions = slip / np.hypot(slip[:, 0], slip[:, 1])[:, None]
         memory[owners.ActiveContact.direction][:n] = directions
-        assert call_entry("polish", memory) == 1
+        assert call_entry("find_slip_directions", memory) == 1
         assert memory[owners.Totals.n_evaluations] <= 10
         slip = (problem.delassus @ forces.ravel() + problem.bias).reshape(n, 3)[:, 1:]
         pull = forces[:, 1:] / normal[:, None]

@@ -28,7 +28,7 @@ from nonsmooth.engine.bodies.compliance import write_wrench
 from nonsmooth.engine.bodies.kinematics import evaluate_row, evaluate_row_response, push_response, row
 from nonsmooth.engine.contact.forces import ILL_CONDITIONED, friction_of_slip, solve_ill_conditioned, solve_unknowns
 from nonsmooth.engine.contact.null_space_forces import add_null_space_force, choose_null_space_force
-from nonsmooth.engine.contact.unknowns import list_force
+from nonsmooth.engine.contact.unknowns import count_as_unique, list_unknowns
 from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel
@@ -41,7 +41,8 @@ def add_contact_forces(ws: Workspace, may_choose: bool) -> bool:
     """Find the forces of the active contacts [N], add their responses to ``du``, and add the power of driven bodies.
 
     Before: rows, columns and given forces are written, and ``du`` holds the accelerations without contact forces. If it
-    ``may_choose``, the null-space force of redundant contacts is chosen again. False if no choice keeps all bounds.
+    ``may_choose``, the null-space force of redundant contacts is chosen anew. False if it is, and no choice keeps all
+    forces within their bounds.
     """
     if ws.problem.n_active == 1 and ws.actives[0].is_normal_force_unknown and _add_lone_force(ws):
         return True
@@ -63,10 +64,10 @@ def add_contact_forces(ws: Workspace, may_choose: bool) -> bool:
 
 @kernel("void(ws, i8)")
 def write_rows(ws: Workspace, a: int) -> None:
-    """Write the rows and columns of active contact ``a``.
+    """Write the rows of active contact ``a``, and the responses to its columns.
 
-    Of a contact that sticks these are Jacobian rows n, t1, t2 and their responses. Of one that slides, row 0 is n, row
-    1 is n - mu d, and response 0 that of row 1. Of a compliant one that slides, row 1 is its given force.
+    If the contact sticks, these are Jacobian rows n, t1, t2 and their responses. If it slides, row 0 is n, row 1 is
+    n - mu d, and response 0 that of row 1. If it is compliant and slides, row 1 is the wrench of its given force.
     """
     active = ws.actives[a]
     c = active.contact
@@ -127,43 +128,30 @@ def _add_given_forces(ws: Workspace) -> None:
 @kernel("b1(ws)")
 def _solve_forces(ws: Workspace) -> bool:
     """Write the unknown forces to ``x`` [N]. False if the matrix has too many entries."""
-    n = _list_unknown_forces(ws)
+    n = list_unknowns(ws, with_turns=False)
     if not open_band(ws, n, ws.problem.reduced.start):
         return False
-    for active in ws.actives:
-        for i in range(active.first_unknown, active.end_unknown):
-            _write_row(ws, active, i, n)
+    for i in range(n):
+        _write_row(ws, i, n)
     if not solve_unknowns(ws, n):
         for active in ws.actives:
             if not active.sticks and active.is_normal_force_unknown:
+                # the matrix without friction needs the response to the normal
                 evaluate_row_response(ws, active.contact, NORMAL_ROW, FIRST_ROW)
-        for active in ws.actives:
-            for i in range(active.first_unknown, active.end_unknown):
-                _write_frictionless_row(ws, active, i, n)
+        for i in range(n):
+            _write_frictionless_row(ws, i, n)
         solve_ill_conditioned(ws, n)
     return True
 
 
-@kernel("i8(ws)")
-def _list_unknown_forces(ws: Workspace) -> int:
-    """List the unknown forces of the active contacts. Returns their number."""
-    n = 0
-    for active in ws.actives:
-        active.has_redundant_force = False
-        active.first_unknown = n
-        first = NORMAL_ROW if active.is_normal_force_unknown else FIRST_ROW
-        for r in range(first, 3 if active.sticks else FIRST_ROW):
-            list_force(ws, n, active, r)
-            n += 1
-    ws.problem.first_unknown[ws.problem.n_active] = n
-    return n
+@kernel("void(ws, i8, i8)")
+def _write_row(ws: Workspace, i: int, n: int) -> None:
+    """Write row ``i`` of ``n`` of the matrix W^T K V to ``reduced`` [1/kg], and its right-hand side [m/s^2].
 
-
-@kernel("void(ws, ActiveContact, i8, i8)")
-def _write_row(ws: Workspace, active: ActiveContact, i: int, n: int) -> None:
-    """Write row ``i`` of ``n`` of the matrix, which belongs to a contact, and its right-hand side [m/s^2]."""
-    c, r = active.contact, ws.unknowns[i].direction
-    contact = ws.contacts[c]
+    A contact that slides with a negative diagonal entry is marked as singular.
+    """
+    active, r = ws.actives[ws.unknowns[i].contact], ws.unknowns[i].direction
+    c, contact = active.contact, ws.contacts[active.contact]
     ws.problem.right[i] = -contact.bias[r] - row(ws, c, r, ws.island.du.start)
     line = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band)
     for block in range(active.first_block, active.end_block):
@@ -175,13 +163,13 @@ def _write_row(ws: Workspace, active: ActiveContact, i: int, n: int) -> None:
         ws.island.singular_contact = c
 
 
-@kernel("void(ws, ActiveContact, i8, i8)")
-def _write_frictionless_row(ws: Workspace, active: ActiveContact, i: int, n: int) -> None:
+@kernel("void(ws, i8, i8)")
+def _write_frictionless_row(ws: Workspace, i: int, n: int) -> None:
     """Write row ``i`` of ``n`` to ``matrix``, as if sliding contacts had no friction.
 
     Response 1 of a sliding contact must be that of its normal.
     """
-    r = ws.unknowns[i].direction
+    active, r = ws.actives[ws.unknowns[i].contact], ws.unknowns[i].direction
     line = band_row(ws.problem.matrix.start, i, n, ws.problem.half_band)
     for block in range(active.first_block, active.end_block):
         other = ws.actives[ws.island.block_column[block]]
@@ -192,7 +180,7 @@ def _write_frictionless_row(ws: Workspace, active: ActiveContact, i: int, n: int
 
 @kernel("void(ws, ActiveContact)")
 def _add_unknown_forces(ws: Workspace, active: ActiveContact) -> None:
-    """Write the forces of a contact that were unknown [N], and add their responses and powers."""
+    """Write the forces of a contact that were unknown, in ``x`` [N], and add their responses and powers."""
     c = active.contact
     contact = ws.contacts[c]
     first_row = NORMAL_ROW if active.sticks else FIRST_ROW
@@ -215,7 +203,8 @@ def _add_unknown_forces(ws: Workspace, active: ActiveContact) -> None:
 def _add_lone_force(ws: Workspace) -> bool:
     """Find the force of an island of one rigid contact, and add its response and power, without a matrix.
 
-    False, with nothing done, if the problem is ill-conditioned or the force cannot accelerate the contact.
+    False, with nothing done, if the problem is ill-conditioned or the force cannot accelerate the contact. A contact
+    that slides and approaches faster with more force (Painleve's paradox) is marked as singular.
     """
     active = ws.actives[0]
     if active.sticks:
@@ -227,8 +216,7 @@ def _add_lone_force(ws: Workspace) -> bool:
         return False
     if contact.mode == Mode.SLIDE and inverse_mass < 0.0:
         ws.island.singular_contact = c
-    ws.problem.n_unknown, ws.problem.is_deficient, ws.problem.is_null_space_banded = 1, False, False
-    active.has_redundant_force = False
+    count_as_unique(ws, n=1)
     force = (-contact.bias[0] - row(ws, c, NORMAL_ROW, ws.island.du.start)) / inverse_mass
     active.normal_force = force
     push_response(ws, c, NORMAL_ROW, force, ws.island.du.start)
@@ -241,10 +229,13 @@ def _add_lone_force(ws: Workspace) -> bool:
 
 @kernel("b1(ws)")
 def _add_lone_sticking_force(ws: Workspace) -> bool:
-    """The same for a contact that sticks: three equations."""
-    active = ws.actives[0]
-    c = active.contact
+    """Find the force of an island of one rigid contact that sticks, by three equations. Adds its response and power.
+
+    False, with nothing done, if the problem is ill-conditioned.
+    """
+    active, c = ws.actives[0], ws.actives[0].contact
     contact = ws.contacts[c]
+    # the matrix is symmetric, so only its lower triangle is written
     row_0 = coupling(ws, c, NORMAL_ROW, c, NORMAL_ROW), 0.0, 0.0
     row_1 = coupling(ws, c, FIRST_ROW, c, NORMAL_ROW), coupling(ws, c, FIRST_ROW, c, FIRST_ROW), 0.0
     row_2 = (
@@ -253,16 +244,12 @@ def _add_lone_sticking_force(ws: Workspace) -> bool:
         coupling(ws, c, SECOND_ROW, c, SECOND_ROW),
     )
     bias, du = contact.bias, ws.island.du.start
-    right = (
-        -bias[0] - row(ws, c, NORMAL_ROW, du),
-        -bias[1] - row(ws, c, FIRST_ROW, du),
-        -bias[2] - row(ws, c, SECOND_ROW, du),
-    )
-    forces = solve_three(row_0, row_1, row_2, right, ILL_CONDITIONED)
+    y0, y1 = -bias[0] - row(ws, c, NORMAL_ROW, du), -bias[1] - row(ws, c, FIRST_ROW, du)
+    y2 = -bias[2] - row(ws, c, SECOND_ROW, du)
+    forces = solve_three(row_0, row_1, row_2, (y0, y1, y2), ILL_CONDITIONED)
     if math.isnan(forces[0]):
         return False
-    ws.problem.n_unknown, ws.problem.is_deficient, ws.problem.is_null_space_banded = 3, False, False
-    active.has_redundant_force = False
+    count_as_unique(ws, n=3)
     active.normal_force, active.friction = forces[0], (forces[1], forces[2])
     for r in range(3):
         push_response(ws, c, r, active.force[r], du)

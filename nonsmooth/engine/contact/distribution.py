@@ -21,8 +21,9 @@ from __future__ import annotations
 from nonsmooth.engine.contact.unknowns import force_of, set_force
 from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, entry_point, kernel
+from nonsmooth.engine.numerics.arrays import clear, copy_numbers, largest_size, subtract_part
 from nonsmooth.engine.numerics.band_cholesky import factorise_band, substitute_band
-from nonsmooth.engine.numerics.linear import SINGULAR, band_row, eliminate, product, subtract_part
+from nonsmooth.engine.numerics.linear import SINGULAR, band_row, eliminate, product
 from nonsmooth.engine.numerics.null_band import copy_shifted, largest_diagonal, project_on_null
 from nonsmooth.engine.numerics.vectors import length
 
@@ -50,9 +51,11 @@ def distribute(ws: Workspace, inset: float, allowed: float) -> bool:
     n = ws.problem.n_unknown
     phi = _write_excess(ws, n, inset)
     for _ in range(_STEPS):
-        if _largest_excess(ws, n) <= allowed:
+        if largest_size(ws.floats, ws.problem.right.start, n) <= allowed:
             return True
-        if not (_find_step_in_band(ws, n, inset) if ws.problem.is_null_space_banded else _find_step(ws, n, inset)):
+        if ws.problem.is_null_space_banded:
+            _write_step_in_band(ws, n, inset)
+        elif not _find_step(ws, n, inset):
             return False
         slope = 0.0
         for i in range(n):
@@ -67,18 +70,9 @@ def distribute(ws: Workspace, inset: float, allowed: float) -> bool:
     return False
 
 
-@kernel("f8(ws, i8)")
-def _largest_excess(ws: Workspace, n: int) -> float:
-    """Largest component of the difference between ``n`` forces and their projections [N]."""
-    largest = 0.0
-    for i in range(n):
-        largest = max(largest, abs(ws.problem.right[i]))
-    return largest
-
-
 @kernel("f8(ws, i8, f8, f8, f8)")
 def _search_along_step(ws: Workspace, n: int, inset: float, phi: float, slope: float) -> float:
-    """Make the longest step along ``x`` that decreases phi sufficiently. Returns the new phi [N^2], or -1.
+    """Make the longest step along ``x`` that decreases phi sufficiently. Returns the new phi [N^2], or -1 if none does.
 
     ``sigma`` holds the forces before the step, ``slope`` the derivative of phi along it [N^2].
     """
@@ -98,7 +92,10 @@ def _search_along_step(ws: Workspace, n: int, inset: float, phi: float, slope: f
 
 @kernel("f8(ws, i8, f8)")
 def _write_excess(ws: Workspace, n: int, inset: float) -> float:
-    """Write the difference between the ``n`` forces and their projections on the cones to ``right``. Returns phi."""
+    """Write the difference between the ``n`` forces and their projections on the cones to ``right`` [N].
+
+    Returns phi [N^2]. The cones of redundant forces are moved inwards by ``inset`` [N].
+    """
     square = 0.0
     for i in range(n):
         unknown = ws.unknowns[i]
@@ -113,6 +110,7 @@ def _write_excess(ws: Workspace, n: int, inset: float) -> float:
             t1, t2 = active.friction
             mu, size = active.static_coefficient, length(active.friction)
             ws.problem.right[i + 1] = ws.problem.right[i + 2] = 0.0
+            # projected on the apex, on the surface, or inside of the cone
             if mu * size <= -normal:
                 ws.problem.right[i + 1], ws.problem.right[i + 2] = t1, t2
             elif size > mu * normal:
@@ -130,7 +128,7 @@ def _write_excess(ws: Workspace, n: int, inset: float) -> float:
 def _write_excess_over_disc(ws: Workspace, active: ActiveContact, i: int) -> float:
     """Write the excess of friction over Coulomb's disc, if the normal force is given. Returns its square [N^2].
 
-    ``i`` is the unknown of its friction along t1.
+    ``i`` is the unknown of the friction along t1.
     """
     t1, t2 = active.friction
     bound, size = active.static_coefficient * active.normal_force, length(active.friction)
@@ -143,7 +141,7 @@ def _write_excess_over_disc(ws: Workspace, active: ActiveContact, i: int) -> flo
 
 @kernel("void(ws, i8, i8, i8, f8, f8)")
 def _add_hessian(ws: Workspace, n: int, matrix: int, half: int, weight: float, inset: float) -> None:
-    """Add ``weight`` times the Hessian of phi to the band at ``matrix``, which has ``n`` rows and a ``half`` band."""
+    """Add ``weight`` times the Hessian of phi to the band of ``n`` rows and half band ``half`` at ``matrix``."""
     for i in range(n):
         unknown = ws.unknowns[i]
         active = ws.actives[unknown.contact]
@@ -153,17 +151,20 @@ def _add_hessian(ws: Workspace, n: int, matrix: int, half: int, weight: float, i
         if unknown.direction != NORMAL_ROW:
             continue
         normal = active.normal_force - inset * active.has_redundant_force
-        place = band_row(matrix, i, n, half) + i
+        row_n = band_row(matrix, i, n, half) + i
         if active.sticks:
-            place_1, place_2 = band_row(matrix, i + 1, n, half) + i, band_row(matrix, i + 2, n, half) + i
-            _add_hessian_of_cone(ws, active, normal, place, place_1, place_2, weight)
+            row_1, row_2 = band_row(matrix, i + 1, n, half) + i, band_row(matrix, i + 2, n, half) + i
+            _add_hessian_of_cone(ws, active, normal, row_n, row_1, row_2, weight)
         else:
-            ws.floats[place] += weight if normal < 0.0 else 0.0
+            ws.floats[row_n] += weight if normal < 0.0 else 0.0
 
 
 @kernel("void(ws, ActiveContact, i8, i8, i8, f8)")
 def _add_hessian_of_disc(ws: Workspace, active: ActiveContact, i: int, line_1: int, line_2: int, weight: float) -> None:
-    """Add the Hessian of half the square that :func:`_write_excess_over_disc` returns to two rows of a matrix."""
+    """Add the Hessian of half the square that :func:`_write_excess_over_disc` returns to two rows of a matrix.
+
+    ``i`` is the unknown of the friction along t1. The rows of i and i + 1 begin at ``line_1`` and ``line_2``.
+    """
     t1, t2 = active.friction
     bound, size = active.static_coefficient * active.normal_force, length(active.friction)
     if size > bound:
@@ -176,31 +177,33 @@ def _add_hessian_of_disc(ws: Workspace, active: ActiveContact, i: int, line_1: i
 
 @kernel("void(ws, ActiveContact, f8, i8, i8, i8, f8)")
 def _add_hessian_of_cone(
-    ws: Workspace, active: ActiveContact, normal: float, place: int, place_1: int, place_2: int, weight: float
+    ws: Workspace, active: ActiveContact, normal: float, row_n: int, row_1: int, row_2: int, weight: float
 ) -> None:
-    """Add the Hessian of half the squared distance to a cone, whose rows of the matrix begin at three places.
+    """Add the Hessian of half the squared distance of a force to a cone, three rows by three columns.
 
-    The force is projected on the apex, on the surface, or is inside of the cone.
+    ``normal`` is its component along the axis [N]. The rows of n, t1 and t2 have their entries of column n at
+    ``row_n``, ``row_1`` and ``row_2``. A force inside the cone adds nothing.
     """
     t1, t2 = active.friction
     mu, size = active.static_coefficient, length(active.friction)
+    # projected on the apex, or on the surface
     if mu * size <= -normal:
-        ws.floats[place] += weight
-        ws.floats[place_1 + 1] += weight
-        ws.floats[place_2 + 2] += weight
+        ws.floats[row_n] += weight
+        ws.floats[row_1 + 1] += weight
+        ws.floats[row_2 + 2] += weight
     elif size > mu * normal:
         s = (1.0 + mu * mu) / weight
         c1, c2 = t1 / size, t2 / size
         curvature = (size - mu * normal) / (s * size)
-        ws.floats[place] += mu * mu / s
-        ws.floats[place + 1] -= mu * c1 / s
-        ws.floats[place + 2] -= mu * c2 / s
-        ws.floats[place_1] -= mu * c1 / s
-        ws.floats[place_2] -= mu * c2 / s
-        ws.floats[place_1 + 1] += c1 * c1 / s + curvature * c2 * c2
-        ws.floats[place_2 + 2] += c2 * c2 / s + curvature * c1 * c1
-        ws.floats[place_1 + 2] += c1 * c2 / s - curvature * c1 * c2
-        ws.floats[place_2 + 1] += c1 * c2 / s - curvature * c1 * c2
+        ws.floats[row_n] += mu * mu / s
+        ws.floats[row_n + 1] -= mu * c1 / s
+        ws.floats[row_n + 2] -= mu * c2 / s
+        ws.floats[row_1] -= mu * c1 / s
+        ws.floats[row_2] -= mu * c2 / s
+        ws.floats[row_1 + 1] += c1 * c1 / s + curvature * c2 * c2
+        ws.floats[row_2 + 2] += c2 * c2 / s + curvature * c1 * c1
+        ws.floats[row_1 + 2] += c1 * c2 / s - curvature * c1 * c2
+        ws.floats[row_2 + 1] += c1 * c2 / s - curvature * c1 * c2
 
 
 # --- the step ---------------------------------------------------------------------------------------------------------
@@ -208,10 +211,10 @@ def _add_hessian_of_cone(
 
 @kernel("b1(ws, i8, f8)")
 def _find_step(ws: Workspace, n: int, inset: float) -> bool:
-    """Write Newton's step to ``x`` [N], by the basis of the null space. False if there is none."""
+    """Write Newton's step to ``x`` [N], by the basis of the null space. False if its system is singular."""
+    # the last n_free rows of the basis span the null space
     n_free, basis = n - ws.problem.rank, ws.problem.basis.start + ws.problem.rank * n
-    for i in range(n * n):
-        ws.problem.matrix[i] = 0.0
+    clear(ws.floats, ws.problem.matrix.start, n * n)
     _add_hessian(ws, n, ws.problem.matrix.start, n, 1.0, inset)
     for k in range(n_free):
         vector = basis + k * n
@@ -227,18 +230,19 @@ def _find_step(ws: Workspace, n: int, inset: float) -> bool:
         ws.problem.x[k] = -product(ws.floats, 0.0, vector, ws.problem.right.start, n)
     if not eliminate(ws.floats, ws.problem.reduced.start, n_free, n_free, ws.problem.x.start, SINGULAR):
         return False
-    for k in range(n_free):
-        ws.problem.sigma[k] = ws.problem.x[k]
-    for i in range(n):
-        ws.problem.x[i] = 0.0
+    copy_numbers(ws.floats, ws.problem.x.start, n_free, ws.problem.sigma.start)
+    clear(ws.floats, ws.problem.x.start, n)
     for k in range(n_free):
         subtract_part(ws.floats, ws.problem.x.start, -ws.problem.sigma[k], basis + k * n, n)
     return True
 
 
-@kernel("b1(ws, i8, f8)")
-def _find_step_in_band(ws: Workspace, n: int, inset: float) -> bool:
-    """Write Newton's step to ``x`` [N], with a penalty H in ``basis`` on leaving the null space, and project it."""
+@kernel("void(ws, i8, f8)")
+def _write_step_in_band(ws: Workspace, n: int, inset: float) -> None:
+    """Write Newton's step to ``x`` [N], with a penalty on leaving the null space, and project it on that space.
+
+    ``basis`` holds H, whose null space it is: the penalty of a step s is s . H s / 2.
+    """
     half = ws.problem.null_half_band
     weight = _WEIGHT * largest_diagonal(ws.floats, ws.problem.basis.start, n, half)
     shift = weight * _SHIFT_IN_BAND
@@ -249,4 +253,3 @@ def _find_step_in_band(ws: Workspace, n: int, inset: float) -> bool:
         ws.problem.x[i] = -weight * ws.problem.right[i]
     substitute_band(ws.floats, ws.problem.matrix.start, n, half, ws.problem.x.start)
     project_on_null(ws, n, ws.problem.x.start)
-    return True

@@ -8,15 +8,16 @@ friction, the contact problem is not a convex one.
 from __future__ import annotations
 
 from nonsmooth.engine.contact.cone import gauss_seidel
-from nonsmooth.engine.contact.polish import has_slip_that_begins, polish
-from nonsmooth.engine.contact.trial import hold_tried, verify
-from nonsmooth.engine.delassus.delassus import add_product
-from nonsmooth.engine.memory.layout import FIRST_ROW, SECOND_ROW
+from nonsmooth.engine.contact.slip_directions import find_slip_directions, has_slip_that_begins
+from nonsmooth.engine.contact.trial import find_tried_forces, verify
+from nonsmooth.engine.contact.unknowns import starts_to_slide
+from nonsmooth.engine.delassus.delassus import slip_acceleration
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.memory.solvers import MOST_ENUMERATED
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
-from nonsmooth.engine.numerics.vectors import length
+from nonsmooth.engine.numerics.arrays import clear
+from nonsmooth.engine.numerics.vectors import unit
 
 _SWEEPS = 100
 """Maximum number of sweeps for a first guess of slip directions. Newton's method makes them exact."""
@@ -26,10 +27,11 @@ _NO_BOUND = 1e30
 
 @entry_point("i8(ws, i8)")
 def enumerate_modes(ws: Workspace, first: int) -> int:
-    """Try the combinations of modes from number ``first`` on. Returns the number after the first solution, or 0.
+    """Try the combinations of modes from number ``first`` on. Returns the number after the first that fulfils the laws.
 
-    Slips that begin get two guesses of their direction: along the acceleration without their friction, and, if Newton's
-    method does not lead from there to a solution, from sweeps.
+    0 means that none does, that there are too many contacts, or an interrupt. Slips that begin get two guesses of their
+    direction: along the acceleration without their friction, and, if Newton's method does not lead from there to a
+    solution, from sweeps.
     """
     if ws.problem.n_active > MOST_ENUMERATED:
         return 0
@@ -41,20 +43,18 @@ def enumerate_modes(ws: Workspace, first: int) -> int:
         has_slip = has_slip_that_begins(ws)
         if has_slip:
             _guess_directions(ws)
-            polish(ws)
-        if verify(ws, is_lenient=False):
+            find_slip_directions(ws)
+        if verify(ws, is_lenient=False) or (has_slip and _verify_by_sweeps(ws)):
             return number + 1
-        if has_slip:
-            _guess_directions_by_sweeps(ws)
-            polish(ws)
-            if verify(ws, is_lenient=False):
-                return number + 1
     return 0
 
 
 @kernel("b1(ws, i8)")
 def _write_modes(ws: Workspace, number: int) -> bool:
-    """Write the modes of combination ``number``, its digits to base 3. False if a contact that slips would stick."""
+    """Write the modes of combination ``number``: its digits to base 3, of which 0 is stick, 1 slide and 2 open.
+
+    False if a contact that slips would stick: this combination needs no trial.
+    """
     for active in ws.actives:
         digit = number % 3
         number //= 3
@@ -66,27 +66,22 @@ def _write_modes(ws: Workspace, number: int) -> bool:
 
 @kernel()
 def _guess_directions(ws: Workspace) -> None:
-    """Guess the directions of slips that begin along their accelerations without friction of the contacts at rest."""
+    """Guess the directions of slips that begin: those of the slip accelerations if contacts at rest had no friction."""
     for active in ws.actives:
         active.coefficient_kept = active.friction_coefficient
         if active.is_at_rest:
             active.friction_coefficient = 0.0
-    hold_tried(ws)
+    find_tried_forces(ws)
     for active in ws.actives:
         active.friction_coefficient = active.coefficient_kept
-    forces = ws.problem.forces.start
     for active in ws.actives:
-        if not active.is_at_rest or active.mode_tried != Mode.SLIDE:
-            continue
-        a1 = add_product(ws, active.free[FIRST_ROW], active.index, FIRST_ROW, forces)
-        a2 = add_product(ws, active.free[SECOND_ROW], active.index, SECOND_ROW, forces)
-        norm = length((a1, a2))
-        active.direction = a1 / norm if norm > 0.0 else 1.0, a2 / norm if norm > 0.0 else 0.0
+        if starts_to_slide(active):
+            active.direction = unit(slip_acceleration(ws, active))
 
 
-@kernel()
-def _guess_directions_by_sweeps(ws: Workspace) -> None:
-    """Guess the directions of slips that begin by sweeps with fixed modes.
+@kernel("b1(ws)")
+def _verify_by_sweeps(ws: Workspace) -> bool:
+    """Guess the directions of slips that begin by sweeps with fixed modes. True if the modes then fulfil the laws.
 
     Newton's method may have converged to a slip along its friction. Sweeps exclude that.
     """
@@ -94,8 +89,9 @@ def _guess_directions_by_sweeps(ws: Workspace) -> None:
         active.is_normal_force_unknown = active.mode_tried != Mode.OPEN
         active.static_kept = active.static_coefficient
         active.static_coefficient = _NO_BOUND if active.mode_tried == Mode.STICK else 0.0
-        for r in range(3):
-            active.force[r] = 0.0
+    clear(ws.floats, ws.problem.forces.start, 3 * ws.problem.n_active)
     gauss_seidel(ws, _SWEEPS)
     for active in ws.actives:
         active.static_coefficient = active.static_kept
+    find_slip_directions(ws)
+    return verify(ws, is_lenient=False)

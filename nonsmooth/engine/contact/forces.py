@@ -20,25 +20,16 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.contact.unknowns import list_force, set_force
-from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
+from nonsmooth.engine.contact.unknowns import count_as_unique, list_unknowns, set_force
+from nonsmooth.engine.delassus.delassus import acceleration, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
-from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
+from nonsmooth.engine.memory.layout import FIRST_ROW
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
+from nonsmooth.engine.numerics.arrays import clear, copy_numbers, subtract_part
 from nonsmooth.engine.numerics.band import open_band
-from nonsmooth.engine.numerics.linear import (
-    SINGULAR,
-    band_row,
-    band_width,
-    complete,
-    eliminate,
-    minimum_norm,
-    rank_of_semidefinite,
-    solve_three,
-    subtract_part,
-    transpose,
-)
+from nonsmooth.engine.numerics.least_norm import complete, minimum_norm, rank_of_semidefinite, transpose
+from nonsmooth.engine.numerics.linear import SINGULAR, band_row, band_width, eliminate, solve_three
 from nonsmooth.engine.numerics.null_band import least_norm_in_band
 from nonsmooth.engine.numerics.vectors import length
 
@@ -58,20 +49,20 @@ def resolve(ws: Workspace) -> None:
 
     Where forces are redundant, those of least norm are found and the contacts get ``has_redundant_force``.
     """
-    n = _list_unknown_forces(ws)
+    n = list_unknowns(ws, with_turns=False)
+    for active in ws.actives:
+        _set_known_forces(ws, active)
     # an interrupt is counted here and noticed by the callers, because forces are needed in any case
     interrupted(ws, n * ws.problem.n_active)
     if ws.problem.n_active == 1 and n == 3 and _solve_lone_sticking(ws):
         return
     if not open_band(ws, n, ws.problem.reduced.start):
         return
-    for active in ws.actives:
-        for i in range(active.first_unknown, active.end_unknown):
-            _write_row(ws, active, i, n)
+    for i in range(n):
+        _write_row(ws, i, n)
     if not solve_unknowns(ws, n):
-        for active in ws.actives:
-            for i in range(active.first_unknown, active.end_unknown):
-                _write_frictionless_row(ws, active, i, n)
+        for i in range(n):
+            _write_frictionless_row(ws, i, n)
         solve_ill_conditioned(ws, n)
     for i in range(n):
         set_force(ws, i, ws.problem.x[i])
@@ -80,26 +71,14 @@ def resolve(ws: Workspace) -> None:
             friction_of_slip(ws, active.index)
 
 
-@kernel("i8(ws)")
-def _list_unknown_forces(ws: Workspace) -> int:
-    """List the unknown forces, and set the known ones. Returns the number of unknowns."""
-    n = 0
-    for active in ws.actives:
-        active.has_redundant_force = False
-        active.first_unknown = n
-        if active.is_normal_force_unknown:
-            list_force(ws, n, active, NORMAL_ROW)
-            n += 1
-            active.normal_force = 0.0
-        active.friction = 0.0, 0.0
-        if active.sticks:
-            list_force(ws, n, active, FIRST_ROW)
-            list_force(ws, n + 1, active, SECOND_ROW)
-            n += 2
-        else:
-            friction_of_slip(ws, active.index)
-    ws.problem.first_unknown[ws.problem.n_active] = n
-    return n
+@kernel("void(ws, ActiveContact)")
+def _set_known_forces(ws: Workspace, active: ActiveContact) -> None:
+    """Set the unknown forces of a contact to zero, and its friction to -mu f_n d [N] if it slides."""
+    if active.is_normal_force_unknown:
+        active.normal_force = 0.0
+    active.friction = 0.0, 0.0
+    if not active.sticks:
+        friction_of_slip(ws, active.index)
 
 
 @kernel("b1(ws)")
@@ -112,16 +91,19 @@ def _solve_lone_sticking(ws: Workspace) -> bool:
     forces = solve_three(rows[0], rows[1], rows[2], right, ILL_CONDITIONED)
     if math.isnan(forces[0]):
         return False
-    ws.problem.n_unknown, ws.problem.is_deficient, ws.problem.is_null_space_banded = 3, False, False
+    count_as_unique(ws, n=3)
     active.normal_force, active.friction = forces[0], (forces[1], forces[2])
     return True
 
 
-@kernel("void(ws, ActiveContact, i8, i8)")
-def _write_row(ws: Workspace, active: ActiveContact, i: int, n: int) -> None:
-    """Write row ``i`` of ``n``, which belongs to a contact: its acceleration under the unknown and given forces."""
-    r = ws.unknowns[i].direction
-    ws.problem.right[i] = -add_product(ws, active.free[r], active.index, r, ws.problem.forces.start)
+@kernel("void(ws, i8, i8)")
+def _write_row(ws: Workspace, i: int, n: int) -> None:
+    """Write row ``i`` of ``n`` to ``reduced``: acceleration in the direction of unknown ``i`` per unit of each unknown.
+
+    The right-hand side is minus the acceleration under the known forces.
+    """
+    active, r = ws.actives[ws.unknowns[i].contact], ws.unknowns[i].direction
+    ws.problem.right[i] = -acceleration(ws, active, r)
     line = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band)
     for block in range(active.first_block, active.end_block):
         other = ws.actives[ws.island.block_column[block]]
@@ -137,10 +119,10 @@ def _write_row(ws: Workspace, active: ActiveContact, i: int, n: int) -> None:
             ws.floats[out], ws.floats[out + 1] = g[1], g[2]
 
 
-@kernel("void(ws, ActiveContact, i8, i8)")
-def _write_frictionless_row(ws: Workspace, active: ActiveContact, i: int, n: int) -> None:
+@kernel("void(ws, i8, i8)")
+def _write_frictionless_row(ws: Workspace, i: int, n: int) -> None:
     """Write row ``i`` of ``n`` to ``matrix``, as if sliding contacts had no friction."""
-    r = ws.unknowns[i].direction
+    active, r = ws.actives[ws.unknowns[i].contact], ws.unknowns[i].direction
     line = band_row(ws.problem.matrix.start, i, n, ws.problem.half_band)
     for block in range(active.first_block, active.end_block):
         other = ws.actives[ws.island.block_column[block]]
@@ -155,17 +137,15 @@ def _write_frictionless_row(ws: Workspace, active: ActiveContact, i: int, n: int
 def solve_unknowns(ws: Workspace, n: int) -> bool:
     """Solve ``reduced . x = right`` for ``n`` unknowns. False if the matrix is ill-conditioned.
 
-    Then the band of ``matrix`` is set to zero, for the matrix without friction of :func:`solve_ill_conditioned`.
+    If so, ``matrix`` is cleared, so that its rows without friction can be written for :func:`solve_ill_conditioned`.
     """
-    ws.problem.n_unknown = n
-    ws.problem.is_deficient = ws.problem.is_null_space_banded = False
+    count_as_unique(ws, n)
     if n == 1 and ws.problem.reduced[0] != 0.0:
         ws.problem.x[0] = ws.problem.right[0] / ws.problem.reduced[0]
         return True
     if eliminate_reduced(ws, n, ILL_CONDITIONED):
         return True
-    for i in range(n * band_width(n, ws.problem.half_band)):
-        ws.problem.matrix[i] = 0.0
+    clear(ws.floats, ws.problem.matrix.start, n * band_width(n, ws.problem.half_band))
     return False
 
 
@@ -173,9 +153,9 @@ def solve_unknowns(ws: Workspace, n: int) -> bool:
 def solve_ill_conditioned(ws: Workspace, n: int) -> None:
     """Solve ``reduced . x = right`` for ``n`` unknowns, for least norm if the geometry makes contacts redundant.
 
-    ``matrix`` must hold the matrix without sliding friction. Its rank decides. The rank of ``reduced`` would not do:
-    near a position in which contacts are redundant, friction alone gives it a small pivot. A matrix whose band does not
-    fill it is solved within the band.
+    ``matrix`` must hold the matrix without sliding friction, and its rank decides. The rank of ``reduced`` would not
+    do: near a position in which contacts are redundant, friction alone gives it a small pivot. A matrix that is not
+    stored in full is solved within its band.
     """
     is_full = band_width(n, ws.problem.half_band) == n
     rank = rank_of_semidefinite(ws.floats, ws.problem.matrix.start, n) if is_full else n
@@ -194,38 +174,38 @@ def solve_ill_conditioned(ws: Workspace, n: int) -> None:
 
 @kernel("void(ws, i8, i8)")
 def _solve_for_least_norm(ws: Workspace, n: int, max_rank: int) -> None:
-    """Solve the singular system, stored in full, for the unknowns of least norm.
+    """Solve the singular system of ``n`` unknowns, stored in full, for least norm.
 
     A basis of the null space is written to the last rows of ``basis``, the projector on it to ``null``.
     """
-    transpose(ws.floats, ws.problem.reduced.start, n, ws.problem.matrix.start)
-    ws.problem.rank = minimum_norm(
-        ws.floats,
-        ws.problem.matrix.start,
-        n,
-        ws.problem.right.start,
-        ws.problem.x.start,
-        ws.problem.basis.start,
-        ws.problem.sigma.start,
-        max_rank,
-    )
+    ws.problem.rank = solve_reduced_for_least_norm(ws, n, max_rank)
     complete(ws.floats, ws.problem.basis.start, n, ws.problem.rank)
+    clear(ws.floats, ws.problem.null.start, n * n)
     for i in range(n):
-        for j in range(n):
-            ws.problem.null[i * n + j] = 0.0
         for k in range(ws.problem.rank, n):
             vector = ws.problem.basis.start + k * n
             subtract_part(ws.floats, ws.problem.null.start + i * n, -ws.problem.basis[k * n + i], vector, n)
 
 
+@kernel("i8(ws, i8, i8)")
+def solve_reduced_for_least_norm(ws: Workspace, n: int, max_rank: int) -> int:
+    """Solve ``reduced . x = right``, stored in full, for least norm. Returns the rank, at most ``max_rank``.
+
+    The first rows of ``basis`` become a basis of the row space. ``matrix``, ``right`` and ``sigma`` are overwritten.
+    """
+    matrix, right, x = ws.problem.matrix.start, ws.problem.right.start, ws.problem.x.start
+    transpose(ws.floats, ws.problem.reduced.start, n, matrix)
+    basis, work = ws.problem.basis.start, ws.problem.sigma.start
+    return minimum_norm(ws.floats, matrix, n, right, x, basis, work, max_rank)
+
+
 @kernel("b1(ws, i8, f8)")
 def eliminate_reduced(ws: Workspace, n: int, least: float) -> bool:
     """Solve ``reduced . x = right`` by elimination. False if a pivot is below ``least`` times the largest entry."""
-    for i in range(n):
-        ws.problem.x[i] = ws.problem.right[i]
-    for i in range(n * band_width(n, ws.problem.half_band)):
-        ws.problem.matrix[i] = ws.problem.reduced[i]
-    return eliminate(ws.floats, ws.problem.matrix.start, n, ws.problem.half_band, ws.problem.x.start, least)
+    matrix, x, half = ws.problem.matrix.start, ws.problem.x.start, ws.problem.half_band
+    copy_numbers(ws.floats, ws.problem.right.start, n, x)
+    copy_numbers(ws.floats, ws.problem.reduced.start, n * band_width(n, half), matrix)
+    return eliminate(ws.floats, matrix, n, half, x, least)
 
 
 @kernel("f8(ws, i8, i8)")
@@ -251,7 +231,7 @@ def friction_of_slip(ws: Workspace, a: int) -> None:
 
 @kernel("f8(ws, i8)")
 def reduced_coefficient(ws: Workspace, a: int) -> float:
-    """Gap acceleration per normal force of sliding active contact ``a``, with its friction [1/kg].
+    """Gap acceleration of sliding active contact ``a`` per unit of its normal force, friction included [1/kg].
 
     If it is not positive, more force means more approach (Painleve's paradox).
     """
@@ -261,7 +241,10 @@ def reduced_coefficient(ws: Workspace, a: int) -> float:
 
 @kernel()
 def evaluate_margins(ws: Workspace) -> None:
-    """Write ``static_margin`` of each active contact that sticks: distance of its friction to the static bound [N]."""
+    """Write ``static_margin`` of the active contacts [N].
+
+    It is the distance of the friction to the static bound if the contact sticks, and 0 if not.
+    """
     for active in ws.actives:
         if not active.sticks:
             active.static_margin = 0.0
@@ -278,10 +261,10 @@ def _margin_of_redundant_friction(ws: Workspace, active: ActiveContact) -> float
     The sum of the friction of all contacts that are redundant together obeys the sum of their bounds, Eq. (38). The
     part of the contact's own friction that is unique obeys its own bound.
     """
+    # the unknown of its friction along t1 comes after that of its normal force, if there is one
     first = active.first_unknown + active.is_normal_force_unknown
-    group = _margin_of_group(ws, active, first)
-    unique = _unique_friction(ws, active, first)
-    return float(min(group, active.static_coefficient * active.normal_force - unique))
+    margin = active.static_coefficient * active.normal_force - _unique_friction(ws, active, first)
+    return float(min(_margin_of_group(ws, active, first), margin))
 
 
 @kernel("f8(ws, ActiveContact, i8)")
@@ -300,12 +283,8 @@ def _margin_of_group(ws: Workspace, active: ActiveContact, first: int) -> float:
         other = ws.actives[unknown.contact]
         if unknown.direction != FIRST_ROW or not other.has_redundant_force:
             continue
-        coupling = (
-            abs(null_entry(ws, first, i))
-            + abs(null_entry(ws, first, i + 1))
-            + abs(null_entry(ws, first + 1, i))
-            + abs(null_entry(ws, first + 1, i + 1))
-        )
+        coupling = abs(null_entry(ws, first, i)) + abs(null_entry(ws, first, i + 1))
+        coupling = coupling + abs(null_entry(ws, first + 1, i)) + abs(null_entry(ws, first + 1, i + 1))
         if coupling > _COUPLED or unknown.contact == active.index:
             bound += other.static_coefficient * other.normal_force
             sum_1 += other.friction[0]
@@ -324,8 +303,6 @@ def _unique_friction(ws: Workspace, active: ActiveContact, first: int) -> float:
     if not p11 * p22 - p12 * p12 < _COUPLED * (p11 + p22) * (p11 + p22):
         return 0.0
     t1, t2 = active.friction
-    if p11 >= p22:
-        e1, e2 = p11, p12
-    else:
-        e1, e2 = p12, p22
+    # the rows have rank one here; the longer of them gives the direction that is not unique
+    e1, e2 = (p11, p12) if p11 >= p22 else (p12, p22)
     return float(abs(e1 * t2 - e2 * t1) / length((e1, e2)))

@@ -18,7 +18,10 @@ SWEEPS = 20
 
 @kernel("b1(ws, i8)")
 def sweep(ws: Workspace, max_sweeps: int) -> bool:
-    """Improve the forces of all active contacts by sweeps. True if they have settled within ``max_sweeps``."""
+    """Improve the forces of all active contacts by sweeps. True if they have settled within ``max_sweeps``.
+
+    All normal forces count as unknown. ``sticks`` and ``direction`` become those of the forces found.
+    """
     for active in ws.actives:
         active.is_normal_force_unknown = True
         active.sticks = False
@@ -27,8 +30,5 @@ def sweep(ws: Workspace, max_sweeps: int) -> bool:
 
 @kernel("b1(ws, i8)")
 def search_by_sweeps(ws: Workspace, stage: int) -> bool:
-    """Improve the forces by the sweeps of a stage. True if they have settled."""
-    max_sweeps = SWEEPS
-    for _ in range(stage):
-        max_sweeps *= 10
-    return sweep(ws, max_sweeps)
+    """Improve the forces by the sweeps of a stage, counted from 0. True if they have settled."""
+    return sweep(ws, SWEEPS * 10**stage)

@@ -8,7 +8,7 @@ slip as it turns, which takes very small steps if the slip is slow.
 
 The modes are found by exchange: a slip whose friction would reverse it sticks, and a contact whose friction exceeds its
 bound slides against this friction. The directions of the slips are made exact after each exchange
-(:mod:`nonsmooth.engine.contact.polish`).
+(:mod:`nonsmooth.engine.contact.slip_directions`).
 """
 
 from __future__ import annotations
@@ -18,14 +18,15 @@ from nonsmooth.engine.bodies.kinematics import evaluate_contact, row
 from nonsmooth.engine.contact.distribution import distribute
 from nonsmooth.engine.contact.forces import friction_of_slip, reduced_coefficient
 from nonsmooth.engine.contact.null_space_forces import shift_forces
-from nonsmooth.engine.contact.polish import EXACT, has_slip_that_begins, polish
 from nonsmooth.engine.contact.problem import friction_coefficient, slip_coefficient
-from nonsmooth.engine.contact.trial import hold_tried
-from nonsmooth.engine.delassus.delassus import add_product, add_response, assemble_delassus, diagonal_block
-from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
+from nonsmooth.engine.contact.slip_directions import EXACT, find_slip_directions, has_slip_that_begins
+from nonsmooth.engine.contact.trial import find_tried_forces
+from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus, diagonal_block, slip_acceleration
+from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel
-from nonsmooth.engine.numerics.vectors import length
+from nonsmooth.engine.numerics.arrays import largest_size
+from nonsmooth.engine.numerics.vectors import length, unit
 
 _ROUND_OFF = 1e-13
 """Excess of friction over its bound, relative to the largest force, that is round-off."""
@@ -39,23 +40,26 @@ _NEWTON_STEPS = 8
 def add_forces_at_stage_end(ws: Workspace) -> None:
     """Find the forces of the active contacts at the end of an implicit stage [N], and add their responses to ``du``.
 
-    The state is the one to which the accelerations at ``guess`` lead. If no forces are found, ``is_unsettled`` is set.
+    The state is the one to which the accelerations at ``guess`` lead. If no forces are found, ``is_unsettled`` is set,
+    and the caller rejects the step.
     """
-    has_settled = False
+    is_unsettled = True
     for _ in range(1 + ws.problem.n_active):
         if not _find_forces(ws):
             break
-        if not _turn_facings(ws):
-            has_settled = True
+        is_unsettled = _turn_facings(ws)
+        if not is_unsettled:
             break
-    if not has_settled:
-        ws.problem.is_unsettled = True
+    ws.problem.is_unsettled = ws.problem.is_unsettled or is_unsettled
     _add_forces(ws)
 
 
 @kernel("b1(ws)")
 def _find_forces(ws: Workspace) -> bool:
-    """Find the forces at the end of a stage [N], for the present facing of anisotropic friction. True if found."""
+    """Find the forces at the end of a stage [N], for the present facing of anisotropic friction.
+
+    True if they are found. Evaluates the contacts at the state of the end.
+    """
     ws.problem.acceleration_scale = 0.0
     for active in ws.actives:
         evaluate_contact(ws, active.contact, rows=3)
@@ -63,14 +67,17 @@ def _find_forces(ws: Workspace) -> bool:
     for active in ws.actives:
         _write_contact(ws, active)
     if not ws.problem.acceleration_scale > 0.0:
-        # a trial step that is far too long leads to numbers that are not finite
+        # all are zero, or a trial step that is far too long has led to numbers that are not finite
         return False
     return _solve_lone_slip(ws) or oppose_slips(ws)
 
 
 @kernel("void(ws, ActiveContact)")
 def _write_contact(ws: Workspace, active: ActiveContact) -> None:
-    """Write b, friction coefficient, mode and slip direction of a contact. The b of its slip includes v0 / tau."""
+    """Write the free acceleration b of a contact [m/s^2], its friction coefficient, mode and slip direction.
+
+    If the contact slides, the tangential parts of b include v0 / tau.
+    """
     c = active.contact
     contact = ws.contacts[c]
     contact.dissipated_by_spin = 0.0
@@ -104,7 +111,7 @@ def oppose_slips(ws: Workspace) -> bool:
     """
     has_restarted = False
     for _ in range(2 * (2 + ws.problem.n_active)):
-        is_exact = polish(ws)
+        is_exact = find_slip_directions(ws)
         if not is_exact:
             if has_restarted:
                 return False
@@ -112,7 +119,7 @@ def oppose_slips(ws: Workspace) -> bool:
             for active in ws.actives:
                 active.mode_tried = Mode.STICK if active.is_at_rest else active.mode_past
         if not is_exact or not has_slip_that_begins(ws) or ws.problem.is_deficient:
-            hold_tried(ws)
+            find_tried_forces(ws)
         if not _exchange_modes(ws):
             return True
     return False
@@ -120,10 +127,11 @@ def oppose_slips(ws: Workspace) -> bool:
 
 @kernel("b1(ws)")
 def _exchange_modes(ws: Workspace) -> bool:
-    """Stop the slips that friction would reverse, and release those that it cannot stop. True if a mode changes."""
-    largest = 0.0
-    for i in range(3 * ws.problem.n_active):
-        largest = max(largest, abs(ws.problem.forces[i]))
+    """Stop the slips that friction would reverse, and release those that it cannot stop. True if a mode changes.
+
+    Redundant forces are distributed anew before, because their friction decides.
+    """
+    largest = largest_size(ws.floats, ws.problem.forces.start, 3 * ws.problem.n_active)
     excess = _ROUND_OFF * largest
     if ws.problem.is_deficient:
         shift_forces(ws)
@@ -143,7 +151,7 @@ def _exchange_modes(ws: Workspace) -> bool:
 
 @kernel("b1(ws)")
 def _has_stopped_slip(ws: Workspace) -> bool:
-    """True if the friction of a contact that slides stops it at the end of the stage."""
+    """True if friction stops a contact that slid before, by the modes under trial."""
     for active in ws.actives:
         if active.mode_past == Mode.SLIDE and active.mode_tried == Mode.STICK:
             return True
@@ -154,18 +162,15 @@ def _has_stopped_slip(ws: Workspace) -> bool:
 def _exchange_mode(ws: Workspace, active: ActiveContact, allowed_excess: float) -> bool:
     """Stop or release the slip of one contact. True if its mode changes.
 
-    ``allowed_excess`` is the friction over the bound that counts as none [N].
+    Friction may exceed its bound by ``allowed_excess`` [N] before the slip is released.
     """
     if active.mode_tried == Mode.STICK:
         t1, t2 = active.friction
-        norm = length(active.friction)
-        if not norm > active.friction_coefficient * active.normal_force + allowed_excess:
+        if not length(active.friction) > active.friction_coefficient * active.normal_force + allowed_excess:
             return False
-        active.mode_tried = Mode.SLIDE
-        active.direction = -t1 / norm, -t2 / norm
+        active.mode_tried, active.direction = Mode.SLIDE, unit((-t1, -t2))
         return True
-    a1 = add_product(ws, active.free[FIRST_ROW], active.index, FIRST_ROW, ws.problem.forces.start)
-    a2 = add_product(ws, active.free[SECOND_ROW], active.index, SECOND_ROW, ws.problem.forces.start)
+    a1, a2 = slip_acceleration(ws, active)
     if not a1 * active.direction[0] + a2 * active.direction[1] < 0.0:
         return False
     active.mode_tried = Mode.STICK
@@ -177,11 +182,13 @@ def _exchange_mode(ws: Workspace, active: ActiveContact, allowed_excess: float) 
 
 @kernel("b1(ws)")
 def _solve_lone_slip(ws: Workspace) -> bool:
-    """Find the force of an island of one contact that slides on [N]. False if it is not so, or no force is found.
+    """Find the force of an island of one contact that continues to slide [N].
 
-    The only unknown is the direction d. Newton's method is applied to the acceleration across d, without matrices.
+    False if the island is another one, or if no force is found. The only unknown is the direction d. Newton's method is
+    applied to the acceleration across d, without matrices.
     """
-    active, g = ws.actives[0], diagonal_block(ws, ws.actives[0].index)
+    active = ws.actives[0]
+    g = diagonal_block(ws, active.index)
     if ws.problem.n_active > 1 or active.mode_past != Mode.SLIDE or not active.is_at_rest or active.has_given_force:
         return False
     mu, (d1, d2) = active.friction_coefficient, active.direction
@@ -190,6 +197,7 @@ def _solve_lone_slip(ws: Workspace) -> bool:
         if not reduced > 0.0:
             return False
         force = -active.free[0] / reduced
+        # slip acceleration per unit of normal force, friction included
         p1, p2 = g.n1 - mu * (g.t11 * d1 + g.t12 * d2), g.n2 - mu * (g.t12 * d1 + g.t22 * d2)
         a1, a2 = active.free[1] + force * p1, active.free[2] + force * p2
         across, along = a1 * d2 - a2 * d1, a1 * d1 + a2 * d2
@@ -200,7 +208,7 @@ def _solve_lone_slip(ws: Workspace) -> bool:
             ws.problem.is_deficient, active.has_redundant_force = False, False
             friction_of_slip(ws, active.index)
             return True
-        # derivatives of normal force and slip acceleration with respect to the angle of d
+        # Newton's step: derivatives of normal force and slip acceleration with respect to the angle of d
         change = mu * force * (g.n2 * d1 - g.n1 * d2) / reduced
         c1 = change * p1 - mu * force * (g.t12 * d1 - g.t11 * d2)
         c2 = change * p2 - mu * force * (g.t22 * d1 - g.t12 * d2)
@@ -216,7 +224,10 @@ def _solve_lone_slip(ws: Workspace) -> bool:
 
 @kernel("b1(ws)")
 def _turn_facings(ws: Workspace) -> bool:
-    """Let anisotropic friction that stops a slip face against its own force. True if a bound of friction changes."""
+    """Let anisotropic friction that stops a slip face against its own force.
+
+    True if the bound of a friction changes by it, so that the forces must be found again.
+    """
     has_turned = False
     for active in ws.actives:
         if ws.contacts[active.contact].mode == Mode.SLIDE and active.mode_tried == Mode.STICK:
@@ -226,7 +237,10 @@ def _turn_facings(ws: Workspace) -> bool:
 
 @kernel()
 def _add_forces(ws: Workspace) -> None:
-    """Add the responses to the forces to ``du`` and the power of driven bodies. Write which contacts stick."""
+    """Add the responses to the forces to ``du``, and the power of driven bodies. Write which contacts stick.
+
+    Slips that friction has stopped are set to zero. Contacts at Painleve's paradox are marked as singular.
+    """
     add_response(ws, ws.problem.forces.start, ws.island.du.start)
     for active in ws.actives:
         c = active.contact

@@ -24,6 +24,7 @@ from nonsmooth.engine.contact.problem import write_friction
 from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.memory.layout import NORMAL_ROW
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
+from nonsmooth.engine.numerics.arrays import clear, copy_numbers
 from nonsmooth.engine.numerics.vectors import length
 
 _NEGLIGIBLE = 0.5
@@ -51,16 +52,16 @@ def inelastic_impulses(ws: Workspace, time: float) -> bool:
         active.static_coefficient = active.friction_coefficient = mu
         active.is_at_rest = active.is_normal_force_unknown = active.sticks = True
         for r in range(3):
+            # row n of a compliant contact is its given impulse, not a velocity
             is_given = r == NORMAL_ROW and contact.is_compliant
             active.free[r] = time * active.free[r] + (0.0 if is_given else contact.rate[r])
-    _store_diagonal(ws)
+            active.rigid[r] = diagonal_block(ws, active.index).entries[4 * r]
     has_found = _solve_from_guess(ws)
     if not has_found:
         sweep(ws, SWEEPS)
         if step_by_newton(ws, STEPS):
             return True
-        for i in range(3 * ws.problem.n_active):
-            ws.problem.forces[i] = 0.0
+        clear(ws.floats, ws.problem.forces.start, 3 * ws.problem.n_active)
         has_found = _reduce_compliance(ws)
     if has_found:
         # if rigid impulses are unique, those of a negligible compliance are close to them
@@ -68,17 +69,12 @@ def inelastic_impulses(ws: Workspace, time: float) -> bool:
     return has_found
 
 
-@kernel()
-def _store_diagonal(ws: Workspace) -> None:
-    """Store the diagonal of the Delassus matrix of rigid contacts [1/kg]."""
-    for active in ws.actives:
-        for r in range(3):
-            active.rigid[r] = diagonal_block(ws, active.index).entries[4 * r]
-
-
 @kernel("void(ws, f8)")
 def _set_compliance(ws: Workspace, compliance: float) -> None:
-    """Make all contacts compliant. A ``compliance`` of 1 doubles the diagonal of the Delassus matrix."""
+    """Add ``compliance`` times the diagonal of G to it: 0 restores the rigid contacts, 1 doubles the diagonal.
+
+    Both tangents of a contact get the same compliance. A compliant contact gets none along its normal.
+    """
     for active in ws.actives:
         own = diagonal_block(ws, active.index)
         # the normal impulse of a contact with a normal law is given
@@ -90,7 +86,7 @@ def _set_compliance(ws: Workspace, compliance: float) -> None:
 
 @kernel("f8(ws)")
 def _largest_velocity(ws: Workspace) -> float:
-    """Largest velocity that the impulse of a contact causes at this contact [m/s]."""
+    """Largest change of velocity that the impulse of a contact causes at this contact itself [m/s]."""
     largest = 0.0
     for active in ws.actives:
         tangential = max(active.rigid[1], active.rigid[2]) * length(active.friction)
@@ -100,25 +96,27 @@ def _largest_velocity(ws: Workspace) -> float:
 
 @kernel("b1(ws, f8)")
 def _is_negligible(ws: Workspace, compliance: float) -> bool:
-    """True if a ``compliance`` changes no velocity by more than a part of the tolerance."""
+    """True if a ``compliance`` changes the velocities by less than the part ``_NEGLIGIBLE`` of their tolerance."""
     return compliance * _largest_velocity(ws) <= _NEGLIGIBLE * ws.tolerance.velocity
 
 
 @kernel("b1(ws, i8)")
 def _step_or_restore(ws: Workspace, max_steps: int) -> bool:
     """Improve the impulses by Newton steps. False, and the impulses restored, if they do not settle."""
-    for i in range(3 * ws.problem.n_active):
-        ws.problem.forces_at_start[i] = ws.problem.forces[i]
+    n, forces, kept = 3 * ws.problem.n_active, ws.problem.forces.start, ws.problem.forces_at_start.start
+    copy_numbers(ws.floats, forces, n, kept)
     if step_by_newton(ws, max_steps):
         return True
-    for i in range(3 * ws.problem.n_active):
-        ws.problem.forces[i] = ws.problem.forces_at_start[i]
+    copy_numbers(ws.floats, kept, n, forces)
     return False
 
 
 @kernel("b1(ws)")
 def _solve_from_guess(ws: Workspace) -> bool:
-    """Find the impulses with a negligible compliance, from the given ones. False, and these restored, if it fails."""
+    """Find the impulses with a negligible compliance, from the given ones. The contacts are rigid again after it.
+
+    False if this fails, or if the compliance is not negligible for the impulses found.
+    """
     largest = _largest_velocity(ws)
     if largest == 0.0:
         return False
@@ -132,7 +130,10 @@ def _solve_from_guess(ws: Workspace) -> bool:
 
 @kernel("b1(ws)")
 def _reduce_compliance(ws: Workspace) -> bool:
-    """Follow the impulses from a large compliance to a negligible one. True if this is reached."""
+    """Follow the impulses from a large compliance to a negligible one. True if this is reached.
+
+    The contacts are rigid again after it.
+    """
     compliance, ratio = 1.0, _REDUCTION
     _set_compliance(ws, compliance)
     sweep(ws, SWEEPS)

@@ -25,6 +25,7 @@ from nonsmooth.engine.delassus.delassus import write_dense
 from nonsmooth.engine.memory.layout import FIRST_ROW, SECOND_ROW
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
+from nonsmooth.engine.numerics.arrays import clear, largest_size
 from nonsmooth.engine.numerics.vectors import Pair
 
 STAGES = 12
@@ -51,22 +52,23 @@ _NO_ROW = -1
 def search_by_pivots(ws: Workspace, stage: int) -> bool:
     """Find the forces of the problem with polygons [N]. True if a further stage is useless: the path ends in a ray.
 
-    The stages do not differ; between them, the search turns ``direction``, and with it the corners.
+    Too many contacts count as this, too. All stages are equal. Between them, the search turns ``direction``, and with
+    it the corners.
     """
     n_active = ws.problem.n_active
     if n_active > ws.model.n_pivoted:
         return True
     write_dense(ws)
-    inverse_mass = size = 0.0
+    clear(ws.floats, ws.problem.forces.start, 3 * n_active)
+    size, inverse_mass = largest_size(ws.floats, ws.problem.free_accelerations.start, 3 * n_active), 0.0
     for i in range(3 * n_active):
         inverse_mass = max(inverse_mass, ws.problem.matrix[i * 3 * n_active + i])
-        size = max(size, abs(ws.problem.free_accelerations[i]))
-        ws.problem.forces[i] = 0.0
+    # without accelerations no forces are needed
     if size == 0.0:
         return False
     n = _list_unknowns(ws)
     _write_tableau(ws, n, inverse_mass, size)
-    if _ends_in_ray(ws, n):
+    if _follow_path(ws, n):
         return True
     _read_forces(ws, n, inverse_mass, size)
     for active in ws.actives:
@@ -80,7 +82,10 @@ def search_by_pivots(ws: Workspace, stage: int) -> bool:
 
 @kernel("i8(ws)")
 def _list_unknowns(ws: Workspace) -> int:
-    """List contact and corner of each unknown. Returns the number of unknowns."""
+    """List contact and corner of each unknown. Returns the number of unknowns.
+
+    A contact at rest has lambda, f_n and its corners, one that slides f_n only.
+    """
     n = 0
     for active in ws.actives:
         first = _SLIP_ACCELERATION if active.is_at_rest else _NORMAL_FORCE
@@ -92,7 +97,7 @@ def _list_unknowns(ws: Workspace) -> int:
 
 @kernel("v2(ActiveContact, i8)")
 def _corner(active: ActiveContact, number: int) -> Pair:
-    """Unit vector of a corner of the polygon of a contact. Corner 0 is opposite to its slip direction."""
+    """Unit vector of corner ``number`` of the polygon of a contact. Corner 0 is opposite to its slip direction."""
     d1, d2 = active.direction
     angle = 2.0 * math.pi * number / CORNERS
     return -d1 * math.cos(angle) + d2 * math.sin(angle), -d2 * math.cos(angle) - d1 * math.sin(angle)
@@ -110,12 +115,16 @@ def _acceleration_per_unknown(ws: Workspace, line: int, column: int) -> float:
         return 0.0
     if active.is_at_rest:
         return g[0]
+    # the friction of a contact that slides follows from its normal force
     return float(g[0] - active.friction_coefficient * (active.direction[0] * g[1] + active.direction[1] * g[2]))
 
 
 @kernel("i8(ws, i8, i8)")
 def _row(ws: Workspace, n: int, i: int) -> int:
-    """Place of row ``i`` of the tableau: factors of ``n`` unknowns and of the covering variable, and the constant."""
+    """Offset of row ``i`` of the tableau.
+
+    A row holds the factors of ``n`` unknowns, the factor of the covering variable, and the constant.
+    """
     return int(ws.problem.tableau.start + i * (n + 2))
 
 
@@ -145,7 +154,10 @@ def _write_tableau(ws: Workspace, n: int, inverse_mass: float, size: float) -> N
 
 @kernel("f8(ws, i8, i8, f8)")
 def _tableau_entry(ws: Workspace, i: int, j: int, inverse_mass: float) -> float:
-    """Factor of unknown ``j`` in row ``i`` of the tableau, scaled by an ``inverse_mass`` [1/kg]."""
+    """Factor of unknown ``j`` in row ``i`` of the tableau, where G is divided by ``inverse_mass`` [1/kg].
+
+    The row is that of a_n, of d_j . a_t + lambda, or of the friction bound, by the unknown complementary to it.
+    """
     a, corner = ws.problem.lemke_contact[i], ws.problem.lemke_corner[i]
     active, is_own = ws.actives[a], ws.problem.lemke_contact[j] == a
     other_corner = ws.problem.lemke_corner[j]
@@ -168,7 +180,7 @@ def _tableau_entry(ws: Workspace, i: int, j: int, inverse_mass: float) -> float:
 
 
 @kernel("b1(ws, i8)")
-def _ends_in_ray(ws: Workspace, n: int) -> bool:
+def _follow_path(ws: Workspace, n: int) -> bool:
     """Follow the path of pivots. True if it ends in a ray, so that no solution is found.
 
     The covering variable enters first. After each pivot, the complement of the variable that has left enters. The path
@@ -206,7 +218,7 @@ def _first_row(ws: Workspace, n: int) -> int:
 
 @kernel("i8(ws, i8, i8)")
 def _leaving_row(ws: Workspace, n: int, s: int) -> int:
-    """Row whose variable reaches zero first while the variable of column ``s`` grows, or -1.
+    """Row whose variable reaches zero first while the variable of column ``s`` grows, or -1 if none does.
 
     Of equal rows, that of the covering variable is taken, or else the one with the largest pivot.
     """
@@ -215,9 +227,7 @@ def _leaving_row(ws: Workspace, n: int, s: int) -> int:
         row = _row(ws, n, i)
         entry = ws.floats[row + s]
         if entry < -_ZERO:
-            ratio = max(0.0, ws.floats[row + n + 1]) / -entry
-            if ratio < least:
-                least = ratio
+            least = min(least, max(0.0, ws.floats[row + n + 1]) / -entry)
     pivot = 0.0
     for i in range(n):
         row = _row(ws, n, i)
@@ -232,18 +242,19 @@ def _leaving_row(ws: Workspace, n: int, s: int) -> int:
 
 @kernel("void(ws, i8, i8, i8)")
 def _pivot(ws: Workspace, n: int, r: int, s: int) -> None:
-    """Exchange the variable of row ``r`` for that of column ``s``."""
+    """Exchange the variable of row ``r`` for that of column ``s``.
+
+    The row is solved for the variable that enters, and substituted in all other rows.
+    """
     row = _row(ws, n, r)
     pivot = ws.floats[row + s]
     for j in range(n + 2):
         ws.floats[row + j] = -ws.floats[row + j] / pivot
     ws.floats[row + s] = 1.0 / pivot
     for i in range(n):
-        if i == r:
-            continue
         other = _row(ws, n, i)
         t = ws.floats[other + s]
-        if t != 0.0:
+        if i != r and t != 0.0:
             for j in range(n + 2):
                 ws.floats[other + j] += t * ws.floats[row + j]
             ws.floats[other + s] = t / pivot
@@ -252,10 +263,11 @@ def _pivot(ws: Workspace, n: int, r: int, s: int) -> None:
 
 @kernel("void(ws, i8, f8, f8)")
 def _read_forces(ws: Workspace, n: int, inverse_mass: float, size: float) -> None:
-    """Write the forces of the solved tableau [N]. For the scales see :func:`_write_tableau`."""
+    """Write the forces of the solved tableau [N]. :func:`_write_tableau` defines the scales."""
     for i in range(n):
         unknown = ws.problem.lemke_row[i] - n
-        if unknown < 0 or unknown >= n:
+        # variables on the left, and the covering one, are no unknowns
+        if not 0 <= unknown < n:
             continue
         value = ws.floats[_row(ws, n, i) + n + 1] * size / inverse_mass
         active, corner = ws.actives[ws.problem.lemke_contact[unknown]], ws.problem.lemke_corner[unknown]

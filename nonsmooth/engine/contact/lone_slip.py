@@ -21,10 +21,10 @@ from nonsmooth.engine.numerics.vectors import Vector, cross, dot, length, minus
 
 @kernel("i8(ws, i8)")
 def lone_sliding_contact(ws: Workspace, group: int) -> int:
-    """Contact of an island if it is alone, rigid, and slides on a body without coordinates; else -1.
+    """Contact of an island if :func:`add_lone_slip_force` can find its force, or -1.
 
-    The other body must be a free one in space: six velocities and no joint. In an implicit stage, the slip is part of
-    the problem, and the contact does not count.
+    It must be alone, rigid, and slide between a free body in space (six velocities, no joint) and one without
+    coordinates. In an implicit stage none qualifies, because the slip is part of the problem.
     """
     first = ws.island.group_start[group]
     c = ws.island.grouped[first]
@@ -52,10 +52,11 @@ def _three_rows_times(floats: Floats, row: int, x: Vector, y: Vector) -> Vector:
     )
 
 
-@kernel("v3(F, i8)")
-def _vector_at(floats: Floats, first: int) -> Vector:
-    """Vector of three numbers in the workspace."""
-    return floats[first], floats[first + 1], floats[first + 2]
+@kernel("f8(F, i8, v3, v3)")
+def _dot_at(floats: Floats, first: int, x: Vector, y: Vector) -> float:
+    """Scalar product of six numbers in the workspace and (x, y)."""
+    upper = floats[first], floats[first + 1], floats[first + 2]
+    return dot(x, upper) + dot(y, (floats[first + 3], floats[first + 4], floats[first + 5]))
 
 
 @kernel("void(F, i8, f8, v3)")
@@ -70,8 +71,8 @@ def _add_multiple(floats: Floats, first: int, factor: float, x: Vector) -> None:
 def add_lone_slip_force(ws: Workspace, c: int) -> bool:
     """Find the force of contact ``c`` [N], and add its response to ``du`` and its power to that of driven bodies.
 
-    Before: ``du`` holds the acceleration without contact forces. False, with nothing of this done, if the force cannot
-    accelerate the contact.
+    Before: ``du`` holds the acceleration without contact forces. Evaluates geometry, rates and bias of the contact.
+    False, with no force, if it could not accelerate the contact.
     """
     contact = ws.contacts[c]
     evaluate_geometry(ws, c)
@@ -83,6 +84,7 @@ def add_lone_slip_force(ws: Workspace, c: int) -> bool:
     m1, m2 = mu * d1, mu * d2
     # direction of the contact force, per unit of normal force
     p = n[0] - m1 * t1[0] - m2 * t2[0], n[1] - m1 * t1[1] - m2 * t2[1], n[2] - m1 * t1[2] - m2 * t2[2]
+    # the relative motion is that of the second body against the first, of which one has no coordinates
     is_second_moving = contact.n_u_b > 0
     sign = 1.0 if is_second_moving else -1.0
     frame = contact.frame_b if is_second_moving else contact.frame_a
@@ -101,8 +103,8 @@ def add_lone_slip_force(ws: Workspace, c: int) -> bool:
     if inverse_mass < 0.0:
         # more force means more approach (Painleve's paradox)
         ws.island.singular_contact = c
-    free = sign * (dot(n_1, _vector_at(ws.floats, du)) + dot(n_2, _vector_at(ws.floats, du + 3)))
-    rate_along_p = sign * (dot(p_1, _vector_at(ws.floats, u)) + dot(p_2, _vector_at(ws.floats, u + 3)))
+    free = sign * _dot_at(ws.floats, du, n_1, n_2)
+    rate_along_p = sign * _dot_at(ws.floats, u, p_1, p_2)
     force = (-contact.bias[0] - free) / inverse_mass
     _add_multiple(ws.floats, du, sign * force, response_1)
     _add_multiple(ws.floats, du + 3, sign * force, response_2)

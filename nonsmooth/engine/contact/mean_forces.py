@@ -20,11 +20,11 @@ from nonsmooth.engine.bodies.compliance import decouple_normals
 from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.contact.inelastic import inelastic_impulses
 from nonsmooth.engine.contact.trial import tangential_inverse_mass
-from nonsmooth.engine.delassus.delassus import add_product, assemble_delassus
+from nonsmooth.engine.delassus.delassus import acceleration, assemble_delassus, slip_acceleration
 from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, kernel
-from nonsmooth.engine.numerics.vectors import length
+from nonsmooth.engine.numerics.vectors import length, unit
 
 _LONGEST = 50.0
 """Maximum time of a step, in contact times, if the steps before were accurate."""
@@ -37,7 +37,7 @@ _LEAST_RATE = 0.25
 
 @kernel("b1(ws)")
 def is_averaged(ws: Workspace) -> bool:
-    """True if the active contacts have mean forces."""
+    """True if an active contact has a mean force, over the time of a step of the fallback."""
     for active in ws.actives:
         if ws.contacts[active.contact].is_averaged:
             return True
@@ -48,7 +48,7 @@ def is_averaged(ws: Workspace) -> bool:
 def averaging_time(ws: Workspace) -> float:
     """Time over which events of the active contacts need not be resolved [s]: their shortest contact time.
 
-    It is 0 if a rigid contact has no contact time, or if no contact is rigid.
+    It is 0 if a rigid contact has no contact time, or if all contacts are compliant.
     """
     time = math.inf
     for active in ws.actives:
@@ -60,7 +60,11 @@ def averaging_time(ws: Workspace) -> float:
 
 @kernel("b1(ws)")
 def has_no_stopping_slip(ws: Workspace) -> bool:
-    """True if no slip of the active contacts is so slow that friction stops it within a contact time."""
+    """True if friction stops no slip of an active contact within a contact time.
+
+    The speed that friction takes in that time is the contact time, times the friction, times the slip acceleration per
+    unit of friction.
+    """
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         speed = length(contact.slip)
@@ -75,7 +79,7 @@ def has_no_stopping_slip(ws: Workspace) -> bool:
 def averaging_span(ws: Workspace, follows: bool) -> float:
     """Time of the next step of the active contacts [s]. It is a contact time, unless it ``follows`` another step.
 
-    Then it is the longest that the accuracy of the step before allows.
+    Then it is the longest that the accuracy of the last step allows.
     """
     least = averaging_time(ws)
     if not follows:
@@ -121,7 +125,7 @@ def _store_span(ws: Workspace, span: float) -> None:
 
 @kernel("f8(ws, f8)")
 def find_mean_impulses(ws: Workspace, time: float) -> float:
-    """Find the impulses of the active contacts over a ``time`` [N s]. Returns the time that was used.
+    """Find the impulses of the active contacts over a ``time`` [N s]. Returns the time over which they were found [s].
 
     If a step longer than a contact time has no solution, one of a contact time is tried. Before: the rates of the
     contacts, and in ``du`` the accelerations without contact forces.
@@ -150,10 +154,9 @@ def _solve(ws: Workspace, time: float) -> bool:
 
 @kernel("f8(ws, i8, f8)")
 def gap_after(ws: Workspace, a: int, time: float) -> float:
-    """Gap of active contact ``a`` after its impulses in a ``time`` [m], as if Jacobians were constant."""
-    active = ws.actives[a]
-    contact = ws.contacts[active.contact]
-    rate = add_product(ws, active.free[NORMAL_ROW], a, NORMAL_ROW, ws.problem.forces.start)
+    """Gap of active contact ``a`` after its impulses in a ``time`` [m], with constant Jacobians and accelerations."""
+    contact = ws.contacts[ws.actives[a].contact]
+    rate = acceleration(ws, ws.actives[a], NORMAL_ROW)
     # the rate at the end includes the closing of the open gap
     closing = max(0.0, contact.gap)
     return float(contact.gap - 0.5 * closing + 0.5 * time * (contact.normal_rate + rate))
@@ -168,13 +171,12 @@ def set_mean_forces(ws: Workspace, time: float) -> None:
     ws.island.averaged_until = min(ws.island.averaged_until, ws.island.time + time)
     ws.island.strayed = 0.0
     for active in ws.actives:
-        v1 = add_product(ws, active.free[FIRST_ROW], active.index, FIRST_ROW, ws.problem.forces.start)
-        v2 = add_product(ws, active.free[SECOND_ROW], active.index, SECOND_ROW, ws.problem.forces.start)
-        speed = length((v1, v2))
+        # impulses are the forces here, so that this is the slip at the end
+        slip = slip_acceleration(ws, active)
         active.mode_tried = Mode.OPEN
         if active.normal_force > 0.0:
-            active.mode_tried = Mode.SLIDE if speed > ws.tolerance.velocity else Mode.STICK
-        active.direction = v1 / speed if speed > 0.0 else 1.0, v2 / speed if speed > 0.0 else 0.0
+            active.mode_tried = Mode.SLIDE if length(slip) > ws.tolerance.velocity else Mode.STICK
+        active.direction = unit(slip)
     _store_span(ws, time)
     for active in ws.actives:
         contact = ws.contacts[active.contact]

@@ -19,11 +19,12 @@ from __future__ import annotations
 
 from nonsmooth.engine.contact.gauss_seidel import sweep
 from nonsmooth.engine.contact.trial import tangential_inverse_mass
-from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
+from nonsmooth.engine.delassus.delassus import acceleration, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, at, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
+from nonsmooth.engine.numerics.arrays import copy_numbers
 from nonsmooth.engine.numerics.band import open_band
 from nonsmooth.engine.numerics.linear import SINGULAR, band_row, eliminate
 from nonsmooth.engine.numerics.vectors import Pair, length
@@ -49,16 +50,13 @@ _SETTLED = 1e-11
 @entry_point("b1(ws, i8)")
 def search_by_newton(ws: Workspace, stage: int) -> bool:
     """Improve the forces by the sweeps and the Newton steps of a stage. True if they have settled."""
-    max_sweeps = _SWEEPS
-    for _ in range(stage):
-        max_sweeps *= 10
-    sweep(ws, max_sweeps)
+    sweep(ws, _SWEEPS * 10**stage)
     return step_by_newton(ws, STEPS)
 
 
 @kernel("b1(ws, i8)")
 def step_by_newton(ws: Workspace, max_steps: int) -> bool:
-    """Improve the forces by Newton steps. True if they have settled within ``max_steps``."""
+    """Improve the forces by Newton steps. True if they settle within ``max_steps``, False after an interrupt, too."""
     n = 3 * ws.problem.n_active
     square = write_natural_map(ws)
     mean, weight = square, 1.0
@@ -82,7 +80,7 @@ def step_by_newton(ws: Workspace, max_steps: int) -> bool:
 
 @kernel("b1(ws)")
 def _find_step(ws: Workspace) -> bool:
-    """Write Newton's step to ``x`` [N]. False if the matrix is singular, or has too many entries."""
+    """Write Newton's step to ``x`` [N]. False if the matrix is singular or has too many entries."""
     n = 3 * ws.problem.n_active
     if not _write_jacobian(ws):
         return False
@@ -93,14 +91,12 @@ def _find_step(ws: Workspace) -> bool:
 
 @kernel("f8(ws, f8)")
 def _search_along_step(ws: Workspace, mean: float) -> float:
-    """Make the longest step that decreases the squared natural map below its ``mean``. Returns it, or -1.
+    """Make the longest step along ``x`` that decreases the squared natural map below its ``mean`` [N^2].
 
-    Without such a step the forces stay as they are.
+    Returns the squared map there, or -1 if no step does: the forces are then as before.
     """
-    n = 3 * ws.problem.n_active
-    for i in range(n):
-        ws.problem.forces_kept[i] = ws.problem.forces[i]
-    part = 1.0
+    n, forces, kept, part = 3 * ws.problem.n_active, ws.problem.forces.start, ws.problem.forces_kept.start, 1.0
+    copy_numbers(ws.floats, forces, n, kept)
     for _ in range(_HALVINGS):
         for i in range(n):
             ws.problem.forces[i] = ws.problem.forces_kept[i] + part * ws.problem.x[i]
@@ -108,8 +104,7 @@ def _search_along_step(ws: Workspace, mean: float) -> float:
         if square < (1.0 - _DECREASE * part) * mean:
             return square
         part *= 0.5
-    for i in range(n):
-        ws.problem.forces[i] = ws.problem.forces_kept[i]
+    copy_numbers(ws.floats, kept, n, forces)
     return -1.0
 
 
@@ -123,12 +118,12 @@ def _trial_friction(ws: Workspace, active: ActiveContact) -> Pair:
 
 @kernel("f8(ws)")
 def write_natural_map(ws: Workspace) -> float:
-    """Write the natural map to ``right`` [N]. Returns the square of its length [N^2]."""
+    """Write the natural map to ``right`` [N], and the accelerations of the contacts. Returns its square [N^2]."""
     square = 0.0
     for active in ws.actives:
         right = at(ws.floats, ws.problem.right.start + 3 * active.index)
         for r in range(3):
-            active.acceleration[r] = add_product(ws, active.free[r], active.index, r, ws.problem.forces.start)
+            active.acceleration[r] = acceleration(ws, active, r)
         y = active.normal_force - active.normal_acceleration / diagonal_block(ws, active.index).nn
         right[0] = active.normal_force - max(0.0, y)
         radius = active.friction_coefficient * max(0.0, y)
@@ -160,23 +155,24 @@ def _write_jacobian(ws: Workspace) -> bool:
     for active in ws.actives:
         own = diagonal_block(ws, active.index).nn
         y = active.normal_force - active.normal_acceleration / own
+        # closed: f_n - y_n = a_n / g; open: f_n
         if y > 0.0:
             _add_row(ws, active, NORMAL_ROW, own)
-            ws.floats[_place(ws, active, NORMAL_ROW, NORMAL_ROW)] += _SHIFT
+            ws.floats[_entry(ws, active, NORMAL_ROW, NORMAL_ROW)] += _SHIFT
         else:
-            ws.floats[_place(ws, active, NORMAL_ROW, NORMAL_ROW)] = 1.0
+            ws.floats[_entry(ws, active, NORMAL_ROW, NORMAL_ROW)] = 1.0
         if active.is_at_rest:
             _add_rows_of_rest(ws, active, active.friction_coefficient * max(0.0, y))
         else:
             for r in range(FIRST_ROW, 3):
-                ws.floats[_place(ws, active, r, r)] = 1.0
-                ws.floats[_place(ws, active, r, NORMAL_ROW)] = active.friction_coefficient * active.direction[r - 1]
+                ws.floats[_entry(ws, active, r, r)] = 1.0
+                ws.floats[_entry(ws, active, r, NORMAL_ROW)] = active.friction_coefficient * active.direction[r - 1]
     return True
 
 
 @kernel("i8(ws, ActiveContact, i8, i8)")
-def _place(ws: Workspace, active: ActiveContact, r: int, s: int) -> int:
-    """Place of entry (r, s) of the diagonal block of a contact in ``matrix``."""
+def _entry(ws: Workspace, active: ActiveContact, r: int, s: int) -> int:
+    """Offset of entry (r, s) of the diagonal block of a contact in ``matrix``."""
     first = 3 * active.index
     line = band_row(ws.problem.matrix.start, first + r, 3 * ws.problem.n_active, ws.problem.half_band)
     return line + first + s
@@ -184,7 +180,10 @@ def _place(ws: Workspace, active: ActiveContact, r: int, s: int) -> int:
 
 @kernel("void(ws, ActiveContact, i8, f8)")
 def _add_row(ws: Workspace, active: ActiveContact, r: int, inverse_mass: float) -> None:
-    """Add row ``r`` of a contact of G, divided by an inverse mass [1/kg], to the same row of ``matrix``."""
+    """Add row ``r`` of a contact of G, divided by its ``inverse_mass`` g [1/kg], to the same row of ``matrix``.
+
+    This is the derivative of a component of f - y = a / g by all forces.
+    """
     line = band_row(ws.problem.matrix.start, 3 * active.index + r, 3 * ws.problem.n_active, ws.problem.half_band)
     for block in range(active.first_block, active.end_block):
         for s in range(3):
@@ -195,17 +194,21 @@ def _add_row(ws: Workspace, active: ActiveContact, r: int, inverse_mass: float) 
 
 @kernel("void(ws, ActiveContact, f8)")
 def _add_rows_of_rest(ws: Workspace, active: ActiveContact, radius: float) -> None:
-    """Add the two rows of friction of a contact at rest. ``radius`` is that of Coulomb's disc [N]."""
+    """Add the two rows of friction of a contact at rest. ``radius`` is that of Coulomb's disc [N].
+
+    A y_t inside the disc is its own projection, so f_t - y_t = a_t / g is left: the contact sticks. A y_t outside of it
+    is projected on the edge: the contact slides.
+    """
     y1, y2 = _trial_friction(ws, active)
     size = length((y1, y2))
     if size <= radius:
         g = tangential_inverse_mass(ws, active)
         for r in range(FIRST_ROW, 3):
             _add_row(ws, active, r, g)
-            ws.floats[_place(ws, active, r, r)] += _SHIFT
+            ws.floats[_entry(ws, active, r, r)] += _SHIFT
         return
     for r in range(FIRST_ROW, 3):
-        ws.floats[_place(ws, active, r, r)] = 1.0
+        ws.floats[_entry(ws, active, r, r)] = 1.0
     if radius > 0.0:
         _subtract_projection(ws, active, radius / size, y1 / size, y2 / size)
 
@@ -214,9 +217,9 @@ def _add_rows_of_rest(ws: Workspace, active: ActiveContact, radius: float) -> No
 def _subtract_projection(ws: Workspace, active: ActiveContact, factor: float, c1: float, c2: float) -> None:
     """Subtract the derivative of the projection on Coulomb's disc from the two rows of friction of a contact.
 
-    y = p - a / G is the force after a step along the acceleration a, with the diagonal G of the Delassus matrix. The
-    projection is ``factor`` = mu y_n / |y_t| times y_t, and (c1, c2) is the unit vector along y_t. (z1, z2) is the
-    derivative of y_t by one force. Its part across the unit vector turns the projection; y_n moves it along the vector.
+    The projection is ``factor`` = mu y_n / |y_t| times y_t, and (``c1``, ``c2``) is the unit vector along y_t. (z1, z2)
+    is the derivative of y_t by one force. Its part across the unit vector turns the projection. The growth of mu y_n
+    moves it along the vector.
     """
     own, g_t = diagonal_block(ws, active.index).nn, tangential_inverse_mass(ws, active)
     n, a = 3 * ws.problem.n_active, active.index

@@ -20,6 +20,7 @@ from nonsmooth.engine.contact.trial import NO_FORCE
 from nonsmooth.engine.contact.unknowns import force_of, set_force
 from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
+from nonsmooth.engine.numerics.arrays import copy_numbers, largest_size, subtract_part
 from nonsmooth.engine.numerics.null_band import project_on_null
 from nonsmooth.engine.numerics.vectors import length
 
@@ -41,35 +42,44 @@ def choose_null_space_force(ws: Workspace) -> bool:
     ``x`` must hold the forces of least norm [N]. If the choice fails, the forces closest to the cones are taken, and
     ``slack`` is what their bounds may be exceeded by [N].
     """
-    n = ws.problem.n_unknown
-    largest = 0.0
+    n, x, least_norm = ws.problem.n_unknown, ws.problem.x.start, ws.problem.forces_at_start.start
+    largest = largest_size(ws.floats, x, n)
+    copy_numbers(ws.floats, x, n, least_norm)
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         contact.slack = 0.0
         for r in range(3):
             contact.null_space_force[r] = 0.0
-    for i in range(n):
-        ws.problem.forces_at_start[i] = ws.problem.x[i]
-        set_force(ws, i, ws.problem.x[i])
-        largest = max(largest, abs(ws.problem.x[i]))
+    _set_least_norm(ws)
     if _least_distance(ws) >= _LARGE_DISTANCE * largest:
         return True
     has_found = _choose_farthest(ws, largest)
     if not has_found:
-        for i in range(n):
-            set_force(ws, i, ws.problem.forces_at_start[i])
+        _set_least_norm(ws)
         distribute(ws, 0.0, _DISTRIBUTED * largest)
         for active in ws.actives:
             ws.contacts[active.contact].slack = _SLACK * largest
-    _store_null_space_force(ws)
     for i in range(n):
-        ws.problem.x[i] = ws.problem.forces_at_start[i]
+        unknown = ws.unknowns[i]
+        contact = ws.contacts[ws.actives[unknown.contact].contact]
+        contact.null_space_force[unknown.direction] = force_of(ws, i) - ws.problem.forces_at_start[i]
+    copy_numbers(ws.floats, least_norm, n, x)
     return has_found
+
+
+@kernel()
+def _set_least_norm(ws: Workspace) -> None:
+    """Set the unknown forces to those of least norm, which ``forces_at_start`` holds [N]."""
+    for i in range(ws.problem.n_unknown):
+        set_force(ws, i, ws.problem.forces_at_start[i])
 
 
 @kernel("f8(ws)")
 def _least_distance(ws: Workspace) -> float:
-    """Smallest distance of the redundant forces to their bounds [N]."""
+    """Smallest distance of the redundant forces to their bounds [N]. It is negative if a force exceeds its bound.
+
+    The bounds are a normal force of zero, and Coulomb's disc.
+    """
     least = math.inf
     for i in range(ws.problem.n_unknown):
         unknown = ws.unknowns[i]
@@ -88,7 +98,7 @@ def _least_distance(ws: Workspace) -> float:
 
 @kernel("b1(ws, f8)")
 def _choose_farthest(ws: Workspace, largest: float) -> bool:
-    """Find forces as far inside their cones as possible, within a factor. False if there are none.
+    """Find forces as far inside their cones as possible, within a factor of four. False if there are none.
 
     The distance is ``largest`` / 4^n [N]. The number n of quarterings is doubled until forces exist, then bisected.
     """
@@ -104,32 +114,23 @@ def _choose_farthest(ws: Workspace, largest: float) -> bool:
             feasible = last
         else:
             infeasible = last
+    # the forces are those of the last attempt, which may have failed
     return last == feasible or _choose_at_distance(ws, largest, feasible)
 
 
 @kernel("b1(ws, f8, i8)")
 def _choose_at_distance(ws: Workspace, largest: float, n_quarterings: int) -> bool:
-    """Move the forces of least norm at least ``largest`` / 4^n_quarterings [N] into their cones. False if it fails.
+    """Move the forces of least norm into their cones, at least ``largest`` / 4^n_quarterings [N] from the bounds.
 
-    The same motion belongs to all of them. The tolerance is a small part of the largest force.
+    The motion stays the same. False if no such forces exist.
     """
-    for i in range(ws.problem.n_unknown):
-        set_force(ws, i, ws.problem.forces_at_start[i])
+    _set_least_norm(ws)
     return distribute(ws, 0.25**n_quarterings * largest, _DISTRIBUTED * largest)
 
 
 @kernel()
-def _store_null_space_force(ws: Workspace) -> None:
-    """Store the difference between the chosen forces and those of least norm [N]."""
-    for i in range(ws.problem.n_unknown):
-        unknown = ws.unknowns[i]
-        contact = ws.contacts[ws.actives[unknown.contact].contact]
-        contact.null_space_force[unknown.direction] = force_of(ws, i) - ws.problem.forces_at_start[i]
-
-
-@kernel()
 def add_null_space_force(ws: Workspace) -> None:
-    """Add the null-space force to the unknowns ``x`` [N], projected on the present null space."""
+    """Add the null-space force of the contacts to the unknowns ``x`` [N], projected on the present null space."""
     n = ws.problem.n_unknown
     for i in range(n):
         unknown = ws.unknowns[i]
@@ -137,8 +138,7 @@ def add_null_space_force(ws: Workspace) -> None:
         ws.problem.sigma[i] = contact.null_space_force[unknown.direction]
     if ws.problem.is_null_space_banded:
         project_on_null(ws, n, ws.problem.sigma.start)
-        for i in range(n):
-            ws.problem.x[i] += ws.problem.sigma[i]
+        subtract_part(ws.floats, ws.problem.x.start, -1.0, ws.problem.sigma.start, n)
         return
     for i in range(n):
         for j in range(n):

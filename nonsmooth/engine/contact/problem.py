@@ -14,22 +14,15 @@ from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.contact.search import find_modes
 from nonsmooth.engine.contact.trial import verify
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
+from nonsmooth.engine.memory import solvers
 from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.memory.solvers import (
-    AUTO,
-    ENUMERATED_AT_LAST,
-    ENUMERATION,
-    GAUSS_SEIDEL,
-    LEMKE,
-    MOST_PIVOTED,
-    NEWTON,
-)
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, at, call_scalar, entry_point, kernel
+from nonsmooth.engine.numerics.arrays import copy_numbers
 from nonsmooth.engine.numerics.linear import multiply
-from nonsmooth.engine.numerics.vectors import Pair, length
+from nonsmooth.engine.numerics.vectors import Pair, length, unit
 
 _LEAST_SLIP_SPEED = 1e-300
-"""Smallest speed for which a friction law is asked about a slip [m/s]. At speed 0 it gives the static coefficient."""
+"""Smallest speed of a slip at which a friction law is evaluated [m/s]. At speed 0 it gives the static coefficient."""
 
 
 # --- friction ---------------------------------------------------------------------------------------------------------
@@ -44,7 +37,7 @@ def friction_coefficient(ws: Workspace, c: int, speed: float) -> float:
 
 @kernel("f8(ws, i8, f8)")
 def slip_coefficient(ws: Workspace, c: int, speed: float) -> float:
-    """Friction coefficient of contact ``c`` that slides at ``speed`` [m/s]. At speed 0 its slip begins."""
+    """Friction coefficient of contact ``c`` that slides at ``speed`` [m/s]: at speed 0, of a slip that begins."""
     return friction_coefficient(ws, c, max(speed, _LEAST_SLIP_SPEED))
 
 
@@ -54,15 +47,14 @@ def slip_direction(ws: Workspace, c: int, slip: Pair, rest_speed: float, may_rev
 
     So the friction stays smooth if a slip reverses within a step, and the event of the reversal can be located. If it
     ``may_reverse``, as in an implicit step, which stops slips itself, the sign is that of the slip. A slip up to
-    ``rest_speed`` [m/s] has no direction of its own, and the one at the start of the step is returned.
+    ``rest_speed`` [m/s] counts as rest: the direction at the start of the step is returned.
     """
-    d1, d2 = ws.contacts[c].direction
-    v1, v2 = slip
+    (d1, d2), (v1, v2) = ws.contacts[c].direction, slip
     speed = length(slip)
-    if speed > rest_speed:
-        inverse = (1.0 if may_reverse or v1 * d1 + v2 * d2 >= 0.0 else -1.0) / speed
-        d1, d2 = inverse * v1, inverse * v2
-    return d1, d2
+    if not speed > rest_speed:
+        return d1, d2
+    inverse = (1.0 if may_reverse or v1 * d1 + v2 * d2 >= 0.0 else -1.0) / speed
+    return inverse * v1, inverse * v2
 
 
 @kernel("void(ws, i8, v2, f8, b1)")
@@ -75,9 +67,11 @@ def follow_slip(ws: Workspace, a: int, slip: Pair, rest_speed: float, may_revers
 
 @kernel("void(ws, ActiveContact)")
 def write_friction(ws: Workspace, active: ActiveContact) -> None:
-    """Write both friction coefficients, slip direction, and whether the contact is at rest."""
+    """Write the friction of an active contact from its slip: coefficients, direction, and whether it is at rest.
+
+    Its normal force counts as not given by a law.
+    """
     contact = ws.contacts[active.contact]
-    v1, v2 = contact.slip
     speed = length(contact.slip)
     active.has_given_force = False
     active.static_coefficient = friction_coefficient(ws, active.contact, 0.0)
@@ -86,7 +80,7 @@ def write_friction(ws: Workspace, active: ActiveContact) -> None:
         active.direction = contact.direction
         active.friction_coefficient = slip_coefficient(ws, active.contact, 0.0)
     else:
-        active.direction = v1 / speed, v2 / speed
+        active.direction = unit(contact.slip)
         active.friction_coefficient = slip_coefficient(ws, active.contact, speed)
 
 
@@ -95,23 +89,30 @@ def write_friction(ws: Workspace, active: ActiveContact) -> None:
 
 @kernel("void(ws, i8)")
 def accelerate_freely(ws: Workspace, number: int) -> None:
-    """Write the accelerations M^-1 h of one body to ``du``. Those of a body in ballistic motion are stored."""
+    """Write the accelerations M^-1 h of body ``number`` to ``du``.
+
+    Those of a body in ballistic motion are stored, and computed again only after its state has changed.
+    """
     body = ws.bodies[number]
-    n_u = body.n_u
+    n_u, du, du_free = body.n_u, ws.island.du.start + body.u, ws.island.du_free.start + body.u
+    # the results of the body's law: rates of q, then the forces h, then the inverse mass matrix
     force = body.tail + body.n_q
+    inverse_mass = force + n_u
     if not body.is_ballistic:
-        multiply(ws.floats, force + n_u, n_u, force, ws.island.du.start + body.u)
+        multiply(ws.floats, inverse_mass, n_u, force, du)
         return
     if body.accelerated_version != body.version:
-        multiply(ws.floats, force + n_u, n_u, force, ws.island.du_free.start + body.u)
+        multiply(ws.floats, inverse_mass, n_u, force, du_free)
         body.accelerated_version = body.version
-    for i in range(body.u, body.u + n_u):
-        ws.island.du[i] = ws.island.du_free[i]
+    copy_numbers(ws.floats, du_free, n_u, du)
 
 
 @kernel("void(ws, b1)")
 def free_acceleration(ws: Workspace, of_all_bodies: bool) -> None:
-    """Write the accelerations without contact forces to ``du``, joints included: of all or of integrated bodies."""
+    """Write the accelerations without contact forces to ``du``, those of the joints included.
+
+    These are the accelerations of all bodies, or else of the bodies that are integrated.
+    """
     for i in range(ws.model.n_bodies if of_all_bodies else ws.island.n_integrated):
         accelerate_freely(ws, i if of_all_bodies else ws.island.integrated[i])
     if ws.model.n_joints > 0:
@@ -160,7 +161,7 @@ def write_contact_problem(ws: Workspace) -> None:
 def solve_contact(ws: Workspace) -> bool:
     """Find modes and forces of the active contacts. True if they are found.
 
-    Before: :func:`write_contact_problem` has been called, and ``mode_tried`` holds the past modes, which may be
+    Before: :func:`write_contact_problem` has been called, and ``mode_tried`` holds the past modes, of which some may be
     unknown. After: ``mode_tried``, ``force`` and ``direction`` describe the solution.
     """
     ws.problem.effort = 0.0
@@ -173,15 +174,13 @@ def solve_contact(ws: Workspace) -> bool:
             has_past = False
     if has_past and verify(ws, is_lenient=False):
         return True
-    if ws.options.solver != AUTO:
+    if ws.options.solver != solvers.AUTO:
         return find_modes(ws, ws.options.solver)
-    if find_modes(ws, NEWTON) or find_modes(ws, GAUSS_SEIDEL):
+    if find_modes(ws, solvers.NEWTON) or find_modes(ws, solvers.GAUSS_SEIDEL):
         return True
-    if ws.problem.n_active <= MOST_PIVOTED and find_modes(ws, LEMKE):
+    if ws.problem.n_active <= solvers.MOST_PIVOTED and find_modes(ws, solvers.LEMKE):
         return True
-    if ws.problem.n_active <= ENUMERATED_AT_LAST:
-        return find_modes(ws, ENUMERATION)
-    return False
+    return ws.problem.n_active <= solvers.ENUMERATED_AT_LAST and find_modes(ws, solvers.ENUMERATION)
 
 
 @entry_point("b1(ws)")
@@ -194,9 +193,9 @@ def solve_from_rates(ws: Workspace) -> bool:
 
 @kernel()
 def accelerate(ws: Workspace) -> None:
-    """Add the response of the bodies to the contact forces to ``du``.
+    """Add the response of the bodies to the contact forces to ``du``. Normal forces of compliant contacts become zero.
 
-    The response to the normal forces of compliant contacts is in ``du`` already.
+    The response to these forces is in ``du`` already.
     """
     for active in ws.actives:
         if ws.contacts[active.contact].is_compliant:

@@ -6,7 +6,7 @@ all the rest, in the same way for all solvers:
 1. A contact at rest gets its static coefficient, so that it sticks if it can. If it is found to slide, the search runs
    again, with its kinetic coefficient and without sticking.
 2. The solver improves the forces stage by stage. After each stage, modes are guessed from the forces.
-3. Slip directions are made exact (:mod:`nonsmooth.engine.contact.polish`).
+3. Slip directions are made exact (:mod:`nonsmooth.engine.contact.slip_directions`).
 4. The modes are verified by exact forces (:mod:`nonsmooth.engine.contact.trial`).
 
 A solver reads G, ``free``, ``is_at_rest``, ``friction_coefficient`` and, for sliding contacts, ``direction``. It writes
@@ -24,13 +24,14 @@ from nonsmooth.engine.contact.enumeration import enumerate_modes
 from nonsmooth.engine.contact.gauss_seidel import search_by_sweeps
 from nonsmooth.engine.contact.lemke import search_by_pivots
 from nonsmooth.engine.contact.newton import search_by_newton
-from nonsmooth.engine.contact.polish import polish
-from nonsmooth.engine.contact.trial import EQUAL, evaluate_accelerations, fulfils_laws, guess_modes_from_forces, verify
+from nonsmooth.engine.contact.slip_directions import find_slip_directions
+from nonsmooth.engine.contact.trial import EQUAL, check_laws, evaluate_accelerations, guess_modes_from_forces, verify
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.memory.solvers import ENUMERATION, GAUSS_SEIDEL, LEMKE
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
-from nonsmooth.engine.numerics.vectors import length
+from nonsmooth.engine.numerics.arrays import clear, copy_numbers
+from nonsmooth.engine.numerics.vectors import length, unit
 
 _MOST_EFFORT = 3e8
 """Maximum effort of one problem, in cubes of the number of unknowns summed over all trials. It takes about a second."""
@@ -46,7 +47,7 @@ def find_modes(ws: Workspace, solver: int) -> bool:
     """Find modes and forces of the active contacts by one solver. True if they are found, and fulfil the laws.
 
     ``mode_past`` holds the past modes. Contacts that have just started to slide must not stick again at the static
-    coefficient, so the first search excludes that. Of several solutions, one with more sticking and closed contacts is
+    coefficient, so the first search excludes this. Of several solutions, one with more sticking and closed contacts is
     preferred.
     """
     has_found = enumerate_modes(ws, first=0) > 0 if solver == ENUMERATION else _find_by_solver(ws, solver)
@@ -58,7 +59,10 @@ def find_modes(ws: Workspace, solver: int) -> bool:
 
 @kernel("b1(ws, i8)")
 def _find_by_solver(ws: Workspace, solver: int) -> bool:
-    """Search with the contacts that have just started to slide kept from sticking, and then without that."""
+    """Search with the contacts that have just started to slide kept from sticking, and if that fails, without this.
+
+    True if a solution is found.
+    """
     has_sliding = False
     for active in ws.actives:
         active.was_freed = active.is_at_rest and active.mode_past == Mode.SLIDE
@@ -84,14 +88,14 @@ def _search(ws: Workspace, solver: int) -> bool:
 
 @kernel("b1(ws, i8)")
 def _search_round(ws: Workspace, solver: int) -> bool:
-    """Search by the stages of a solver. True if a solution is found."""
+    """Search by the stages of a solver. True if a solution is found. Interrupts and too much effort end the search."""
     n_stages = _n_stages(solver)
-    for i in range(3 * ws.problem.n_active):
-        ws.problem.forces_at_start[i] = 0.0
+    clear(ws.floats, ws.problem.forces_at_start.start, 3 * ws.problem.n_active)
     for stage in range(n_stages):
         if ws.problem.effort >= _MOST_EFFORT or interrupted(ws, ws.problem.n_active):
             return False
         has_settled = _guess_by_stage(ws, solver, stage)
+        # the modes of a contact at its static bound are known only when the forces have settled
         if not has_settled and stage < n_stages - 1 and _may_still_stick(ws):
             continue
         _store_modes(ws)
@@ -117,12 +121,11 @@ def _guess_by_stage(ws: Workspace, solver: int, stage: int) -> bool:
 
     The forces go from stage to stage in ``forces_at_start``, because trials overwrite the others.
     """
-    for i in range(3 * ws.problem.n_active):
-        ws.problem.forces[i] = ws.problem.forces_at_start[i]
+    n, forces, kept = 3 * ws.problem.n_active, ws.problem.forces.start, ws.problem.forces_at_start.start
+    copy_numbers(ws.floats, kept, n, forces)
     _unite_coefficients(ws)
     has_settled = _improve_forces(ws, solver, stage)
-    for i in range(3 * ws.problem.n_active):
-        ws.problem.forces_at_start[i] = ws.problem.forces[i]
+    copy_numbers(ws.floats, forces, n, kept)
     guess_modes_from_forces(ws)
     _restore_coefficients(ws)
     return has_settled
@@ -130,7 +133,7 @@ def _guess_by_stage(ws: Workspace, solver: int, stage: int) -> bool:
 
 @kernel("b1(ws, i8, i8)")
 def _improve_forces(ws: Workspace, solver: int, stage: int) -> bool:
-    """Run a stage of a solver. True if the forces have settled."""
+    """Run a ``stage`` of a solver. True if a further stage would not change the forces."""
     if solver == GAUSS_SEIDEL:
         return search_by_sweeps(ws, stage)
     if solver == LEMKE:
@@ -165,7 +168,7 @@ def _has_two_bounds(active: ActiveContact) -> bool:
 
 @kernel("b1(ws)")
 def _may_still_stick(ws: Workspace) -> bool:
-    """True if a contact is guessed to slide at its static bound, before the forces have settled."""
+    """True if a contact is guessed to slide at its static bound, where forces that settle may still let it stick."""
     for active in ws.actives:
         may_stick = active.is_at_rest and not active.was_freed and _has_two_bounds(active)
         if may_stick and active.mode_tried == Mode.SLIDE:
@@ -190,10 +193,7 @@ def _exclude_sticking(ws: Workspace) -> bool:
 @kernel("b1(ws)")
 def _verify_guess(ws: Workspace) -> bool:
     """Verify the guessed modes, in several forms. True if one fulfils the laws."""
-    if _verify_by_acceleration(ws):
-        return True
-    polish(ws)
-    if _verify_or_open(ws):
+    if _verify_by_acceleration(ws) or _verify_or_open(ws):
         return True
     return ws.problem.is_deficient and _verify_forces_of_solver(ws)
 
@@ -203,20 +203,20 @@ def _verify_by_acceleration(ws: Workspace) -> bool:
     """Verify the modes that the accelerations show, if they differ from the guess. True if they fulfil the laws.
 
     A contact with friction on its bound but without slip acceleration sticks. Solvers produce it if forces are
-    redundant.
+    redundant. Otherwise the guess is as before.
     """
     evaluate_accelerations(ws)
-    if _guess_modes_from_accelerations(ws):
-        polish(ws)
-        if _verify_or_open(ws):
-            return True
-        _restore_guess(ws)
+    if not _guess_modes_from_accelerations(ws):
+        return False
+    if _verify_or_open(ws):
+        return True
+    _restore_guess(ws)
     return False
 
 
 @kernel("b1(ws)")
 def _guess_modes_from_accelerations(ws: Workspace) -> bool:
-    """Guess modes from the accelerations, except where the mode is the past one. True if a mode changes.
+    """Set the modes that the accelerations show, except where the mode is the past one. True if a mode changes.
 
     A contact that does not separate is closed. At rest, it sticks if it has no slip acceleration.
     """
@@ -225,45 +225,44 @@ def _guess_modes_from_accelerations(ws: Workspace) -> bool:
     for active in ws.actives:
         if active.mode_tried == active.mode_past or active.normal_acceleration > small:
             continue
-        a1, a2 = active.slip_acceleration
-        slip = length(active.slip_acceleration)
-        mode = Mode.STICK if active.is_at_rest and slip <= small else Mode.SLIDE
+        is_still = active.is_at_rest and length(active.slip_acceleration) <= small
+        mode = Mode.STICK if is_still else Mode.SLIDE
         if mode != active.mode_tried:
             has_changed = True
             active.mode_tried = mode
             if active.is_at_rest and mode == Mode.SLIDE:
-                active.direction = a1 / slip, a2 / slip
+                active.direction = unit(active.slip_acceleration)
     return has_changed
 
 
 @kernel("b1(ws)")
 def _verify_or_open(ws: Workspace) -> bool:
-    """Verify the modes under trial, and open contacts in steps if redundant forces are tensile. True if all is lawful.
+    """Verify the modes under trial, and open contacts in steps if redundant forces are tensile.
 
-    If that fails, the modes are verified once more, and redundant forces may then be any that are compressive.
+    True if the laws are fulfilled. If this fails, the modes are verified once more, leniently: tensile forces of least
+    norm may then be replaced by compressive ones of the same motion. Directions of slips that begin are made exact.
     """
+    find_slip_directions(ws)
     for active in ws.actives:
-        active.mode_closed = active.mode_tried
-        active.direction_closed = active.direction
+        active.mode_closed, active.direction_closed = active.mode_tried, active.direction
     if verify(ws, is_lenient=False):
         return True
     if not ws.problem.is_deficient:
         return False
     # TODO: a single contact that must open is found only if it is the most tensile one at some step
     while ws.problem.effort < _MOST_EFFORT and _open_most_tensile(ws):
-        polish(ws)
+        find_slip_directions(ws)
         if verify(ws, is_lenient=False):
             return True
     # the contacts that were opened may carry a load that the others cannot
     for active in ws.actives:
-        active.mode_tried = active.mode_closed
-        active.direction = active.direction_closed
+        active.mode_tried, active.direction = active.mode_closed, active.direction_closed
     return verify(ws, is_lenient=True)
 
 
 @kernel("b1(ws)")
 def _open_most_tensile(ws: Workspace) -> bool:
-    """Open the closed contacts with the largest tensile forces. True if there are any."""
+    """Open the closed contacts with the largest tensile forces. True if there are any, False if no force is tensile."""
     worst = -ws.problem.small_force
     for active in ws.actives:
         if active.mode_tried != Mode.OPEN:
@@ -279,7 +278,7 @@ def _open_most_tensile(ws: Workspace) -> bool:
 
 @kernel("b1(ws)")
 def _verify_forces_of_solver(ws: Workspace) -> bool:
-    """Take the forces of the solver as they are. True if they fulfil the laws.
+    """Take the forces of the solver as they are, and count them as unique. True if they fulfil the laws.
 
     If sliding contacts are redundant, the motion depends on the distribution of their load, and the forces of least
     norm may violate the laws.
@@ -288,7 +287,7 @@ def _verify_forces_of_solver(ws: Workspace) -> bool:
     for active in ws.actives:
         active.has_redundant_force = False
     ws.problem.is_deficient = False
-    return fulfils_laws(ws, is_lenient=False) and _friction_opposes_slip(ws)
+    return check_laws(ws, is_lenient=False) and _friction_opposes_slip(ws)
 
 
 @kernel("b1(ws)")
@@ -309,24 +308,21 @@ def _friction_opposes_slip(ws: Workspace) -> bool:
 def _store_modes(ws: Workspace) -> None:
     """Store the modes and slip directions under trial."""
     for active in ws.actives:
-        active.mode_found = active.mode_tried
-        active.direction_found = active.direction
+        active.mode_found, active.direction_found = active.mode_tried, active.direction
 
 
 @kernel()
 def _restore_modes(ws: Workspace) -> None:
     """Restore the modes and slip directions that were stored."""
     for active in ws.actives:
-        active.mode_tried = active.mode_found
-        active.direction = active.direction_found
+        active.mode_tried, active.direction = active.mode_found, active.direction_found
 
 
 @kernel()
 def _restore_guess(ws: Workspace) -> None:
     """Restore the stored modes and directions, and the forces in ``forces_at_start``."""
     _restore_modes(ws)
-    for i in range(3 * ws.problem.n_active):
-        ws.problem.forces[i] = ws.problem.forces_at_start[i]
+    copy_numbers(ws.floats, ws.problem.forces_at_start.start, 3 * ws.problem.n_active, ws.problem.forces.start)
 
 
 # --- the choice between several solutions -----------------------------------------------------------------------------
@@ -336,27 +332,23 @@ def _restore_guess(ws: Workspace) -> None:
 def _store_solution(ws: Workspace) -> None:
     """Store modes, directions and forces of the solution."""
     _store_modes(ws)
-    for i in range(3 * ws.problem.n_active):
-        ws.problem.forces_at_start[i] = ws.problem.forces[i]
+    copy_numbers(ws.floats, ws.problem.forces.start, 3 * ws.problem.n_active, ws.problem.forces_at_start.start)
 
 
 @kernel()
-def _restore_solution(ws: Workspace) -> None:
-    """Restore modes, directions and forces of the solution, and its accelerations."""
-    _restore_guess(ws)
-    evaluate_accelerations(ws)
+def _keep_if_lawful(ws: Workspace) -> None:
+    """Keep the modes under trial if they fulfil the laws. Otherwise restore the stored solution, with accelerations."""
+    if not _verify_or_open(ws):
+        _restore_guess(ws)
+        evaluate_accelerations(ws)
 
 
 @kernel()
 def _prefer_closed(ws: Workspace) -> None:
     """Replace the solution by one in which all contacts that do not separate are closed, if that fulfils the laws."""
     _store_solution(ws)
-    if not _guess_modes_from_accelerations(ws):
-        return
-    polish(ws)
-    if _verify_or_open(ws):
-        return
-    _restore_solution(ws)
+    if _guess_modes_from_accelerations(ws):
+        _keep_if_lawful(ws)
 
 
 @kernel()
@@ -373,8 +365,5 @@ def _prefer_sticking(ws: Workspace) -> None:
         if may_stick and active.mode_tried == Mode.SLIDE:
             active.mode_tried = Mode.STICK
             has_changed = True
-    if not has_changed:
-        return
-    polish(ws)
-    if not _verify_or_open(ws):
-        _restore_solution(ws)
+    if has_changed:
+        _keep_if_lawful(ws)

@@ -20,11 +20,12 @@ from enum import IntEnum
 
 from nonsmooth.engine.contact.distribution import distribute
 from nonsmooth.engine.contact.forces import friction_of_slip, reduced_coefficient, resolve
-from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
+from nonsmooth.engine.delassus.delassus import acceleration, diagonal_block
 from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, entry_point, kernel, result
-from nonsmooth.engine.numerics.vectors import length
+from nonsmooth.engine.numerics.arrays import largest_size
+from nonsmooth.engine.numerics.vectors import length, unit
 
 NO_FORCE = 1e-9
 """Force or acceleration that counts as zero, relative to the largest. Round-off of elimination is smaller."""
@@ -50,8 +51,8 @@ class Verdict(IntEnum):
 
 
 @kernel()
-def hold_tried(ws: Workspace) -> None:
-    """Find the forces of the active contacts in the modes under trial [N]."""
+def find_tried_forces(ws: Workspace) -> None:
+    """Find the forces of the active contacts in the modes under trial [N], and count the effort."""
     for active in ws.actives:
         is_open = active.mode_tried == Mode.OPEN
         active.is_normal_force_unknown = not (is_open or active.has_given_force)
@@ -66,12 +67,13 @@ def hold_tried(ws: Workspace) -> None:
 
 @kernel()
 def evaluate_accelerations(ws: Workspace) -> None:
-    """Write the accelerations of the active contacts, free + G p, and the thresholds of zero acceleration and force."""
+    """Write the accelerations b + G f of the active contacts [m/s^2], and the thresholds of zero.
+
+    These are the acceleration and the force of the island that count as zero.
+    """
     # round-off of an acceleration is relative to the largest of its terms
     scale = ws.problem.acceleration_scale
-    force_scale = 0.0
-    for i in range(3 * ws.problem.n_active):
-        force_scale = max(force_scale, abs(ws.problem.forces[i]))
+    force_scale = largest_size(ws.floats, ws.problem.forces.start, 3 * ws.problem.n_active)
     for active in ws.actives:
         own = diagonal_block(ws, active.index).nn
         if own > 0.0:
@@ -95,10 +97,7 @@ def small_force(ws: Workspace, a: int) -> float:
 
     Its own forces set the scale: those of a heavy body in the same island may be many orders larger.
     """
-    active = ws.actives[a]
-    own, size = diagonal_block(ws, a).nn, 0.0
-    for r in range(3):
-        size = max(size, abs(active.force[r]))
+    own, size = diagonal_block(ws, a).nn, largest_size(ws.floats, ws.problem.forces.start + 3 * a, 3)
     if own > 0.0:
         size = max(size, ws.problem.acceleration_scale / own)
     return float(NO_FORCE * size + _SHARED_ROUND_OFF * ws.problem.small_force)
@@ -112,15 +111,15 @@ def verify(ws: Workspace, is_lenient: bool) -> bool:
     motion are tried (:func:`nonsmooth.engine.contact.distribution.distribute`). If ``is_lenient``, this is done for
     tensile normal forces, too.
     """
-    hold_tried(ws)
-    return fulfils_laws(ws, is_lenient)
+    find_tried_forces(ws)
+    return check_laws(ws, is_lenient)
 
 
 @kernel("b1(ws, b1)")
-def fulfils_laws(ws: Workspace, is_lenient: bool) -> bool:
-    """True if the forces fulfil the contact laws in the modes under trial. Redundant forces are distributed if need be.
+def check_laws(ws: Workspace, is_lenient: bool) -> bool:
+    """True if the forces fulfil the contact laws in the modes under trial, False if they violate one.
 
-    For ``is_lenient`` see :func:`verify`.
+    Redundant forces outside their cones are distributed anew. For ``is_lenient`` see :func:`verify`.
     """
     verdict = _check(ws, is_lenient)
     if verdict == Verdict.REDISTRIBUTABLE and distribute(ws, 0.0, _DISTRIBUTED * ws.problem.small_force):
@@ -134,7 +133,7 @@ def fulfils_laws(ws: Workspace, is_lenient: bool) -> bool:
 
 @kernel("Verdict(ws, b1)")
 def _check(ws: Workspace, is_lenient: bool) -> Verdict:
-    """Verdict on the forces of all active contacts."""
+    """Verdict on the forces of all active contacts: the worst one of a contact. Writes their accelerations."""
     evaluate_accelerations(ws)
     verdict = Verdict.FULFILLED
     for active in ws.actives:
@@ -148,8 +147,12 @@ def _check(ws: Workspace, is_lenient: bool) -> Verdict:
 
 @kernel("Verdict(ws, ActiveContact, b1)")
 def _check_contact(ws: Workspace, active: ActiveContact, is_lenient: bool) -> Verdict:
-    """Verdict on the force of one contact."""
+    """Verdict on the force of one contact in the mode under trial.
+
+    If ``is_lenient``, tensile forces that are not unique are redistributable rather than a violation.
+    """
     if active.mode_tried == Mode.OPEN:
+        # a contact that approaches is not open
         separates = active.normal_acceleration >= -ws.problem.small_acceleration
         return Verdict.FULFILLED if separates else Verdict.VIOLATED
     if not abs(active.normal_acceleration) <= _allowed_acceleration(ws):
@@ -176,7 +179,11 @@ def _allowed_acceleration(ws: Workspace) -> float:
 
 @kernel("Verdict(ws, ActiveContact)")
 def _check_friction(ws: Workspace, active: ActiveContact) -> Verdict:
-    """Verdict on the friction of one closed contact."""
+    """Verdict on the friction of one closed contact in the mode under trial.
+
+    A contact that slips from before has its friction by construction. The bound of one that sticks, or the direction
+    of a slip that begins, is checked.
+    """
     a1, a2 = active.slip_acceleration
     if active.mode_tried == Mode.STICK:
         if not abs(a1) + abs(a2) <= _allowed_acceleration(ws):
@@ -202,12 +209,9 @@ def guess_modes_from_forces(ws: Workspace) -> None:
     inside of the cone sticking, on its surface sliding.
     """
     for active in ws.actives:
-        compression = 0.0
         for r in range(3):
-            total = add_product(ws, active.free[r], active.index, r, ws.problem.forces.start)
-            if r == 0:
-                compression = active.normal_force * diagonal_block(ws, active.index).nn - total
-            active.acceleration[r] = total
+            active.acceleration[r] = acceleration(ws, active, r)
+        compression = active.normal_force * diagonal_block(ws, active.index).nn - active.normal_acceleration
         active.mode_tried = Mode.SLIDE
         if active.is_at_rest:
             g = tangential_inverse_mass(ws, active)
@@ -215,7 +219,7 @@ def guess_modes_from_forces(ws: Workspace) -> None:
             y2 = g * active.friction[1] - active.slip_acceleration[1]
             norm = length((y1, y2))
             if norm > 0.0:
-                active.direction = -y1 / norm, -y2 / norm
+                active.direction = unit((-y1, -y2))
             # TODO: a projection would have the radius mu y_n of the projected normal force, not mu f_n
             if not active.was_freed and norm <= g * active.friction_coefficient * active.normal_force:
                 active.mode_tried = Mode.STICK
@@ -227,7 +231,7 @@ def guess_modes_from_forces(ws: Workspace) -> None:
 def tangential_inverse_mass(ws: Workspace, active: ActiveContact) -> float:
     """Largest slip acceleration of a contact per unit of its own friction along t1 or t2 [1/kg].
 
-    It is only a scale. If the contact cannot slip, its normal inverse mass takes the place.
+    It is a scale only. The normal inverse mass is returned for a contact that cannot slip.
     """
     # TODO: the larger diagonal entry depends on the choice of the tangents; the larger eigenvalue would not
     own = diagonal_block(ws, active.index)

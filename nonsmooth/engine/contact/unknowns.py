@@ -7,21 +7,45 @@ because contacts that stick, slide or have a given normal force have different n
 from __future__ import annotations
 
 from nonsmooth.engine.memory.layout import NORMAL_ROW
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel
 
 
-@kernel("void(ws, i8, ActiveContact, i8)")
-def list_force(ws: Workspace, i: int, active: ActiveContact, r: int) -> None:
-    """Let unknown ``i`` be the force of a contact along direction ``r`` (n, t1, t2)."""
-    unknown = ws.unknowns[i]
-    unknown.contact, unknown.direction, unknown.is_turn = active.index, r, False
+@kernel("b1(ActiveContact)")
+def starts_to_slide(active: ActiveContact) -> bool:
+    """True if a contact at rest slides in the mode under trial."""
+    return active.is_at_rest and active.mode_tried == Mode.SLIDE
 
 
-@kernel("void(ws, i8, ActiveContact)")
-def list_turn(ws: Workspace, i: int, active: ActiveContact) -> None:
-    """Let unknown ``i`` be the turn of the slip direction of a contact."""
-    unknown = ws.unknowns[i]
-    unknown.contact, unknown.direction, unknown.is_turn = active.index, NORMAL_ROW, True
+@kernel("i8(ws, b1)")
+def list_unknowns(ws: Workspace, with_turns: bool) -> int:
+    """List the unknown forces of the active contacts. Returns the number of unknowns.
+
+    The normal force is one if ``is_normal_force_unknown``, the two components of friction are if the contact
+    ``sticks``. If ``with_turns``, the turn of the direction of each slip that begins is an unknown, too.
+    """
+    n = 0
+    for active in ws.actives:
+        active.first_unknown = n
+        for r in range(3):
+            if active.is_normal_force_unknown if r == NORMAL_ROW else active.sticks:
+                unknown = ws.unknowns[n]
+                unknown.contact, unknown.direction, unknown.is_turn = active.index, r, False
+                n += 1
+        if with_turns and starts_to_slide(active):
+            unknown = ws.unknowns[n]
+            unknown.contact, unknown.direction, unknown.is_turn = active.index, NORMAL_ROW, True
+            n += 1
+    ws.problem.first_unknown[ws.problem.n_active] = n
+    return n
+
+
+@kernel("void(ws, i8)")
+def count_as_unique(ws: Workspace, n: int) -> None:
+    """Set the number of unknowns to ``n``, and count all forces as unique."""
+    ws.problem.n_unknown, ws.problem.is_deficient, ws.problem.is_null_space_banded = n, False, False
+    for active in ws.actives:
+        active.has_redundant_force = False
 
 
 @kernel("f8(ws, i8)")

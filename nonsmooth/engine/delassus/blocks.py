@@ -18,9 +18,10 @@ from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel
 
 @kernel()
 def _link_contacts(ws: Workspace) -> None:
-    """Link the active contacts to the movable articulations of their two bodies.
+    """Link the active contacts to the movable articulations of their two bodies, and clear their counts and marks.
 
-    Entry a of ``link_next`` belongs to the first body of contact a, entry ``n_active`` + a to the second.
+    An entry is one side of a contact: entry a of ``link_next`` is the first side of contact a, entry ``n_active`` + a
+    the second.
     """
     for active in ws.actives:
         active.block_mark = -1
@@ -40,7 +41,7 @@ def _link_contacts(ws: Workspace) -> None:
 
 @kernel("void(ws, ActiveContact, i8, b1)")
 def _add_block(ws: Workspace, active: ActiveContact, column: int, is_written: bool) -> None:
-    """Count a block of the row of an active contact. If ``is_written``, write its column, too."""
+    """Count one more block in the row of an active contact, and write its ``column`` if ``is_written``."""
     if is_written:
         block = active.first_block + active.n_blocks
         ws.island.block_column[block] = column
@@ -51,9 +52,12 @@ def _add_block(ws: Workspace, active: ActiveContact, column: int, is_written: bo
 
 @kernel("void(ws, b1)")
 def _add_blocks(ws: Workspace, are_written: bool) -> None:
-    """Count the blocks of all rows, or write them: of each pair that shares a movable articulation, once each way."""
+    """Count the blocks of all rows, or write their columns: each pair that shares an articulation has two blocks.
+
+    The blocks (b, a) of column a are added for one contact a after the other, so the columns of each row ascend.
+    """
     for active in ws.actives:
-        # a contact that both articulations list is marked, so that it is counted once
+        # a contact that is in the lists of both articulations is marked, so that it is counted once
         mark = active.index + (ws.problem.n_active if are_written else 0)
         active.block_mark = mark
         _add_block(ws, active, active.index, are_written)
@@ -69,35 +73,19 @@ def _add_blocks(ws: Workspace, are_written: bool) -> None:
 
 
 @kernel()
-def _link_alone(ws: Workspace) -> None:
-    """Write the structure of an island of one contact: its diagonal block."""
-    active = ws.actives[0]
-    active.diagonal_block = active.first_block
-    active.end_block = active.first_block + 1
-    ws.island.block_column[active.first_block] = 0
-
-
-@kernel()
 def link_active(ws: Workspace) -> None:
     """Write the block structure of the active contacts, behind that of the islands before.
 
-    Sets ``has_too_many_blocks`` if there is no room for the blocks. The run must then stop.
+    If the workspace has too few blocks, each row gets one block, and ``has_too_many_blocks`` is set: the run stops.
     """
-    start = ws.island.block_start.start + ws.problem.first_grouped
     if ws.problem.first_grouped == 0:
-        ws.integers[start] = 0
-    most = min(ws.model.n_slots * ws.model.n_slots, MOST_BLOCKS)
-    if ws.problem.n_active == 1:
-        _link_alone(ws)
-        if ws.integers[start + 1] > most:
-            ws.run.has_too_many_blocks = True
-        return
+        ws.island.block_start[0] = 0
     _link_contacts(ws)
     _add_blocks(ws, are_written=False)
-    total = ws.integers[start]
+    total = ws.island.block_start[ws.problem.first_grouped]
     for active in ws.actives:
         total += active.n_blocks
-    if total > most:
+    if total > min(ws.model.n_slots * ws.model.n_slots, MOST_BLOCKS):
         ws.run.has_too_many_blocks = True
     for active in ws.actives:
         active.end_block = active.first_block + (active.n_blocks if not ws.run.has_too_many_blocks else 1)

@@ -13,13 +13,16 @@ from __future__ import annotations
 from typing import Any
 
 from nonsmooth.engine.memory.blocks import DELASSUS
-from nonsmooth.engine.native.kernel import Contact, Floats, Workspace, delassus_block, entry_point, kernel
+from nonsmooth.engine.memory.layout import FIRST_ROW, SECOND_ROW
+from nonsmooth.engine.native.kernel import ActiveContact, Contact, Workspace, delassus_block, entry_point, kernel
+from nonsmooth.engine.numerics.arrays import clear
 from nonsmooth.engine.numerics.linear import product
+from nonsmooth.engine.numerics.vectors import Pair
 
 
 @entry_point()
 def assemble_delassus(ws: Workspace) -> None:
-    """Write the blocks of G of the active contacts [1/kg]. Jacobians and responses of the contacts must be known."""
+    """Write the blocks of G of the active contacts [1/kg]. Before: their Jacobians and responses are written."""
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         for block in range(active.first_block, active.end_block):
@@ -29,39 +32,35 @@ def assemble_delassus(ws: Workspace) -> None:
 
 @kernel("void(ws, Contact, Contact, i8)")
 def _write_block(ws: Workspace, contact: Contact, other: Contact, out: int) -> None:
-    """Write the accelerations of a contact per unit force of another one to the block at ``out``."""
-    for i in range(DELASSUS):
-        ws.floats[out + i] = 0.0
+    """Write a block of G at ``out``: accelerations of ``contact`` per unit force of the ``other`` contact [1/kg]."""
+    clear(ws.floats, out, DELASSUS)
     for side in range(2):
         articulation = contact.articulation_a if side == 0 else contact.articulation_b
         jacobian = contact.jacobian_a if side == 0 else contact.jacobian_b
         n_u = ws.articulations[articulation].n_u
         if n_u > 0 and other.articulation_a == articulation:
-            _add_products(ws.floats, jacobian, other.response_a, n_u, out)
+            _add_products(ws, jacobian, other.response_a, n_u, out)
         if n_u > 0 and other.articulation_b == articulation:
-            _add_products(ws.floats, jacobian, other.response_b, n_u, out)
+            _add_products(ws, jacobian, other.response_b, n_u, out)
 
 
-@kernel("void(F, i8, i8, i8, i8)")
-def _add_products(floats: Floats, jacobian: int, response: int, n_u: int, out: int) -> None:
-    """Add the products of three rows of a Jacobian and three responses, of ``n_u`` numbers each, to a block."""
+@kernel("void(ws, i8, i8, i8, i8)")
+def _add_products(ws: Workspace, jacobian: int, response: int, n_u: int, out: int) -> None:
+    """Add the products of three Jacobian rows and three responses, of ``n_u`` numbers each, to the block at ``out``."""
     for r in range(3):
         for s in range(3):
-            floats[out + 3 * r + s] += product(floats, 0.0, jacobian + r * n_u, response + s * n_u, n_u)
+            ws.floats[out + 3 * r + s] += product(ws.floats, 0.0, jacobian + r * n_u, response + s * n_u, n_u)
 
 
 @kernel("delassus_block(ws, i8)")
 def diagonal_block(ws: Workspace, a: int) -> Any:
-    """Block of active contact ``a`` on the diagonal of G [1/kg], its entries by name."""
+    """Diagonal block of G of active contact ``a`` [1/kg]. Its nine entries have names, such as ``nn`` and ``t11``."""
     return delassus_block(ws.floats, ws.island.delassus.start, ws.actives[a].diagonal_block)
 
 
 @kernel("f8(ws, f8, i8, i8, i8)")
 def add_product(ws: Workspace, total: float, a: int, r: int, x: int) -> float:
-    """``total`` plus row ``r`` (n, t1, t2) of active contact ``a`` of G times the vector at ``x``.
-
-    With the forces at ``x`` and the acceleration without forces as ``total``, this is an acceleration [m/s^2].
-    """
+    """``total`` plus the product of row ``r`` (n, t1, t2) of active contact ``a`` of G and the vector at ``x``."""
     active = ws.actives[a]
     for block in range(active.first_block, active.end_block):
         g = ws.island.delassus.start + DELASSUS * block + 3 * r
@@ -71,26 +70,39 @@ def add_product(ws: Workspace, total: float, a: int, r: int, x: int) -> float:
     return total
 
 
+@kernel("f8(ws, ActiveContact, i8)")
+def acceleration(ws: Workspace, active: ActiveContact, r: int) -> float:
+    """Row ``r`` (n, t1, t2) of a contact of b + G f: its acceleration under the present forces [m/s^2].
+
+    In problems of impulses b holds velocities, and so this is a velocity [m/s].
+    """
+    return add_product(ws, active.free[r], active.index, r, ws.problem.forces.start)
+
+
+@kernel("v2(ws, ActiveContact)")
+def slip_acceleration(ws: Workspace, active: ActiveContact) -> Pair:
+    """Tangential :func:`acceleration` of a contact under the present forces [m/s^2]."""
+    return acceleration(ws, active, FIRST_ROW), acceleration(ws, active, SECOND_ROW)
+
+
 @kernel()
 def write_dense(ws: Workspace) -> None:
-    """Write G in full to ``matrix``, row by row [1/kg]."""
+    """Write G in full to ``matrix``, row by row [1/kg], with zeros between contacts that do not act on each other."""
     width = 3 * ws.problem.n_active
-    for i in range(width * width):
-        ws.problem.matrix[i] = 0.0
+    clear(ws.floats, ws.problem.matrix.start, width * width)
     for active in ws.actives:
         for block in range(active.first_block, active.end_block):
             for r in range(3):
+                first = (3 * active.index + r) * width + 3 * ws.island.block_column[block]
                 for s in range(3):
-                    line = ws.problem.matrix.start + (3 * active.index + r) * width
-                    column = 3 * ws.island.block_column[block] + s
-                    ws.floats[line + column] = ws.island.delassus[DELASSUS * block + 3 * r + s]
+                    ws.problem.matrix[first + s] = ws.island.delassus[DELASSUS * block + 3 * r + s]
 
 
 @kernel("void(ws, i8, i8)")
 def add_response(ws: Workspace, f: int, du: int) -> None:
     """Add the accelerations of the bodies under the contact forces at ``f`` to ``du``: K (W f_n + N f_t).
 
-    With impulses at ``f`` these are changes of velocities.
+    With impulses at ``f``, these are changes of the velocities.
     """
     for active in ws.actives:
         contact = ws.contacts[active.contact]

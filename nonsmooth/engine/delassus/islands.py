@@ -5,7 +5,7 @@ found by a disjoint-set forest of articulations (R. E. Tarjan, J. ACM 22 (1975) 
 articulations joins their sets, and ``root`` leads from an articulation to the representative of its set. This needs
 one pass through the contacts. A search through the graph of contacts would need its edges, which are not known yet.
 
-Islands are numbered in the order of their first contacts. Arrays call an island a group.
+Islands are numbered in the order of their first contacts. Names in the code say ``group`` for an island.
 """
 
 from __future__ import annotations
@@ -20,8 +20,11 @@ _NO_GROUP = -1
 
 
 @kernel("i8(ws, i8)")
-def _root(ws: Workspace, number: int) -> int:
-    """Representative of the set of an articulation. The path to it is shortened for the next query."""
+def _find_root(ws: Workspace, number: int) -> int:
+    """Representative of the set of articulation ``number``.
+
+    Links the articulations on the path directly to it, so that the next query is short.
+    """
     root = number
     while ws.articulations[root].root != root:
         root = ws.articulations[root].root
@@ -34,14 +37,14 @@ def _root(ws: Workspace, number: int) -> int:
 
 @kernel("i8(ws, Contact)")
 def _movable_articulation(ws: Workspace, contact: Contact) -> int:
-    """A movable articulation of a contact, or its first articulation if both bodies are driven."""
+    """Articulation of a contact that is movable: the first such one, or simply the first if both bodies are driven."""
     a, b = contact.articulation_a, contact.articulation_b
     return int(b if ws.articulations[a].n_u == 0 and ws.articulations[b].n_u > 0 else a)
 
 
 @kernel("void(ws, i8)")
 def activate_group(ws: Workspace, group: int) -> None:
-    """Make the contacts of an island the active ones."""
+    """Make the contacts of island ``group`` the active contacts."""
     first = ws.island.group_start[group]
     ws.problem.first_grouped = first
     ws.problem.n_active = ws.island.group_start[group + 1] - first
@@ -62,7 +65,7 @@ def group_members(ws: Workspace) -> None:
 
 @kernel()
 def _join_articulations(ws: Workspace) -> None:
-    """Join the articulations of each marked contact, if both are movable."""
+    """Begin with a set for each articulation of the marked contacts. Join the two of a contact if both are movable."""
     for contact in ws.contacts:
         if contact.is_in_problem:
             for side in range(2):
@@ -72,7 +75,7 @@ def _join_articulations(ws: Workspace) -> None:
     for contact in ws.contacts:
         a, b = contact.articulation_a, contact.articulation_b
         if contact.is_in_problem and ws.articulations[a].n_u > 0 and ws.articulations[b].n_u > 0:
-            ws.articulations[_root(ws, b)].root = _root(ws, a)
+            ws.articulations[_find_root(ws, b)].root = _find_root(ws, a)
 
 
 @kernel()
@@ -83,7 +86,7 @@ def _number_islands(ws: Workspace) -> None:
         if not contact.is_in_problem:
             continue
         number = _movable_articulation(ws, contact)
-        root = ws.articulations[_root(ws, number)]
+        root = ws.articulations[_find_root(ws, number)]
         # a contact between two driven bodies is an island of its own
         if ws.articulations[number].n_u == 0 or root.group == _NO_GROUP:
             root.group = n_groups
@@ -116,7 +119,7 @@ def _list_islands(ws: Workspace) -> None:
 
 @kernel()
 def group_closed(ws: Workspace) -> None:
-    """Sort the closed contacts into islands, except those of bodies with a step of their own."""
+    """Sort the closed contacts into islands. Contacts of bodies with a step of their own belong to none."""
     for contact in ws.contacts:
         contact.is_in_problem = contact.mode != Mode.OPEN and not has_own_step(ws, contact.index)
     group_members(ws)

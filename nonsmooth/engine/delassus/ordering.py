@@ -26,7 +26,10 @@ def _n_neighbours(active: ActiveContact) -> int:
 
 @kernel("void(ws, i8)")
 def _write_breadth_first_order(ws: Workspace, start: int) -> None:
-    """Write the active contacts to ``order``, breadth first from ``start``, those with few neighbours first."""
+    """Write the numbers of the active contacts to ``order``, breadth first from ``start``, few neighbours first.
+
+    The rank of a contact becomes the position in ``order`` from which the search has met it.
+    """
     for active in ws.actives:
         active.rank = _UNRANKED
     ws.problem.order[0] = start
@@ -39,21 +42,20 @@ def _write_breadth_first_order(ws: Workspace, start: int) -> None:
         first_new = n_ordered
         for block in range(active.first_block, active.end_block):
             neighbour = ws.actives[ws.island.block_column[block]]
-            if neighbour.rank != _UNRANKED:
-                continue
-            neighbour.rank = i
-            _insert(ws, neighbour, first_new, n_ordered)
-            n_ordered += 1
+            if neighbour.rank == _UNRANKED:
+                neighbour.rank = i
+                _insert(ws, neighbour, first_new, n_ordered)
+                n_ordered += 1
 
 
 @kernel("void(ws, ActiveContact, i8, i8)")
 def _insert(ws: Workspace, active: ActiveContact, first: int, end: int) -> None:
-    """Insert an active contact into the part of ``order`` from ``first`` to ``end``, sorted by number of neighbours."""
-    place = end
-    while place > first and _n_neighbours(ws.actives[ws.problem.order[place - 1]]) > _n_neighbours(active):
-        ws.problem.order[place] = ws.problem.order[place - 1]
-        place -= 1
-    ws.problem.order[place] = active.index
+    """Insert a contact into ``order`` between ``first`` and ``end``, where contacts are sorted by neighbour count."""
+    position = end
+    while position > first and _n_neighbours(ws.actives[ws.problem.order[position - 1]]) > _n_neighbours(active):
+        ws.problem.order[position] = ws.problem.order[position - 1]
+        position -= 1
+    ws.problem.order[position] = active.index
 
 
 @kernel("i8(ws)")
@@ -68,14 +70,15 @@ def _bandwidth(ws: Workspace) -> int:
 
 @kernel()
 def order_active(ws: Workspace) -> None:
-    """Sort the contacts of the active island for a narrow band, and write its block structure.
+    """Sort the contacts of the active island for a narrow band, and write their block structure.
 
-    They stay in the order of the list if the new order is not better, or if its band would fill the matrix.
+    They keep their order if the new one gives no narrower band, or if its band would fill the matrix.
     """
     n_active = ws.problem.n_active
     link_active(ws)
-    start = ws.island.block_start.start + ws.problem.first_grouped
-    if ws.run.has_too_many_blocks or ws.integers[start + n_active] - ws.integers[start] == n_active * n_active:
+    n_blocks = ws.actives[n_active - 1].end_block - ws.actives[0].first_block
+    # a matrix that is full has no better order
+    if ws.run.has_too_many_blocks or n_blocks == n_active * n_active:
         return
     first = 0
     for active in ws.actives:
@@ -92,8 +95,8 @@ def order_active(ws: Workspace) -> None:
     if bandwidth >= listed or 9 * bandwidth + 7 >= 3 * n_active:
         return
     for i in range(n_active):
-        place = ws.problem.first_grouped + n_active - 1 - i
-        ws.island.grouped[place] = ws.problem.active[ws.problem.order[i]]
+        last = ws.problem.first_grouped + n_active - 1
+        ws.island.grouped[last - i] = ws.problem.active[ws.problem.order[i]]
     for active in ws.actives:
         active.contact = ws.island.grouped[ws.problem.first_grouped + active.index]
     link_active(ws)

@@ -21,13 +21,7 @@ from nonsmooth.engine.memory.layout import LAST_STAGE, N_ACCOUNTS, N_STAGES
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel
 from nonsmooth.engine.numerics.roots import TRUSTED
-from nonsmooth.engine.numerics.runge_kutta import (
-    stage_part,
-    stage_state,
-    weigh_part,
-    weigh_slopes,
-    write_implicit_interpolant,
-)
+from nonsmooth.engine.numerics.runge_kutta import stage_part, weigh_part, write_implicit_interpolant
 from nonsmooth.engine.numerics.vectors import length
 
 LARGEST_EXPLICIT = 2.0
@@ -127,8 +121,8 @@ def _predict_stage(ws: Workspace, h: float, stage: int, out: int) -> None:
     n, stages, predictor = ws.model.n_y, ws.coefficients.implicit_stages.start, ws.coefficients.implicit_predictor.start
     y, slopes = ws.island.y.start, ws.island.slopes.start
     here = slopes + stage * n
-    stage_state(ws, stages, y, slopes, n, stage, h, ws.step.y_guess.start)
-    stage_state(ws, predictor, y, slopes, n, stage, h, out)
+    stage_part(ws, stages, y, slopes, n, n, stage, h, ws.step.y_guess.start)
+    stage_part(ws, predictor, y, slopes, n, n, stage, h, out)
     for i in range(n):
         ws.floats[here + i] = (ws.floats[out + i] - ws.step.y_guess[i]) / ws.island.stage_time
 
@@ -217,7 +211,7 @@ def _try_implicit_step(ws: Workspace, h: float) -> float:
     for stage in range(2, N_STAGES):
         if not _solve_stage(ws, h, stage):
             return math.inf
-    weigh_slopes(ws, ws.coefficients.implicit_errors.start, slopes, n, h, ws.step.y_stage.start)
+    weigh_part(ws, ws.coefficients.implicit_errors.start, ws.island.slopes.start, n, n, h, ws.step.y_stage.start)
     error = _relative_error(ws)
     ws.step.has_replaced_slope = True
     for i in range(n):

@@ -1,8 +1,9 @@
 """The clock of an impact: common to all contacts until one is left with a load; then the impulse of that one.
 
-With its own clock the phases of a lone contact are polynomials (:mod:`nonsmooth.engine.impact.rates`), so the next
-event is known in closed form and a step can end there. The state is kept where the clock changes. If another contact is
-loaded before the lone one is done, the impact returns to that state, and continues with the common clock for good.
+On the clock of its impulse the phases of a lone contact are polynomials (:mod:`nonsmooth.engine.impact.rates`), so the
+next event is known in closed form and a step can end there. The state is stored when the clock changes. If another
+contact is loaded before the lone one is done, the impact returns to that state, and continues with the common clock for
+good.
 """
 
 from __future__ import annotations
@@ -12,9 +13,10 @@ from typing import NamedTuple
 
 from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.impact.guards import NO_GUARD, GuardKind, guard_of, prepare_guards
-from nonsmooth.engine.impact.rates import NOISE, expansion_efficiency, returned_part, state_at, state_of, state_size
+from nonsmooth.engine.impact.state import NOISE, expansion_efficiency, returned_part, state_at, state_of, state_size
 from nonsmooth.engine.memory.modes import NO_CONTACT, Phase
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel, result
+from nonsmooth.engine.numerics.arrays import copy_numbers
 
 _AT_EVENT = 4.0 * NOISE
 """Value [1] within which the guard that a step aims at has fired. It is round-off of a few operations."""
@@ -30,56 +32,38 @@ class Aim(NamedTuple):
     """Guard at whose root the step ends, or ``NO_GUARD``."""
 
 
-@result
-class Acting(NamedTuple):
-    """The contacts that are not idle."""
-
-    number: int
-    """How many there are."""
-    last: int
-    """The last one of them, or ``NO_CONTACT``."""
-
-
 # --- changes of the clock ---------------------------------------------------------------------------------------------
 
 
 @kernel("b1(ws)")
 def change_clock(ws: Workspace) -> bool:
     """Let the last contact with a load be the clock, or undo that if others follow. True if the clock has changed."""
-    acting = _acting(ws)
+    n_others, last = 0, NO_CONTACT
+    for active in ws.actives:
+        if active.phase != Phase.IDLE and active.index != ws.impact.lone_contact:
+            n_others += 1
+            last = active.index
     if ws.impact.lone_contact == NO_CONTACT:
-        if acting.number != 1 or not _can_be_clock(ws, ws.actives[acting.last]):
+        if n_others != 1 or not _can_be_clock(ws, ws.actives[last]):
             return False
-        _keep(ws)
-        ws.impact.lone_contact = acting.last
-        prepare_guards(ws)
-        return True
-    if acting.number == 0 or (acting.number == 1 and acting.last == ws.impact.lone_contact):
+        _store_state(ws)
+        ws.impact.lone_contact = last
+    elif n_others == 0:
         return False
-    ws.impact.lone_contact = NO_CONTACT
-    ws.impact.may_be_lone = False
-    _restore(ws)
+    else:
+        ws.impact.lone_contact, ws.impact.may_be_lone = NO_CONTACT, False
+        _restore_state(ws)
     prepare_guards(ws)
     return True
-
-
-@kernel("Acting(ws)")
-def _acting(ws: Workspace) -> Acting:
-    """Number of the active contacts that are not idle, and the last one."""
-    number, last = 0, NO_CONTACT
-    for active in ws.actives:
-        if active.phase != Phase.IDLE:
-            number += 1
-            last = active.index
-    return Acting(number=number, last=last)
 
 
 @kernel("b1(ws, ActiveContact)")
 def _can_be_clock(ws: Workspace, active: ActiveContact) -> bool:
     """True if the impulse of an active contact, the only one that is not idle, may be the clock.
 
-    A lone expansion ends when its energy is used up. The error of the integration may have left none: a steep force has
-    returned all energy long before the deformation is zero, which ends the phase on the common clock.
+    This is tried once in an impact, and a held contact has no energy to end with. A lone expansion ends when its energy
+    is used up. The error of the integration may have left none: a steep force has returned all energy long before the
+    deformation is zero, which ends the phase on the common clock.
     """
     if not ws.impact.may_be_lone or active.phase == Phase.HELD:
         return False
@@ -88,10 +72,9 @@ def _can_be_clock(ws: Workspace, active: ActiveContact) -> bool:
 
 
 @kernel()
-def _keep(ws: Workspace) -> None:
-    """Keep the state of the impact, to which it may return."""
-    for i in range(state_size(ws)):
-        ws.impact.y_kept[i] = ws.impact.y[i]
+def _store_state(ws: Workspace) -> None:
+    """Store the state of the impact before the clock changes."""
+    copy_numbers(ws.floats, ws.impact.y.start, state_size(ws), ws.impact.y_kept.start)
     ws.impact.phases_kept = ws.event.n_phases
     for active in ws.actives:
         active.phase_kept, active.sticking_kept = active.phase, active.sticks
@@ -101,10 +84,9 @@ def _keep(ws: Workspace) -> None:
 
 
 @kernel()
-def _restore(ws: Workspace) -> None:
-    """Return to the state that was kept."""
-    for i in range(state_size(ws)):
-        ws.impact.y[i] = ws.impact.y_kept[i]
+def _restore_state(ws: Workspace) -> None:
+    """Return to the state of the impact before the clock changed."""
+    copy_numbers(ws.floats, ws.impact.y_kept.start, state_size(ws), ws.impact.y.start)
     ws.event.n_phases = ws.impact.phases_kept
     for active in ws.actives:
         active.phase, active.sticks = active.phase_kept, active.sticking_kept
@@ -117,11 +99,12 @@ def _restore(ws: Workspace) -> None:
 
 
 @kernel("Aim(ws, f8)")
-def aim(ws: Workspace, h: float) -> Aim:
+def aim_at_event(ws: Workspace, h: float) -> Aim:
     """Shorten a step of ``h`` of the lone contact to its next event, which its polynomials predict."""
     active = ws.actives[ws.impact.lone_contact]
     direction = ws.contacts[active.contact].direction
     rate, force, own = active.rate, active.force, diagonal_block(ws, active.index).entries
+    # slopes of the gap rate, and of the slip along its direction, per pseudo-time
     growth = slip = slip_growth = 0.0
     for j in range(3):
         growth += own[j] * force[j]
@@ -141,8 +124,8 @@ def aim(ws: Workspace, h: float) -> Aim:
 def _aim_at_end_of_phase(ws: Workspace, active: ActiveContact, growth: float, aim: Aim) -> Aim:
     """Shorten a step to the end of the phase of the lone contact, whose gap rate has the slope ``growth``.
 
-    A compression ends at g' + growth s = 0; an expansion at E + E' s + E'' s^2 / 2 = 0, with E' = -g' / efficiency. The
-    root is written so that nothing cancels.
+    A compression ends at g' + growth s = 0, where s is the pseudo-time. An expansion ends at E + E' s + E'' s^2 / 2 = 0
+    with E' = -g' / efficiency. The root is written so that nothing cancels. A later end leaves the step as it is.
     """
     rate = active.gap_rate
     if active.phase == Phase.COMPRESSION and growth > 0.0:
@@ -161,7 +144,7 @@ def _aim_at_end_of_phase(ws: Workspace, active: ActiveContact, growth: float, ai
 
 @kernel("b1(ws, Aim)")
 def has_arrived(ws: Workspace, aim: Aim) -> bool:
-    """True if the guard that a step of the lone contact aimed at is zero within round-off.
+    """True if the guard that a step of the lone contact aimed at is zero within round-off, False if it aimed at none.
 
     The energy guard is the energy that expansion has still to return, relative to ``energy_scale``. If that energy is
     small from the start, lost * part / (1 - part) with the returned part, the threshold is relative to it.

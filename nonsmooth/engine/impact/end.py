@@ -11,16 +11,16 @@ An impact that was cut short may leave an approach. :func:`how_over` says what t
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from nonsmooth.engine.delassus.delassus import diagonal_block
-from nonsmooth.engine.impact.rates import NOISE, evaluate_impact_rates, is_loaded, is_lone, least_efficiency, state_of
+from nonsmooth.engine.impact.rates import evaluate_impact_rates
 from nonsmooth.engine.impact.scales import REST
+from nonsmooth.engine.impact.state import NOISE, is_loaded, is_lone, least_efficiency, state_of
 from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.memory.modes import Phase, Truncation
-from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel, result
+from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel
 from nonsmooth.engine.numerics.linear import SINGULAR
-from nonsmooth.engine.numerics.vectors import length
+from nonsmooth.engine.numerics.vectors import Pair, length
 
 _LOCKED = 0.1
 """Unbalanced part of the forces, relative to their parts, below which they may be those of a wedge. Forces of bodies
@@ -31,22 +31,12 @@ _LEAST_TOLERANCE = 1e-11
 """Least relative tolerance of an impact for which what is left counts as faded. Below it there is round-off only."""
 
 
-@result
-class Balance(NamedTuple):
-    """How far the forces of the active contacts balance each other."""
-
-    left: float
-    """Largest component of G f, the rate by which the forces accelerate the contacts [m/s per pseudo-time]."""
-    size: float
-    """Largest sum of the magnitudes of the terms of a component of G f, in the same unit."""
-
-
 # --- accounts ---------------------------------------------------------------------------------------------------------
 
 
 @kernel("void(ws, ActiveContact)")
 def account(ws: Workspace, active: ActiveContact) -> None:
-    """Account for the work of the present phase of an active contact, or for the part that is not accounted for [J]."""
+    """Account for the work of the present phase of an active contact [J], as far as it is not accounted for."""
     state = state_of(ws, active)
     done = state.work - active.work_accounted
     if active.phase == Phase.COMPRESSION:
@@ -57,8 +47,8 @@ def account(ws: Workspace, active: ActiveContact) -> None:
 
 
 @kernel("void(ws, ActiveContact)")
-def empty(ws: Workspace, active: ActiveContact) -> None:
-    """Take the energy that is left in an active contact. It is lost to restitution."""
+def lose_energy(ws: Workspace, active: ActiveContact) -> None:
+    """Set the energy and the deformation of an active contact to zero. The energy is lost to restitution."""
     state = state_of(ws, active)
     state.deformation = state.energy = state.lost = 0.0
 
@@ -69,12 +59,12 @@ def end_phase(ws: Workspace, active: ActiveContact) -> None:
     account(ws, active)
     active.phase = Phase.IDLE
     active.sticks = False
-    empty(ws, active)
+    lose_energy(ws, active)
 
 
 @kernel()
-def finish(ws: Workspace) -> None:
-    """Write the impulses [N s], energies [J] and rates [m/s] with which the impact ends."""
+def write_impact_results(ws: Workspace) -> None:
+    """Write the impulses [N s] and energies [J] of the impact, and the rates [m/s] with which it ends."""
     for active in ws.actives:
         state = state_of(ws, active)
         for r in range(3):
@@ -89,7 +79,10 @@ def finish(ws: Workspace) -> None:
 
 @kernel("b1(ws)")
 def is_finished(ws: Workspace) -> bool:
-    """True if no contact is loaded. A compression without deformation that does not approach counts as none."""
+    """True if no contact is loaded.
+
+    A compression on the common clock counts only if it has a deformation, or approaches.
+    """
     for active in ws.actives:
         has_begun = is_lone(ws, active) or state_of(ws, active).deformation > 0.0
         begins = has_begun or active.gap_rate < -NOISE * ws.impact.speed_scale
@@ -100,7 +93,7 @@ def is_finished(ws: Workspace) -> bool:
 
 @kernel("b1(ws)")
 def end_trapped(ws: Workspace) -> bool:
-    """End the phases of contacts that are trapped. True if they are. What they have stored is lost to restitution."""
+    """End the phases of trapped contacts, whose energy is lost to restitution. True if there were any."""
     if not _is_trapped(ws):
         return False
     for active in ws.actives:
@@ -116,10 +109,10 @@ def _is_trapped(ws: Workspace) -> bool:
 
     Joints may let a point move along one line only. The point is wedged if that line lies within the cone of friction:
     slip and approach stop together, and the joints take the force of the contact. From G f = 0 follows f . G f = 0: the
-    forces accelerate no part of the bodies. So it stays, and the deformation is never returned.
+    forces accelerate no part of the bodies. So the state stays, and the deformation is never returned.
 
-    Rates with next to no energy count as none, and rates too slow to bounce. A small part of the forces may be left
-    unbalanced. The energy that this part could return is its square, relative to the stored energy.
+    Rates with next to no energy count as zero, and so do rates too slow to bounce. A small part of the forces may be
+    left unbalanced. The energy that this part could return is its square, relative to the stored energy.
     """
     if _moves(ws):
         return False
@@ -128,8 +121,7 @@ def _is_trapped(ws: Workspace) -> bool:
         if active.phase != Phase.IDLE:
             stored += state_of(ws, active).energy
         lightest = min(lightest, 0.5 / diagonal_block(ws, active.index).nn)
-    balance = _balance(ws)
-    left, size = balance.left, balance.size
+    left, size = _balance(ws)
     if left < max(SINGULAR, ws.tolerance.impact) * size:
         return True
     returns_little = left * left * stored < size * size * lightest * ws.event.slow_speed * ws.event.slow_speed
@@ -138,20 +130,25 @@ def _is_trapped(ws: Workspace) -> bool:
 
 @kernel("b1(ws)")
 def _moves(ws: Workspace) -> bool:
-    """True if a loaded contact approaches or separates fast enough to have an energy and to bounce."""
+    """True if a loaded contact approaches or separates fast enough to have an energy and to bounce, else False."""
     brought = 0.0
     for active in ws.actives:
         brought = max(brought, active.energy_scale)
     for active in ws.actives:
+        # gap rate whose energy is REST^2 of the largest one brought
         still = max(REST * math.sqrt(brought * diagonal_block(ws, active.index).nn), ws.event.slow_speed)
         if is_loaded(active) and abs(active.gap_rate) > still:
             return True
     return False
 
 
-@kernel("Balance(ws)")
-def _balance(ws: Workspace) -> Balance:
-    """How far the present forces f of the active contacts balance each other: the largest component of G f."""
+@kernel("v2(ws)")
+def _balance(ws: Workspace) -> Pair:
+    """How far the present forces f of the active contacts balance each other [m/s per pseudo-time]: two numbers.
+
+    The first is the largest component of G f, by which the forces accelerate the contacts. The second is the largest
+    sum of the magnitudes of the terms of a component.
+    """
     left = size = 0.0
     for active in ws.actives:
         for r in range(3):
@@ -163,7 +160,7 @@ def _balance(ws: Workspace) -> Balance:
                     total += part
                     total_size += abs(part)
             size, left = max(size, total_size), max(left, abs(total))
-    return Balance(left=left, size=size)
+    return left, size
 
 
 # --- cascades of ever smaller compressions ----------------------------------------------------------------------------
@@ -171,9 +168,9 @@ def _balance(ws: Workspace) -> Balance:
 
 @kernel("b1(ws)")
 def has_faded(ws: Workspace) -> bool:
-    """True if what is left of the impact, stored or about to be, is below the tolerance, or too slow to bounce."""
+    """True if the energies that are stored, and the approaches, are below the tolerance or too slow to bounce."""
     small = max(ws.tolerance.impact, _LEAST_TOLERANCE)
-    # after the impact, an approach within the tolerance of velocities is none
+    # after the impact, an approach within the tolerance of velocities counts as rest
     slowest = max(ws.event.slow_speed, ws.tolerance.velocity)
     slow = max(slowest, small * ws.impact.speed_scale)
     for active in ws.actives:
@@ -189,7 +186,7 @@ def has_faded(ws: Workspace) -> bool:
 
 @kernel()
 def cut_short(ws: Workspace) -> None:
-    """End a cascade of ever smaller compressions. An approach that is left is for the instant to stop."""
+    """End all phases of a cascade of ever smaller compressions. The contact problem after it stops what approaches."""
     for active in ws.actives:
         end_phase(ws, active)
     ws.event.truncation = Truncation.SLOW
@@ -199,21 +196,21 @@ def cut_short(ws: Workspace) -> None:
 def how_over(ws: Workspace) -> Truncation:
     """How the impact of the active contacts ended that was cut short: a member of :class:`Truncation`.
 
-    If the approach that remains is negligible, the impact is over. Contacts that slip may feed each other's bounces
-    without end, however small the bounces are.
+    SLOW: the approach that remains is negligible. Contacts that slip may feed each other's bounces without end, however
+    small the bounces are.
 
-    A fast approach may remain if the compressions of light bodies stop a heavy one gradually. Each compression loses
-    energy, so the limit of infinitely many is common rest: an inelastic impact. Slip that is faster than the approach
-    may feed the bounces, and a contact without loss never damps them: then the impact has no end.
+    FAST: compressions of light bodies stop a heavy one gradually. Each compression loses energy, so the limit of
+    infinitely many is common rest: an inelastic impact.
+
+    NONE: the impact has no end. A slip that is faster than the approach may feed the bounces, and a contact without
+    loss never damps them.
     """
-    before = behind = slip = 0.0
-    loses = True
+    before, approach, slip, loses = 0.0, 0.0, 0.0, True
     for active in ws.actives:
         before = max(before, abs(active.rate_before[0]), abs(active.rate_before[1]), abs(active.rate_before[2]))
-        behind = max(behind, -active.gap_rate)
+        approach = max(approach, -active.gap_rate)
         slip = max(slip, length(active.slip))
-        if not least_efficiency(ws, active) < 1.0:
-            loses = False
-    if behind <= _NEGLIGIBLE_APPROACH * before:
+        loses = loses and least_efficiency(ws, active) < 1.0
+    if approach <= _NEGLIGIBLE_APPROACH * before:
         return Truncation.SLOW
-    return Truncation.FAST if loses and slip <= behind else Truncation.NONE
+    return Truncation.FAST if loses and slip <= approach else Truncation.NONE

@@ -5,27 +5,29 @@ the velocities, Eq. (17) with impulses in place of forces:
 
 1. Slips at rest are stopped exactly. What is left of them is round-off, but its direction would act as that of a slip.
 2. Block Gauss-Seidel (:mod:`nonsmooth.engine.contact.cone`) finds sticking contacts and directions.
-3. Newton's method (:mod:`nonsmooth.engine.contact.polish`) makes the directions exact: next to the static bound they
-   decide whether a slip grows.
+3. Newton's method (:mod:`nonsmooth.engine.contact.slip_directions`) makes the directions exact. Next to the static
+   bound they decide whether a slip grows.
 4. Contacts that were found on their bounds but do not start to slip stick.
 
-Between two choices slips follow their own velocity, and :func:`stop_halted`, :func:`orient` and :func:`stays_slow` keep
-their directions well-defined.
+Between two choices the directions of slips follow from their velocities. :func:`count_stopped_slips`, :func:`orient`
+and :func:`count_slow_step` keep them well-defined.
 """
 
 from __future__ import annotations
 
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
 from nonsmooth.engine.contact.forces import friction_of_slip, resolve
-from nonsmooth.engine.contact.polish import polish
 from nonsmooth.engine.contact.problem import friction_coefficient, slip_coefficient
-from nonsmooth.engine.contact.trial import hold_tried
+from nonsmooth.engine.contact.slip_directions import find_slip_directions
+from nonsmooth.engine.contact.trial import find_tried_forces
 from nonsmooth.engine.delassus.delassus import diagonal_block
 from nonsmooth.engine.impact.guards import GuardKind, guard_of
-from nonsmooth.engine.impact.rates import NOISE, evaluate_impact_rates, is_loaded, normal_force, slip_slope, state_of
+from nonsmooth.engine.impact.rates import evaluate_impact_rates, slip_slope
+from nonsmooth.engine.impact.state import NOISE, is_loaded, normal_force, state_of
 from nonsmooth.engine.memory.modes import Mode, Phase
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, entry_point, kernel
-from nonsmooth.engine.numerics.vectors import length
+from nonsmooth.engine.numerics.arrays import clear
+from nonsmooth.engine.numerics.vectors import length, unit
 
 _NO_START = 1e-10
 """Slope of a slip that does not start, relative to the largest normal one. Redundant friction is not more exact."""
@@ -41,7 +43,7 @@ def choose_friction(ws: Workspace, probe: float, turns_rate: bool) -> None:
     """Decide which contacts at rest stick and in which direction the others start to slide.
 
     ``probe`` is the pseudo-time after which forces are compared if none has built up yet. ``turns_rate`` is true if the
-    sign of a gap rate has changed.
+    sign of a gap rate has just changed. Slips of contacts at rest are stopped by impulses.
     """
     evaluate_impact_rates(ws, ws.impact.y.start)
     has_contact_at_rest = False
@@ -53,11 +55,10 @@ def choose_friction(ws: Workspace, probe: float, turns_rate: bool) -> None:
     for active in ws.actives:
         _write_problem(ws, active, probe)
     if has_contact_at_rest:
-        for i in range(3 * len(ws.actives)):
-            ws.problem.free_accelerations[i] = 0.0
+        clear(ws.floats, ws.problem.free_accelerations.start, 3 * len(ws.actives))
         gauss_seidel(ws, SWEEPS)
         _refine_starting_slips(ws)
-        _hold_idle(ws)
+        _hold_slips_without_start(ws)
     for active in ws.actives:
         if active.normal_force <= 0.0:
             active.sticks = False
@@ -68,7 +69,8 @@ def choose_friction(ws: Workspace, probe: float, turns_rate: bool) -> None:
 def _find_rest(ws: Workspace, active: ActiveContact, turns_rate: bool) -> None:
     """Write direction and coefficients of the friction of an active contact, and whether it is at rest and may stick.
 
-    Without friction nothing holds a contact, and nothing can stop a slip, however slow.
+    A contact that sticks is at rest, and so is one with a slow slip, unless that is about to grow. Without friction
+    nothing holds a contact, and nothing can stop a slip, however slow.
     """
     speed = length(active.slip)
     active.direction = ws.contacts[active.contact].direction
@@ -82,9 +84,10 @@ def _find_rest(ws: Workspace, active: ActiveContact, turns_rate: bool) -> None:
 
 @kernel("b1(ws, ActiveContact)")
 def _gets_away(ws: Workspace, active: ActiveContact) -> bool:
-    """True if the slip of an active contact grows, at a time when the sign of a gap rate changes.
+    """True if the slip of an active contact is more than round-off and grows.
 
-    No force jumps there. Stopping the slip would change the rates of other contacts, and it would start again.
+    If the sign of a gap rate changes, no force jumps. Stopping the slip would change the rates of other contacts, and
+    it would start again.
     """
     if length(active.slip) <= NOISE * ws.impact.speed_scale:
         return False
@@ -111,8 +114,10 @@ def _stop_slips(ws: Workspace) -> None:
 
 @kernel("void(ws, ActiveContact, f8)")
 def _write_problem(ws: Workspace, active: ActiveContact, probe: float) -> None:
-    """Write coefficient, normal force and slip direction of an active contact, and its friction if it slides."""
-    v1, v2 = active.slip
+    """Write coefficient, normal force and slip direction of an active contact, and its friction if it slides.
+
+    The normal force of a held contact is unknown, that of a loaded one follows from its deformation [N].
+    """
     speed = length(active.slip)
     active.friction_coefficient = slip_coefficient(ws, active.contact, speed)
     if speed == 0.0 and max(active.friction_coefficient, active.static_coefficient) > 0.0:
@@ -122,19 +127,23 @@ def _write_problem(ws: Workspace, active: ActiveContact, probe: float) -> None:
     active.sticks = False
     active.normal_force = 0.0
     if is_loaded(active):
+        # a deformation that has not begun is taken a short pseudo-time later
         deformation = state_of(ws, active).deformation
         if not deformation > 0.0:
             deformation = -probe * active.gap_rate
         active.normal_force = normal_force(ws, active, deformation)
     active.direction = ws.contacts[active.contact].direction
     if not active.is_at_rest and speed > 0.0:
-        active.direction = v1 / speed, v2 / speed
+        active.direction = unit(active.slip)
     friction_of_slip(ws, active.index)
 
 
 @kernel()
 def _refine_starting_slips(ws: Workspace) -> None:
-    """Refine by Newton's method the directions in which contacts at rest start to slip. If it fails, restore them."""
+    """Make the directions in which contacts at rest start to slip exact, by Newton's method.
+
+    If it fails, the directions are those of before. The forces are found in either case.
+    """
     ws.problem.acceleration_scale = 0.0
     for active in ws.actives:
         own = diagonal_block(ws, active.index)
@@ -145,15 +154,15 @@ def _refine_starting_slips(ws: Workspace) -> None:
         active.direction_found = active.direction
         acceleration = max(own.nn, own.t11, own.t22) * abs(active.normal_force)
         ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, acceleration)
-    if not polish(ws):
+    if not find_slip_directions(ws):
         for active in ws.actives:
             active.direction = active.direction_found
-        hold_tried(ws)
+        find_tried_forces(ws)
 
 
 @kernel()
-def _hold_idle(ws: Workspace) -> None:
-    """Let contacts stick that were found on their static bounds but do not start to slip.
+def _hold_slips_without_start(ws: Workspace) -> None:
+    """Let contacts stick that were found on their static bounds but whose slips do not start.
 
     The distribution of redundant friction is arbitrary, so some contacts are on their bounds by chance.
     """
@@ -171,24 +180,26 @@ def _hold_idle(ws: Workspace) -> None:
 
 @kernel("void(ws, ActiveContact)")
 def break_away(ws: Workspace, active: ActiveContact) -> None:
-    """Let an active contact slip against the friction that held it."""
+    """Let an active contact that sticks slip in the direction opposite to its friction."""
     t1, t2 = active.friction
-    norm = length(active.friction)
     active.sticks = False
-    if norm > 0.0:
-        ws.contacts[active.contact].direction = -t1 / norm, -t2 / norm
+    if length(active.friction) > 0.0:
+        ws.contacts[active.contact].direction = unit((-t1, -t2))
 
 
 @kernel("b1(ActiveContact)")
 def has_stopped(active: ActiveContact) -> bool:
-    """True if an active contact that slides with friction has come to rest."""
+    """True if an active contact that slides with friction has come to rest, False also if it sticks."""
     slides = not active.sticks and active.friction_coefficient != 0.0
     return slides and length(active.slip) <= active.rest_slip
 
 
 @kernel()
-def stop_halted(ws: Workspace) -> None:
-    """Let the slips stick that the accepted step has stopped. After an implicit step slips have any direction."""
+def count_stopped_slips(ws: Workspace) -> None:
+    """Count the slips that the accepted step has stopped: they stick from now on.
+
+    After an implicit step slips may have any direction, so that the directions are set anew.
+    """
     if ws.impact.is_step_implicit:
         ws.impact.is_step_implicit = False
         orient(ws)
@@ -200,20 +211,22 @@ def stop_halted(ws: Workspace) -> None:
 
 @kernel()
 def orient(ws: Workspace) -> None:
-    """Take the present slip directions as those of the step that begins. Their guards start anew."""
+    """Set the slip directions of the step that begins to those of the present slips. Their guards start anew.
+
+    Slips that count as rest keep the direction of before.
+    """
     for active in ws.actives:
-        v1, v2 = active.slip
         speed = length(active.slip)
         if active.phase != Phase.IDLE and not active.sticks and speed > active.rest_slip:
-            ws.contacts[active.contact].direction = v1 / speed, v2 / speed
+            ws.contacts[active.contact].direction = unit(active.slip)
             guard_of(ws, active, GuardKind.FRICTION).value = NOISE + speed / ws.impact.speed_scale
 
 
 @kernel("b1(ws)")
-def stays_slow(ws: Workspace) -> bool:
-    """True if a slip is next to rest and slows down, or has not got away from there for many steps.
+def count_slow_step(ws: Workspace) -> bool:
+    """True if friction must be chosen again: a slip next to rest slows down, or has been there for many steps.
 
-    Next to rest the direction of a slip is stiff, and its speed is below the error: friction must be chosen again.
+    Next to rest the direction of a slip is stiff, and its speed is below the error. Counts the steps in ``slow_steps``.
     """
     is_slow = False
     for active in ws.actives:

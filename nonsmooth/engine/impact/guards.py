@@ -24,7 +24,8 @@ from __future__ import annotations
 from enum import IntEnum
 
 from nonsmooth.engine.contact.forces import evaluate_margins
-from nonsmooth.engine.impact.rates import NOISE, ContactState, evaluate_impact_forces, is_lone, state_at, write_rates
+from nonsmooth.engine.impact.rates import evaluate_impact_forces, write_rates
+from nonsmooth.engine.impact.state import NOISE, ContactState, is_lone, state_at
 from nonsmooth.engine.memory.layout import IMPACT_GUARDS
 from nonsmooth.engine.memory.modes import Phase
 from nonsmooth.engine.native.kernel import ActiveContact, ImpactGuard, Workspace, kernel, result
@@ -54,13 +55,13 @@ class GuardKind(IntEnum):
 
 @kernel("ImpactGuard(ws, ActiveContact, GuardKind)")
 def guard_of(ws: Workspace, active: ActiveContact, kind: GuardKind) -> ImpactGuard:
-    """Guard of an active contact, of a kind."""
+    """The guard of an active contact of this ``kind``."""
     return ws.impact_guards[IMPACT_GUARDS * active.index + kind]
 
 
 @kernel("b1(i8)")
 def is_rate_guard(guard: int) -> bool:
-    """True if a guard that fired is one of a gap rate."""
+    """True if ``guard`` is the number of a guard of a gap rate; False if it is another, or ``NO_GUARD``."""
     return guard != NO_GUARD and guard % IMPACT_GUARDS == GuardKind.RATE
 
 
@@ -88,7 +89,7 @@ def write_impact_guards(ws: Workspace, y: int) -> None:
 
 @kernel("f8(ws, ActiveContact)")
 def _force_scale(ws: Workspace, active: ActiveContact) -> float:
-    """Force to which the forces of an active contact are relative [N], or 1 if its impulse is the clock."""
+    """Force scale of an active contact [N], or 1 for the lone one, whose normal force on its clock is 1."""
     return 1.0 if is_lone(ws, active) else active.force_scale
 
 
@@ -96,20 +97,24 @@ def _force_scale(ws: Workspace, active: ActiveContact) -> float:
 def _rate_guard(ws: Workspace, active: ActiveContact) -> float:
     """Guard of the gap rate of an active contact, relative to the largest speed, or of the force that holds it [1].
 
-    In a window a contact that a wave has passed starts again only at an approach above the error.
+    ``NOISE`` keeps a rate of round-off from firing the guard.
     """
     rate = active.gap_rate / ws.impact.speed_scale
     if active.phase == Phase.COMPRESSION:
         return NOISE - rate
     if active.phase == Phase.HELD:
         return NOISE + active.normal_force / _force_scale(ws, active)
+    # in a window, an approach of a contact that a wave has passed may be an error
     has_passed = active.phase == Phase.IDLE and ws.contacts[active.contact].n_waves > 0
     return (ws.impact.faint_rate if has_passed and ws.impact.faint_rate > 0.0 else NOISE) + rate
 
 
 @kernel("f8(ws, ActiveContact, impact_state)")
 def _energy_guard(ws: Workspace, active: ActiveContact, state: ContactState) -> float:
-    """Guard of the deformation or of the energy of an active contact, relative to its scale [1]."""
+    """Guard of the deformation or of the energy of an active contact, relative to its scale [1].
+
+    It is 1, and never fires, for a contact that is idle or held, and for a lone compression.
+    """
     if active.phase == Phase.COMPRESSION and not is_lone(ws, active):
         return _SLACK + state.deformation / active.deformation_scale
     if active.phase == Phase.EXPANSION:
@@ -121,13 +126,17 @@ def _energy_guard(ws: Workspace, active: ActiveContact, state: ContactState) -> 
 
 @kernel("f8(ws, ActiveContact)")
 def _friction_guard(ws: Workspace, active: ActiveContact) -> float:
-    """Guard of the slip of an active contact, or of its friction if it sticks, relative to its scale [1]."""
+    """Guard of the slip of an active contact, or of its friction if it sticks, relative to its scale [1].
+
+    It is 1, and never fires, for a contact that is idle or slides without friction.
+    """
     if active.phase == Phase.IDLE or (not active.sticks and active.friction_coefficient == 0.0):
         return 1.0
     if active.sticks:
         # a slip that the step has stopped may have been outside of the cone before
         margin = max(0.0, active.static_margin) if active.was_halted else active.static_margin
         return NOISE + margin / _force_scale(ws, active)
+    # a slip may turn by any angle in an implicit step
     if ws.impact.is_step_implicit:
         return NOISE + length(active.slip) / ws.impact.speed_scale
     d1, d2 = ws.contacts[active.contact].direction
@@ -150,7 +159,7 @@ def prepare_guards(ws: Workspace) -> None:
 
 @kernel()
 def arm_impact_guards(ws: Workspace) -> None:
-    """Start the guards of a step from their present values, and arm the positive ones, too."""
+    """Store the present values of the guards as those at the start of a step, and arm the positive ones, too."""
     for guard in ws.impact_guards:
         guard.at_start = guard.value
         if guard.value > 0.0:
@@ -159,7 +168,7 @@ def arm_impact_guards(ws: Workspace) -> None:
 
 @kernel("i8(ws, i8)")
 def first_fired(ws: Workspace, located: int) -> int:
-    """First guard that ends its phase, other than the guard ``located``, or ``NO_GUARD``."""
+    """Number of the first guard that has fired, other than ``located``, or ``NO_GUARD``."""
     for guard in ws.impact_guards:
         has_fired = (guard.value < 0.0 and guard.is_armed) or guard.value < _VIOLATED
         if has_fired and guard.index != located:

@@ -8,7 +8,7 @@ from nonsmooth.engine.delassus.delassus import add_product, diagonal_block, writ
 from nonsmooth.engine.memory.blocks import GUARD, UNTOUCHED
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, at, call_map, kernel
-from nonsmooth.engine.numerics.vectors import length
+from nonsmooth.engine.numerics.vectors import length, unit
 
 _SINGULAR = 1e-3
 """Coefficient of the normal force with sliding friction that counts as singular, relative to the one without friction.
@@ -23,7 +23,8 @@ def jam_slips(ws: Workspace) -> bool:
     """Stop the slips that are at the Painleve singularity. True if there are any, and impulses that press do that.
 
     In the limit of the singularity friction is at its bound and the gap stays closed, so the impulse is the one that
-    brings slip and gap rate to rest together. The other contacts keep their modes.
+    brings slip and gap rate to rest together. The other contacts keep their modes. False if no slip jams, or if an
+    impulse would have to pull.
     """
     has_jammed = False
     for active in ws.actives:
@@ -42,9 +43,8 @@ def jam_slips(ws: Workspace) -> bool:
 
 @kernel("b1(ws, ActiveContact)")
 def _write_jam(ws: Workspace, active: ActiveContact) -> bool:
-    """Write the problem of an active contact that keeps its mode, or sticks if its slip jams. True if it does."""
+    """Write the problem of an active contact that keeps its mode, or sticks if its slip jams. True if its slip jams."""
     contact = ws.contacts[active.contact]
-    v1, v2 = contact.slip
     speed = length(contact.slip)
     for r in range(3):
         active.free[r] = contact.rate[r]
@@ -53,7 +53,7 @@ def _write_jam(ws: Workspace, active: ActiveContact) -> bool:
     if contact.mode != Mode.SLIDE or contact.is_compliant or not speed > 0.0:
         return False
     active.friction_coefficient = slip_coefficient(ws, active.contact, speed)
-    active.direction = v1 / speed, v2 / speed
+    active.direction = unit(contact.slip)
     jams: bool = reduced_coefficient(ws, active.index) < _SINGULAR * diagonal_block(ws, active.index).nn
     if jams:
         active.sticks = True
@@ -65,22 +65,18 @@ def _write_jam(ws: Workspace, active: ActiveContact) -> bool:
 
 @kernel()
 def map_impact(ws: Workspace) -> None:
-    """Let a law that maps velocities find the impulses of the active contacts [N s]."""
+    """Let a law that maps velocities find the impulses of the active contacts [N s], and write their losses [J]."""
     n = len(ws.actives)
     for active in ws.actives:
         _write_parameters(ws, active)
     write_dense(ws)
+    # numbers behind the impulses show whether the law writes past their end
     behind = ws.impact.impulse.start + 3 * n
     for i in range(GUARD):
         ws.floats[behind + i] = UNTOUCHED
-    call_map(
-        ws.options.impact_map,
-        n,
-        at(ws.floats, ws.problem.matrix.start),
-        at(ws.floats, ws.impact.rates_before.start),
-        at(ws.floats, ws.impact.map_block.start),
-        at(ws.floats, ws.impact.impulse.start),
-    )
+    matrix, rates = at(ws.floats, ws.problem.matrix.start), at(ws.floats, ws.impact.rates_before.start)
+    block, impulses = at(ws.floats, ws.impact.map_block.start), at(ws.floats, ws.impact.impulse.start)
+    call_map(ws.options.impact_map, n, matrix, rates, block, impulses)
     for i in range(GUARD):
         if ws.floats[behind + i] != UNTOUCHED:
             ws.run.n_past_map = n
@@ -89,9 +85,9 @@ def map_impact(ws: Workspace) -> None:
 
 @kernel("void(ws, ActiveContact)")
 def _write_parameters(ws: Workspace, active: ActiveContact) -> None:
-    """Write what the law is given of an active contact: its friction coefficient, then the parameters of the law.
+    """Write the friction coefficient of an active contact for the law, then the parameters of the law.
 
-    The block is one vector over the contacts for each of them.
+    ``map_block`` has one row for each of these, with a column per contact.
     """
     contact, n = ws.contacts[active.contact], len(ws.actives)
     ws.impact.map_block[active.index] = slip_coefficient(ws, active.contact, length(contact.slip))

@@ -20,20 +20,22 @@ import math
 from enum import IntEnum
 from typing import NamedTuple
 
-from nonsmooth.engine.impact.clock import Aim, aim, change_clock, has_arrived
-from nonsmooth.engine.impact.end import cut_short, end_trapped, finish, has_faded, is_finished
-from nonsmooth.engine.impact.friction import choose_friction, orient, stays_slow, stop_halted
+from nonsmooth.engine.impact.clock import Aim, aim_at_event, change_clock, has_arrived
+from nonsmooth.engine.impact.end import cut_short, end_trapped, has_faded, is_finished, write_impact_results
+from nonsmooth.engine.impact.friction import choose_friction, count_slow_step, count_stopped_slips, orient
 from nonsmooth.engine.impact.guards import NO_GUARD, arm_impact_guards, first_fired, prepare_guards, write_impact_guards
 from nonsmooth.engine.impact.location import Switch, locate_switch
 from nonsmooth.engine.impact.phases import end_faint, has_reached_rim, start_phases, switch_phases
-from nonsmooth.engine.impact.rates import NOISE, state_size, write_impact_slope
+from nonsmooth.engine.impact.rates import write_impact_slope
 from nonsmooth.engine.impact.scales import raise_impulse_scales, scale_impact
-from nonsmooth.engine.impact.step import let_go, try_impact_step, try_linear_step
-from nonsmooth.engine.impact.step_length import first_step, graded, lone_step, rejection_factor, step_after_switch
+from nonsmooth.engine.impact.state import NOISE, state_size
+from nonsmooth.engine.impact.step import reset_attempt, try_impact_step, try_linear_step
+from nonsmooth.engine.impact.step_length import first_step, graded_step, lone_step, rejection_factor, step_after_switch
 from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.memory.modes import NO_CONTACT, Truncation
 from nonsmooth.engine.native.kernel import Workspace, entry_point, kernel, result
 from nonsmooth.engine.native.watch import interrupted
+from nonsmooth.engine.numerics.arrays import copy_numbers
 from nonsmooth.engine.numerics.roots import TRUSTED
 from nonsmooth.engine.numerics.runge_kutta import step_factor, trend
 
@@ -128,7 +130,7 @@ def run_impact(ws: Workspace, h: float, shortest: float, is_windowed: bool) -> O
         if interrupted(ws, _WORK * len(ws.actives)):
             return Outcome.ENDLESS
         if is_finished(ws):
-            finish(ws)
+            write_impact_results(ws)
             return Outcome.FINISHED
         attempt = _attempt(ws, pace.h)
         if not attempt.is_accepted:
@@ -137,7 +139,9 @@ def run_impact(ws: Workspace, h: float, shortest: float, is_windowed: bool) -> O
                 return Outcome.INVALID
             pace = pace._replace(h=attempt.h_again)
             continue
-        _accept(ws)
+        copy_numbers(ws.floats, ws.impact.y_new.start, state_size(ws), ws.impact.y.start)
+        raise_impulse_scales(ws)
+        count_stopped_slips(ws)
         if attempt.guard == NO_GUARD:
             pace = _next_pace(ws, pace, attempt)
             _continue(ws, shortest)
@@ -148,7 +152,7 @@ def run_impact(ws: Workspace, h: float, shortest: float, is_windowed: bool) -> O
             return Outcome.MOVED
         write_impact_slope(ws, ws.impact.slopes.start)
     cut_short(ws)
-    finish(ws)
+    write_impact_results(ws)
     return Outcome.ENDLESS
 
 
@@ -157,9 +161,12 @@ def run_impact(ws: Workspace, h: float, shortest: float, is_windowed: bool) -> O
 
 @kernel("Attempt(ws, f8)")
 def _attempt(ws: Workspace, h: float) -> Attempt:
-    """Try a step of ``h`` in pseudo-time, or a shorter one that ends at an event."""
-    let_go(ws)
-    aimed = _aim(ws, h)
+    """Try a step of ``h`` in pseudo-time, or a shorter one that ends at an event.
+
+    If it is accepted, ``y_new`` holds the state at its end.
+    """
+    reset_attempt(ws)
+    aimed = aim_at_event(ws, h) if ws.impact.lone_contact != NO_CONTACT else Aim(h=graded_step(ws, h), guard=NO_GUARD)
     is_linear = aimed.guard != NO_GUARD and try_linear_step(ws, aimed.h)
     error = 0.0 if is_linear else try_impact_step(ws, aimed.h)
     ws.totals.n_impact_steps += 1
@@ -173,17 +180,9 @@ def _attempt(ws: Workspace, h: float) -> Attempt:
     return Attempt(h=aimed.h, error=error, guard=switch.guard, is_accepted=True, h_again=aimed.h)
 
 
-@kernel("Aim(ws, f8)")
-def _aim(ws: Workspace, h: float) -> Aim:
-    """Shorten a step of ``h`` to the next event of a lone contact, or towards the end of an expansion."""
-    if ws.impact.lone_contact != NO_CONTACT:
-        return aim(ws, h)
-    return Aim(h=graded(ws, h), guard=NO_GUARD)
-
-
 @kernel("Switch(ws, Aim, b1)")
 def _step_to_switch(ws: Workspace, aimed: Aim, is_linear: bool) -> Switch:
-    """Shorten an accepted step to the first guard that fires in it. A step that has arrived where it aimed stays.
+    """Shorten an accepted step to the first guard that fires in it. The step is kept if it ends where it was aimed.
 
     The last stage of the step has left the forces at its end.
     """
@@ -200,18 +199,9 @@ def _step_to_switch(ws: Workspace, aimed: Aim, is_linear: bool) -> Switch:
     return locate_switch(ws, aimed.h, fired)
 
 
-@kernel()
-def _accept(ws: Workspace) -> None:
-    """Take over the state at the end of a step, and let the slips stick that it has stopped."""
-    for i in range(state_size(ws)):
-        ws.impact.y[i] = ws.impact.y_new[i]
-    raise_impulse_scales(ws)
-    stop_halted(ws)
-
-
 @kernel("Pace(ws, Pace, Attempt)")
 def _next_pace(ws: Workspace, pace: Pace, attempt: Attempt) -> Pace:
-    """Length of the step after an accepted one without an event: by its error, and by the trend of the errors."""
+    """Pace after an accepted step without an event: by its error, and on the common clock by the trend of errors."""
     factor, error = step_factor(attempt.error), max(_LEAST_ERROR, attempt.error)
     if pace.h_before > 0.0 and ws.impact.lone_contact == NO_CONTACT:
         factor = min(factor, trend(error, pace.error_before, attempt.h / pace.h_before))
@@ -223,8 +213,11 @@ def _next_pace(ws: Workspace, pace: Pace, attempt: Attempt) -> Pace:
 
 @kernel("void(ws, f8)")
 def _continue(ws: Workspace, shortest: float) -> None:
-    """Prepare the next step after one without an event. Its first slope is the last one of the step before."""
-    if stays_slow(ws):
+    """Prepare the next step after one without an event. Its first slope is the last one of the step before.
+
+    Friction is chosen anew if a slip stays next to rest.
+    """
+    if count_slow_step(ws):
         choose_friction(ws, first_step(ws, shortest), turns_rate=False)
         prepare_guards(ws)
         end_trapped(ws)
@@ -237,14 +230,16 @@ def _continue(ws: Workspace, shortest: float) -> None:
         write_impact_slope(ws, ws.impact.slopes.start)
         return
     arm_impact_guards(ws)
-    n = state_size(ws)
-    for i in range(n):
-        ws.impact.slopes[i] = ws.impact.slopes[LAST_STAGE * n + i]
+    n, slopes = state_size(ws), ws.impact.slopes.start
+    copy_numbers(ws.floats, slopes + LAST_STAGE * n, n, slopes)
 
 
 @kernel("f8(ws, Attempt, f8, b1)")
 def _pass_switch(ws: Workspace, attempt: Attempt, shortest: float, is_windowed: bool) -> float:
-    """Change the phases at the guard that fired, and the clock, and end what is over. Length of the next step."""
+    """Change the phases at the guard that fired, and the clock, and end contacts that are trapped or faded.
+
+    Returns the length of the next step, in pseudo-time.
+    """
     h = step_after_switch(ws, attempt.h, shortest)
     switch_phases(ws, first_step(ws, shortest), attempt.guard)
     if len(ws.actives) > 1 and change_clock(ws):

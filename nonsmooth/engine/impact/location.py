@@ -14,11 +14,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from nonsmooth.engine.impact.guards import NO_GUARD, TOGETHER, evaluate_impact_guards, first_fired, write_impact_guards
-from nonsmooth.engine.impact.rates import state_size
+from nonsmooth.engine.impact.state import state_size
 from nonsmooth.engine.impact.step import try_impact_step
 from nonsmooth.engine.memory.layout import LAST_STAGE
 from nonsmooth.engine.native.kernel import ImpactGuard, Workspace, kernel, result
 from nonsmooth.engine.native.watch import interrupted
+from nonsmooth.engine.numerics.arrays import subtract_part
 from nonsmooth.engine.numerics.roots import SHORT, TRUSTED, weakened
 from nonsmooth.engine.numerics.runge_kutta import dense_state
 
@@ -62,7 +63,7 @@ class Switch(NamedTuple):
 
 @kernel("Switch(ws, f8, i8)")
 def locate_switch(ws: Workspace, h: float, fired: int) -> Switch:
-    """Step to the first guard that fires within ``h``. The guard ``fired`` has, at the end of the step.
+    """Step to the first guard that fires within ``h``. The guard ``fired`` is negative at the end of the step.
 
     The error is one of a part of an accepted step, unless the motion is less smooth than it seemed.
     """
@@ -77,27 +78,21 @@ def locate_switch(ws: Workspace, h: float, fired: int) -> Switch:
             break
         correction = min(bound, max(-bound, -ws.impact_guards[root.guard].value / root.slope))
         if abs(correction) <= SHORT * h:
-            _extend(ws, correction)
+            # along the slope at the end; the error of this is the square of the correction
+            n = state_size(ws)
+            subtract_part(ws.floats, ws.impact.y_new.start, -correction, ws.impact.slopes.start + LAST_STAGE * n, n)
             break
         step += correction
     evaluate_impact_guards(ws, ws.impact.y_new.start)
     return Switch(guard=root.guard, error=error)
 
 
-@kernel("void(ws, f8)")
-def _extend(ws: Workspace, correction: float) -> None:
-    """Move the end of the step by a short ``correction`` in pseudo-time along the slope there."""
-    n = state_size(ws)
-    for i in range(n):
-        ws.impact.y_new[i] += correction * ws.impact.slopes[LAST_STAGE * n + i]
-
-
 @kernel("Root(ws, f8, i8)")
 def _first_root(ws: Workspace, h: float, fired: int) -> Root:
-    """First root of a guard on the interpolant of a step of ``h``.
+    """First root of a guard on the interpolant of a step of ``h``, at whose end the guards are evaluated.
 
-    Guards that are negative from the start would shorten the step to zero in turn, so the first of them ends the
-    search.
+    Each root found is the end of the search for the next one, until no other guard has fired before it. Guards that are
+    negative from the start would shorten the step to zero in turn, so the first of them ends the search.
     """
     root = Root(guard=fired, theta=1.0, slope=0.0)
     following = first_fired(ws, NO_GUARD)
@@ -118,7 +113,7 @@ def _first_root(ws: Workspace, h: float, fired: int) -> Root:
 def _root(ws: Workspace, guard: ImpactGuard, h: float, high: float) -> Root:
     """Root of a guard on the interpolant of a step of ``h``, between its start and the fraction ``high`` of it.
 
-    The guards are evaluated at ``high`` before, and at the root after.
+    Before: the guards are evaluated at ``high``. After: at the root, unless the guard is negative from the start.
     """
     low, g_low, g_high = 0.0, guard.at_start, guard.value
     if g_low <= 0.0:
@@ -130,7 +125,7 @@ def _root(ws: Workspace, guard: ImpactGuard, h: float, high: float) -> Root:
         theta = high - g_high * (high - low) / (g_high - g_low)
         _evaluate_at(ws, h, theta)
         g = guard.value
-        # a slope over a shorter way would be round-off
+        # a slope over a smaller difference would be round-off
         if abs(theta - theta_before) > SHORT:
             slope = (g - g_before) / ((theta - theta_before) * h)
         theta_before, g_before = theta, g

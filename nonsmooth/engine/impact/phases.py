@@ -16,22 +16,15 @@ in a symmetric impact, so all of them are checked wherever one fires.
 
 from __future__ import annotations
 
-from nonsmooth.engine.impact.end import account, empty, end_phase
+from nonsmooth.engine.impact.end import account, end_phase, lose_energy
 from nonsmooth.engine.impact.friction import break_away, choose_friction, has_stopped
 from nonsmooth.engine.impact.guards import TOGETHER, GuardKind, guard_of, is_rate_guard, prepare_guards
-from nonsmooth.engine.impact.rates import (
-    NOISE,
-    evaluate_impact_forces,
-    gap_rate_slope,
-    is_loaded,
-    least_efficiency,
-    returned_part,
-    state_of,
-    state_size,
-)
+from nonsmooth.engine.impact.rates import evaluate_impact_forces, gap_rate_slope
+from nonsmooth.engine.impact.state import NOISE, is_loaded, least_efficiency, returned_part, state_of, state_size
 from nonsmooth.engine.memory.modes import Phase
 from nonsmooth.engine.native.kernel import ActiveContact, ImpactGuard, Workspace, kernel
-from nonsmooth.engine.numerics.vectors import length
+from nonsmooth.engine.numerics.arrays import clear
+from nonsmooth.engine.numerics.vectors import length, unit
 
 _SEED = 1e-3
 """Deformation from which an impact without collision starts, relative to that of a full compression."""
@@ -51,8 +44,7 @@ def start_phases(ws: Workspace, probe: float, seed: float) -> None:
     ``probe`` is a short pseudo-time, ``seed`` the speed of an impact without collision [m/s], or zero. A contact at
     rest that the other contacts press together takes part from the start.
     """
-    for i in range(state_size(ws)):
-        ws.impact.y[i] = 0.0
+    clear(ws.floats, ws.impact.y.start, state_size(ws))
     ws.event.n_phases = 0
     for active in ws.actives:
         _start(ws, active, seed > 0.0)
@@ -61,7 +53,8 @@ def start_phases(ws: Workspace, probe: float, seed: float) -> None:
     for active in ws.actives:
         rests = active.phase == Phase.IDLE and active.gap_rate_before <= ws.impact.rest_speed
         if rests and gap_rate_slope(ws, active) < 0.0:
-            _begin_compression(ws, active)
+            active.phase = Phase.COMPRESSION
+            ws.event.n_phases += 1
             is_pressed = True
     if is_pressed:
         choose_friction(ws, probe, turns_rate=False)
@@ -69,7 +62,10 @@ def start_phases(ws: Workspace, probe: float, seed: float) -> None:
 
 @kernel("void(ws, ActiveContact, b1)")
 def _start(ws: Workspace, active: ActiveContact, is_without_collision: bool) -> None:
-    """Start an active contact: in compression if it approaches, or if it has no force, which needs an impact."""
+    """Start an active contact: in compression if it approaches, or if the contact problem has no force for it.
+
+    Such a contact needs an impact without collision, and starts with a small deformation. Others start idle.
+    """
     active.energy_stored = active.energy_returned = active.work_accounted = 0.0
     active.sticks = active.was_halted = False
     active.phase = Phase.IDLE
@@ -77,14 +73,8 @@ def _start(ws: Workspace, active: ActiveContact, is_without_collision: bool) -> 
     if has_no_force:
         state_of(ws, active).deformation = _SEED * active.deformation_scale
     if has_no_force or active.gap_rate_before < -NOISE * ws.impact.speed_scale:
-        _begin_compression(ws, active)
-
-
-@kernel("void(ws, ActiveContact)")
-def _begin_compression(ws: Workspace, active: ActiveContact) -> None:
-    """Begin a compression of an active contact."""
-    active.phase = Phase.COMPRESSION
-    ws.event.n_phases += 1
+        active.phase = Phase.COMPRESSION
+        ws.event.n_phases += 1
 
 
 # --- changes ----------------------------------------------------------------------------------------------------------
@@ -108,7 +98,8 @@ def switch_phases(ws: Workspace, probe: float, fired: int) -> None:
 def _switch(ws: Workspace, active: ActiveContact, fired: int) -> bool:
     """Change the phase or the friction of an active contact if a guard of it vanishes. True if friction must be chosen.
 
-    A contact that opens under load leaves the others with forces that they did not have.
+    At most one change is made: that of the energy, else of the gap rate, else of the friction. If a contact opens under
+    load, the forces of the others jump, and friction is chosen.
     """
     if is_loaded(active) and _vanishes(guard_of(ws, active, GuardKind.ENERGY), fired):
         opens_under_load = state_of(ws, active).lost > 0.0
@@ -133,7 +124,7 @@ def _vanishes(guard: ImpactGuard, fired: int) -> bool:
 
 @kernel("void(ws, ActiveContact)")
 def _pass_wave(ws: Workspace, active: ActiveContact) -> None:
-    """End the phase of an active contact, which a wave of compression has passed."""
+    """End the phase of an active contact, and count a wave of compression that has passed it."""
     end_phase(ws, active)
     ws.contacts[active.contact].n_waves += 1
     ws.event.n_phases += 1
@@ -143,7 +134,7 @@ def _pass_wave(ws: Workspace, active: ActiveContact) -> None:
 def _turn(ws: Workspace, active: ActiveContact) -> bool:
     """Change the phase of an active contact whose gap rate or holding force vanishes. True if friction must be chosen.
 
-    A contact that opens under load loses then what it has not returned.
+    ``lost`` becomes the energy that an expansion does not return.
     """
     was = active.phase
     if was == Phase.COMPRESSION:
@@ -168,8 +159,8 @@ def _turn(ws: Workspace, active: ActiveContact) -> bool:
 
 @kernel("void(ws, ActiveContact)")
 def _hold(ws: Workspace, active: ActiveContact) -> None:
-    """Lose the stored energy of an active contact without restitution, and hold it closed if it is pressed."""
-    empty(ws, active)
+    """Lose the stored energy of an active contact without restitution. It is then held if it is pressed, else idle."""
+    lose_energy(ws, active)
     active.phase = Phase.HELD
     evaluate_impact_forces(ws, ws.impact.y.start)
     if active.normal_force < 0.0:
@@ -180,17 +171,16 @@ def _hold(ws: Workspace, active: ActiveContact) -> None:
 def _switch_friction(ws: Workspace, active: ActiveContact) -> bool:
     """Let an active contact that sticks break away, or a slip turn. True if a slip stops: friction must be chosen.
 
-    The guard of a slip is its component along its first direction. A slip that has only turned far from it continues.
+    The guard of a slip is its component along its first direction. A slip that has only turned far from it continues,
+    and the guard takes its new direction.
     """
     if active.sticks:
         break_away(ws, active)
         return False
-    v1, v2 = active.slip
-    speed = length(active.slip)
-    if speed > active.rest_slip:
-        ws.contacts[active.contact].direction = v1 / speed, v2 / speed
-        return False
-    return True
+    if not length(active.slip) > active.rest_slip:
+        return True
+    ws.contacts[active.contact].direction = unit(active.slip)
+    return False
 
 
 # --- in a window ------------------------------------------------------------------------------------------------------
@@ -198,9 +188,9 @@ def _switch_friction(ws: Workspace, active: ActiveContact) -> bool:
 
 @kernel()
 def end_faint(ws: Workspace) -> None:
-    """End what is left below the tolerance at contacts that the wave has passed.
+    """End what is left below the tolerance at contacts of a window that the wave has passed.
 
-    The energy of a contact is known to the tolerance only. Its force and deformation are known better.
+    The energy of a contact is known to the tolerance only. Its force and deformation are known better, and decide.
     """
     faint_rate = ws.impact.faint_rate
     for active in ws.actives:

@@ -11,8 +11,7 @@ contact is primary then, and the start is regular:
 
 The path in velocities and energies is that of Eqs. (24) to (28). It depends on the ratios of the stiffnesses only.
 
-The state of a contact is (P_n, P_1, P_2, x, W, D, E, L): its impulses, its deformation, the work of its normal force,
-the energy dissipated by its friction, its stored energy, and the part of that which is lost when it opens.
+The state of a contact is (P_n, P_1, P_2, x, W, D, E, L), see :mod:`nonsmooth.engine.impact.state`.
 
 A lone contact, the last one with a load, has the clock s = P_n: its normal force is 1. Its energy replaces its
 deformation. Forces and rates are then linear in s while a slip keeps its direction, so every phase is a polynomial,
@@ -21,127 +20,16 @@ which the integrator follows exactly. With the common clock the end of an expans
 
 from __future__ import annotations
 
-from typing import Protocol
-
 from nonsmooth.engine.contact.forces import friction_of_slip, resolve
 from nonsmooth.engine.contact.problem import follow_slip
 from nonsmooth.engine.delassus.delassus import add_product
+from nonsmooth.engine.impact.state import expansion_efficiency, is_loaded, is_lone, normal_force, state_at
 from nonsmooth.engine.memory.blocks import DELASSUS
-from nonsmooth.engine.memory.layout import IMPACT_STATE
+from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
 from nonsmooth.engine.memory.modes import Phase
-from nonsmooth.engine.native.kernel import (
-    ActiveContact,
-    Floats,
-    Workspace,
-    at,
-    call_scalar,
-    entry_point,
-    impact_state,
-    kernel,
-)
+from nonsmooth.engine.native.kernel import ActiveContact, Workspace, at, entry_point, impact_state, kernel
+from nonsmooth.engine.numerics.arrays import clear
 from nonsmooth.engine.numerics.vectors import Pair
-
-NOISE = 1e-12
-"""Rate that does not switch a phase, relative to the largest speed of the impact. It is round-off."""
-_SEPARATES = 1e-300
-"""Least gap rate of an expansion [m/s]. At rate 0 a law returns :func:`returned_part`, not an efficiency."""
-
-
-class ContactState(Protocol):
-    """Numbers of an active contact in the state of an impact, or their slopes in pseudo-time."""
-
-    impulse: Floats
-    """Impulse, n, t1, t2 [N s]; one by one below."""
-    normal_force: float
-    """Normal impulse; its slope is the normal force [N]."""
-    friction: Pair
-    """Tangential impulse; its slope is the friction [N]."""
-    deformation: float
-    """Deformation x [m]."""
-    work: float
-    """Work W of the normal force on the bodies [J]."""
-    dissipated: float
-    """Energy D dissipated by friction [J]."""
-    energy: float
-    """Stored energy E [J]."""
-    lost: float
-    """Part L of the stored energy that is lost when the contact opens [J]."""
-
-
-# --- the state --------------------------------------------------------------------------------------------------------
-
-
-@kernel("i8(ws)")
-def state_size(ws: Workspace) -> int:
-    """Number of floats of the state of the active contacts."""
-    return IMPACT_STATE * len(ws.actives)
-
-
-@kernel("impact_state(ws, i8, ActiveContact)")
-def state_at(ws: Workspace, y: int, active: ActiveContact) -> ContactState:
-    """Numbers of an active contact in the state, or the slope, of the impact at ``y``."""
-    state: ContactState = impact_state(ws.floats, y, active.index)
-    return state
-
-
-@kernel("impact_state(ws, ActiveContact)")
-def state_of(ws: Workspace, active: ActiveContact) -> ContactState:
-    """Numbers of an active contact in the state of the impact."""
-    return state_at(ws, ws.impact.y.start, active)
-
-
-@kernel("b1(ActiveContact)")
-def is_loaded(active: ActiveContact) -> bool:
-    """True if an active contact is in compression or in expansion: its force follows from its deformation."""
-    return active.phase == Phase.COMPRESSION or active.phase == Phase.EXPANSION
-
-
-@kernel("b1(ws, ActiveContact)")
-def is_lone(ws: Workspace, active: ActiveContact) -> bool:
-    """True if the impulse of an active contact is the clock."""
-    return active.index == ws.impact.lone_contact
-
-
-# --- laws -------------------------------------------------------------------------------------------------------------
-
-
-@kernel("f8(ws, ActiveContact, f8)")
-def normal_force(ws: Workspace, active: ActiveContact, deformation: float) -> float:
-    """Normal force of an active contact at a ``deformation`` [m], Eq. (20) [N]; 1 if its impulse is the clock."""
-    if is_lone(ws, active):
-        return 1.0
-    if deformation <= 0.0:
-        return 0.0
-    contact = ws.contacts[active.contact]
-    return call_scalar(contact.impact_force_function, deformation, at(ws.floats, contact.impact_force_parameters))
-
-
-@kernel("f8(ws, ActiveContact, f8)")
-def efficiency(ws: Workspace, active: ActiveContact, rate: float) -> float:
-    """Efficiency of the energy transfer of an active contact at a gap ``rate`` [m/s], Eq. (28) [1]."""
-    if active.is_lossless:
-        return 1.0
-    contact = ws.contacts[active.contact]
-    return call_scalar(contact.efficiency_function, rate, at(ws.floats, contact.efficiency_parameters))
-
-
-@kernel("f8(ws, ActiveContact, f8)")
-def expansion_efficiency(ws: Workspace, active: ActiveContact, rate: float) -> float:
-    """Efficiency of the expansion of an active contact at a gap ``rate`` [m/s], Eq. (28) [1]."""
-    return efficiency(ws, active, max(rate, _SEPARATES))
-
-
-@kernel("f8(ws, ActiveContact)")
-def returned_part(ws: Workspace, active: ActiveContact) -> float:
-    """Part of the stored energy that an active contact gives up before it opens [1]: less than 1 if under load."""
-    return efficiency(ws, active, 0.0)
-
-
-@kernel("f8(ws, ActiveContact)")
-def least_efficiency(ws: Workspace, active: ActiveContact) -> float:
-    """Smaller one of the two numbers by which an active contact loses energy [1]: at its opening, and on the way."""
-    return min(returned_part(ws, active), efficiency(ws, active, _SEPARATES))
-
 
 # --- rates and forces -------------------------------------------------------------------------------------------------
 
@@ -170,22 +58,22 @@ def evaluate_impact_rates(ws: Workspace, y: int) -> None:
 @kernel("f8(ws, ActiveContact)")
 def gap_rate_slope(ws: Workspace, active: ActiveContact) -> float:
     """Slope of the gap rate of an active contact under the present forces, G f [m/s per pseudo-time]."""
-    return add_product(ws, 0.0, active.index, 0, ws.problem.forces.start)
+    return add_product(ws, 0.0, active.index, NORMAL_ROW, ws.problem.forces.start)
 
 
 @kernel("v2(ws, ActiveContact)")
 def slip_slope(ws: Workspace, active: ActiveContact) -> Pair:
     """Slope of the slip velocity of an active contact under the present forces, G f [m/s per pseudo-time]."""
-    forces = ws.problem.forces.start
-    return add_product(ws, 0.0, active.index, 1, forces), add_product(ws, 0.0, active.index, 2, forces)
+    forces, a = ws.problem.forces.start, active.index
+    return add_product(ws, 0.0, a, FIRST_ROW, forces), add_product(ws, 0.0, a, SECOND_ROW, forces)
 
 
 @kernel("b1(ws, ActiveContact, i8)")
 def _write_force(ws: Workspace, active: ActiveContact, y: int) -> bool:
     """Write rates and force of an active contact at the impact state ``y``. True if a part of its force is unknown.
 
-    Friction that sticks and the normal force of a held contact are unknown. An idle contact has no force. Its rates are
-    for its guard only, and are written with that.
+    The friction of a contact that sticks and the normal force of a held one are unknown. An idle contact has no force,
+    and its rates are not written: only its guard needs them.
     """
     if active.phase == Phase.IDLE:
         active.is_normal_force_unknown, active.normal_force, active.friction = False, 0.0, (0.0, 0.0)
@@ -202,9 +90,8 @@ def _write_force(ws: Workspace, active: ActiveContact, y: int) -> bool:
 
 @kernel()
 def _complete_forces(ws: Workspace) -> None:
-    """Find the unknown forces: those that keep gap rates and slips of what is held and what sticks."""
-    for i in range(3 * len(ws.actives)):
-        ws.problem.free_accelerations[i] = 0.0
+    """Find the unknown forces [N]: held contacts keep their gap rates under them, and sticking ones their slips."""
+    clear(ws.floats, ws.problem.free_accelerations.start, 3 * len(ws.actives))
     resolve(ws)
 
 
@@ -223,7 +110,10 @@ def evaluate_impact_forces(ws: Workspace, y: int) -> None:
 
 @entry_point("void(ws, i8, i8)")
 def impact_slope(ws: Workspace, y: int, out: int) -> None:
-    """Write d(P, x, W, D, E, L)/ds of all active contacts at the impact state ``y`` to ``out``."""
+    """Write d(P, x, W, D, E, L)/ds of all active contacts at the impact state ``y`` to ``out``.
+
+    Writes their rates and forces, too.
+    """
     has_unknown = False
     for active in ws.actives:
         has_unknown = _write_force(ws, active, y) or has_unknown

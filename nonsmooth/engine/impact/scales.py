@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.delassus.delassus import diagonal_block
-from nonsmooth.engine.impact.rates import is_lone, state_of
+from nonsmooth.engine.impact.state import is_lone, state_of
 from nonsmooth.engine.memory.blocks import DELASSUS
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, at, call_scalar, kernel
 
@@ -36,9 +36,10 @@ _NO_SCALE = -1.0
 
 @kernel("f8(ws, f8)")
 def scale_impact(ws: Workspace, seed: float) -> float:
-    """Set the scales of the active contacts. Shortest time of a compression, in pseudo-time, negative if there is none.
+    """Set the scales of the active contacts. Returns the time of the shortest compression, in pseudo-time.
 
-    No speed is smaller than the ``seed`` [m/s] of an impact without collision.
+    It is negative if a force law has no scale. No speed is smaller than the ``seed`` [m/s] of an impact without
+    collision.
     """
     brought = _scale_speeds(ws, seed)
     shortest = math.inf
@@ -60,9 +61,9 @@ def scale_impact(ws: Workspace, seed: float) -> float:
 
 @kernel("f8(ws, f8)")
 def _scale_speeds(ws: Workspace, seed: float) -> float:
-    """Set the largest speed of the impact and the slip that counts as rest. Largest energy of an approach [J].
+    """Set the largest speed of the impact and the slip that counts as rest. Returns the largest energy [J].
 
-    An approach g' of effective inverse mass G_nn brings g'^2 / G_nn, twice its kinetic energy.
+    An approach g' of effective inverse mass G_nn brings the energy g'^2 / G_nn, twice its kinetic energy.
     """
     ws.impact.speed_scale = seed
     brought = 0.0
@@ -77,7 +78,7 @@ def _scale_speeds(ws: Workspace, seed: float) -> float:
 
 @kernel("f8(ws, ActiveContact)")
 def _deformation_scale(ws: Workspace, active: ActiveContact) -> float:
-    """Deformation x of an active contact with F(x) x = its energy scale [m], or ``_NO_SCALE``."""
+    """Deformation x of an active contact with F(x) x = its energy scale [m], or ``_NO_SCALE``, by a secant."""
     contact, energy, x = ws.contacts[active.contact], active.energy_scale, 1.0
     parameters = at(ws.floats, contact.impact_force_parameters)
     for _ in range(_ITERATIONS):
@@ -109,12 +110,8 @@ def raise_impulse_scales(ws: Workspace) -> None:
     """
     has_grown = False
     for active in ws.actives:
-        energy, inverse_mass, scale = (
-            reached_energy(ws, active),
-            diagonal_block(ws, active.index).nn,
-            active.impulse_scale,
-        )
-        if energy > inverse_mass * (_GROWTH * scale) ** 2:
+        energy, inverse_mass = reached_energy(ws, active), diagonal_block(ws, active.index).nn
+        if energy > inverse_mass * (_GROWTH * active.impulse_scale) ** 2:
             active.impulse_scale = math.sqrt(energy / inverse_mass)
             has_grown = True
     if has_grown:
@@ -123,22 +120,17 @@ def raise_impulse_scales(ws: Workspace) -> None:
 
 @kernel()
 def _set_rest_slips(ws: Workspace) -> None:
-    """Write the slip of every active contact that counts as rest [m/s]."""
+    """Write the slip of every active contact that counts as rest [m/s]: one of little energy, or within the error."""
     for active in ws.actives:
-        active.rest_slip = _rest_slip(ws, active)
-
-
-@kernel("f8(ws, ActiveContact)")
-def _rest_slip(ws: Workspace, active: ActiveContact) -> float:
-    """Slip of an active contact that counts as rest [m/s]: of little energy, or within the error."""
-    own = diagonal_block(ws, active.index)
-    moved = 0.0
-    for block in range(active.first_block, active.end_block):
-        impulse = ws.actives[ws.island.block_column[block]].impulse_scale
-        for i in range(3, DELASSUS):
-            moved = max(moved, abs(ws.island.delassus[DELASSUS * block + i]) * impulse)
-    inverse_mass = max(own.t11, own.t22)
-    small = float(ws.impact.rest_speed)
-    if inverse_mass < own.nn:
-        small *= math.sqrt(inverse_mass / own.nn)
-    return float(max(small, CIRCLING * ws.tolerance.impact * moved))
+        own = diagonal_block(ws, active.index)
+        # largest slip that the impulse scale of a contact in the same island causes
+        moved = 0.0
+        for block in range(active.first_block, active.end_block):
+            impulse = ws.actives[ws.island.block_column[block]].impulse_scale
+            for i in range(3, DELASSUS):
+                moved = max(moved, abs(ws.island.delassus[DELASSUS * block + i]) * impulse)
+        inverse_mass, small = max(own.t11, own.t22), float(ws.impact.rest_speed)
+        # a slip with a large effective mass has more energy
+        if inverse_mass < own.nn:
+            small *= math.sqrt(inverse_mass / own.nn)
+        active.rest_slip = max(small, CIRCLING * ws.tolerance.impact * moved)

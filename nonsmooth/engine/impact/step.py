@@ -17,23 +17,16 @@ import math
 from nonsmooth.engine.contact.implicit_slip import oppose_slips
 from nonsmooth.engine.contact.problem import slip_coefficient
 from nonsmooth.engine.delassus.delassus import diagonal_block
-from nonsmooth.engine.impact.rates import (
-    ContactState,
-    evaluate_impact_rates,
-    impact_slope,
-    is_loaded,
-    normal_force,
-    state_at,
-    state_size,
-    write_impact_slope,
-)
+from nonsmooth.engine.impact.rates import evaluate_impact_rates, impact_slope, write_impact_slope
 from nonsmooth.engine.impact.scales import reached_energy
+from nonsmooth.engine.impact.state import ContactState, is_loaded, normal_force, state_at, state_size
 from nonsmooth.engine.memory import implicit_tableau
 from nonsmooth.engine.memory.layout import DEFORMATION, IMPACT_STATE, LAST_STAGE, N_STAGES
 from nonsmooth.engine.memory.modes import Mode, Phase
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, entry_point, kernel
-from nonsmooth.engine.numerics.runge_kutta import stage_state, weigh_slopes, write_implicit_interpolant
-from nonsmooth.engine.numerics.vectors import length
+from nonsmooth.engine.numerics.arrays import copy_numbers
+from nonsmooth.engine.numerics.runge_kutta import stage_part, weigh_part, write_implicit_interpolant
+from nonsmooth.engine.numerics.vectors import length, unit
 
 _STIFF = 1.0
 """Relaxations of the direction of a slip within a step, above which an explicit step is too long."""
@@ -50,28 +43,30 @@ _STRAIGHT = 1e-13
 
 @entry_point("f8(ws, f8)")
 def try_impact_step(ws: Workspace, h: float) -> float:
-    """Take one step of ``h`` in pseudo-time to ``y_new``. Its error, relative to the tolerance [1].
+    """Take one step of ``h`` in pseudo-time to ``y_new``. Returns its error, relative to the tolerance [1].
 
-    A slip that an implicit step stops sticks from then on, unless the step is tried again.
+    A stiff step that the explicit pair rejects is taken implicitly. A slip that an implicit step stops sticks from then
+    on, unless the step is tried again.
     """
-    let_go(ws)
-    n = state_size(ws)
+    reset_attempt(ws)
+    n, slopes = state_size(ws), ws.impact.slopes.start
     for stage in range(1, N_STAGES):
         out = ws.impact.y_new.start if stage == LAST_STAGE else ws.impact.y_stage.start
-        stage_state(ws, ws.coefficients.stages.start, ws.impact.y.start, ws.impact.slopes.start, n, stage, h, out)
-        impact_slope(ws, out, ws.impact.slopes.start + stage * n)
-    weigh_slopes(ws, ws.coefficients.error_weights.start, ws.impact.slopes.start, n, h, ws.impact.y_stage.start)
+        stage_part(ws, ws.coefficients.stages.start, ws.impact.y.start, slopes, n, n, stage, h, out)
+        impact_slope(ws, out, slopes + stage * n)
+    weigh_part(ws, ws.coefficients.error_weights.start, slopes, n, n, h, ws.impact.y_stage.start)
     error = _relative_error(ws, ws.impact.y_stage.start)
     if not error <= 1.0:
-        if _is_stiff(ws, h):
+        if _check_stiffness(ws, h):
             return min(_try_implicit_step(ws, h), error)
+        # the stiffness check has left other rates
         evaluate_impact_rates(ws, ws.impact.y_new.start)
     return error
 
 
 @kernel()
-def let_go(ws: Workspace) -> None:
-    """Undo what the last attempt of a step has left: slips that it stopped slide again, and it counts as explicit."""
+def reset_attempt(ws: Workspace) -> None:
+    """Undo the last attempt of a step: slips that it stopped slide again, and the step counts as explicit."""
     ws.impact.is_step_implicit = False
     for active in ws.actives:
         if active.was_halted:
@@ -162,15 +157,16 @@ def _is_straight(ws: Workspace, active: ActiveContact, middle: int, end: int) ->
 
 
 @kernel("b1(ws, f8)")
-def _is_stiff(ws: Workspace, h: float) -> bool:
+def _check_stiffness(ws: Workspace, h: float) -> bool:
     """True if the direction of a slip follows the forces too fast for an explicit step of ``h``, and is in equilibrium.
 
     A slip that passes close to rest turns fast and changes fast. Its further direction depends on every digit, which
-    explicit steps find.
+    explicit steps find. Leaves the rates at the start of the step.
     """
     evaluate_impact_rates(ws, ws.impact.slopes.start)
     for active in ws.actives:
         (v1, v2), (before_1, before_2) = active.slip, active.slip_before
+        # the rates of a slope are z_0 + G f, so that G f is left
         active.slip_acceleration = v1 - before_1, v2 - before_2
     evaluate_impact_rates(ws, ws.impact.y.start)
     for active in ws.actives:
@@ -184,26 +180,24 @@ def _is_stiff(ws: Workspace, h: float) -> bool:
 
 @kernel("f8(ws, f8)")
 def _try_implicit_step(ws: Workspace, h: float) -> float:
-    """Take one step of ``h`` to ``y_new`` whose stages end with friction against their own slip. Its relative error.
+    """Take one step of ``h`` to ``y_new`` whose stages end with friction against their own slip.
 
-    The slopes are left so that the dense output of the explicit step is the interpolant of this one.
+    Returns its error relative to the tolerance [1], infinite if a stage has no solution. The slopes are left so that
+    the dense output of the explicit step is the interpolant of this one.
     """
-    n = state_size(ws)
-    y, y_new, y_stage, slopes = (
-        ws.impact.y.start,
-        ws.impact.y_new.start,
-        ws.impact.y_stage.start,
-        ws.impact.slopes.start,
-    )
+    n, errors, slopes = state_size(ws), ws.impact.y_stage.start, ws.impact.slopes.start
     _begin_implicit_step(ws)
-    has_solution = _solve_stages(ws, h)
+    has_solution = True
+    for stage in range(2, N_STAGES):
+        has_solution = has_solution and _solve_stage(ws, h, stage)
+    # a slip that the step has stopped sticks at its end
     for active in ws.actives:
         active.was_halted = active.mode_past == Mode.SLIDE and active.sticks
     if not has_solution:
         return math.inf
-    weigh_slopes(ws, ws.coefficients.implicit_errors.start, slopes, n, h, y_stage)
-    error = _CAUTION * _relative_error(ws, y_stage)
-    write_implicit_interpolant(ws, y, y_new, slopes, n, h, y_stage)
+    weigh_part(ws, ws.coefficients.implicit_errors.start, slopes, n, n, h, errors)
+    error = _CAUTION * _relative_error(ws, errors)
+    write_implicit_interpolant(ws, ws.impact.y.start, ws.impact.y_new.start, slopes, n, h, errors)
     return error
 
 
@@ -217,39 +211,27 @@ def _begin_implicit_step(ws: Workspace) -> None:
             active.mode_past = Mode.OPEN
         null_space_force = ws.contacts[active.contact].null_space_force
         for r in range(3):
-            # the motion chooses forces that are not unique again after the impact
+            # redundant impulses are those of least norm; the motion chooses its forces anew after the impact
             null_space_force[r] = 0.0
-    n = state_size(ws)
-    for i in range(n):
-        ws.impact.slopes[n + i] = ws.impact.slopes[i]
-
-
-@kernel("b1(ws, f8)")
-def _solve_stages(ws: Workspace, h: float) -> bool:
-    """Find the slopes of all stages but the first two, which are those of the start. True if they are found."""
-    for stage in range(2, N_STAGES):
-        if not _solve_stage(ws, h, stage):
-            return False
-    return True
+    n, slopes = state_size(ws), ws.impact.slopes.start
+    copy_numbers(ws.floats, slopes, n, slopes + n)
 
 
 @kernel("b1(ws, f8, i8)")
 def _solve_stage(ws: Workspace, h: float, stage: int) -> bool:
-    """Find the slope of a stage at the state that it leads to itself. True if it is found.
+    """Find the slope of a stage at the state to which this slope leads. True if it is found.
 
     The friction of slips, which is stiff, is solved for. Deformations, which are not, are iterated.
     """
-    n = state_size(ws)
+    n, slopes = state_size(ws), ws.impact.slopes.start
     out = ws.impact.y_new.start if stage == LAST_STAGE else ws.impact.y_stage.start
-    here, guess, ahead = ws.impact.slopes.start + stage * n, ws.impact.y_guess.start, implicit_tableau.DIAGONAL * h
-    for i in range(n):
-        ws.floats[here + i] = ws.floats[here - n + i]
+    # the slope of the stage, its last iterate, and the pseudo-time from the explicit part of the stage to its end
+    here, guess, ahead = slopes + stage * n, ws.impact.y_guess.start, implicit_tableau.DIAGONAL * h
+    # the slope of the stage before is the first guess
+    copy_numbers(ws.floats, here - n, n, here)
     for _ in range(implicit_tableau.ITERATIONS):
-        stage_state(
-            ws, ws.coefficients.implicit_stages.start, ws.impact.y.start, ws.impact.slopes.start, n, stage, h, out
-        )
-        for i in range(n):
-            ws.floats[guess + i] = ws.floats[here + i]
+        stage_part(ws, ws.coefficients.implicit_stages.start, ws.impact.y.start, slopes, n, n, stage, h, out)
+        copy_numbers(ws.floats, here, n, guess)
         _write_problem(ws, ahead, out, guess)
         if not oppose_slips(ws):
             return False
@@ -267,10 +249,10 @@ def _solve_stage(ws: Workspace, h: float, stage: int) -> bool:
 
 @kernel("void(ws, f8, i8, i8, i8)")
 def _advance_stage(ws: Workspace, ahead: float, out: int, here: int, guess: int) -> None:
-    """Add what the slope ``here`` does in ``ahead`` to all of the state ``out`` but its impulses.
+    """Add ``ahead`` times the slope at ``here`` to the numbers of the state at ``out`` other than impulses.
 
-    The last change of the slope, times ``ahead``, takes the place of the ``guess``. Nothing depends on energies, so
-    they count as unchanged.
+    The last change of the slope, times ``ahead``, replaces the ``guess``. The slope depends on no energy, so energies
+    count as unchanged.
     """
     for i in range(state_size(ws)):
         component = i % IMPACT_STATE
@@ -282,9 +264,10 @@ def _advance_stage(ws: Workspace, ahead: float, out: int, here: int, guess: int)
 
 @kernel("void(ws, f8, i8, i8)")
 def _write_problem(ws: Workspace, ahead: float, y: int, guess: int) -> None:
-    """Write the contact problem at the end of a stage that goes ``ahead`` from the state ``y``, its slope a ``guess``.
+    """Write the contact problem at the end of a stage, which is ``ahead`` in pseudo-time from the state at ``y``.
 
-    Given are the normal forces at the end of the stage, and the slips with which it would end without forces.
+    The normal forces are those at the end, by the ``guess`` of the slope there. The slips are those with which the
+    stage would end without forces.
     """
     n = state_size(ws)
     for i in range(n):
@@ -305,7 +288,10 @@ def _write_problem(ws: Workspace, ahead: float, y: int, guess: int) -> None:
 
 @kernel("void(ws, ActiveContact, i8, i8)")
 def _write_given(ws: Workspace, active: ActiveContact, y: int, guess: int) -> None:
-    """Write what is given of an active contact at the state ``y``: normal force, mode, friction and slip direction."""
+    """Write what is known of an active contact at the state ``y``: normal force, mode, friction and slip direction.
+
+    The direction is opposite to the friction of the ``guess``. Forces of loaded contacts follow from their deformation.
+    """
     own = diagonal_block(ws, active.index)
     active.has_given_force, active.mode_tried, active.is_at_rest = is_loaded(active), active.mode_past, False
     if active.has_given_force:
@@ -314,8 +300,7 @@ def _write_given(ws: Workspace, active: ActiveContact, y: int, guess: int) -> No
         active.friction_coefficient = slip_coefficient(ws, active.contact, length(active.slip))
         active.is_at_rest = active.friction_coefficient > 0.0
         t1, t2 = state_at(ws, guess, active).friction
-        friction = length((t1, t2))
-        if friction > 0.0:
-            active.direction = -t1 / friction, -t2 / friction
+        if length((t1, t2)) > 0.0:
+            active.direction = unit((-t1, -t2))
     acceleration = max(own.nn, own.t11, own.t22) * abs(active.normal_force)
     ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, acceleration)

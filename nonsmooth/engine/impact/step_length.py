@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.impact.rates import state_at, state_of
+from nonsmooth.engine.impact.state import state_at, state_of
 from nonsmooth.engine.memory.modes import NO_CONTACT, Phase
 from nonsmooth.engine.native.kernel import Workspace, kernel
 from nonsmooth.engine.numerics.runge_kutta import SAFETY, SHRINK, step_factor
@@ -36,13 +36,16 @@ _NOT_FINITE = 0.1
 
 @kernel("f8(ws, f8)")
 def first_step(ws: Workspace, shortest: float) -> float:
-    """First step of an impact whose ``shortest`` compression takes that pseudo-time."""
+    """First step of an impact, in pseudo-time. Its ``shortest`` compression takes that pseudo-time."""
     return shortest * (_FAR if len(ws.actives) == 1 else float(ws.tolerance.impact) ** _FIRST_POWER)
 
 
 @kernel("f8(ws, f8, f8)")
 def step_after_switch(ws: Workspace, h: float, shortest: float) -> float:
-    """Step after a switch of phases at the end of a step of ``h``: that, but not less than the first step."""
+    """Length of the step after one of ``h`` that ended at a switch of phases: ``h``, but not less than the first step.
+
+    A lone contact has its own length.
+    """
     if ws.impact.lone_contact != NO_CONTACT:
         return lone_step(ws)
     return float(max(h, shortest * ws.tolerance.impact**_FIRST_POWER))
@@ -55,8 +58,11 @@ def lone_step(ws: Workspace) -> float:
 
 
 @kernel("f8(ws, f8)")
-def graded(ws: Workspace, h: float) -> float:
-    """Shorten a step of ``h`` towards the end of an expansion geometrically."""
+def graded_step(ws: Workspace, h: float) -> float:
+    """Length of a step, at most ``h``, in which no expanding contact loses more than a part of its deformation.
+
+    So steps shrink geometrically towards the end of an expansion, down to a small deformation.
+    """
     for active in ws.actives:
         deformation = state_of(ws, active).deformation
         rate = state_at(ws, ws.impact.slopes.start, active).deformation

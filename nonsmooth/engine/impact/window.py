@@ -24,11 +24,12 @@ from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
 from nonsmooth.engine.impact.end import account
 from nonsmooth.engine.impact.integration import MOST_STEPS, Outcome, run_impact
 from nonsmooth.engine.impact.phases import start_phases
-from nonsmooth.engine.impact.rates import NOISE, state_of
 from nonsmooth.engine.impact.scales import CIRCLING, scale_impact
+from nonsmooth.engine.impact.state import NOISE, state_of
 from nonsmooth.engine.impact.step_length import first_step
 from nonsmooth.engine.memory.modes import NO_CONTACT, Phase, Truncation
 from nonsmooth.engine.native.kernel import ActiveContact, Contact, Workspace, entry_point, kernel
+from nonsmooth.engine.numerics.arrays import copy_numbers
 
 LARGE = 16
 """Number of contacts of an impact above which windows are used. A window would hold most of fewer contacts."""
@@ -42,7 +43,10 @@ _NO_ENTRY = -1
 
 @entry_point("Outcome(ws)")
 def windowed_impact(ws: Workspace) -> Outcome:
-    """Integrate the impact of the active contacts, window by window, with the results of ``energetic_impact``."""
+    """Integrate the impact of the active contacts, window by window.
+
+    The results are those of :func:`nonsmooth.engine.impact.integration.energetic_impact`.
+    """
     ws.impact.may_be_lone, ws.impact.is_step_implicit = True, False
     ws.event.truncation = Truncation.NONE
     ws.impact.slow_steps = 0
@@ -61,7 +65,8 @@ def windowed_impact(ws: Workspace) -> Outcome:
 def _run_window(ws: Workspace, fastest: float, is_first: bool) -> Outcome:
     """Draw a window and integrate until the impact ends or reaches its rim. ``fastest`` is the fastest approach [m/s].
 
-    Behind the wave, rates within the error cannot be told from rest. If all contacts are in the window, none is behind.
+    Behind the wave, rates within the error cannot be distinguished from rest. If all contacts are in the window, none
+    is behind the wave.
     """
     _draw(ws, fastest, is_first)
     has_all = len(ws.actives) == ws.impact.n_colliding
@@ -84,13 +89,15 @@ def _run_window(ws: Workspace, fastest: float, is_first: bool) -> Outcome:
 
 @kernel("f8(ws)")
 def _gather(ws: Workspace) -> float:
-    """List the active contacts, all idle, as those of the impact, and by articulation. Fastest approach [m/s]."""
+    """List the active contacts, all idle, as those of the impact, and by articulation.
+
+    Returns the fastest approach [m/s].
+    """
     fastest = 0.0
     ws.impact.n_colliding = len(ws.actives)
     for articulation in ws.articulations:
         articulation.first_colliding = _NO_ENTRY
-    for i in range(ws.model.n_u):
-        ws.impact.u[i] = ws.floats[ws.island.velocities + i]
+    copy_numbers(ws.floats, ws.island.velocities, ws.model.n_u, ws.impact.u.start)
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         fastest = max(fastest, -contact.normal_rate)
@@ -137,9 +144,9 @@ def _collect(ws: Workspace) -> None:
 
 @kernel("void(ws, f8, b1)")
 def _draw(ws: Workspace, fastest: float, is_first: bool) -> None:
-    """Make the contacts that are not idle and their neighbours the active ones.
+    """Make the contacts that are not idle, and their neighbours in ``_LAYERS`` layers, the active ones.
 
-    In the first window all contacts are idle, and those that approach take the place of those that are not.
+    In the first window all contacts are idle, and it is drawn about those that approach.
     """
     ws.problem.n_active = 0
     for i in range(ws.impact.n_colliding):
@@ -147,7 +154,7 @@ def _draw(ws: Workspace, fastest: float, is_first: bool) -> None:
         contact.layer, contact.is_at_rim = _OUTSIDE, False
         approaches = is_first and contact.normal_rate < -NOISE * fastest
         if approaches or contact.window_phase != Phase.IDLE:
-            _add(ws, contact, 0)
+            _add(ws, contact, layer=0)
     begin = 0
     for layer in range(1, _LAYERS + 1):
         end = ws.problem.n_active
@@ -160,7 +167,7 @@ def _draw(ws: Workspace, fastest: float, is_first: bool) -> None:
 
 @kernel("void(ws, Contact, i8)")
 def _add(ws: Workspace, contact: Contact, layer: int) -> None:
-    """Add a contact to the window."""
+    """Add a contact to the window, in a ``layer`` counted from the contacts that are not idle."""
     contact.layer, contact.is_at_rim = layer, layer == _LAYERS
     ws.problem.active[ws.problem.n_active] = contact.index
     ws.problem.n_active += 1
@@ -168,7 +175,7 @@ def _add(ws: Workspace, contact: Contact, layer: int) -> None:
 
 @kernel("void(ws, i8, i8)")
 def _add_neighbours(ws: Workspace, number: int, layer: int) -> None:
-    """Add the contacts of an articulation that are outside of the window. An immovable one transmits nothing."""
+    """Add the contacts of articulation ``number`` that are outside the window. An immovable one transmits nothing."""
     articulation = ws.articulations[number]
     entry = articulation.first_colliding if articulation.n_u > 0 else _NO_ENTRY
     while entry != _NO_ENTRY:

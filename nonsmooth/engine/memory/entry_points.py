@@ -17,7 +17,7 @@ ENTRY_POINTS = (
     "verify",
     "distribute",
     "choose_null_space_force",
-    "polish",
+    "find_slip_directions",
     "enumerate_modes",
     "search_by_pivots",
     "search_by_newton",

@@ -88,7 +88,7 @@ STATE_OF_IMPACT: Fields = {
     "energy": Field("", IMPACT_STATE, ENERGY),
     "lost": Field("", IMPACT_STATE, LOST),
 }
-"""Of an active contact in a state of an impact, and in the slope of one (:mod:`nonsmooth.engine.impact.rates`)."""
+"""Of an active contact in a state of an impact, and in the slope of one (:mod:`nonsmooth.engine.impact.state`)."""
 
 DELASSUS_BLOCK: Fields = {
     "entries": Field("", DELASSUS, 0, DELASSUS),

@@ -9,30 +9,34 @@ from __future__ import annotations
 
 from nonsmooth.engine.memory.layout import MOST_ENTRIES
 from nonsmooth.engine.native.kernel import Workspace, kernel
+from nonsmooth.engine.numerics.arrays import clear
 from nonsmooth.engine.numerics.linear import band_width
 
 
 @kernel("i8(ws)")
 def _half_band(ws: Workspace) -> int:
-    """Largest distance between unknowns that act on one another. ``first_unknown`` gives those of each contact."""
+    """Largest distance between the numbers of unknowns that act on one another.
+
+    Coupled contacts are listed in ascending order, so the first of them has the lowest unknowns.
+    """
     half = 0
-    unknown = ws.problem.first_unknown.start
-    for a in range(ws.problem.n_active):
-        if ws.integers[unknown + a + 1] > ws.integers[unknown + a]:
-            row = ws.island.block_start.start + ws.problem.first_grouped + a
-            lowest = ws.integers[unknown + ws.island.block_column[ws.integers[row]]]
-            half = max(half, ws.integers[unknown + a + 1] - 1 - lowest)
+    for active in ws.actives:
+        if active.end_unknown > active.first_unknown:
+            first_coupled = ws.actives[ws.island.block_column[active.first_block]]
+            half = max(half, active.end_unknown - 1 - first_coupled.first_unknown)
     return half
 
 
 @kernel("b1(ws, i8, i8)")
 def open_band(ws: Workspace, n: int, matrix: int) -> bool:
-    """Determine the band of ``n`` unknowns and clear it at ``matrix``. False if it has too many entries."""
+    """Write the half band of ``n`` unknowns, and clear the band at ``matrix``.
+
+    False if the band has too many entries. The run then stops.
+    """
     ws.problem.half_band = _half_band(ws)
     size = n * band_width(n, ws.problem.half_band)
     if size > MOST_ENTRIES:
         ws.run.has_too_many_blocks = True
         return False
-    for i in range(size):
-        ws.floats[matrix + i] = 0.0
+    clear(ws.floats, matrix, size)
     return True

@@ -1,6 +1,7 @@
 """Symmetric positive definite systems within a band: Cholesky factor, solution, and the band of the inverse.
 
-Only the lower triangle of the band is read. The factor has the same band, as no rows are exchanged.
+Only the lower triangle of the band is read. The factor has the same band, as no rows are exchanged. A matrix has ``n``
+rows, and its entries are at most ``half`` columns from the diagonal.
 """
 
 from __future__ import annotations

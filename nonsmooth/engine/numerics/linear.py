@@ -1,6 +1,7 @@
-"""Linear systems: elimination within a band, small dense systems, and least norm if the matrix is singular.
+"""Linear systems: products, elimination within a band, and three equations.
 
-Matrices and vectors are stored among the floats of the workspace. An integer argument is the place of the first entry.
+Matrices and vectors are stored among the floats of the workspace. An argument named as a matrix or a vector is the
+offset of its first entry.
 """
 
 from __future__ import annotations
@@ -8,23 +9,11 @@ from __future__ import annotations
 import math
 
 from nonsmooth.engine.native.kernel import Floats, kernel
+from nonsmooth.engine.numerics.arrays import largest_size
 from nonsmooth.engine.numerics.vectors import Vector
 
 SINGULAR = 1e-10
 """Pivots and remaining columns below this, relative to the largest, count as zero."""
-
-
-@kernel("i8(i8, i8)")
-def band_width(n: int, half: int) -> int:
-    """Length of a stored row: ``half`` to the left, twice that to the right, and at most the whole row."""
-    return min(n, 3 * half + 1)
-
-
-@kernel("i8(i8, i8, i8, i8)")
-def band_row(a: int, i: int, n: int, half: int) -> int:
-    """Place to which a column is added to give the entry of row ``i`` in the band at ``a``."""
-    width = band_width(n, half)
-    return a + i * width - min(max(0, i - half), n - width)
 
 
 @kernel("f8(F, f8, i8, i8, i8)")
@@ -39,9 +28,25 @@ def product(floats: Floats, total: float, a: int, b: int, n: int) -> float:
     return total
 
 
+@kernel("i8(i8, i8)")
+def band_width(n: int, half: int) -> int:
+    """Length of a stored row of ``n`` columns: ``half`` left of the diagonal, twice that right of it, at most n."""
+    return min(n, 3 * half + 1)
+
+
+@kernel("i8(i8, i8, i8, i8)")
+def band_row(a: int, i: int, n: int, half: int) -> int:
+    """Offset of the (possibly not stored) column 0 of row ``i`` in the band at ``a``.
+
+    The entry of column j, which must lie within the band, is at this offset plus j.
+    """
+    width = band_width(n, half)
+    return a + i * width - min(max(0, i - half), n - width)
+
+
 @kernel("void(F, i8, i8, i8, i8)")
 def multiply(floats: Floats, a: int, n: int, x: int, out: int) -> None:
-    """Write the symmetric matrix at ``a`` times the vector at ``x`` to ``out``, which must not overlap them."""
+    """Write the symmetric matrix at ``a`` times the vector at ``x`` to ``out``, which must overlap neither of them."""
     if n == 6:
         x0, x1, x2, x3, x4, x5 = floats[x], floats[x + 1], floats[x + 2], floats[x + 3], floats[x + 4], floats[x + 5]
         for i in range(a, a + 6):
@@ -54,15 +59,13 @@ def multiply(floats: Floats, a: int, n: int, x: int, out: int) -> None:
 
 @kernel("b1(F, i8, i8, i8, i8, f8)")
 def eliminate(floats: Floats, a: int, n: int, half: int, x: int, least: float) -> bool:
-    """Solve the banded system at ``a`` for the right-hand side at ``x``; both are overwritten. False if singular.
+    """Solve the banded system at ``a`` for the right-hand side at ``x``. False if the matrix is singular.
 
     Gaussian elimination with exchange of rows. Entries more than ``half`` from the diagonal are zero, and exchanges
-    fill some of them. A pivot below ``least``, relative to the largest entry, counts as zero.
+    fill some of them. A pivot below ``least``, relative to the largest entry, counts as zero. The matrix is
+    overwritten, and ``x`` becomes the solution.
     """
-    width = band_width(n, half)
-    largest = 0.0
-    for i in range(n * width):
-        largest = max(largest, abs(floats[a + i]))
+    largest = largest_size(floats, a, n * band_width(n, half))
     for j in range(n):
         own = band_row(a, j, n, half)
         below, right = min(n, j + half + 1), min(n, j + 2 * half + 1)
@@ -94,9 +97,9 @@ def eliminate(floats: Floats, a: int, n: int, half: int, x: int, least: float) -
 
 @kernel("v3(v3, v3, v3, v3, f8)")
 def solve_three(row_0: Vector, row_1: Vector, row_2: Vector, right: Vector, least: float) -> Vector:
-    """Solution of a positive definite system of three equations, by L D L^T. The lower triangle is read.
+    """Solution of a positive definite system of three equations, by L D L^T. Only its lower triangle is read.
 
-    It is nan if a pivot is below ``least``, relative to the largest entry.
+    All three numbers are nan if a pivot is below ``least``, relative to the largest entry of the diagonal.
     """
     g00, g10, g11 = row_0[0], row_1[0], row_1[1]
     g20, g21, g22 = row_2
@@ -115,138 +118,3 @@ def solve_three(row_0: Vector, row_1: Vector, row_2: Vector, right: Vector, leas
     x2 = (right[2] - l20 * right[0] - l21 * y1) / d2
     x1 = y1 / d1 - l21 * x2
     return right[0] / g00 - l10 * x1 - l20 * x2, x1, x2
-
-
-@kernel("i8(F, i8, i8)")
-def rank_of_semidefinite(floats: Floats, a: int, n: int) -> int:
-    """Rank of the positive semidefinite matrix at ``a``, which is overwritten. Pivots are the largest left."""
-    largest = 0.0
-    for rank in range(n):
-        best = rank
-        for i in range(rank + 1, n):
-            if floats[a + i * n + i] > floats[a + best * n + best]:
-                best = i
-        pivot = floats[a + best * n + best]
-        largest = max(largest, pivot)
-        if not pivot > SINGULAR * largest:
-            return rank
-        for c in range(n):
-            floats[a + rank * n + c], floats[a + best * n + c] = floats[a + best * n + c], floats[a + rank * n + c]
-        for i in range(n):
-            floats[a + i * n + rank], floats[a + i * n + best] = floats[a + i * n + best], floats[a + i * n + rank]
-        for i in range(rank + 1, n):
-            factor = floats[a + i * n + rank] / pivot
-            if factor != 0.0:
-                for c in range(rank + 1, n):
-                    floats[a + i * n + c] -= factor * floats[a + rank * n + c]
-    return n
-
-
-@kernel("void(F, i8, i8, i8)")
-def transpose(floats: Floats, a: int, n: int, out: int) -> None:
-    """Write the transpose of the matrix at ``a`` to ``out``."""
-    for i in range(n):
-        for j in range(n):
-            floats[out + j * n + i] = floats[a + i * n + j]
-
-
-@kernel("void(F, i8, f8, i8, i8)")
-def subtract_part(floats: Floats, out: int, part: float, a: int, n: int) -> None:
-    """Subtract ``part`` times the vector at ``a`` from that at ``out``, both of ``n`` numbers."""
-    for i in range(n):
-        floats[out + i] -= part * floats[a + i]
-
-
-@kernel("void(F, i8, i8, i8)")
-def complete(floats: Floats, v: int, n: int, rank: int) -> None:
-    """Complete the ``rank`` orthonormal rows of ``n`` numbers at ``v`` to a basis of all vectors.
-
-    Each new row starts from the unit vector that the rows so far represent least.
-    """
-    for done in range(rank, n):
-        best, most = 0, -math.inf
-        for i in range(n):
-            left = 1.0
-            for c in range(done):
-                left -= floats[v + c * n + i] ** 2
-            if left > most:
-                best, most = i, left
-        row = v + done * n
-        for i in range(n):
-            floats[row + i] = 1.0 if i == best else 0.0
-        # two passes of Gram-Schmidt make the row orthogonal to round-off
-        for _ in range(2):
-            for c in range(done):
-                subtract_part(floats, row, product(floats, 0.0, v + c * n, row, n), v + c * n, n)
-        norm = math.sqrt(product(floats, 0.0, row, row, n))
-        for i in range(n):
-            floats[row + i] /= norm
-
-
-@kernel("i8(F, i8, i8, i8, i8, i8, i8)")
-def _triangulate(floats: Floats, a: int, n: int, b: int, r: int, marks: int, most: int) -> int:
-    """Factorise A = Q R with the largest remaining column first. Returns the rank, at most ``most``.
-
-    The matrix at ``a`` is stored by columns. The columns and ``b`` lose their components along the columns chosen so
-    far. Rows of R are written to ``r``. The first n entries of ``marks`` are 1 for chosen columns; Q^T b follows them.
-    """
-    for j in range(n):
-        floats[marks + j] = 0.0
-    largest = 0.0
-    for rank in range(most):
-        best, size = -1, 0.0
-        for j in range(n):
-            if floats[marks + j] == 0.0:
-                square = product(floats, 0.0, a + j * n, a + j * n, n)
-                if square > size:
-                    best, size = j, square
-        norm = math.sqrt(size)
-        largest = max(largest, norm)
-        if best < 0 or not norm > SINGULAR * largest:
-            return rank
-        floats[marks + best] = 1.0
-        chosen = a + best * n
-        for i in range(n):
-            floats[chosen + i] /= norm
-        for j in range(n):
-            floats[r + rank * n + j] = 0.0
-            if floats[marks + j] == 0.0:
-                # two passes of Gram-Schmidt make the column orthogonal to round-off
-                for _ in range(2):
-                    part = product(floats, 0.0, chosen, a + j * n, n)
-                    floats[r + rank * n + j] += part
-                    subtract_part(floats, a + j * n, part, chosen, n)
-        floats[r + rank * n + best] = norm
-        total = product(floats, 0.0, chosen, b, n)
-        floats[marks + n + rank] = total
-        subtract_part(floats, b, total, chosen, n)
-    return most
-
-
-@kernel("i8(F, i8, i8, i8, i8, i8, i8, i8)")
-def minimum_norm(floats: Floats, a: int, n: int, b: int, x: int, v: int, work: int, most: int) -> int:
-    """Write the least-squares solution of least norm to ``x``. Returns the rank, at most ``most``.
-
-    A = Q R gives the components Q^T b, and R = L V the solution V^T L^-1 Q^T b. Both are orthogonal decompositions, so
-    that the condition of A is not squared. The matrix at ``a`` is stored by columns; it and ``b`` are overwritten. The
-    first rows at ``v`` become an orthonormal basis of the row space. ``work`` has 2 n floats.
-    """
-    rank = _triangulate(floats, a, n, b, v, work, most)
-    for i in range(n):
-        floats[x + i] = 0.0
-    # R = L V: the rows are orthogonalised, and the forward substitution is done along with it
-    for j in range(rank):
-        row = v + j * n
-        rest = floats[work + n + j]
-        for _ in range(2):
-            for c in range(j):
-                part = product(floats, 0.0, v + c * n, row, n)
-                rest -= part * floats[work + n + c]
-                subtract_part(floats, row, part, v + c * n, n)
-        norm = math.sqrt(product(floats, 0.0, row, row, n))
-        for i in range(n):
-            floats[row + i] /= norm
-        floats[work + n + j] = rest / norm
-        for i in range(n):
-            floats[x + i] += floats[work + n + j] * floats[row + i]
-    return rank

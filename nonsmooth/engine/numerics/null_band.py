@@ -5,7 +5,7 @@
 * Solution. The system with a small shift of its diagonal is regular. Its solution, without the part in the null space,
   is refined until the residual is round-off.
 
-The orthogonal decomposition of :mod:`nonsmooth.engine.numerics.linear` would fill the matrix.
+The orthogonal decompositions of :mod:`nonsmooth.engine.numerics.least_norm` would fill the matrix.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import math
 
 from nonsmooth.engine.memory.layout import MOST_ENTRIES
 from nonsmooth.engine.native.kernel import Floats, Workspace, kernel
+from nonsmooth.engine.numerics.arrays import clear, copy_numbers, largest_size, subtract_part
 from nonsmooth.engine.numerics.band_cholesky import factorise_band, invert_in_band, substitute_band
 from nonsmooth.engine.numerics.linear import SINGULAR, band_row, band_width, eliminate
 
@@ -41,15 +42,17 @@ def largest_diagonal(floats: Floats, a: int, n: int, half: int) -> float:
 @kernel("void(F, i8, i8, i8, i8, f8)")
 def copy_shifted(floats: Floats, a: int, n: int, half: int, out: int, shift: float) -> None:
     """Write the band at ``a`` to ``out``, with ``shift`` added to its diagonal."""
-    for i in range(n * band_width(n, half)):
-        floats[out + i] = floats[a + i]
+    copy_numbers(floats, a, n * band_width(n, half), out)
     for i in range(n):
         floats[band_row(out, i, n, half) + i] += shift
 
 
 @kernel("b1(ws, i8)")
 def solve_shifted(ws: Workspace, n: int) -> bool:
-    """Overwrite the right-hand side ``x`` by the solution of ``reduced`` with a shifted diagonal. False if singular."""
+    """Replace the right-hand side ``x`` by the solution of ``reduced`` with a shifted diagonal.
+
+    False if the shifted matrix is singular, too.
+    """
     shift = _SHIFT * largest_diagonal(ws.floats, ws.problem.reduced.start, n, ws.problem.half_band)
     copy_shifted(ws.floats, ws.problem.reduced.start, n, ws.problem.half_band, ws.problem.matrix.start, shift)
     return eliminate(ws.floats, ws.problem.matrix.start, n, ws.problem.half_band, ws.problem.x.start, SINGULAR)
@@ -70,18 +73,17 @@ def project_on_null(ws: Workspace, n: int, v: int) -> None:
 
 @kernel("void(ws, i8, i8)")
 def _remove_null(ws: Workspace, n: int, v: int) -> None:
-    """Subtract from the vector at ``v`` its part in the null space. ``matrix`` is overwritten."""
+    """Subtract from the ``n`` numbers at ``v`` their part in the null space. ``matrix`` is overwritten."""
+    part = ws.problem.matrix.start
     for _ in range(_REMOVALS):
-        for i in range(n):
-            ws.problem.matrix[i] = ws.floats[v + i]
-        project_on_null(ws, n, ws.problem.matrix.start)
-        for i in range(n):
-            ws.floats[v + i] -= ws.problem.matrix[i]
+        copy_numbers(ws.floats, v, n, part)
+        project_on_null(ws, n, part)
+        subtract_part(ws.floats, v, 1.0, part, n)
 
 
 @kernel("f8(ws, i8, i8, i8)")
 def _write_residual(ws: Workspace, n: int, x: int, out: int) -> float:
-    """Write the residual ``right - reduced . x`` to ``out``. Returns its largest absolute entry."""
+    """Write the residual right - reduced . x of the vector at ``x`` to ``out``. Returns its largest absolute entry."""
     worst = 0.0
     for i in range(n):
         line = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band)
@@ -94,7 +96,7 @@ def _write_residual(ws: Workspace, n: int, x: int, out: int) -> float:
 
 @kernel("b1(ws, i8)")
 def _is_symmetric(ws: Workspace, n: int) -> bool:
-    """True if ``reduced`` is symmetric up to round-off."""
+    """True if ``reduced``, of ``n`` rows, is symmetric up to round-off."""
     small = _SYMMETRIC * largest_diagonal(ws.floats, ws.problem.reduced.start, n, ws.problem.half_band)
     for i in range(n):
         line = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band)
@@ -107,15 +109,14 @@ def _is_symmetric(ws: Workspace, n: int) -> bool:
 
 @kernel("void(ws, i8)")
 def _write_square(ws: Workspace, n: int) -> None:
-    """Write H to ``basis``, and its half band to ``null_half_band``."""
+    """Write H, which is G or G^T G, to ``basis``, and its half band to ``null_half_band``. G is in ``reduced``."""
     half = ws.problem.half_band
     if _is_symmetric(ws, n):
         ws.problem.null_half_band = half
         copy_shifted(ws.floats, ws.problem.reduced.start, n, half, ws.problem.basis.start, 0.0)
         return
     ws.problem.null_half_band = min(2 * half, n - 1)
-    for i in range(n * band_width(n, ws.problem.null_half_band)):
-        ws.problem.basis[i] = 0.0
+    clear(ws.floats, ws.problem.basis.start, n * band_width(n, ws.problem.null_half_band))
     for line in range(n):
         row = band_row(ws.problem.reduced.start, line, n, half)
         first, end = max(0, line - half), min(n, line + half + 1)
@@ -128,43 +129,47 @@ def _write_square(ws: Workspace, n: int) -> None:
 
 @kernel("void(ws, i8)")
 def least_norm_in_band(ws: Workspace, n: int) -> None:
-    """Solve ``reduced . x = right`` for least norm.
+    """Solve G x = r for least norm. ``reduced`` holds G, and ``right`` the ``n`` numbers of r.
 
-    Writes ``x``, H to ``basis``, its factor to ``null``, and the band of the projector on the null space to
-    ``reduced``.
+    Writes x to ``x``, H to ``basis``, its factor to ``null``, and the band of the projector on the null space to
+    ``reduced``. If H has too many entries, the run stops.
     """
     if n * band_width(n, 2 * ws.problem.half_band) > MOST_ENTRIES:
         ws.run.has_too_many_blocks = True
         return
     _write_square(ws, n)
-    largest = largest_diagonal(ws.floats, ws.problem.basis.start, n, ws.problem.null_half_band)
+    half, null = ws.problem.null_half_band, ws.problem.null.start
+    largest = largest_diagonal(ws.floats, ws.problem.basis.start, n, half)
     ws.problem.null_shift = _FAINT * (largest if largest > 0.0 else 1.0)
-    copy_shifted(
-        ws.floats, ws.problem.basis.start, n, ws.problem.null_half_band, ws.problem.null.start, ws.problem.null_shift
-    )
-    factorise_band(ws.floats, ws.problem.null.start, n, ws.problem.null_half_band, 0.1 * ws.problem.null_shift)
-    # sigma holds the sum of all corrections, x the present one
-    total, size, before = ws.problem.sigma.start, 0.0, math.inf
-    for i in range(n):
-        ws.floats[total + i] = ws.problem.x[i] = 0.0
-        size = max(size, abs(ws.problem.right[i]))
+    copy_shifted(ws.floats, ws.problem.basis.start, n, half, null, ws.problem.null_shift)
+    # round-off may make a pivot of a singular matrix negative; each is at least a part of the shift
+    factorise_band(ws.floats, null, n, half, 0.1 * ws.problem.null_shift)
+    _refine_solution(ws, n)
+    invert_in_band(ws.floats, null, n, half, ws.problem.reduced.start)
+    for i in range(n * band_width(n, half)):
+        ws.problem.reduced[i] *= ws.problem.null_shift
+
+
+@kernel("void(ws, i8)")
+def _refine_solution(ws: Workspace, n: int) -> None:
+    """Write the solution of least norm to ``x``: the sum of corrections, each from the residual that is left.
+
+    It ends when the residual is round-off, or when a correction does not halve it. One that enlarges it is undone.
+    """
+    x, total, residual = ws.problem.x.start, ws.problem.sigma.start, ws.problem.sigma.start + n
+    clear(ws.floats, x, n)
+    clear(ws.floats, total, n)
+    size, before = largest_size(ws.floats, ws.problem.right.start, n), math.inf
     while True:
-        left = _write_residual(ws, n, total, ws.problem.sigma.start + n)
+        left = _write_residual(ws, n, total, residual)
         if not left <= before:
-            for i in range(n):
-                ws.floats[total + i] -= ws.problem.x[i]
+            subtract_part(ws.floats, total, 1.0, x, n)
         if not left > _SETTLED * size or not left < 0.5 * before:
             break
         before = left
-        for i in range(n):
-            ws.problem.x[i] = ws.problem.sigma[n + i]
+        copy_numbers(ws.floats, residual, n, x)
         if not solve_shifted(ws, n):
             break
-        _remove_null(ws, n, ws.problem.x.start)
-        for i in range(n):
-            ws.floats[total + i] += ws.problem.x[i]
-    for i in range(n):
-        ws.problem.x[i] = ws.floats[total + i]
-    invert_in_band(ws.floats, ws.problem.null.start, n, ws.problem.null_half_band, ws.problem.reduced.start)
-    for i in range(n * band_width(n, ws.problem.null_half_band)):
-        ws.problem.reduced[i] *= ws.problem.null_shift
+        _remove_null(ws, n, x)
+        subtract_part(ws.floats, total, -1.0, x, n)
+    copy_numbers(ws.floats, total, n, x)

@@ -1,7 +1,7 @@
 """Roots by a bracketing secant method that does not stall.
 
-The plain secant through both ends of a bracket may keep one end for ever. The rule of N. Anderson and A. Bjorck, BIT 13
-(1973) 253-264, reduces the value of that end, and converges faster than bisection.
+The plain secant through both bounds of a bracket may keep one bound for ever. The rule of N. Anderson and A. Bjorck,
+BIT 13 (1973) 253-264, reduces the function value at that bound, and converges faster than bisection.
 """
 
 from __future__ import annotations
@@ -9,13 +9,16 @@ from __future__ import annotations
 from nonsmooth.engine.native.kernel import kernel
 
 TRUSTED = 2.0
-"""Largest error of a step to an event, relative to the tolerance. The slip may have turned within it."""
+"""Largest error of a step to an event, relative to the tolerance. A longer step was accepted with an error of 1."""
 SHORT = 1e-7
 """Corrections below this, relative to a step to an event, are made along the tangent. Their error is its square."""
 
 
 @kernel("f8(f8, f8, f8)")
 def weakened(kept: float, new: float, old: float) -> float:
-    """Reduced value of the end that stays, whose value is ``kept``, when ``new`` replaces ``old`` at the other end."""
+    """Reduced function value at the bound of a bracket that a secant step keeps.
+
+    ``kept`` is its value. At the other bound the value ``new`` replaces ``old``.
+    """
     ratio = 1.0 - new / old
     return kept * (ratio if ratio > 0.0 else 0.5)

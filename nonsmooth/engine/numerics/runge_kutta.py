@@ -21,17 +21,15 @@ _TINY = (SAFETY / GROW) ** 5
 """Error, relative to the tolerance, below which the step grows by the largest ratio."""
 
 
-@kernel("void(ws, i8, i8, i8, i8, i8, f8, i8)")
-def stage_state(ws: Workspace, stages: int, start: int, slopes: int, n: int, stage: int, h: float, out: int) -> None:
-    """Write the state at which the slope of ``stage`` is evaluated, by the weights of ``stages``."""
-    stage_part(ws, stages, start, slopes, n, n, stage, h, out)
-
-
 @kernel("void(ws, i8, i8, i8, i8, i8, i8, f8, i8)")
 def stage_part(
     ws: Workspace, stages: int, start: int, slopes: int, n: int, stride: int, stage: int, h: float, out: int
 ) -> None:
-    """Write ``n`` components of that state. The slopes of two stages are ``stride`` apart."""
+    """Write ``n`` numbers of the state at which the slope of ``stage`` is evaluated, by the weights at ``stages``.
+
+    ``start`` is the offset of the numbers at the start of the step of length ``h``, ``slopes`` that of their first
+    slopes. The slopes of two stages are ``stride`` apart.
+    """
     row = stages + 6 * stage
     # one pass per stage: vectors are so short that a pass per slope would spend its time on loads and stores
     k0, k1, k2 = slopes, slopes + stride, slopes + 2 * stride
@@ -46,40 +44,35 @@ def stage_part(
             ws.floats[out + i] = ws.floats[start + i] + a * ws.floats[k0 + i] + b * ws.floats[k1 + i]
     elif stage == 3:
         for i in range(n):
-            ws.floats[out + i] = (
-                ws.floats[start + i] + a * ws.floats[k0 + i] + b * ws.floats[k1 + i] + c * ws.floats[k2 + i]
-            )
+            first = ws.floats[start + i] + a * ws.floats[k0 + i] + b * ws.floats[k1 + i]
+            ws.floats[out + i] = first + c * ws.floats[k2 + i]
     elif stage == 4:
         for i in range(n):
-            ws.floats[out + i] = (
-                ws.floats[start + i]
-                + a * ws.floats[k0 + i]
-                + b * ws.floats[k1 + i]
-                + c * ws.floats[k2 + i]
-                + d * ws.floats[k3 + i]
-            )
+            first = ws.floats[start + i] + a * ws.floats[k0 + i] + b * ws.floats[k1 + i]
+            ws.floats[out + i] = first + c * ws.floats[k2 + i] + d * ws.floats[k3 + i]
     elif stage == 5:
         for i in range(n):
             first = ws.floats[start + i] + a * ws.floats[k0 + i] + b * ws.floats[k1 + i]
             ws.floats[out + i] = first + c * ws.floats[k2 + i] + d * ws.floats[k3 + i] + e * ws.floats[k4 + i]
     else:
         for i in range(n):
-            first = ws.floats[start + i] + a * ws.floats[k0 + i] + b * ws.floats[k1 + i]
-            ws.floats[out + i] = (
-                first + c * ws.floats[k2 + i] + d * ws.floats[k3 + i] + e * ws.floats[k4 + i] + f * ws.floats[k5 + i]
-            )
+            first = ws.floats[start + i] + a * ws.floats[k0 + i] + b * ws.floats[k1 + i] + c * ws.floats[k2 + i]
+            ws.floats[out + i] = first + d * ws.floats[k3 + i] + e * ws.floats[k4 + i] + f * ws.floats[k5 + i]
 
 
 @kernel("void(ws, i8, i8, i8, f8, f8, i8)")
 def dense_state(ws: Workspace, start: int, slopes: int, n: int, h: float, theta: float, out: int) -> None:
-    """Write the interpolated state at the fraction ``theta`` of the step."""
+    """Write the ``n`` numbers of the interpolated state at the fraction ``theta`` of a step of length ``h``.
+
+    ``start`` is the offset of the state at the start, ``slopes`` that of the slopes of all stages.
+    """
     early, late = dense_weights(ws, h, theta, is_late=False), dense_weights(ws, h, theta, is_late=True)
     dense_part(ws.floats, start, slopes, n, n, early, late, out)
 
 
 @kernel("f8(ws, i8, f8)")
 def _dense_weight(ws: Workspace, stage: int, theta: float) -> float:
-    """Weight of the slope of a stage at the fraction ``theta`` of a step, per ``theta``: a polynomial."""
+    """Weight of the slope of a stage in the state at the fraction ``theta`` of a step, over ``theta``: a cubic [1]."""
     d = ws.coefficients.dense.start + 4 * stage
     return float(ws.floats[d] + theta * (ws.floats[d + 1] + theta * (ws.floats[d + 2] + theta * ws.floats[d + 3])))
 
@@ -103,7 +96,10 @@ def dense_weights(ws: Workspace, h: float, theta: float, is_late: bool) -> Vecto
 def dense_part(
     floats: Floats, start: int, slopes: int, n: int, stride: int, early: Vector, late: Vector, out: int
 ) -> None:
-    """Write ``n`` components of the interpolated state. The slopes of two stages are ``stride`` apart."""
+    """Write ``n`` numbers of the interpolated state. The slopes of two stages are ``stride`` apart.
+
+    ``early`` and ``late`` are the weights of :func:`dense_weights` [s].
+    """
     a, b, c = early
     d, e, f = late
     k2, k3, k4 = slopes + 2 * stride, slopes + 3 * stride, slopes + 4 * stride
@@ -113,21 +109,14 @@ def dense_part(
         floats[out + i] = first + d * floats[k4 + i] + e * floats[k5 + i] + f * floats[k6 + i]
 
 
-@kernel("void(ws, i8, i8, i8, f8, i8)")
-def weigh_slopes(ws: Workspace, weights: int, slopes: int, n: int, h: float, out: int) -> None:
-    """Write ``h`` times the weighted sum of the slopes, which estimates the error of a step."""
-    weigh_part(ws, weights, slopes, n, n, h, out)
-
-
 @kernel("void(ws, i8, i8, i8, i8, f8, i8)")
 def weigh_part(ws: Workspace, weights: int, slopes: int, n: int, stride: int, h: float, out: int) -> None:
-    """Write ``n`` components of that sum. The slopes of two stages are ``stride`` apart."""
-    a, b, c, d = (
-        h * ws.floats[weights],
-        h * ws.floats[weights + 1],
-        h * ws.floats[weights + 2],
-        h * ws.floats[weights + 3],
-    )
+    """Write ``n`` numbers of ``h`` times the weighted sum of the seven slopes, which estimates the error of a step.
+
+    The slopes of two stages are ``stride`` apart.
+    """
+    a, b = h * ws.floats[weights], h * ws.floats[weights + 1]
+    c, d = h * ws.floats[weights + 2], h * ws.floats[weights + 3]
     e, f, g = h * ws.floats[weights + 4], h * ws.floats[weights + 5], h * ws.floats[weights + 6]
     k1, k2, k3 = slopes + stride, slopes + 2 * stride, slopes + 3 * stride
     k4, k5, k6 = k3 + stride, k3 + 2 * stride, k3 + 3 * stride
@@ -140,9 +129,10 @@ def weigh_part(ws: Workspace, weights: int, slopes: int, n: int, stride: int, h:
 def write_implicit_interpolant(ws: Workspace, start: int, end: int, slopes: int, n: int, h: float, bend: int) -> None:
     """Write slopes with which the dense output of the explicit pair gives the interpolant of an implicit step of ``h``.
 
-    The first and the last slope belong to the states at ``start`` and ``end``, and are kept. ``bend`` is overwritten.
+    The first and the last slope belong to the states at ``start`` and ``end``, and are kept. The ``n`` numbers at
+    ``bend`` are overwritten.
     """
-    weigh_slopes(ws, ws.coefficients.implicit_bend.start, slopes, n, 2.0, bend)
+    weigh_part(ws, ws.coefficients.implicit_bend.start, slopes, n, n, 2.0, bend)
     for stage in range(1, LAST_STAGE):
         c = tableau.NODES[stage]
         for i in range(n):
@@ -156,7 +146,7 @@ def write_implicit_interpolant(ws: Workspace, start: int, end: int, slopes: int,
 
 @kernel("f8(f8)")
 def step_factor(error: float) -> float:
-    """Ratio of the next step to this one, from the error relative to the tolerance."""
+    """Ratio of the length of the next step to that of this one, from its ``error`` relative to the tolerance."""
     if error <= _TINY:
         return GROW
     return float(min(GROW, max(SHRINK, SAFETY * error**_EXPONENT)))
@@ -164,9 +154,10 @@ def step_factor(error: float) -> float:
 
 @kernel("f8(f8, f8, f8)")
 def trend(error: float, error_before: float, growth: float) -> float:
-    """Ratio of the next step to this one from the last two errors. This step is ``growth`` times the one before it.
+    """Ratio of the length of the next step to that of this one, from the last two errors relative to the tolerance.
 
-    Towards a singularity each step must be shorter than the last one. The last error alone always allows too long a
-    step. The controller is that of K. Gustafsson, ACM Trans. Math. Softw. 20 (1994) 496-517.
+    This step is ``growth`` times the one before it. Towards a singularity each step must be shorter than the last one.
+    The last error alone always allows too long a step. The controller is that of K. Gustafsson, ACM Trans. Math. Softw.
+    20 (1994) 496-517.
     """
     return float(max(SHRINK, SAFETY * growth * (error_before / (error * error)) ** -_EXPONENT))

@@ -19,6 +19,13 @@ def length(v: Pair) -> float:
     return math.sqrt(v[0] * v[0] + v[1] * v[1])
 
 
+@kernel("v2(v2)")
+def unit(v: Pair) -> Pair:
+    """Unit vector along a vector of the plane. A zero vector has no direction: (1, 0) is returned."""
+    size = length(v)
+    return (v[0] / size, v[1] / size) if size > 0.0 else (1.0, 0.0)
+
+
 @kernel("v3(v3, v3)")
 def minus(a: Vector, b: Vector) -> Vector:
     """Difference a - b."""

@@ -15,18 +15,17 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.contact.forces import eliminate_reduced
-from nonsmooth.engine.contact.trial import hold_tried
-from nonsmooth.engine.contact.unknowns import list_force, list_turn
-from nonsmooth.engine.delassus.delassus import add_product, diagonal_block
+from nonsmooth.engine.contact.forces import eliminate_reduced, solve_reduced_for_least_norm
+from nonsmooth.engine.contact.trial import find_tried_forces
+from nonsmooth.engine.contact.unknowns import list_unknowns, starts_to_slide
+from nonsmooth.engine.delassus.delassus import diagonal_block, slip_acceleration
 from nonsmooth.engine.memory.blocks import DELASSUS
-from nonsmooth.engine.memory.layout import FIRST_ROW, NORMAL_ROW, SECOND_ROW
-from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, at, entry_point, kernel
+from nonsmooth.engine.numerics.arrays import copy_numbers
 from nonsmooth.engine.numerics.band import open_band
-from nonsmooth.engine.numerics.linear import SINGULAR, band_row, band_width, minimum_norm, transpose
+from nonsmooth.engine.numerics.linear import SINGULAR, band_row, band_width
 from nonsmooth.engine.numerics.null_band import solve_shifted
-from nonsmooth.engine.numerics.vectors import Pair, length
+from nonsmooth.engine.numerics.vectors import length, unit
 
 _STEPS = 25
 """Maximum number of Newton steps. Bad guesses need several steps before convergence is quadratic."""
@@ -42,39 +41,32 @@ _NEARLY_EXACT = 1e-8
 def has_slip_that_begins(ws: Workspace) -> bool:
     """True if an active contact starts to slide in the modes under trial."""
     for active in ws.actives:
-        if _starts_to_slide(active):
+        if starts_to_slide(active):
             return True
     return False
 
 
-@kernel("b1(ActiveContact)")
-def _starts_to_slide(active: ActiveContact) -> bool:
-    """True if a contact at rest slides in the mode under trial."""
-    return active.is_at_rest and active.mode_tried == Mode.SLIDE
-
-
 @entry_point("b1(ws)")
-def polish(ws: Workspace) -> bool:
-    """Turn the directions of slips that begin until the slip accelerations oppose the friction. True if they do.
+def find_slip_directions(ws: Workspace) -> bool:
+    """Turn the directions of slips that begin until the slip accelerations oppose the friction.
 
-    The modes under trial are given. Signs and bounds of the forces are not checked. The forces are those of the final
-    directions, unless no slip begins: then they are not computed.
+    True if they do, or if no slip begins: the forces are then not computed. Else the forces are those of the final
+    directions in the modes under trial. Their signs and bounds are not checked. False if the steps do not converge.
     """
     if not has_slip_that_begins(ws):
         return True
     best = math.inf
     for _ in range(_STEPS):
-        hold_tried(ws)
-        n = _list_unknowns(ws)
+        find_tried_forces(ws)
+        n = list_unknowns(ws, with_turns=True)
         worst = _write_residuals(ws, n)
         if worst <= EXACT or (worst <= _NEARLY_EXACT and worst >= best):
             return True
         best = min(best, worst)
         if not open_band(ws, n, ws.problem.reduced.start):
             return False
-        for active in ws.actives:
-            for i in range(active.first_unknown, active.end_unknown):
-                _write_row(ws, active, i, n)
+        for i in range(n):
+            _write_row(ws, i, n)
         _solve(ws, n)
         for i in range(n):
             if ws.unknowns[i].is_turn:
@@ -82,36 +74,9 @@ def polish(ws: Workspace) -> bool:
     return False
 
 
-@kernel("i8(ws)")
-def _list_unknowns(ws: Workspace) -> int:
-    """List the unknown forces, and the turns of the slips that begin. Returns their number."""
-    n = 0
-    for active in ws.actives:
-        active.first_unknown = n
-        for r in range(3):
-            if active.is_normal_force_unknown if r == NORMAL_ROW else active.sticks:
-                list_force(ws, n, active, r)
-                n += 1
-        if _starts_to_slide(active):
-            list_turn(ws, n, active)
-            n += 1
-    ws.problem.first_unknown[ws.problem.n_active] = n
-    return n
-
-
-@kernel("v2(ws, ActiveContact)")
-def _slip_acceleration(ws: Workspace, active: ActiveContact) -> Pair:
-    """Slip acceleration of a contact under the present forces [m/s^2]."""
-    forces = ws.problem.forces.start
-    return (
-        add_product(ws, active.free[FIRST_ROW], active.index, FIRST_ROW, forces),
-        add_product(ws, active.free[SECOND_ROW], active.index, SECOND_ROW, forces),
-    )
-
-
 @kernel("f8(ws, i8)")
 def _write_residuals(ws: Workspace, n: int) -> float:
-    """Write the right-hand side of Newton's system. Returns the largest residual, relative to the acceleration.
+    """Write the right-hand side of Newton's system. Returns the largest residual over the largest acceleration [1].
 
     Only the rows of turns have residuals, because the forces are exact for the present directions.
     """
@@ -121,18 +86,22 @@ def _write_residuals(ws: Workspace, n: int) -> float:
         ws.problem.right[i] = 0.0
         if unknown.is_turn:
             active = ws.actives[unknown.contact]
-            (d1, d2), (a1, a2) = active.direction, _slip_acceleration(ws, active)
+            (d1, d2), (a1, a2) = active.direction, slip_acceleration(ws, active)
             ws.problem.right[i] = -(a1 * d2 - a2 * d1)
             residual = abs(ws.problem.right[i]) / max(ws.problem.acceleration_scale, abs(a1), abs(a2))
             worst = max(worst, residual)
     return float(worst)
 
 
-@kernel("void(ws, ActiveContact, i8, i8)")
-def _write_row(ws: Workspace, active: ActiveContact, i: int, n: int) -> None:
-    """Write row ``i`` of ``n`` of Newton's system, which belongs to a contact: of an acceleration, or of a turn."""
+@kernel("void(ws, i8, i8)")
+def _write_row(ws: Workspace, i: int, n: int) -> None:
+    """Write row ``i`` of ``n`` of Newton's system to ``reduced``: the change of an acceleration by each unknown.
+
+    It is the acceleration along unknown force ``i``, or across the slip direction d if the unknown is a turn.
+    """
     unknown = ws.unknowns[i]
     line, r = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band), unknown.direction
+    active = ws.actives[unknown.contact]
     d1, d2 = active.direction
     for block in range(active.first_block, active.end_block):
         other = ws.actives[ws.island.block_column[block]]
@@ -151,6 +120,7 @@ def _write_row(ws: Workspace, active: ActiveContact, i: int, n: int) -> None:
         if other.sticks:
             ws.floats[out], ws.floats[out + 1] = g1, g2
             out += 2
+        # what is left is the turn of the direction of the other contact
         if out < end:
             ws.floats[out] = e2 * g1 - e1 * g2
     if unknown.is_turn:
@@ -169,7 +139,7 @@ def _add_turn(ws: Workspace, active: ActiveContact, i: int, n: int) -> None:
     if not abs(force) > 0.0:
         return
     line = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band)
-    a1, a2 = _slip_acceleration(ws, active)
+    a1, a2 = slip_acceleration(ws, active)
     change = (a1 * d1 + a2 * d2) / force
     ws.floats[line + i] += change
     inverse_mass = max(own.nn, own.t11, own.t22)
@@ -185,36 +155,22 @@ def _solve(ws: Workspace, n: int) -> None:
     if eliminate_reduced(ws, n, SINGULAR):
         return
     if band_width(n, ws.problem.half_band) < n:
-        for i in range(n):
-            ws.problem.x[i] = ws.problem.right[i]
+        copy_numbers(ws.floats, ws.problem.right.start, n, ws.problem.x.start)
         solve_shifted(ws, n)
-        return
-    transpose(ws.floats, ws.problem.reduced.start, n, ws.problem.matrix.start)
-    minimum_norm(
-        ws.floats,
-        ws.problem.matrix.start,
-        n,
-        ws.problem.right.start,
-        ws.problem.x.start,
-        ws.problem.basis.start,
-        ws.problem.sigma.start,
-        n,
-    )
+    else:
+        solve_reduced_for_least_norm(ws, n, n)
 
 
 @kernel("void(ws, ActiveContact, f8)")
 def _turn(ws: Workspace, active: ActiveContact, step: float) -> None:
     """Turn the slip direction of a contact by Newton's ``step`` [N], which is the angle times mu f_n.
 
-    The slip of a contact without friction follows its acceleration.
+    If mu f_n is zero, the angle is unknown, and the slip takes the direction of its acceleration.
     """
     d1, d2 = active.direction
     force = active.friction_coefficient * active.normal_force
     if abs(force) > 0.0:
         angle = max(-_LARGEST_TURN, min(_LARGEST_TURN, step / force))
         active.direction = (d1 * math.cos(angle) - d2 * math.sin(angle), d2 * math.cos(angle) + d1 * math.sin(angle))
-        return
-    a1, a2 = _slip_acceleration(ws, active)
-    norm = length((a1, a2))
-    if norm > 0.0:
-        active.direction = a1 / norm, a2 / norm
+    elif length(slip_acceleration(ws, active)) > 0.0:
+        active.direction = unit(slip_acceleration(ws, active))

@@ -1,0 +1,35 @@
+"""Arrays among the floats of the workspace: copies, sums, largest entry. ``a`` and ``out`` are offsets."""
+
+from __future__ import annotations
+
+from nonsmooth.engine.native.kernel import Floats, kernel
+
+
+@kernel("void(F, i8, i8, i8)")
+def copy_numbers(floats: Floats, a: int, n: int, out: int) -> None:
+    """Copy ``n`` numbers from ``a`` to ``out``."""
+    for i in range(n):
+        floats[out + i] = floats[a + i]
+
+
+@kernel("void(F, i8, i8)")
+def clear(floats: Floats, a: int, n: int) -> None:
+    """Set ``n`` numbers at ``a`` to zero."""
+    for i in range(n):
+        floats[a + i] = 0.0
+
+
+@kernel("f8(F, i8, i8)")
+def largest_size(floats: Floats, a: int, n: int) -> float:
+    """Largest absolute value of ``n`` numbers at ``a``; 0 if there are none."""
+    largest = 0.0
+    for i in range(n):
+        largest = max(largest, abs(floats[a + i]))
+    return largest
+
+
+@kernel("void(F, i8, f8, i8, i8)")
+def subtract_part(floats: Floats, out: int, part: float, a: int, n: int) -> None:
+    """Subtract ``part`` times the vector at ``a`` from that at ``out``, both of ``n`` numbers."""
+    for i in range(n):
+        floats[out + i] -= part * floats[a + i]

@@ -1,0 +1,144 @@
+"""Least norm: the rank, the null space and the shortest solution of a singular system whose matrix is stored in full.
+
+Matrices and vectors are stored among the floats of the workspace. An argument named as a matrix or a vector is the
+offset of its first entry.
+"""
+
+from __future__ import annotations
+
+import math
+
+from nonsmooth.engine.native.kernel import Floats, kernel
+from nonsmooth.engine.numerics.arrays import clear, subtract_part
+from nonsmooth.engine.numerics.linear import SINGULAR, product
+
+
+@kernel("i8(F, i8, i8)")
+def rank_of_semidefinite(floats: Floats, a: int, n: int) -> int:
+    """Rank of the positive semidefinite matrix at ``a``, which is overwritten: the number of nonzero pivots.
+
+    Each pivot is the largest entry left on the diagonal. It counts as zero below ``SINGULAR`` times the largest pivot.
+    """
+    largest = 0.0
+    for rank in range(n):
+        best = rank
+        for i in range(rank + 1, n):
+            if floats[a + i * n + i] > floats[a + best * n + best]:
+                best = i
+        pivot = floats[a + best * n + best]
+        largest = max(largest, pivot)
+        if not pivot > SINGULAR * largest:
+            return rank
+        for c in range(n):
+            floats[a + rank * n + c], floats[a + best * n + c] = floats[a + best * n + c], floats[a + rank * n + c]
+        for i in range(n):
+            floats[a + i * n + rank], floats[a + i * n + best] = floats[a + i * n + best], floats[a + i * n + rank]
+        for i in range(rank + 1, n):
+            factor = floats[a + i * n + rank] / pivot
+            if factor != 0.0:
+                for c in range(rank + 1, n):
+                    floats[a + i * n + c] -= factor * floats[a + rank * n + c]
+    return n
+
+
+@kernel("void(F, i8, i8, i8)")
+def transpose(floats: Floats, a: int, n: int, out: int) -> None:
+    """Write the transpose of the matrix at ``a`` to ``out``."""
+    for i in range(n):
+        for j in range(n):
+            floats[out + j * n + i] = floats[a + i * n + j]
+
+
+@kernel("void(F, i8, i8, i8)")
+def complete(floats: Floats, v: int, n: int, rank: int) -> None:
+    """Complete the ``rank`` orthonormal rows of ``n`` numbers at ``v`` to a basis of all vectors.
+
+    Each new row starts from the unit vector that the rows so far represent least.
+    """
+    for done in range(rank, n):
+        best, most = 0, -math.inf
+        for i in range(n):
+            left = 1.0
+            for c in range(done):
+                left -= floats[v + c * n + i] ** 2
+            if left > most:
+                best, most = i, left
+        row = v + done * n
+        for i in range(n):
+            floats[row + i] = 1.0 if i == best else 0.0
+        # a second pass of Gram-Schmidt removes the round-off that the first leaves
+        for _ in range(2):
+            for c in range(done):
+                subtract_part(floats, row, product(floats, 0.0, v + c * n, row, n), v + c * n, n)
+        norm = math.sqrt(product(floats, 0.0, row, row, n))
+        for i in range(n):
+            floats[row + i] /= norm
+
+
+@kernel("i8(F, i8, i8, i8, i8, i8, i8)")
+def _triangulate(floats: Floats, a: int, n: int, b: int, r: int, marks: int, most: int) -> int:
+    """Factorise A = Q R with the largest remaining column first. Returns the rank, at most ``most``.
+
+    The matrix at ``a`` is stored by columns, ``n`` by n. The columns and the vector ``b`` lose their components along
+    the columns chosen so far. Rows of R are written to ``r``. The first n numbers at ``marks`` become 1 for the chosen
+    columns, 0 for the others; Q^T b follows them.
+    """
+    for j in range(n):
+        floats[marks + j] = 0.0
+    largest = 0.0
+    for rank in range(most):
+        best, size = -1, 0.0
+        for j in range(n):
+            if floats[marks + j] == 0.0:
+                square = product(floats, 0.0, a + j * n, a + j * n, n)
+                if square > size:
+                    best, size = j, square
+        norm = math.sqrt(size)
+        largest = max(largest, norm)
+        if best < 0 or not norm > SINGULAR * largest:
+            return rank
+        floats[marks + best] = 1.0
+        chosen = a + best * n
+        for i in range(n):
+            floats[chosen + i] /= norm
+        for j in range(n):
+            floats[r + rank * n + j] = 0.0
+            if floats[marks + j] == 0.0:
+                # a second pass of Gram-Schmidt removes the round-off that the first leaves
+                for _ in range(2):
+                    part = product(floats, 0.0, chosen, a + j * n, n)
+                    floats[r + rank * n + j] += part
+                    subtract_part(floats, a + j * n, part, chosen, n)
+        floats[r + rank * n + best] = norm
+        total = product(floats, 0.0, chosen, b, n)
+        floats[marks + n + rank] = total
+        subtract_part(floats, b, total, chosen, n)
+    return most
+
+
+@kernel("i8(F, i8, i8, i8, i8, i8, i8, i8)")
+def minimum_norm(floats: Floats, a: int, n: int, b: int, x: int, v: int, work: int, most: int) -> int:
+    """Write the least-squares solution of A x = b of least norm to ``x``. Returns the rank of A, at most ``most``.
+
+    A = Q R gives the components Q^T b, and R = L V the solution V^T L^-1 Q^T b. Both are orthogonal decompositions, so
+    that the condition of A is not squared. The matrix at ``a`` is stored by columns; it and ``b`` are overwritten. The
+    first rows at ``v`` become an orthonormal basis of the row space. ``work`` has 2 n numbers.
+    """
+    rank = _triangulate(floats, a, n, b, v, work, most)
+    clear(floats, x, n)
+    # R = L V: the rows are orthogonalised, and the forward substitution is done along with it
+    for j in range(rank):
+        row = v + j * n
+        rest = floats[work + n + j]
+        for _ in range(2):
+            for c in range(j):
+                part = product(floats, 0.0, v + c * n, row, n)
+                rest -= part * floats[work + n + c]
+                subtract_part(floats, row, part, v + c * n, n)
+        norm = math.sqrt(product(floats, 0.0, row, row, n))
+        for i in range(n):
+            floats[row + i] /= norm
+        floats[work + n + j] = rest / norm
+        for i in range(n):
+            floats[x + i] += floats[work + n + j] * floats[row + i]
+    return rank
