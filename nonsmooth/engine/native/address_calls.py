@@ -18,7 +18,7 @@ from nonsmooth.engine.native.forms import FORMS
 from nonsmooth.engine.native.numba_names import cgutils, ir
 from nonsmooth.engine.native.shared import Shared
 from nonsmooth.engine.native.signatures import signature_of
-from nonsmooth.engine.native.types import FLOATS, call_at, moved
+from nonsmooth.engine.native.types import FLOATS, WORD, call_at, moved
 
 
 def by_address(signature: Any) -> Any:
@@ -74,7 +74,7 @@ def at(typingctx: Any, floats: Any, offset: Any) -> Any:
     """The floats from ``offset`` on, as a pointer."""
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        return moved(context, builder, floats, *args)
+        return moved(builder, floats.kind, *args)
 
     return floats(floats, types.int64), codegen
 
@@ -84,16 +84,15 @@ def _support_at(typingctx: Any, floats: Any, place: Any, x: Any, y: Any, z: Any)
     point = types.UniTuple(types.float64, 3)
 
     def lower(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        number, size = ir.DoubleType(), ir.IntType(64)
+        number = ir.DoubleType()
         direction, found = (cgutils.alloca_once(builder, number, 3) for _ in range(2))
-        indices = [size(i) for i in range(3)]
-        for i, value in zip(indices, args[2:], strict=True):
-            builder.store(value, moved(context, builder, FLOATS, direction, i))
+        for i, value in enumerate(args[2:]):
+            builder.store(value, moved(builder, float, direction, WORD(i)))
         if floats == FLOATS:
-            address = builder.load(moved(context, builder, floats, args[0], args[1]), typ=number)
-            parameters = moved(context, builder, floats, args[0], builder.add(args[1], size(1)))
-            call_at(builder, builder.fptosi(address, size), ir.VoidType(), [direction, parameters, found])
-        values = [builder.load(moved(context, builder, FLOATS, found, i), typ=number) for i in indices]
+            address = builder.load(moved(builder, float, args[0], args[1]), typ=number)
+            parameters = moved(builder, float, args[0], builder.add(args[1], WORD(1)))
+            call_at(builder, builder.fptosi(address, WORD), ir.VoidType(), [direction, parameters, found])
+        values = [builder.load(moved(builder, float, found, WORD(i)), typ=number) for i in range(3)]
         return context.make_tuple(builder, point, values)
 
     return point(floats, types.int64, types.float64, types.float64, types.float64), lower

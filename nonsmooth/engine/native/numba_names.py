@@ -25,7 +25,6 @@ SUPPORTED = ">=0.61,<0.70"
 """Supported versions of numba, as in pyproject.toml."""
 
 
-
 class Attribute(NamedTuple):
     """An attribute of a class of numba that the engine overrides or calls.
 

@@ -17,35 +17,13 @@ from typing import Any, final
 
 from numba import types
 
+from nonsmooth.engine.native import numba_names as private
 from nonsmooth.engine.native.cache import Store
-from nonsmooth.engine.native.numba_names import (
-    NO_ALLOCATION,
-    CFunc,
-    CompilerBase,
-    DefaultPassBuilder,
-    FixupArgs,
-    FunctionPass,
-    IRLegalization,
-    IRProcessing,
-    JITCodeLibrary,
-    NativeLowering,
-    NoPythonBackend,
-    NopythonTypeInference,
-    PassManager,
-    PreLowerStripPhis,
-    ReconstructSSA,
-    TranslateByteCode,
-    create_pass_builder,
-    create_pipeline_tuning_options,
-    ir,
-    normalize_signature,
-    register_pass,
-)
 
 
-@register_pass(mutates_CFG=False, analysis_only=False)
+@private.register_pass(mutates_CFG=False, analysis_only=False)
 @final
-class Number(FunctionPass):
+class Number(private.FunctionPass):
     """Give a function a random number in place of numba's count.
 
     Symbols consist of a function's name, types and number. Code that several processes have kept on disk is linked by
@@ -85,9 +63,9 @@ _typed: dict[Any, Any] = {}
 """Signatures found so far, by function and types of arguments."""
 
 
-@register_pass(mutates_CFG=True, analysis_only=False)
+@private.register_pass(mutates_CFG=True, analysis_only=False)
 @final
-class TypeOnce(NopythonTypeInference):
+class TypeOnce(private.NopythonTypeInference):
     """Type inference that finds the types of each operation once, which saves a tenth of the time."""
 
     _name = "remembering_type_inference"
@@ -102,16 +80,16 @@ class TypeOnce(NopythonTypeInference):
             state.typingctx = context
 
 
-class _RolledLibrary(JITCodeLibrary):
+class _RolledLibrary(private.JITCodeLibrary):
     """Code whose loops are neither unrolled nor interleaved.
 
     Most loops run over a dozen numbers. Unrolled, they take longer to compile and to run.
     """
 
     def _builder(self) -> Any:
-        options = create_pipeline_tuning_options(speed_level=3)
+        options = private.create_pipeline_tuning_options(speed_level=3)
         options.loop_vectorization, options.loop_unrolling, options.loop_interleaving = True, False, False
-        return create_pass_builder(self._codegen._tm, options)
+        return private.create_pass_builder(self._codegen._tm, options)
 
     def _optimize_functions(self, module: Any) -> None:
         module.data_layout = self._codegen._data_layout
@@ -147,7 +125,7 @@ def _let_inline(module: Any) -> None:
     for function in module.functions if module.name == "cfunc_wrapper" else ():
         for block in function.blocks:
             for instruction in block.instructions:
-                if isinstance(instruction, ir.CallInstr):
+                if isinstance(instruction, private.ir.CallInstr):
                     instruction.attributes.discard("noinline")
 
 
@@ -172,14 +150,14 @@ class _EntryLibrary(_OneFunction, _RolledLibrary):
     """Code of an entry point."""
 
 
-class _ShimLibrary(_OneFunction, JITCodeLibrary):
+class _ShimLibrary(_OneFunction, private.JITCodeLibrary):
     """Code of a shim."""
 
 
-class _Lower(NativeLowering):
+class _Lower(private.NativeLowering):
     """Lowering to intermediate code, into a library of the engine's own."""
 
-    _library: type[JITCodeLibrary]
+    _library: type[private.JITCodeLibrary]
 
     def run_pass(self, state: Any) -> bool:
         """Lower the function. The library makes machine code of it, or leaves that to its callers."""
@@ -188,7 +166,7 @@ class _Lower(NativeLowering):
         return bool(super().run_pass(state))
 
 
-@register_pass(mutates_CFG=True, analysis_only=False)
+@private.register_pass(mutates_CFG=True, analysis_only=False)
 @final
 class LowerRaw(_Lower):
     """Lowering of kernels and laws, whose machine code is part of their callers. It saves half of the time."""
@@ -196,7 +174,7 @@ class LowerRaw(_Lower):
     _name, _library = "raw_native_lowering", _RawLibrary
 
 
-@register_pass(mutates_CFG=True, analysis_only=False)
+@private.register_pass(mutates_CFG=True, analysis_only=False)
 @final
 class LowerEntry(_Lower):
     """Lowering of entry points."""
@@ -204,7 +182,7 @@ class LowerEntry(_Lower):
     _name, _library = "entry_native_lowering", _EntryLibrary
 
 
-@register_pass(mutates_CFG=True, analysis_only=False)
+@private.register_pass(mutates_CFG=True, analysis_only=False)
 @final
 class LowerShim(_Lower):
     """Lowering of shims."""
@@ -213,37 +191,37 @@ class LowerShim(_Lower):
 
 
 _ENGINE = (
-    TranslateByteCode,
-    FixupArgs,
-    IRProcessing,
-    ReconstructSSA,
-    NopythonTypeInference,
-    PreLowerStripPhis,
-    IRLegalization,
-    NativeLowering,
-    NoPythonBackend,
+    private.TranslateByteCode,
+    private.FixupArgs,
+    private.IRProcessing,
+    private.ReconstructSSA,
+    private.NopythonTypeInference,
+    private.PreLowerStripPhis,
+    private.IRLegalization,
+    private.NativeLowering,
+    private.NoPythonBackend,
 )
 """The passes of numba that the engine's loops over numbers need."""
 
 
-def _engine_passes(state: Any) -> PassManager:
-    passes = PassManager("engine")
+def _engine_passes(state: Any) -> private.PassManager:
+    passes = private.PassManager("engine")
     for kind in _ENGINE:
         passes.add_pass(kind, kind.__name__)
     return passes
 
 
-def _compiler(numba_passes: Callable[[Any], PassManager], lowering: type) -> type[CompilerBase]:
+def _compiler(numba_passes: Callable[[Any], private.PassManager], lowering: type) -> type[private.CompilerBase]:
     """Compiler class with numba's passes, in which the engine's own replace two and the numbering is added."""
-    own = {NopythonTypeInference: TypeOnce, NativeLowering: lowering}
+    own = {private.NopythonTypeInference: TypeOnce, private.NativeLowering: lowering}
 
     @final
-    class Passes(CompilerBase):
-        def define_pipelines(self) -> list[PassManager]:
+    class Passes(private.CompilerBase):
+        def define_pipelines(self) -> list[private.PassManager]:
             """Numba's passes, some replaced by those of ``own``, and the numbering of variables behind the first."""
             passes = numba_passes(self.state)
             passes.passes = [(own.get(kind, kind), name) for kind, name in passes.passes]
-            passes.add_pass_after(Number, TranslateByteCode)
+            passes.add_pass_after(Number, private.TranslateByteCode)
             passes.finalize()
             return [passes]
 
@@ -254,14 +232,14 @@ EntryPasses = _compiler(_engine_passes, LowerEntry)
 """For entry points."""
 KernelPasses = _compiler(_engine_passes, LowerRaw)
 """For kernels, whose code is part of entry points."""
-ShimPasses = _compiler(DefaultPassBuilder.define_nopython_pipeline, LowerShim)
+ShimPasses = _compiler(private.DefaultPassBuilder.define_nopython_pipeline, LowerShim)
 """For shims, which have an address and call a plug-in's function."""
-LawPasses = _compiler(DefaultPassBuilder.define_nopython_pipeline, LowerRaw)
+LawPasses = _compiler(private.DefaultPassBuilder.define_nopython_pipeline, LowerRaw)
 """For functions of plug-ins, whose code is part of shims."""
 
 
 @final
-class CFunction(CFunc):
+class CFunction(private.CFunc):
     """A C function that is compiled or taken from disk by :meth:`compile`.
 
     Parameters
@@ -283,11 +261,13 @@ class CFunction(CFunc):
         function: Callable[..., Any],
         signature: Any,
         store: Store | None,
-        passes: type[CompilerBase],
+        passes: type[private.CompilerBase],
         *,
         may_allocate: bool = False,
     ) -> None:
-        options = {"nopython": True, "error_model": "numpy", **({} if may_allocate else NO_ALLOCATION)}
-        super().__init__(function, normalize_signature(signature), locals={}, options=options, pipeline_class=passes)
+        options = {"nopython": True, "error_model": "numpy", **({} if may_allocate else private.NO_ALLOCATION)}
+        super().__init__(
+            function, private.normalize_signature(signature), locals={}, options=options, pipeline_class=passes
+        )
         if store is not None:
             self._cache = store

@@ -12,11 +12,9 @@ from numba import types
 
 from nonsmooth.engine.memory.declare import Part
 from nonsmooth.engine.memory.modes import ENUMERATIONS
-from nonsmooth.engine.memory.tables import record_with
-from nonsmooth.engine.native.record_view import types_of
 from nonsmooth.engine.native.results import type_of_result
-from nonsmooth.engine.native.types import FLOATS, INTEGERS, ScalarRecord
-from nonsmooth.engine.native.workspace_view import WORKSPACE, Workspace
+from nonsmooth.engine.native.types import FLOATS, INTEGERS
+from nonsmooth.engine.native.views import WORKSPACE, Workspace, types_of
 
 _TYPES: dict[str, Any] = {
     "ws": WORKSPACE,
@@ -49,4 +47,4 @@ def signature_of(text: str, workspace: Any = WORKSPACE) -> Any:
 
 def workspace_with(own: type[Part]) -> Any:
     """Type of the workspace of an engine that adds a part of its own."""
-    return Workspace(ScalarRecord(record_with([own])), {own.key: own})
+    return Workspace({own.key: own})
