@@ -28,7 +28,6 @@ from numba import types
 from numba.core import ccallback, codegen, event
 from numba.core.bytecode import FunctionIdentity
 from numba.core.dispatcher import Dispatcher
-from numba.core.registry import cpu_target
 from numba.core.types.functions import BaseFunction
 
 from nonsmooth.engine.native import numba_names, passes
@@ -328,8 +327,7 @@ def test_pointers_need_no_types(monkeypatch: pytest.MonkeyPatch) -> None:
     module = ir.Module()
     function = ir.Function(module, ir.FunctionType(number, [pointer, size]), "probe")
     builder = ir.IRBuilder(function.append_basic_block())
-    context = cpu_target.target_context
-    place = moved(context, builder, FLOATS, *function.args)
+    place = moved(builder, float, *function.args)
     value = builder.load(place, typ=number)
     builder.ret(call_at(builder, function.args[1], number, [value, place]))
     parse_assembly(str(module)).verify()
