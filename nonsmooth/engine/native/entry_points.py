@@ -1,7 +1,8 @@
-"""Entry points: functions of the engine that are compiled apart from their callers and called by address.
+"""Kernels, which are compiled into their callers, and entry points, which are compiled apart and called by address.
 
 Numba optimises a kernel again within each of its callers. An entry point ends this: its callers read its address from
-the workspace. Python calls entry points, too. Their machine code is kept on disk.
+the workspace. Python calls entry points, too. Their machine code is kept on disk. Nothing is compiled when a module is
+imported: a kernel is compiled when an entry point that calls it is.
 """
 
 from __future__ import annotations
@@ -23,12 +24,11 @@ from nonsmooth.engine.memory.declare import Part
 from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.native.address_calls import by_address
-from nonsmooth.engine.native.callees import callees_of
-from nonsmooth.engine.native.compiler import entry_address, is_stored
+from nonsmooth.engine.native.callees import KERNELS, Kernel, callees_of
+from nonsmooth.engine.native.compiler import entry_address, is_stored, kernel_dispatcher
 from nonsmooth.engine.native.entries import Fingerprint, known, own_name
 from nonsmooth.engine.native.folders import folders
 from nonsmooth.engine.native.forms import C_TYPES
-from nonsmooth.engine.native.kernels import kernel
 from nonsmooth.engine.native.signatures import signature_of, workspace_with
 from nonsmooth.notices import say
 
@@ -56,6 +56,25 @@ class Entry(NamedTuple):
 ENTRIES: dict[str, Entry] = {}
 """Entry points and steps of engines by name."""
 _callables: dict[str, Callable[..., Any]] = {}
+
+
+def kernel(signature: str = "void(ws)") -> Callable[[Callable[..., Any]], Any]:
+    """Make a kernel with the given signature."""
+    return _kernel(signature_of(signature))
+
+
+def own_kernel(own: type[Part], signature: str) -> Callable[[Callable[..., Any]], Any]:
+    """Make a kernel of an engine that adds a part of its own to the workspace."""
+    return _kernel(signature_of(signature, workspace_with(own)))
+
+
+def _kernel(signature: Any) -> Callable[[Callable[..., Any]], Any]:
+    def decorate(function: Callable[..., Any]) -> Any:
+        dispatcher = kernel_dispatcher(function)
+        KERNELS.append(Kernel(dispatcher, signature))
+        return dispatcher
+
+    return decorate
 
 
 def entry_point(signature: str = "void(ws)") -> Callable[[Callable[..., Any]], Any]:

@@ -154,42 +154,28 @@ class _ShimLibrary(_OneFunction, private.JITCodeLibrary):
     """Code of a shim."""
 
 
-class _Lower(private.NativeLowering):
-    """Lowering to intermediate code, into a library of the engine's own."""
+def _lowering(name: str, library: type[private.JITCodeLibrary]) -> type[private.NativeLowering]:
+    """The pass that lowers a function to intermediate code, into a library of the engine's own.
 
-    _library: type[private.JITCodeLibrary]
+    The library makes machine code of it, or leaves that to the callers of the function.
+    """
 
-    def run_pass(self, state: Any) -> bool:
-        """Lower the function. The library makes machine code of it, or leaves that to its callers."""
-        state.library = self._library(state.targetctx.codegen(), state.func_id.func_qualname)
-        state.library.enable_object_caching()
-        return bool(super().run_pass(state))
+    @private.register_pass(mutates_CFG=True, analysis_only=False)
+    @final
+    class Lower(private.NativeLowering):
+        _name = f"{name}_native_lowering"
 
+        def run_pass(self, state: Any) -> bool:
+            """Lower the function."""
+            state.library = library(state.targetctx.codegen(), state.func_id.func_qualname)
+            state.library.enable_object_caching()
+            return bool(super().run_pass(state))
 
-@private.register_pass(mutates_CFG=True, analysis_only=False)
-@final
-class LowerRaw(_Lower):
-    """Lowering of kernels and laws, whose machine code is part of their callers. It saves half of the time."""
-
-    _name, _library = "raw_native_lowering", _RawLibrary
-
-
-@private.register_pass(mutates_CFG=True, analysis_only=False)
-@final
-class LowerEntry(_Lower):
-    """Lowering of entry points."""
-
-    _name, _library = "entry_native_lowering", _EntryLibrary
+    return Lower
 
 
-@private.register_pass(mutates_CFG=True, analysis_only=False)
-@final
-class LowerShim(_Lower):
-    """Lowering of shims."""
-
-    _name, _library = "shim_native_lowering", _ShimLibrary
-
-
+_LOWER_RAW = _lowering("raw", _RawLibrary)
+"""Lowering of kernels and laws, whose machine code is part of their callers. It saves half of the time."""
 _ENGINE = (
     private.TranslateByteCode,
     private.FixupArgs,
@@ -228,13 +214,13 @@ def _compiler(numba_passes: Callable[[Any], private.PassManager], lowering: type
     return Passes
 
 
-EntryPasses = _compiler(_engine_passes, LowerEntry)
+EntryPasses = _compiler(_engine_passes, _lowering("entry", _EntryLibrary))
 """For entry points."""
-KernelPasses = _compiler(_engine_passes, LowerRaw)
+KernelPasses = _compiler(_engine_passes, _LOWER_RAW)
 """For kernels, whose code is part of entry points."""
-ShimPasses = _compiler(private.DefaultPassBuilder.define_nopython_pipeline, LowerShim)
+ShimPasses = _compiler(private.DefaultPassBuilder.define_nopython_pipeline, _lowering("shim", _ShimLibrary))
 """For shims, which have an address and call a plug-in's function."""
-LawPasses = _compiler(private.DefaultPassBuilder.define_nopython_pipeline, LowerRaw)
+LawPasses = _compiler(private.DefaultPassBuilder.define_nopython_pipeline, _LOWER_RAW)
 """For functions of plug-ins, whose code is part of shims."""
 
 
@@ -261,13 +247,11 @@ class CFunction(private.CFunc):
         function: Callable[..., Any],
         signature: Any,
         store: Store | None,
-        passes: type[private.CompilerBase],
-        *,
+        passes: type,
         may_allocate: bool = False,
     ) -> None:
         options = {"nopython": True, "error_model": "numpy", **({} if may_allocate else private.NO_ALLOCATION)}
-        super().__init__(
-            function, private.normalize_signature(signature), locals={}, options=options, pipeline_class=passes
-        )
+        typed = private.normalize_signature(signature)
+        super().__init__(function, typed, locals={}, options=options, pipeline_class=passes)
         if store is not None:
             self._cache = store

@@ -12,10 +12,8 @@ from numba.extending import typeof_impl
 from nonsmooth.engine.native.compiler import law_dispatcher
 from nonsmooth.engine.native.numba_names import Dispatcher
 
-
-def jit(function: Callable[..., Any]) -> Any:
-    """Compile a plug-in's function on demand. Its code is kept with that of the shim that calls it."""
-    return law_dispatcher(function)
+jit = law_dispatcher
+"""Compile a plug-in's function on demand. Its code is kept with that of the shim that calls it."""
 
 
 @final
@@ -50,9 +48,8 @@ def _type_of_shared(value: Shared, context: Any) -> Any:
     return types.Dispatcher(value.dispatcher)
 
 
-def shared(function: Callable[..., Any]) -> Any:
-    """Let the compiled functions of plug-ins call a function."""
-    return Shared(function)
+shared = Shared
+"""Let the compiled functions of plug-ins call a function."""
 
 
 def unshared(value: Any) -> Any:
