@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import Enum
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar, Protocol, TypeAlias
 
 from nonsmooth.engine.memory.sizes import Size, per
 
@@ -128,6 +128,11 @@ class Declaration:
         return storage if "." in storage else f"{self.owner.key}.{storage}"
 
 
+Vector2: TypeAlias = tuple[float, float]
+Vector3: TypeAlias = tuple[float, float, float]
+Vector4: TypeAlias = tuple[float, float, float, float]
+
+
 class FloatRow(Protocol):
     """An array of floats of the workspace."""
 
@@ -239,6 +244,16 @@ def end_of(start: str, sentence: str, **options: Any) -> Any:
 def array(life: Life, size: Size, kind: type, unit: str, sentence: str, **options: Any) -> Any:
     """Declare an array of a part, of floats or integers."""
     return Declaration(kind, life, unit, sentence, size=size, **options)
+
+
+def floats(life: Life, size: Size, unit: str, sentence: str, **options: Any) -> Any:
+    """Declare an array of floats of a part."""
+    return array(life, size, float, unit, sentence, **options)
+
+
+def integers(life: Life, size: Size, sentence: str, **options: Any) -> Any:
+    """Declare an array of integers of a part."""
+    return array(life, size, int, "", sentence, **options)
 
 
 def declarations(owner: type) -> Mapping[str, Declaration]:

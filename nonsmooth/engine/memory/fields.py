@@ -46,7 +46,9 @@ Fields: TypeAlias = Mapping[str, Field]
 def fields_of(owner: type[Record]) -> Fields:
     """Fields of the compiled record of an owner, by name."""
     return {
-        name: Field(one.key, stride_of(storage_of(one)), one.inside[1], one.numbers, one.is_vector, one.behind, one.kind)
+        name: Field(
+            one.key, stride_of(storage_of(one)), one.inside[1], one.numbers, one.is_vector, one.behind, one.kind
+        )
         for name, one in declarations(owner).items()
     }
 

@@ -119,15 +119,10 @@ def _address(name: str) -> int:
 def entry_addresses() -> tuple[int, ...]:
     """Addresses of all entry points, in the order of ``ENTRY_POINTS``. Those that are not on disk are compiled."""
     importlib.import_module("nonsmooth.engine.events.event_loop")
-    if missing := _missing():
+    if missing := tuple(name for name in ENTRY_POINTS if not is_stored(name)):
         say("compiling the engine once for this machine (some 20 s, longer where it is busy) ...")
         _compile_apart(missing)
-        compile_entries(_missing())
     return tuple(_address(name) for name in ENTRY_POINTS)
-
-
-def _missing() -> tuple[str, ...]:
-    return tuple(name for name in ENTRY_POINTS if not is_stored(name))
 
 
 def _compile_apart(names: tuple[str, ...]) -> None:

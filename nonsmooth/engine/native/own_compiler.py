@@ -52,14 +52,13 @@ def entry_address(function: Callable[..., Any], signature: Any, key: str) -> int
         if not key or not is_stored(key):
             for kernel in callees_of(function):
                 kernel.compile()
-        return _address(CFunction(function, signature, _store(key) if key else None, EntryPasses))
+        return _address(CFunction(function, signature, _store(key) if key else None, EntryPasses, **NO_ALLOCATION))
 
 
 def shim_address(function: Callable[..., Any], signature: Any, key: str) -> int:
     """Address of the C function of a shim, which is compiled or loaded from disk."""
     with uncollected():
-        store = Store(f"shim-{key}") if key else None
-        return _address(CFunction(function, signature, store, ShimPasses, may_allocate=True))
+        return _address(CFunction(function, signature, Store(f"shim-{key}") if key else None, ShimPasses))
 
 
 def _address(function: CFunction) -> int:

@@ -176,23 +176,22 @@ def _lowering(name: str, library: type[private.JITCodeLibrary]) -> type[private.
 
 _LOWER_RAW = _lowering("raw", _RawLibrary)
 """Lowering of kernels and laws, whose machine code is part of their callers. It saves half of the time."""
-_ENGINE = (
-    private.TranslateByteCode,
-    private.FixupArgs,
-    private.IRProcessing,
-    private.ReconstructSSA,
-    private.NopythonTypeInference,
-    private.PreLowerStripPhis,
-    private.IRLegalization,
-    private.NativeLowering,
-    private.NoPythonBackend,
-)
-"""The passes of numba that the engine's loops over numbers need."""
 
 
 def _engine_passes(state: Any) -> private.PassManager:
+    """The passes of numba that the engine's loops over numbers need."""
     passes = private.PassManager("engine")
-    for kind in _ENGINE:
+    for kind in (
+        private.TranslateByteCode,
+        private.FixupArgs,
+        private.IRProcessing,
+        private.ReconstructSSA,
+        private.NopythonTypeInference,
+        private.PreLowerStripPhis,
+        private.IRLegalization,
+        private.NativeLowering,
+        private.NoPythonBackend,
+    ):
         passes.add_pass(kind, kind.__name__)
     return passes
 
@@ -238,20 +237,13 @@ class CFunction(private.CFunc):
         Its file, if it is kept on disk.
     passes : type
         The passes of the compiler.
-    may_allocate : bool
-        Whether a function that allocates memory compiles, as laws of impact with arrays do.
+    options : bool
+        Further options of the compiler.
     """
 
-    def __init__(
-        self,
-        function: Callable[..., Any],
-        signature: Any,
-        store: Store | None,
-        passes: type,
-        may_allocate: bool = False,
-    ) -> None:
-        options = {"nopython": True, "error_model": "numpy", **({} if may_allocate else private.NO_ALLOCATION)}
+    def __init__(self, function: Any, signature: Any, store: Store | None, passes: type, **options: bool) -> None:
+        all_options = {"nopython": True, "error_model": "numpy", **options}
         typed = private.normalize_signature(signature)
-        super().__init__(function, typed, locals={}, options=options, pipeline_class=passes)
+        super().__init__(function, typed, locals={}, options=all_options, pipeline_class=passes)
         if store is not None:
             self._cache = store

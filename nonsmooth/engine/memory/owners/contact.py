@@ -4,21 +4,21 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, final
 
-from nonsmooth.engine.memory.blocks import (
-    FEATURE,
-    GAP,
-    GEOMETRY,
-    NORMAL,
-    PAST_END,
-    POINT_A,
-    POINT_B,
-    SIDE_A,
-    SIDE_B,
-    SLIDE_MATRIX,
-    TANGENT,
-    TURN_MATRIX,
+from nonsmooth.engine.memory import blocks
+from nonsmooth.engine.memory.declare import (
+    Life,
+    Record,
+    Vector2,
+    Vector3,
+    Vector4,
+    address,
+    one_of,
+    question,
+    real,
+    row,
+    vector,
+    whole,
 )
-from nonsmooth.engine.memory.declare import Life, Record, address, one_of, question, real, row, vector, whole
 from nonsmooth.engine.memory.modes import Cause, Mode, Phase
 from nonsmooth.engine.memory.sizes import per
 from nonsmooth.types import Floats
@@ -48,27 +48,23 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     column_b: int = whole(_PARAMETER, "Column of the second body in the Jacobian of its articulation.")
     support_radius_a: float = real(_PARAMETER, "m", "Largest distance of surface a from its origin.")
     support_radius_b: float = real(_PARAMETER, "m", "Largest distance of surface b from its origin.")
-    spin_axis: tuple[float, float, float] = vector(
-        _PARAMETER, 3, "1", "Body-fixed axis about which the smaller shape may spin unseen, or zero."
-    )
+    spin_axis: Vector3 = vector(_PARAMETER, 3, "1", "Body axis about which the smaller shape may spin unseen, or zero.")
     size: float = real(_PARAMETER, "m", "Size of the smaller body.")
     contact_time: float = real(_PARAMETER, "s", "Duration of an impact, below which bounces are not resolved.")
     reach: float = real(_PARAMETER, "m", "Gap up to which a compliant contact acts.")
     geometry_function: int = address(_PARAMETER, "Address of the function that writes the geometry.")
     geometry_parameters: int = whole(_PARAMETER, "Place of the parameters of the geometry.")
-    is_compliant: bool = question(
-        _PARAMETER, "The normal force is a function of gap and rate.", inside=("normal_function", 0)
-    )
+    is_compliant: bool = question(_PARAMETER, "Normal force depends on gap and rate.", inside=("normal_function", 0))
     normal_function: int = address(_PARAMETER, "Address of the normal law of a compliant contact, else 0.")
-    geometry: Floats = row(_REUSED, GEOMETRY, "", "Block that the kinematics writes; its parts have names below.")
+    geometry: Floats = row(
+        _REUSED, blocks.GEOMETRY, "", "Block that the kinematics writes; its parts have names below."
+    )
     normal_parameters: int = whole(_PARAMETER, "Place of the parameters of the normal law.")
     friction_function: int = address(_PARAMETER, "Address of the friction law.")
     friction_parameters: int = whole(_PARAMETER, "Place of the parameters of the friction law.")
     is_anisotropic: bool = question(_PARAMETER, "Friction depends on the direction.")
     anisotropy: int = whole(_PARAMETER, "Place of axis and ratios of anisotropic friction.")
-    has_traction_law: bool = question(
-        _PARAMETER, "A law gives friction force and moment.", inside=("traction_function", 0)
-    )
+    has_traction_law: bool = question(_PARAMETER, "A law gives friction and moment.", inside=("traction_function", 0))
     traction_function: int = address(_PARAMETER, "Address of the traction law, or 0.")
     traction_parameters: int = whole(_PARAMETER, "Place of the parameters of the traction law.")
     traction_out: int = whole(_PARAMETER, "Place where the traction law writes.")
@@ -93,7 +89,7 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
 
     # --- its history --------------------------------------------------------------------------------------------------
     mode: Mode = one_of(Mode, _STATE, "Open, stick or slide.")
-    direction: tuple[float, float] = vector(_STATE, 2, "1", "Unit direction of the slip, or of the slip that begins.")
+    direction: Vector2 = vector(_STATE, 2, "1", "Unit direction of the slip, or of the slip that begins.")
     facing: int = whole(_STATE, "Side, 1 or -1, from which anisotropic friction is opposed.", is_of_slot=True)
     closing_rate: float = real(_STATE, "m/s", "Gap rate with which a compliant contact closed.")
     force_round_off: float = real(_STATE, "N", "Normal force that counts as zero.")
@@ -114,22 +110,18 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     # --- what the next step starts from -------------------------------------------------------------------------------
     gap_at_end: float = real(_REUSED, "m", "Gap at the end of the step.")
     gap_rate_at_end: float = real(_REUSED, "m/s", "Gap rate at the end of the step.")
-    velocity_at_end: tuple[float, float, float] = vector(_REUSED, 3, "m/s", "Gap rate and slip at the end of the step.")
-    slip_at_end: tuple[float, float] = vector(
-        _REUSED, 2, "m/s", "Slip velocity at the end of the step.", inside=("velocity_at_end", 1)
-    )
+    velocity_at_end: Vector3 = vector(_REUSED, 3, "m/s", "Gap rate and slip at the end of the step.")
+    slip_at_end: Vector2 = vector(_REUSED, 2, "m/s", "Slip at the end of the step.", inside=("velocity_at_end", 1))
     overlap_at_end: float = real(_REUSED, "m", "Overlap at the end of the step.")
     past_feature_at_end: float = real(_REUSED, "m", "Distance past the features at the end of the step.")
     speed_at_end: float = real(_REUSED, "m/s", "Bound of the rate of the gap at the end of the step.")
-    acceleration_bound_at_end: tuple[float, float, float] = vector(
+    acceleration_bound_at_end: Vector3 = vector(
         _REUSED, 3, "m/s^2, m/s^2, 1/s", "Bounds of gap acceleration and turning at the end of the step."
     )
     turning_bound_at_end: float = real(
         _REUSED, "1/s", "Bound of the relative turning at the end of the step.", inside=("acceleration_bound_at_end", 2)
     )
-    offset_at_end: tuple[float, float, float] = vector(
-        _REUSED, 3, "m", "Offset of the contact point from the body at the end of the step."
-    )
+    offset_at_end: Vector3 = vector(_REUSED, 3, "m", "Offset of the contact point from the body at the step's end.")
     is_held_by_friction: bool = question(_REUSED, "Friction holds the contact.")
     has_redundant_force: bool = question(_REUSED, "The force is not unique.")
     static_margin: float = real(_REUSED, "N", "Distance of the friction to its static bound.")
@@ -138,70 +130,63 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     is_touching: bool = question(_REUSED, "The surfaces touch within the tolerances.")
     group: int = whole(Life.DERIVED, "Island of the contact.")
     gap: float = real(
-        _REUSED, "m", "Distance of the surfaces along the normal, negative if they overlap.", inside=("geometry", GAP)
+        _REUSED, "m", "Distance along the normal, negative in an overlap.", inside=("geometry", blocks.GAP)
     )
-    normal: tuple[float, float, float] = vector(
-        _REUSED, 3, "1", "Normal as the kinematics writes it.", inside=("geometry", NORMAL)
+    normal: Vector3 = vector(_REUSED, 3, "1", "Normal, from the kinematics.", inside=("geometry", blocks.NORMAL))
+    tangent: Vector3 = vector(
+        _REUSED, 3, "1", "First tangent, from the kinematics.", inside=("geometry", blocks.TANGENT)
     )
-    tangent: tuple[float, float, float] = vector(
-        _REUSED, 3, "1", "First tangent as the kinematics writes it.", inside=("geometry", TANGENT)
-    )
-    point_a: tuple[float, float, float] = vector(
-        _REUSED, 3, "m", "Witness point on the first body.", inside=("geometry", POINT_A)
-    )
-    point_b: tuple[float, float, float] = vector(
-        _REUSED, 3, "m", "Witness point on the second body.", inside=("geometry", POINT_B)
-    )
-    slide_a: tuple[float, float, float, float] = vector(
+    point_a: Vector3 = vector(_REUSED, 3, "m", "Witness point on the first body.", inside=("geometry", blocks.POINT_A))
+    point_b: Vector3 = vector(_REUSED, 3, "m", "Witness point on the second body.", inside=("geometry", blocks.POINT_B))
+    slide_a: Vector4 = vector(
         _REUSED,
         4,
         "1",
         "Matrix that maps sliding of the witness over the first surface.",
-        inside=("geometry", SIDE_A + SLIDE_MATRIX),
+        inside=("geometry", blocks.SIDE_A + blocks.SLIDE_MATRIX),
     )
-    turn_a: tuple[float, float, float, float] = vector(
+    turn_a: Vector4 = vector(
         _REUSED,
         4,
         "m",
         "Matrix that maps turning of the normal on the first surface.",
-        inside=("geometry", SIDE_A + TURN_MATRIX),
+        inside=("geometry", blocks.SIDE_A + blocks.TURN_MATRIX),
     )
-    slide_b: tuple[float, float, float, float] = vector(
+    slide_b: Vector4 = vector(
         _REUSED,
         4,
         "1",
         "Matrix that maps sliding of the witness over the second surface.",
-        inside=("geometry", SIDE_B + SLIDE_MATRIX),
+        inside=("geometry", blocks.SIDE_B + blocks.SLIDE_MATRIX),
     )
-    turn_b: tuple[float, float, float, float] = vector(
+    turn_b: Vector4 = vector(
         _REUSED,
         4,
         "m",
         "Matrix that maps turning of the normal on the second surface.",
-        inside=("geometry", SIDE_B + TURN_MATRIX),
+        inside=("geometry", blocks.SIDE_B + blocks.TURN_MATRIX),
     )
     axes: Floats = row(_REUSED, 9, "1", "Rows n, t1, t2; of anisotropic friction t1 and t2 are stretched.")
-    axis_n: tuple[float, float, float] = vector(_REUSED, 3, "1", "Row n of the axes.", inside=("axes", 0))
-    axis_1: tuple[float, float, float] = vector(_REUSED, 3, "1", "Row t1 of the axes.", inside=("axes", 3))
-    axis_2: tuple[float, float, float] = vector(_REUSED, 3, "1", "Row t2 of the axes.", inside=("axes", 6))
-    stretch_1: tuple[float, float] = vector(_REUSED, 2, "1", "Row t1 along the unit tangents.")
-    stretch_2: tuple[float, float] = vector(_REUSED, 2, "1", "Row t2 along the unit tangents.")
+    axis_n: Vector3 = vector(_REUSED, 3, "1", "Row n of the axes.", inside=("axes", 0))
+    axis_1: Vector3 = vector(_REUSED, 3, "1", "Row t1 of the axes.", inside=("axes", 3))
+    axis_2: Vector3 = vector(_REUSED, 3, "1", "Row t2 of the axes.", inside=("axes", 6))
+    stretch_1: Vector2 = vector(_REUSED, 2, "1", "Row t1 along the unit tangents.")
+    stretch_2: Vector2 = vector(_REUSED, 2, "1", "Row t2 along the unit tangents.")
     version_a: int = whole(_REUSED, "Evaluation of the first body that the contact was evaluated with.")
     version_b: int = whole(_REUSED, "Evaluation of the second body that the contact was evaluated with.")
-    feature_now: float = real(_REUSED, "1", "Number of the features in contact.", inside=("geometry", FEATURE))
+    feature_now: float = real(_REUSED, "1", "Number of the features in contact.", inside=("geometry", blocks.FEATURE))
     past_feature: float = real(
-        _REUSED, "m", "Distance of the witness points past the end of their features.", inside=("geometry", PAST_END)
+        _REUSED,
+        "m",
+        "Distance of the witness points past the end of their features.",
+        inside=("geometry", blocks.PAST_END),
     )
     overlap: float = real(_REUSED, "m", "Gap where the surfaces overlap, else 0.")
     rate: Floats = row(_REUSED, 3, "m/s", "Gap rate and slip velocity, one by one.")
-    velocity: tuple[float, float, float] = vector(
-        _REUSED, 3, "m/s", "Gap rate and slip velocity, as a tuple.", inside=("rate", 0)
-    )
+    velocity: Vector3 = vector(_REUSED, 3, "m/s", "Gap rate and slip velocity, as a tuple.", inside=("rate", 0))
     normal_rate: float = real(_REUSED, "m/s", "Gap rate.", inside=("rate", 0))
-    slip: tuple[float, float] = vector(
-        _REUSED, 2, "m/s", "Slip velocity along the rows of the axes.", inside=("rate", 1)
-    )
-    slip_of_tangents: tuple[float, float] = vector(_REUSED, 2, "m/s", "Slip velocity along the unit tangents.")
+    slip: Vector2 = vector(_REUSED, 2, "m/s", "Slip velocity along the rows of the axes.", inside=("rate", 1))
+    slip_of_tangents: Vector2 = vector(_REUSED, 2, "m/s", "Slip velocity along the unit tangents.")
     gap_rate_at_start: float = real(_REUSED, "m/s", "Gap rate at the start of the step.")
 
     # --- a step -------------------------------------------------------------------------------------------------------
@@ -212,7 +197,7 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     gap_at_start: float = real(_STEP, "m", "Gap at the start of the step.")
     past_feature_at_start: float = real(_STEP, "m", "Distance past the features at the start of the step.")
     speed_at_start: float = real(_STEP, "m/s", "Bound of the rate of the gap at the start of the step.")
-    acceleration_bound_at_start: tuple[float, float, float] = vector(
+    acceleration_bound_at_start: Vector3 = vector(
         _STEP, 3, "m/s^2, m/s^2, 1/s", "Bounds of gap acceleration and turning at the start of the step."
     )
     turning_bound_at_start: float = real(
@@ -221,9 +206,7 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
         "Bound of the relative turning at the start of the step.",
         inside=("acceleration_bound_at_start", 2),
     )
-    offset_at_start: tuple[float, float, float] = vector(
-        _STEP, 3, "m", "Offset of the contact point from the body at the start of the step."
-    )
+    offset_at_start: Vector3 = vector(_STEP, 3, "m", "Offset of the contact point from the body at the step's start.")
     closing_time: float = real(_STEP, "s", "Expected time until the gap of bodies in flight closes.")
     least_force: float = real(_STEP, "N", "Smallest normal guard in the stages of the step.")
     feature: int = whole(_STEP, "Features at the start of the step, -1 if not watched.")
@@ -236,25 +219,19 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     code_during: int = whole(_EVENT, "Bits of Eq. (29) during the impact.")
     was_averaged: bool = question(_EVENT, "Forces were averaged before the event.")
     event_impulse: Floats = row(_EVENT, 3, "N s", "Impulse of the event, n, t1, t2.")
-    event_friction: tuple[float, float] = vector(
-        _EVENT, 2, "N s", "Tangential impulse of the event.", inside=("event_impulse", 1)
-    )
+    event_friction: Vector2 = vector(_EVENT, 2, "N s", "Tangential impulse of the event.", inside=("event_impulse", 1))
     prescribed_rate: Floats = row(_EVENT, 3, "m/s", "Part of the rates that driven bodies prescribe.")
     mode_agreed: Mode = one_of(Mode, _EVENT, "Mode that the contact problem found.")
-    direction_agreed: tuple[float, float] = vector(_EVENT, 2, "1", "Slip direction that the contact problem found.")
+    direction_agreed: Vector2 = vector(_EVENT, 2, "1", "Slip direction that the contact problem found.")
     takes_over: bool = question(_EVENT, "The contact takes the place of a closed one.")
     has_no_force: bool = question(_EVENT, "Sliding has no contact force (Painleve).")
     release: Cause = one_of(
         Cause, _STATE, "Cause by which a jump of the contact point released it at this instant, else `NO_RELEASE`."
     )
-    point_a_before_jump: tuple[float, float, float] = vector(
-        _EVENT, 3, "m", "Witness point on the first body before the jump."
-    )
-    point_b_before_jump: tuple[float, float, float] = vector(
-        _EVENT, 3, "m", "Witness point on the second body before the jump."
-    )
-    jump_a: tuple[float, float, float] = vector(_EVENT, 3, "m", "Displacement of the first witness point in the jump.")
-    jump_b: tuple[float, float, float] = vector(_EVENT, 3, "m", "Displacement of the second witness point in the jump.")
+    point_a_before_jump: Vector3 = vector(_EVENT, 3, "m", "Witness point on the first body before the jump.")
+    point_b_before_jump: Vector3 = vector(_EVENT, 3, "m", "Witness point on the second body before the jump.")
+    jump_a: Vector3 = vector(_EVENT, 3, "m", "Displacement of the first witness point in the jump.")
+    jump_b: Vector3 = vector(_EVENT, 3, "m", "Displacement of the second witness point in the jump.")
 
     # --- an impact ----------------------------------------------------------------------------------------------------
     window_phase: Phase = one_of(Phase, _IMPACT, "Phase at the end of the last window.")

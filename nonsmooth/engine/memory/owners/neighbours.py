@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import final
 
-from nonsmooth.engine.memory.declare import Life, Record, address, end_of, question, real, row, vector, whole
+from nonsmooth.engine.memory.declare import Life, Record, Vector3, address, end_of, question, real, row, vector, whole
 from nonsmooth.types import Floats
 
 _PARAMETER, _REUSED = Life.PARAMETER, Life.REUSED
@@ -21,7 +21,7 @@ class Sphere(Record, key="spheres", capacity="n_spheres", length="model.n_sphere
     feature_radius: float = real(_PARAMETER, "m", "Radius of the features that are searched for, 0 if there are none.")
     speed: float = real(_REUSED, "m/s", "Bound of its speed within a step.")
     distance: float = real(_REUSED, "m", "Bound of its displacement since the neighbour list was made.")
-    place: tuple[float, float, float] = vector(_REUSED, 3, "m", "Centre when the neighbour list was made.")
+    place: Vector3 = vector(_REUSED, 3, "m", "Centre when the neighbour list was made.")
     places: Floats = row(_REUSED, 3, "m", "The same, number by number.", inside=("place", 0))
     axes: Floats = row(_REUSED, 9, "1", "Axes of the frame when the neighbour list was made.")
 
@@ -68,9 +68,9 @@ class Pair(Record, key="pairs", capacity="n_pairs", length="model.n_pairs"):
     margin: float = real(_REUSED, "m", "Distance that the parts may move before the pair is evaluated again.")
     is_closed: bool = question(_REUSED, "A contact of the pair is closed.")
     deepest: float = real(_REUSED, "m", "Least gap of the closed contacts.")
-    direction: tuple[float, float, float] = vector(_REUSED, 3, "1", "Direction in which the parts are farthest apart.")
-    normal: tuple[float, float, float] = vector(_REUSED, 3, "1", "Normal of the deepest closed contact.")
-    between: tuple[float, float, float] = vector(_REUSED, 3, "1", "Normal of a plane between two sharp discs.")
+    direction: Vector3 = vector(_REUSED, 3, "1", "Direction in which the parts are farthest apart.")
+    normal: Vector3 = vector(_REUSED, 3, "1", "Normal of the deepest closed contact.")
+    between: Vector3 = vector(_REUSED, 3, "1", "Normal of a plane between two sharp discs.")
 
 
 @final
@@ -79,6 +79,6 @@ class Carrier(Record, key="carriers", capacity="n_carriers", length="model.n_car
 
     frame: int = whole(_PARAMETER, "Place of the frame.")
     radius: float = real(_PARAMETER, "m", "Radius about the origin of the frame that holds all of its parts.")
-    place: tuple[float, float, float] = vector(_REUSED, 3, "m", "Origin when it was evaluated last.")
+    place: Vector3 = vector(_REUSED, 3, "m", "Origin when it was evaluated last.")
     axes: Floats = row(_REUSED, 9, "1", "Axes when it was evaluated last.")
     distance: float = real(_REUSED, "m", "Bound of its displacement since its pairs were evaluated.")
