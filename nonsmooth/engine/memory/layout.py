@@ -8,8 +8,6 @@ PARTS = 48
 """Halvings of a step in search of a gap that closes, or of an event: as many as its fractions can be told apart."""
 PART_END = 7
 """Floats of an end of a part of a step."""
-ORIENTED = 7
-"""Numbers of an anisotropic law: side of the body, its axis, friction forward, backward and across."""
 DRIVEN, FRICTION_LOSS, EXCHANGED, LOADS = 0, 1, 2, 3
 """Which of the accounts is which."""
 N_ACCOUNTS = 4

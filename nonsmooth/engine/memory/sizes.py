@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import TypeAlias
 
 from nonsmooth.engine.memory.blocks import DELASSUS, GUARD
-from nonsmooth.engine.memory.layout import BOOKED, MOST_BLOCKS, MOST_ENTRIES, N_STAGES, PART_END, PARTS
+from nonsmooth.engine.memory.layout import BOOKED, MOST_BLOCKS, MOST_ENTRIES, PART_END, PARTS
 
 Counts: TypeAlias = Mapping[str, int]
 Size: TypeAlias = Callable[[Counts], int]
@@ -85,8 +85,3 @@ def lemke_numbers(n: Counts) -> int:
 def sample_numbers(n: Counts) -> int:
     """Length of the buffer of samples."""
     return n["sample_capacity"] * (1 + n["n_y"] + BOOKED)
-
-
-def stage_numbers(count: str, each: int = 1) -> Size:
-    """Size of the slopes of all stages."""
-    return per(each * N_STAGES, count)

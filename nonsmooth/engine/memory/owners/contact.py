@@ -25,6 +25,8 @@ from nonsmooth.types import Floats
 
 _PARAMETER, _STATE, _REUSED = Life.PARAMETER, Life.STATE, Life.REUSED
 _STEP, _EVENT, _IMPACT = Life.STEP, Life.EVENT, Life.IMPACT
+_SLIDE_A, _TURN_A = blocks.SIDE_A + blocks.SLIDE_MATRIX, blocks.SIDE_A + blocks.TURN_MATRIX
+_SLIDE_B, _TURN_B = blocks.SIDE_B + blocks.SLIDE_MATRIX, blocks.SIDE_B + blocks.TURN_MATRIX
 
 
 @final
@@ -56,9 +58,7 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     geometry_parameters: int = whole(_PARAMETER, "Place of the parameters of the geometry.")
     is_compliant: bool = question(_PARAMETER, "Normal force depends on gap and rate.", inside=("normal_function", 0))
     normal_function: int = address(_PARAMETER, "Address of the normal law of a compliant contact, else 0.")
-    geometry: Floats = row(
-        _REUSED, blocks.GEOMETRY, "", "Block that the kinematics writes; its parts have names below."
-    )
+    geometry: Floats = row(_REUSED, blocks.GEOMETRY, "", "Block that the kinematics writes, by parts below.")
     normal_parameters: int = whole(_PARAMETER, "Place of the parameters of the normal law.")
     friction_function: int = address(_PARAMETER, "Address of the friction law.")
     friction_parameters: int = whole(_PARAMETER, "Place of the parameters of the friction law.")
@@ -118,9 +118,6 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     acceleration_bound_at_end: Vector3 = vector(
         _REUSED, 3, "m/s^2, m/s^2, 1/s", "Bounds of gap acceleration and turning at the end of the step."
     )
-    turning_bound_at_end: float = real(
-        _REUSED, "1/s", "Bound of the relative turning at the end of the step.", inside=("acceleration_bound_at_end", 2)
-    )
     offset_at_end: Vector3 = vector(_REUSED, 3, "m", "Offset of the contact point from the body at the step's end.")
     is_held_by_friction: bool = question(_REUSED, "Friction holds the contact.")
     has_redundant_force: bool = question(_REUSED, "The force is not unique.")
@@ -129,43 +126,15 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     force: Floats = row(_REUSED, 3, "N", "Contact force, n, t1, t2.")
     is_touching: bool = question(_REUSED, "The surfaces touch within the tolerances.")
     group: int = whole(Life.DERIVED, "Island of the contact.")
-    gap: float = real(
-        _REUSED, "m", "Distance along the normal, negative in an overlap.", inside=("geometry", blocks.GAP)
-    )
+    gap: float = real(_REUSED, "m", "Gap along the normal, negative in an overlap.", inside=("geometry", blocks.GAP))
     normal: Vector3 = vector(_REUSED, 3, "1", "Normal, from the kinematics.", inside=("geometry", blocks.NORMAL))
-    tangent: Vector3 = vector(
-        _REUSED, 3, "1", "First tangent, from the kinematics.", inside=("geometry", blocks.TANGENT)
-    )
+    tangent: Vector3 = vector(_REUSED, 3, "1", "Tangent t1, from the kinematics.", inside=("geometry", blocks.TANGENT))
     point_a: Vector3 = vector(_REUSED, 3, "m", "Witness point on the first body.", inside=("geometry", blocks.POINT_A))
     point_b: Vector3 = vector(_REUSED, 3, "m", "Witness point on the second body.", inside=("geometry", blocks.POINT_B))
-    slide_a: Vector4 = vector(
-        _REUSED,
-        4,
-        "1",
-        "Matrix that maps sliding of the witness over the first surface.",
-        inside=("geometry", blocks.SIDE_A + blocks.SLIDE_MATRIX),
-    )
-    turn_a: Vector4 = vector(
-        _REUSED,
-        4,
-        "m",
-        "Matrix that maps turning of the normal on the first surface.",
-        inside=("geometry", blocks.SIDE_A + blocks.TURN_MATRIX),
-    )
-    slide_b: Vector4 = vector(
-        _REUSED,
-        4,
-        "1",
-        "Matrix that maps sliding of the witness over the second surface.",
-        inside=("geometry", blocks.SIDE_B + blocks.SLIDE_MATRIX),
-    )
-    turn_b: Vector4 = vector(
-        _REUSED,
-        4,
-        "m",
-        "Matrix that maps turning of the normal on the second surface.",
-        inside=("geometry", blocks.SIDE_B + blocks.TURN_MATRIX),
-    )
+    slide_a: Vector4 = vector(_REUSED, 4, "1", "Matrix of sliding over surface a.", inside=("geometry", _SLIDE_A))
+    turn_a: Vector4 = vector(_REUSED, 4, "m", "Matrix of turning on surface a.", inside=("geometry", _TURN_A))
+    slide_b: Vector4 = vector(_REUSED, 4, "1", "Matrix of sliding over surface b.", inside=("geometry", _SLIDE_B))
+    turn_b: Vector4 = vector(_REUSED, 4, "m", "Matrix of turning on surface b.", inside=("geometry", _TURN_B))
     axes: Floats = row(_REUSED, 9, "1", "Rows n, t1, t2; of anisotropic friction t1 and t2 are stretched.")
     axis_n: Vector3 = vector(_REUSED, 3, "1", "Row n of the axes.", inside=("axes", 0))
     axis_1: Vector3 = vector(_REUSED, 3, "1", "Row t1 of the axes.", inside=("axes", 3))
@@ -176,10 +145,7 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     version_b: int = whole(_REUSED, "Evaluation of the second body that the contact was evaluated with.")
     feature_now: float = real(_REUSED, "1", "Number of the features in contact.", inside=("geometry", blocks.FEATURE))
     past_feature: float = real(
-        _REUSED,
-        "m",
-        "Distance of the witness points past the end of their features.",
-        inside=("geometry", blocks.PAST_END),
+        _REUSED, "m", "Distance past the ends of features.", inside=("geometry", blocks.PAST_END)
     )
     overlap: float = real(_REUSED, "m", "Gap where the surfaces overlap, else 0.")
     rate: Floats = row(_REUSED, 3, "m/s", "Gap rate and slip velocity, one by one.")
@@ -200,12 +166,6 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     acceleration_bound_at_start: Vector3 = vector(
         _STEP, 3, "m/s^2, m/s^2, 1/s", "Bounds of gap acceleration and turning at the start of the step."
     )
-    turning_bound_at_start: float = real(
-        _STEP,
-        "1/s",
-        "Bound of the relative turning at the start of the step.",
-        inside=("acceleration_bound_at_start", 2),
-    )
     offset_at_start: Vector3 = vector(_STEP, 3, "m", "Offset of the contact point from the body at the step's start.")
     closing_time: float = real(_STEP, "s", "Expected time until the gap of bodies in flight closes.")
     least_force: float = real(_STEP, "N", "Smallest normal guard in the stages of the step.")
@@ -225,9 +185,7 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     direction_agreed: Vector2 = vector(_EVENT, 2, "1", "Slip direction that the contact problem found.")
     takes_over: bool = question(_EVENT, "The contact takes the place of a closed one.")
     has_no_force: bool = question(_EVENT, "Sliding has no contact force (Painleve).")
-    release: Cause = one_of(
-        Cause, _STATE, "Cause by which a jump of the contact point released it at this instant, else `NO_RELEASE`."
-    )
+    release: Cause = one_of(Cause, _STATE, "Cause of its release by a jump of the contact point, else `NO_RELEASE`.")
     point_a_before_jump: Vector3 = vector(_EVENT, 3, "m", "Witness point on the first body before the jump.")
     point_b_before_jump: Vector3 = vector(_EVENT, 3, "m", "Witness point on the second body before the jump.")
     jump_a: Vector3 = vector(_EVENT, 3, "m", "Displacement of the first witness point in the jump.")

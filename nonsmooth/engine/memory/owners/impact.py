@@ -23,9 +23,7 @@ class Impact(Part, key="impact"):
     speed_scale: float = real(_IMPACT, "m/s", "Largest speed of the impact.")
     rest_speed: float = real(_IMPACT, "m/s", "Slip that counts as rest.")
     h: float = real(_IMPACT, "", "Step with which the next window begins, in pseudo-time.")
-    faint_rate: float = real(
-        _IMPACT, "1", "Approach with which a contact of a window begins a phase, relative to the largest speed."
-    )
+    faint_rate: float = real(_IMPACT, "1", "Approach that begins a phase in a window, over the largest speed.")
     n_colliding: int = whole(_IMPACT, "Number of contacts of the whole impact.")
     colliding: IntegerRow = integers(_IMPACT, per(1, "n_slots"), "Contacts of the whole impact.")
     chain: IntegerRow = integers(_IMPACT, per(2, "n_slots"), "Next entry in an articulation's list of contacts.")

@@ -105,14 +105,12 @@ class Island(Part, key="island"):
     stage_time: float = real(_REUSED, "s", "Time of an implicit stage, 0 if there is none.")
     fastest_turn: float = real(_REUSED, "1/s", "Largest turning rate of a body.")
     power_at_end: float = real(_REUSED, "W", "Power of gravity on ballistic bodies at the end of the step.")
-    slopes: FloatRow = floats(
-        _REUSED, per(N_STAGES, "n_y"), "", "Slopes of the stages; the last one is the first of the next step."
-    )
+    slopes: FloatRow = floats(_REUSED, per(N_STAGES, "n_y"), "", "Stage slopes; the last one is the next step's first.")
     spin_slopes: FloatRow = floats(_REUSED, per(3 * N_STAGES, "n_bodies"), "1/s^2", "Spin slopes of the stages.")
     spin_start: FloatRow = floats(_REUSED, per(3, "n_bodies"), "1/s", "Spins at the start of the step.")
     quaternion_length: FloatRow = floats(_REUSED, per(1, "n_bodies"), "1", "Lengths of quaternions before normalising.")
     own_start: FloatRow = floats(
-        _STATE, per(1, "n_y"), "", "State at the start of the steps of bodies with a step of their own."
+        _STATE, per(1, "n_y"), "", "State at the start of steps of bodies with their own step."
     )
     own_slopes: FloatRow = floats(_STATE, per(N_STAGES, "n_y"), "", "Slopes of these steps.")
 

@@ -60,12 +60,8 @@ class Model(Part, key="model"):
     partner: IntegerRow = integers(
         _PARAMETER, per(1, "n_partners"), "Second bounding sphere of each pair, ascending for each first one."
     )
-    partner_contact: IntegerRow = integers(
-        _PARAMETER, ends("n_partners"), "Where the contacts of each pair begin in `paired_contact`."
-    )
-    paired_contact: IntegerRow = integers(
-        _PARAMETER, per(1, "n_paired"), "Declared contacts, pair after pair of bounding spheres."
-    )
+    partner_contact: IntegerRow = integers(_PARAMETER, ends("n_partners"), "First of each pair in `paired_contact`.")
+    paired_contact: IntegerRow = integers(_PARAMETER, per(1, "n_paired"), "Declared contacts, sphere pair after pair.")
 
 
 @final
@@ -101,8 +97,6 @@ class Coefficients(Part, key="coefficients"):
     error_weights: FloatRow = floats(_PARAMETER, fixed(N_STAGES), "1", "Weights of the explicit error estimate.")
     dense: FloatRow = floats(_PARAMETER, fixed(4 * N_STAGES), "1", "Coefficients of the explicit dense output.")
     implicit_stages: FloatRow = floats(_PARAMETER, fixed(6 * N_STAGES), "1", "Coefficients of the implicit stages.")
-    implicit_predictor: FloatRow = floats(
-        _PARAMETER, fixed(6 * N_STAGES), "1", "Coefficients of the first guess of an implicit stage."
-    )
+    implicit_predictor: FloatRow = floats(_PARAMETER, fixed(6 * N_STAGES), "1", "Coefficients of the implicit guess.")
     implicit_errors: FloatRow = floats(_PARAMETER, fixed(N_STAGES), "1", "Weights of the implicit error estimate.")
     implicit_bend: FloatRow = floats(_PARAMETER, fixed(N_STAGES), "1", "Weights of the curvature of an implicit step.")

@@ -72,7 +72,6 @@ class Run(Part, key="run"):
     passed_pair: int = whole(_OUTPUT, "Pair of convex parts that passed into each other, or -1.", begin=-1)
     passed_depth: float = real(_OUTPUT, "m", "Depth of that pair.")
     passed_allowed: float = real(_OUTPUT, "m", "Depth that the tolerances allow.")
-    unscaled_contact: int = whole(_OUTPUT, "Contact whose law gave no scale of an impact.")
     n_past_map: int = whole(_OUTPUT, "Number of contacts of an impact law that wrote past its block.")
     has_too_many_blocks: bool = question(_OUTPUT, "More contacts act on one another than there are blocks for.")
 
