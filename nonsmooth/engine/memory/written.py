@@ -1,4 +1,4 @@
-"""Blocks among the floats that functions of plug-ins write or read, and those of impacts and steps, by name."""
+"""Blocks among the floats with names for their numbers: those of plug-ins, of impacts and of steps."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ CONVEX_PART: Fields = {
     "function": packed(blocks.PART_FUNCTION),
     "rings": packed(blocks.PART_COUNT),
 }
-"""Of a convex part."""
+"""Numbers of a convex part."""
 
 FRAME_OF_BODY: Fields = {
     "origin": packed(blocks.POSITION, 3),
@@ -27,7 +27,7 @@ FRAME_OF_BODY: Fields = {
     "acceleration": packed(blocks.ACCELERATION, 3),
     "spin_acceleration": packed(blocks.SPIN_ACCELERATION, 3),
 }
-"""Of a frame that a body writes (:mod:`nonsmooth.engine.memory.blocks`)."""
+"""Numbers of a frame that a body writes (:mod:`nonsmooth.engine.memory.blocks`)."""
 
 ROW_OF_JOINT: Fields = {
     "residual": packed(blocks.RESIDUAL, 1, blocks.JOINT_ROW),
@@ -37,14 +37,14 @@ ROW_OF_JOINT: Fields = {
     "point_b": packed(blocks.POINT_B, 3, blocks.JOINT_ROW),
     "bias": packed(blocks.ROW_BIAS, 1, blocks.JOINT_ROW),
 }
-"""Of a row that a joint writes."""
+"""Numbers of a row that a joint writes."""
 
 WRENCH_OF_LOAD: Fields = {
     "force": packed(blocks.FORCE, 3),
     "point": packed(blocks.LOAD_POINT, 3),
     "moment": packed(blocks.LOAD_MOMENT, 3),
 }
-"""Of what a load writes."""
+"""Numbers that a load writes."""
 
 PART_OF_STEP: Fields = {
     "theta": packed(0, 1, layout.PART_END),
@@ -53,7 +53,7 @@ PART_OF_STEP: Fields = {
     "past": packed(3, 1, layout.PART_END),
     "offset": packed(4, 3, layout.PART_END),
 }
-"""Of an end of a part of a step: fraction, gap, gap rate, distance past the features, offset of the witness."""
+"""Numbers of an end of a part of a step: fraction, gap, gap rate, distance past the features, offset of the witness."""
 
 STATE_OF_IMPACT: Fields = {
     "impulse": Field("", layout.IMPACT_STATE, layout.IMPULSE, 3),
@@ -65,7 +65,7 @@ STATE_OF_IMPACT: Fields = {
     "energy": Field("", layout.IMPACT_STATE, layout.ENERGY),
     "lost": Field("", layout.IMPACT_STATE, layout.LOST),
 }
-"""Of an active contact in a state of an impact, and in the slope of one (:mod:`nonsmooth.engine.impact.rates`)."""
+"""Numbers of an active contact in the state of an impact, and in its slope (:mod:`nonsmooth.engine.impact.rates`)."""
 
 DELASSUS_BLOCK: Fields = {
     "entries": Field("", blocks.DELASSUS, 0, blocks.DELASSUS),
@@ -76,7 +76,7 @@ DELASSUS_BLOCK: Fields = {
     "t12": Field("", blocks.DELASSUS, 5),
     "t22": Field("", blocks.DELASSUS, 8),
 }
-"""Of a block on the diagonal of the Delassus matrix, which is symmetric."""
+"""Numbers of a block on the diagonal of the Delassus matrix, which is symmetric; rows n, t1, t2."""
 
 PACKED: Mapping[str, Fields] = {
     "impact_state": STATE_OF_IMPACT,
@@ -87,4 +87,4 @@ PACKED: Mapping[str, Fields] = {
     "part": CONVEX_PART,
     "load_wrench": WRENCH_OF_LOAD,
 }
-"""Blocks by kind: one behind another, or with stride 0 each by itself."""
+"""Blocks by kind. Several of them follow each other, or the stride is 0."""

@@ -59,7 +59,7 @@ class ActiveContact(Record, key="actives", capacity="n_slots", length="problem.n
     diagonal_block: int = whole(Life.DERIVED, "Its Delassus block on the diagonal.", behind="problem.first_grouped")
     n_blocks: int = whole(_SOLUTION, "Number of contacts that it acts on.")
     block_mark: int = whole(_SOLUTION, "Contact that has counted it last.")
-    rank: int = whole(_SOLUTION, "Its place in the order with a small band, or -1.")
+    rank: int = whole(_SOLUTION, "Its position in the order with a small band, or -1.")
 
     # --- an impact ----------------------------------------------------------------------------------------------------
     phase: Phase = one_of(Phase, _IMPACT, "Phase of the impact.")
