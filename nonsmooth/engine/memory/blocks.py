@@ -73,9 +73,9 @@ FORCE_AND_MOMENT = 5
 DELASSUS = 9
 """Floats of a block of the Delassus matrix, row by row."""
 PART_PLACE, PART_AXES, PART_SEMI, PART_POWERS, PART_BALL, PART_RADIUS = 0, 3, 12, 15, 17, 18
-"""Positions of the numbers of a convex part (:class:`nonsmooth.interfaces.ConvexPart`): its origin and axes in the frame
-of its body, semi-axes and powers of the norm that is added to the hull of its circles, radius of the ball that is added,
-and radius of a ball about the origin that contains the part."""
+"""Positions of the numbers of a convex part (:class:`nonsmooth.interfaces.ConvexPart`): its origin and axes in the
+frame of its body, semi-axes and powers of the norm that is added to the hull of its circles, radius of the ball that is
+added, and radius of a ball about the origin that contains the part."""
 PART_FUNCTION, PART_COUNT, PART_RINGS = 19, 20, 21
 """Positions of the address of a support function that is added instead of the norm, or 0; of the number of circles, -1
 for a half-space below the origin; and of the circles."""

@@ -22,7 +22,7 @@ from nonsmooth.engine.native.types import FLOATS, WORD, call_at, moved
 
 
 def by_address(signature: Any) -> Any:
-    """Make an intrinsic ``call(address, *values)`` of the C function of a signature."""
+    """Intrinsic ``call(address, *values)``, which calls a C function of a signature at an address."""
 
     def call(typingctx: Any, address: Any, *values: Any) -> Any:
         def lower(context: Any, builder: Any, _: Any, args: Any) -> Any:
@@ -31,7 +31,7 @@ def by_address(signature: Any) -> Any:
 
         return signature.return_type(types.int64, *signature.args), lower
 
-    # an intrinsic must name its parameters
+    # numba reads the names of an intrinsic's parameters, so that `*values` alone does not do
     scope: dict[str, Any] = {"call": call}
     names = ", ".join(f"v{i}" for i in range(len(signature.args)))
     exec(f"def typed(typingctx, address, {names}): return call(typingctx, address, {names})", scope)
@@ -39,21 +39,21 @@ def by_address(signature: Any) -> Any:
 
 
 calls = {name: by_address(signature_of(form.signature)) for name, form in FORMS.items()}
-"""Calls of a function at an address, for each form."""
+"""Calls of a function at an address, by the name of its form."""
 call_watch = by_address(types.float64(types.float64))
 """Call of the interrupt check."""
 
 
 def address_of(shim: Callable[..., Any], form: str, key: str) -> int:
-    """Address of a shim as a C function of a form. It is compiled, or loaded from disk by its key.
+    """Address of a shim as a C function of a form. The shim is compiled, or loaded from disk by its key.
 
-    Equal keys must mean equal functions. An empty key keeps nothing on disk.
+    Equal keys must mean equal functions. With an empty key nothing is kept on disk.
     """
     return shim_address(shim, signature_of(FORMS[form].signature), key)
 
 
 watches: dict[int, Any] = {}
-"""The C functions of interrupt checks by their addresses; they live as long as they are here."""
+"""The C functions of interrupt checks by their addresses. Python frees those that are not listed here."""
 
 
 def watch_address(function: Callable[[float], float]) -> int:
@@ -71,7 +71,7 @@ def forget_watch(address: int) -> None:
 
 @intrinsic
 def at(typingctx: Any, floats: Any, offset: Any) -> Any:
-    """The floats from ``offset`` on, as a pointer."""
+    """Pointer to the number at an offset from a pointer."""
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         return moved(builder, floats.kind, *args)
@@ -102,7 +102,10 @@ def _compiled_support(floats: Any, place: int, x: float, y: float, z: float) -> 
 
 
 def _support(floats: Any, place: int, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Call ``support(direction, parameters, point)``. Its address stands at a place, followed by the parameters."""
+    """Farthest point of a body in the direction (x, y, z), by a function whose address is ``floats[place]``.
+
+    The parameters of the function follow its address.
+    """
     parameters = (ctypes.c_double * (len(floats) - place))(*floats[place + 1 :])
     direction, found = (ctypes.c_double * 3)(x, y, z), (ctypes.c_double * 3)()
     FORMS["support"].prototype()(int(floats[place]))(direction, parameters, found)
@@ -117,7 +120,7 @@ def _compiled_block(block: Any, place: int) -> Any:
 
 
 def _block(block: Any, place: int) -> Any:
-    """The numbers of a block from a place on."""
+    """The numbers of a block from a position on."""
     return block[place:]
 
 

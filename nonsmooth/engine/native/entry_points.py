@@ -36,7 +36,7 @@ _STUB = "def stub_{name}({names}): return call(ws.model.entry_points[{index}], {
 
 
 class Entry(NamedTuple):
-    """A function that Python may call by name.
+    """An entry point, or a step of an engine.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class Entry(NamedTuple):
     signature : str
         Its signature.
     address : callable
-        Compiles or loads it, and returns its address.
+        Function that compiles or loads it, and returns its address.
     """
 
     function: Callable[..., Any]
@@ -56,6 +56,7 @@ class Entry(NamedTuple):
 ENTRIES: dict[str, Entry] = {}
 """Entry points and steps of engines by name."""
 _callables: dict[str, Callable[..., Any]] = {}
+"""Those that Python has called, by name, as C functions."""
 
 
 def kernel(signature: str = "void(ws)") -> Callable[[Callable[..., Any]], Any]:
@@ -78,7 +79,7 @@ def _kernel(signature: Any) -> Callable[[Callable[..., Any]], Any]:
 
 
 def entry_point(signature: str = "void(ws)") -> Callable[[Callable[..., Any]], Any]:
-    """Make an entry point. Kernels call it by a stub of its name, which reads the address from the workspace."""
+    """Make a function an entry point. In kernels its name is a stub, which reads its address from the workspace."""
 
     def decorate(function: Callable[..., Any]) -> Any:
         name = function.__name__
@@ -92,13 +93,13 @@ def entry_point(signature: str = "void(ws)") -> Callable[[Callable[..., Any]], A
 
 
 def add_step(function: Callable[..., Any], own: type[Part], signature: str, fingerprint: Fingerprint) -> str:
-    """Let :func:`call_entry` find the step of an engine by the returned name. It is compiled when first called.
+    """Register the step of an engine. The name for :func:`call_entry`, whose first call compiles the step.
 
     Its machine code is kept on disk if ``fingerprint`` gives a digest.
     """
     name, typed = own_name(function), signature_of(signature, workspace_with(own))
     ENTRIES[name] = Entry(function, signature, lambda: _step_address(function, typed, fingerprint))
-    # a cell of a notebook that is run again has another function of that name
+    # a cell of a notebook that is run again defines another function of the same name
     _callables.pop(name, None)
     return name
 
@@ -117,7 +118,7 @@ def _address(name: str) -> int:
 
 @functools.cache
 def entry_addresses() -> tuple[int, ...]:
-    """Addresses of all entry points, in the order of ``ENTRY_POINTS``. Those that are not on disk are compiled."""
+    """Addresses of all entry points, in the order of ``ENTRY_POINTS``. The first call compiles those not on disk."""
     importlib.import_module("nonsmooth.engine.events.event_loop")
     if missing := tuple(name for name in ENTRY_POINTS if not is_stored(name)):
         say("compiling the engine once for this machine (some 20 s, longer where it is busy) ...")
@@ -128,8 +129,7 @@ def entry_addresses() -> tuple[int, ...]:
 def _compile_apart(names: tuple[str, ...]) -> None:
     """Compile entry points into files, in two processes that begin at either end; in one on a single processor.
 
-    Other processes are used because the compiler would leave half a gigabyte in this one. They may fail: this process
-    then compiles what is missing.
+    The compiler would leave half a gigabyte in this process. If the others fail, this process compiles what is missing.
     """
     if folders()[1] is None:
         return
@@ -141,7 +141,7 @@ def _compile_apart(names: tuple[str, ...]) -> None:
 
 
 def _helper(names: tuple[str, ...]) -> subprocess.Popen[bytes] | None:
-    # an interpreter of our own: multiprocessing would run the user's script again, a frozen program itself
+    # no multiprocessing, which would run the user's script again. A frozen program has no interpreter
     if "python" not in Path(sys.executable or "").name:
         return None
     task = (
@@ -156,10 +156,7 @@ def _helper(names: tuple[str, ...]) -> subprocess.Popen[bytes] | None:
 
 
 def compile_entries(names: tuple[str, ...]) -> None:
-    """Compile entry points one after another, except those that are on disk by then.
-
-    Two processes that begin at either end meet where both have taken the same time.
-    """
+    """Compile entry points one after another, except those on disk: another process may have compiled them by then."""
     for name in names:
         if not is_stored(name):
             _address(name)
@@ -171,13 +168,13 @@ def call_entry(name: str, memory: Memory, *arguments: float) -> Any:
     Raises
     ------
     UnknownName
-        If there is none of that name.
+        If the name is that of no entry point and no step.
     """
     return _callable(name)(*memory.addresses, *arguments)
 
 
 def _callable(name: str) -> Callable[..., Any]:
-    """An entry point, or a step, as a function of the addresses of scalars, floats and integers, and of numbers."""
+    """An entry point, or a step, as a C function of the addresses of scalars, floats and integers, and of numbers."""
     if name not in _callables:
         entry_addresses()
         _callables[name] = prototype_of(name)(known(ENTRIES, name).address())

@@ -36,6 +36,7 @@ def _first_missing(attributes: Mapping[Any, Iterable[str]]) -> str:
 
 
 def _refusal(missing: object) -> ImportError:
+    """Error for a version of numba without a name of the first group."""
     return ImportError(
         f"The compiled engine does not work with numba {numba.__version__}: {missing}. "
         f"Install numba{SUPPORTED}, or set NONSMOOTH_PLAIN=1 to run the engine as plain Python, which is slow."
@@ -112,7 +113,7 @@ except (ImportError, AttributeError) as error:
 
 
 def _known(options: Mapping[str, bool]) -> Mapping[str, bool]:
-    """The options of ``numba.jit`` that this version knows: it refuses all others."""
+    """Those of some options of ``numba.jit`` that this version knows: it raises an error for others."""
     try:
         from numba.core.cpu import CPUTargetOptions
     except ImportError:

@@ -36,7 +36,7 @@ class Number(private.FunctionPass):
         """The base class keeps its argument; this pass has none."""
 
     def run_pass(self, state: Any) -> bool:
-        """Draw the number."""
+        """Set the random number. True: the function has changed."""
         state.func_id.unique_id = secrets.randbits(48)
         return True
 
@@ -71,7 +71,7 @@ class TypeOnce(private.NopythonTypeInference):
     _name = "remembering_type_inference"
 
     def run_pass(self, state: Any) -> bool:
-        """Infer the types of all variables."""
+        """Infer the types of all variables, with a context that keeps the types of operations."""
         context = state.typingctx
         state.typingctx = _Typing(context)
         try:
@@ -117,16 +117,7 @@ class _RawLibrary(_RolledLibrary):
         return self
 
     def set_env(self, name: str, environment: Any) -> None:
-        """Do nothing: without machine code there is no environment."""
-
-
-def _let_inline(module: Any) -> None:
-    """Let the wrapper that has the address include the function that it wraps, which numba forbids."""
-    for function in module.functions if module.name == "cfunc_wrapper" else ():
-        for block in function.blocks:
-            for instruction in block.instructions:
-                if isinstance(instruction, private.ir.CallInstr):
-                    instruction.attributes.discard("noinline")
+        """Do nothing: without machine code there is no environment of Python objects."""
 
 
 class _OneFunction:
@@ -135,11 +126,16 @@ class _OneFunction:
     _final_module: Any
 
     def add_ir_module(self, module: Any) -> None:
-        """Add a module to those that are linked."""
-        _let_inline(module)
+        """Link a module. A C wrapper may inline the function that it calls, which numba forbids."""
+        for function in module.functions if module.name == "cfunc_wrapper" else ():
+            for block in function.blocks:
+                for instruction in block.instructions:
+                    if isinstance(instruction, private.ir.CallInstr):
+                        instruction.attributes.discard("noinline")
         super().add_ir_module(module)  # type: ignore[misc]
 
     def _optimize_final_module(self) -> None:
+        """Optimise the module, of which only the wrapper can be called from outside."""
         for function in self._final_module.functions:
             if not function.is_declaration and not function.name.startswith("cfunc."):
                 function.linkage = "internal"
@@ -155,7 +151,7 @@ class _ShimLibrary(_OneFunction, private.JITCodeLibrary):
 
 
 def _lowering(name: str, library: type[private.JITCodeLibrary]) -> type[private.NativeLowering]:
-    """The pass that lowers a function to intermediate code, into a library of the engine's own.
+    """Pass that lowers a function to intermediate code, in a library of one of the classes above.
 
     The library makes machine code of it, or leaves that to the callers of the function.
     """
@@ -203,7 +199,7 @@ def _compiler(numba_passes: Callable[[Any], private.PassManager], lowering: type
     @final
     class Passes(private.CompilerBase):
         def define_pipelines(self) -> list[private.PassManager]:
-            """Numba's passes, some replaced by those of ``own``, and the numbering of variables behind the first."""
+            """Numba's passes, with those of ``own`` in their places and the numbering of functions after the first."""
             passes = numba_passes(self.state)
             passes.passes = [(own.get(kind, kind), name) for kind, name in passes.passes]
             passes.add_pass_after(Number, private.TranslateByteCode)

@@ -35,7 +35,7 @@ class Shared:
 
     @functools.cached_property
     def dispatcher(self) -> Any:
-        """Numba's dispatcher. It is made when first needed, as a run needs few of them."""
+        """Numba's dispatcher. It is made at the first use, because a run uses few of them."""
         return jit(self._compiled)
 
     def __call__(self, *arguments: Any) -> Any:

@@ -45,13 +45,13 @@ _TYPES: dict[str, Any] = {
 
 
 def result(kind: Any) -> Any:
-    """Let a kernel return a named tuple of numbers, or an enumeration. Signatures use the name of its class."""
+    """Let signatures of kernels use the name of a class: a named tuple of numbers, or an enumeration."""
     _TYPES[kind.__name__] = type_of_result(kind)
     return kind
 
 
 def signature_of(text: str, workspace: Any = WORKSPACE) -> Any:
-    """Numba signature of a text. ``workspace`` is the type of ``ws``."""
+    """Numba signature of a text as ``"f8(ws, Contact)"``. ``workspace`` is the type of ``ws``."""
     returned, _, arguments = text.partition("(")
     names = [name.strip() for name in arguments.rstrip(")").split(",") if name.strip()]
     known = {**_TYPES, "ws": workspace}
@@ -64,6 +64,8 @@ def workspace_with(own: type[Part]) -> Any:
 
 
 class _Replace(AbstractTemplate):
+    """Typing of ``_replace``: all fields are parameters, and those that are not passed are omitted."""
+
     key = "result._replace"
 
     def generic(self, args: Any, keywords: Any) -> Any:
@@ -75,23 +77,17 @@ class _Replace(AbstractTemplate):
         return found.replace(pysig=inspect.Signature(parameters))
 
 
+@infer_getattr
 class _Methods(AttributeTemplate):
+    key = types.BaseNamedTuple
+
     def resolve__replace(self, result: Any) -> Any:
         return types.BoundFunction(_Replace, result)
 
 
-@infer_getattr
-class _MethodsOfMixed(_Methods):
-    key = types.NamedTuple
-
-
-@infer_getattr
-class _MethodsOfUniform(_Methods):
-    key = types.NamedUniTuple
-
-
 @lower_builtin("result._replace", types.BaseTuple, types.VarArg(types.Any))
 def _replace(context: Any, builder: Any, called: Any, args: Any) -> Any:
+    """A copy of a named tuple with the values that are passed."""
     old, *new = args
     for i, kind in enumerate(called.args[1:]):
         if not isinstance(kind, types.Omitted):

@@ -15,7 +15,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from numba import types
-from numba.extending import intrinsic, lower_builtin, models, register_model, type_callable
+from numba.extending import intrinsic, lower_builtin, make_attribute_wrapper, models, register_model, type_callable
 
 from nonsmooth.engine.memory.declare import Declaration, declarations
 from nonsmooth.engine.memory.declare import Part as Owner
@@ -43,7 +43,10 @@ _NAMES = record_with(()).names or ()
 
 
 class View(types.Type):
-    """A type with attributes.
+    """A type whose numbers are attributes.
+
+    Its classes have the methods ``type_of``, which gives the numba type of an attribute, or None for an unknown name,
+    ``load``, and ``store``, whose value is of the attribute's type.
 
     Attributes
     ----------
@@ -53,34 +56,14 @@ class View(types.Type):
 
     members: tuple[tuple[str, Any], ...] = _POINTERS
 
-    def type_of(self, name: str) -> Any:
-        """Numba type of an attribute; None if there is none of that name."""
-        raise NotImplementedError
 
-    def load(self, context: Any, builder: Any, value: Any, name: str) -> Any:
-        """Load an attribute."""
-        raise NotImplementedError
-
-    def store(self, context: Any, builder: Any, value: Any, name: str, number: Any) -> None:
-        """Store a value of the attribute's type."""
-        raise NotImplementedError
-
-
-class Row(View):
+class Row(types.Type):
     """An array of the workspace: floats or integers, and the offset of its first entry."""
 
     def __init__(self, pointer: Pointer) -> None:
         self.kind, self.dtype = pointer.kind, pointer.dtype
         self.members = ("pointer", pointer), ("start", types.int64)
         super().__init__(name=f"Row({pointer.name})")
-
-    def type_of(self, name: str) -> Any:
-        """Type of ``start``, the offset."""
-        return types.int64 if name == "start" else None
-
-    def load(self, context: Any, builder: Any, value: Any, name: str) -> Any:
-        """Load the offset."""
-        return _members(context, builder, self, value).start
 
 
 FLOAT_ROW, INTEGER_ROW = Row(FLOATS), Row(INTEGERS)
@@ -135,18 +118,16 @@ class Record(View):
         super().__init__(name=f"Record({name})")
 
     def type_of(self, name: str) -> Any:
-        """Type of a field, or of ``index``, the number of the record."""
+        """Type of a field."""
         field = self.fields.get(name)
         if field is None:
-            return types.int64 if name == "index" else None
+            return None
         if field.is_vector:
             return types.UniTuple(types.float64, field.numbers)
         return type_of_number(field.kind) if field.numbers == 1 else pointer_to(field.kind)
 
     def load(self, context: Any, builder: Any, value: Any, name: str) -> Any:
         """Load a number or a tuple, or find the pointer to several numbers."""
-        if name == "index":
-            return _members(context, builder, self, value).index
         field, place = self.fields[name], self.place(context, builder, value, name)
         if field.is_vector:
             numbers = [load(builder, float, one) for one in _each(builder, field, place)]
@@ -222,13 +203,12 @@ class Workspace(View):
         return private.Conversion.safe if other is WORKSPACE else None
 
     def type_of(self, name: str) -> Any:
-        """Type of an owner, or of the pointer to all floats or integers."""
-        return dict(_POINTERS[1:]).get(name) or _SEQUENCES.get(name) or self.parts.get(name)
+        """Type of an owner."""
+        return _SEQUENCES.get(name) or self.parts.get(name)
 
     def load(self, context: Any, builder: Any, value: Any, name: str) -> Any:
-        """The same pointers for an owner, or one of them."""
-        is_pointer = name in ("floats", "integers")
-        return getattr(_members(context, builder, self, value), name) if is_pointer else value
+        """The same pointers, for each owner."""
+        return value
 
 
 WORKSPACE = Workspace({})
@@ -247,6 +227,8 @@ class _Model(models.StructModel):
 
 for _kind in (Workspace, Part, Row, Record, Sequence, Iterator):
     register_model(_kind)(_Model)
+for _kind, _name in ((Workspace, "floats"), (Workspace, "integers"), (Row, "start"), (Record, "index")):
+    make_attribute_wrapper(_kind, _name, _name)
 
 
 def _members(context: Any, builder: Any, kind: Any, value: Any = None) -> Any:
@@ -258,12 +240,12 @@ def _members(context: Any, builder: Any, kind: Any, value: Any = None) -> Any:
 class _Attributes(private.AttributeTemplate):
     key = View
 
-    def generic_resolve(self, view: View, name: str) -> Any:
+    def generic_resolve(self, view: Any, name: str) -> Any:
         return view.type_of(name)
 
 
 @private.lower_getattr_generic(View)
-def _get_attribute(context: Any, builder: Any, view: View, value: Any, name: str) -> Any:
+def _get_attribute(context: Any, builder: Any, view: Any, value: Any, name: str) -> Any:
     return view.load(context, builder, value, name)
 
 
