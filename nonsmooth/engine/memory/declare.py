@@ -69,7 +69,7 @@ class Declaration:
     inside : tuple of str and int
         Name of the storage that it is a view of, and its first number there for each record; "" for its own storage.
     behind : str
-        Scalar that says how far into the array the first record is.
+        Key of the scalar that is the position of the first record in the array; "" if that is 0.
     has_end : bool
         True for starts of ranges: one entry more is the end of the last range.
     is_late : bool
@@ -142,7 +142,7 @@ class FloatRow(Protocol):
     """An array of floats of the workspace."""
 
     start: int
-    """Where it begins among all floats."""
+    """Its offset among all floats."""
 
     def __getitem__(self, index: int, /) -> float: ...
 
@@ -153,7 +153,7 @@ class IntegerRow(Protocol):
     """An array of integers of the workspace."""
 
     start: int
-    """Where it begins among all integers."""
+    """Its offset among all integers."""
 
     def __getitem__(self, index: int, /) -> int: ...
 
@@ -177,10 +177,10 @@ class Record(Owner):
 
     Attributes
     ----------
-    capacity : str or Size
-        How many there is room for: a count of the model.
+    capacity : Size
+        Number of records that are allocated, as a function of the counts of a system.
     length : str
-        Scalar that says how many there are.
+        Key of the scalar that is the present number of records.
     index : int
         Number of the record.
     """
@@ -222,7 +222,7 @@ def row(life: Life, numbers: int, unit: str, sentence: str, **options: Any) -> A
 
 
 def whole(life: Life, sentence: str, **options: Any) -> Any:
-    """Declare an integer: a count, a number of another record, or a place in the workspace."""
+    """Declare an integer: a count, the number of another record, or an offset in the workspace."""
     return Declaration(int, life, "", sentence, **options)
 
 

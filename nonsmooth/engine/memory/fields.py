@@ -18,15 +18,15 @@ class Field:
     Attributes
     ----------
     array : str
-        The array; without a name the record is a block among the floats.
+        Key of the array; "" if the record is a block among the floats.
     stride : int
-        Numbers from that of one record to that of the next.
+        Entries of the array from one record to the next.
     first, numbers : int
-        Which of them the field is.
+        Position of the first number of the field within its record, and how many there are.
     is_vector : bool
-        True if they are a tuple.
+        True if they are read and written as a tuple, False if one by one.
     behind : str
-        Scalar that says how far into the array the first record is.
+        Key of the scalar that is the position of the first record in the array; "" if that is 0.
     kind : type
         float, int, bool or an IntEnum.
     """

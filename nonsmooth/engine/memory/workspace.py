@@ -44,12 +44,13 @@ class Workspace:
     carriers: Sequence[owners.Carrier]
 
     floats: Any
-    """All floats: blocks that plug-ins write are found there by their place."""
+    """All floats, with the blocks that plug-ins write, which are found by their offsets."""
     integers: Any
     """All integers."""
 
 
 def _owners() -> tuple[dict[str, type[Part]], dict[str, type[Record]]]:
+    """Parts and records of the workspace by name, from its type hints."""
     parts, records = dict[str, type[Part]](), dict[str, type[Record]]()
     for name, hint in get_type_hints(Workspace).items():
         if get_args(hint):

@@ -77,7 +77,10 @@ def shim_address(function: Callable[..., Any], signature: Any, key: str) -> int:
 
 
 def _address(function: Callable[..., Any], signature: Any, key: str, **options: bool) -> int:
-    """Address of a C function, kept in a file of numba's if it has a key and is defined in a file. Say why it is slow."""
+    """Address of a C function, kept in a file of numba's if it has a key and is defined in a file.
+
+    The user is told, once, why compiling takes long.
+    """
     say(
         f"numba {numba.__version__} lacks a name that fast compilation needs ({MISSING}): "
         "the engine is compiled by numba.njit(cache=True), which takes some minutes the first time"
