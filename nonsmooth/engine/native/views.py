@@ -79,8 +79,10 @@ class Part(View):
     def type_of(self, name: str) -> Any:
         """Type of a scalar or an array."""
         declared = self.fields.get(name)
-        if declared is None or declared.size is None:
-            return None if declared is None else type_of_number(declared.kind)
+        if declared is None:
+            return None
+        if declared.size is None:
+            return type_of_number(declared.kind)
         return FLOAT_ROW if declared.is_float else INTEGER_ROW
 
     def load(self, context: Any, builder: Any, value: Any, name: str) -> Any:
@@ -99,6 +101,7 @@ class Part(View):
         store(builder, declared.kind, self._place(builder, pointers, declared), number, declared.key)
 
     def _place(self, builder: Any, pointers: Any, declared: Declaration) -> Any:
+        """Pointer to a scalar."""
         place = moved(builder, int, pointers.scalars, WORD(self.names.index(declared.key)))
         return builder.bitcast(place, stored_type(declared.kind).as_pointer())
 
@@ -161,7 +164,7 @@ def _each(builder: Any, field: Field, place: Any) -> list[Any]:
 
 
 class Sequence(types.IterableType):
-    """All records of a kind. ``count`` is the scalar that says how many there are."""
+    """All records of a kind. ``count`` is the key of the scalar that is their present number."""
 
     members = _POINTERS
 
@@ -302,6 +305,7 @@ def _get_record(context: Any, builder: Any, signature: Any, args: Any) -> Any:
 
 
 def _record(context: Any, builder: Any, sequence: Sequence, value: Any, index: Any) -> Any:
+    """The record of a number."""
     pointers, record = _members(context, builder, sequence, value), _members(context, builder, sequence.dtype)
     record.scalars, record.floats, record.integers = pointers.scalars, pointers.floats, pointers.integers
     record.index = index
@@ -321,6 +325,7 @@ def _len(context: Any, builder: Any, signature: Any, args: Any) -> Any:
 
 @lower_builtin("getiter", Sequence)
 def _iterate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+    """Iterator over the records that exist when the loop begins."""
     iterator = _members(context, builder, signature.return_type)
     iterator.sequence = args[0]
     iterator.next = private.cgutils.alloca_once_value(builder, WORD(0))
@@ -331,6 +336,7 @@ def _iterate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
 @lower_builtin("iternext", Iterator)
 @private.iternext_impl(private.RefType.UNTRACKED)
 def _next(context: Any, builder: Any, signature: Any, args: Any, found: Any) -> None:
+    """Set ``found`` to the next record, or to invalid after the last."""
     (kind,) = signature.args
     iterator = _members(context, builder, kind, args[0])
     number = builder.load(iterator.next, typ=WORD)
@@ -360,7 +366,7 @@ def copy_fields(typingctx: Any, source: Any, target: Any) -> Any:
 
 
 def _packed(kind: str) -> Any:
-    """Make an intrinsic ``record(floats, start)``, or ``record(floats, start, index)`` if blocks follow each other."""
+    """Intrinsic ``record(floats, start)``, or ``record(floats, start, index)`` for blocks that follow each other."""
     record, stride = types_of[kind], next(iter(PACKED[kind].values())).stride
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
