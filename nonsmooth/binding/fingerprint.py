@@ -66,7 +66,7 @@ def fingerprint(function: Callable[..., Any], context: str) -> str:
 
 def _place_in_engine(value: Any) -> str:
     """Return which function of the engine a value is, whose sources are part of where code is kept; or nothing."""
-    if found := next((name for name in kernel.__all__ if vars(kernel)[name] is value), ""):
+    if found := next((name for name, one in vars(kernel).items() if one is value and callable(one)), ""):
         return f"{kernel.__name__}:{found}"
     module, name = (str(getattr(value, attribute, "<none>")) for attribute in ("__module__", "__qualname__"))
     return f"{module}:{name}" if module.startswith(_ENGINE) and "<" not in name else ""

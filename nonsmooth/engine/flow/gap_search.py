@@ -238,7 +238,9 @@ def _bounds_of(ws: Workspace, h: float, contact: Contact) -> GapBounds:
     """Bounds of the motion of a gap within the step of ``h`` [s]."""
     acceleration = _acceleration_bound(ws, h, contact)
     radius = min(contact.support_radius_a, contact.support_radius_b)
-    turning = contact.turning_bound_at_start + contact.turning_bound_at_end if radius > 0.0 else 0.0
+    # the third of the bounds is that of the turning rate
+    bounds_at_start, bounds_at_end = contact.acceleration_bound_at_start, contact.acceleration_bound_at_end
+    turning = bounds_at_start[2] + bounds_at_end[2] if radius > 0.0 else 0.0
     return GapBounds(contact.speed_at_start + contact.speed_at_end, acceleration, turning, radius)
 
 

@@ -50,7 +50,6 @@ def scale_impact(ws: Workspace, seed: float) -> float:
         active.impulse_scale = math.sqrt(energy / inverse_mass)
         deformation = 1.0 if is_lone(ws, active) else _deformation_scale(ws, active)
         if deformation < 0.0:
-            ws.run.unscaled_contact = active.contact
             return deformation
         active.deformation_scale = deformation
         active.force_scale = energy / deformation

@@ -1,4 +1,4 @@
-"""What plug-ins write: the blocks of bodies, contacts, joints and loads, and where in them everything stands.
+"""The blocks that plug-ins write, of bodies, contacts, joints and loads, and the positions of the numbers in them.
 
 Every body owns an output block, written by its ``evaluate`` function, with the parts below in this
 order.  The parts down to the Jacobian belong to a frame and are repeated for every frame of the body; :data:`FRAME`
@@ -43,43 +43,43 @@ A load writes ``FORCE`` [N] on the second body, the point where it acts at ``LOA
 from __future__ import annotations
 
 POSITION, ROTATION, VELOCITY, SPIN, ACCELERATION, SPIN_ACCELERATION, JACOBIAN = 0, 3, 12, 15, 18, 21, 24
-"""Where the parts of a frame begin."""
+"""Positions of the parts of a frame."""
 FRAME = JACOBIAN
 """Floats of frame motion at the head of a body's output block."""
 GAP, NORMAL, TANGENT, POINT_A, POINT_B, SIDE_A, SIDE_B, FEATURE, PAST_END = 0, 1, 4, 7, 10, 13, 21, 29, 30
-"""Where the parts of a geometry block begin."""
+"""Positions of the parts of a geometry block."""
 SLIDE_MATRIX, TURN_MATRIX = 0, 4
-"""Where the matrices of a surface begin, behind ``SIDE_A`` or ``SIDE_B``; row by row."""
+"""Positions of the matrices of a surface, from ``SIDE_A`` or ``SIDE_B``; row by row."""
 PAIR = 31
 """Floats of a geometry block that a kinematics writes."""
 GUARD = 8
-"""Floats behind each block that a plug-in writes: one that writes past its block is found by them."""
+"""Floats behind each block that a plug-in writes. They change if it writes past its block."""
 UNTOUCHED = 1.2345678901234567e-89
-"""What stands there."""
+"""Value of these floats: a number that no plug-in writes by chance."""
 GEOMETRY = PAIR + GUARD
 """Floats of a contact's geometry block."""
 RESIDUAL, AXIS, MOMENT, ROW_BIAS = 0, 1, 4, 13
-"""Where the parts of a joint's row begin, besides ``POINT_A`` and ``POINT_B``."""
+"""Positions of the parts of a joint's row, as well as ``POINT_A`` and ``POINT_B``."""
 JOINT_ROW = 14
 """Floats of one row of a joint."""
 FORCE, LOAD_POINT, LOAD_MOMENT = 0, 3, 6
-"""Where the parts of what a load writes begin."""
+"""Positions of the parts of the block of a load."""
 LOAD = 9
 """Floats that a load writes."""
 TRACTION, TRACTION_MOMENT = 0, 2
-"""Where the force and the moment begin that a law of traction writes."""
+"""Positions of the force and the moment in the block of a traction law."""
 FORCE_AND_MOMENT = 5
-"""Floats that a law of traction writes before the rates of its states."""
+"""Floats of force and moment; the rates of the law's states follow."""
 DELASSUS = 9
 """Floats of a block of the Delassus matrix, row by row."""
 PART_PLACE, PART_AXES, PART_SEMI, PART_POWERS, PART_BALL, PART_RADIUS = 0, 3, 12, 15, 17, 18
-"""Where the numbers of a convex part stand (:class:`nonsmooth.interfaces.ConvexPart`): its origin and axes in the frame
-of its body, semi-axes and powers of what is added, the radius of the ball that is, and of one about the origin that
-holds it all;"""
+"""Positions of the numbers of a convex part (:class:`nonsmooth.interfaces.ConvexPart`): its origin and axes in the
+frame of its body, semi-axes and powers of the norm that is added to the hull of its circles, radius of the ball that is
+added, and radius of a ball about the origin that contains the part."""
 PART_FUNCTION, PART_COUNT, PART_RINGS = 19, 20, 21
-"""where in them a function stands that gives what is added, 0 for none, how many circles there are, -1 for a half-space
-below the origin, and the circles."""
+"""Positions of the address of a support function that is added instead of the norm, or 0; of the number of circles, -1
+for a half-space below the origin; and of the circles."""
 RING = 4
-"""Centre and radius of a circle."""
+"""Floats of a circle: centre and radius."""
 CANDIDATE = 3
-"""Numbers of a pair of features in a pool; the first is not 0."""
+"""Numbers of a candidate pair of features; the first is not 0."""

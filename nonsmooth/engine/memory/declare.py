@@ -1,6 +1,6 @@
 """The field table: one declaration for every number of the engine.
 
-A declaration says what a number is: its type, unit, life, and one sentence. Its owner is the class that it stands in.
+A declaration says what a number is: its type, unit, life, and one sentence. Its owner is the class that declares it.
 Everything else follows from it: the compiled records and those of plain mode, allocation, checkpoints, the identity
 of a model, the poison of a debug run, and the page of the internals.
 
@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import Enum
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar, Protocol, TypeAlias
 
 from nonsmooth.engine.memory.sizes import Size, per
 
@@ -67,22 +67,22 @@ class Declaration:
     begin : float
         Value before any run.
     inside : tuple of str and int
-        Storage that it is a view of, and where in that of each record it begins; without a name it has its own.
+        Name of the storage that it is a view of, and its first number there for each record; "" for its own storage.
     behind : str
-        Scalar that says how far into the array the first record is.
+        Key of the scalar that is the position of the first record in the array; "" if that is 0.
     has_end : bool
         True for starts of ranges: one entry more is the end of the last range.
     is_late : bool
-        True for room that most runs do not fill. It comes last, and costs no memory before it is written.
+        True for an array that most runs leave unused. It comes last, and costs no memory before it is written.
     is_of_slot : bool
-        True for a parameter or a state of the place in a list, not of what is listed there.
+        True for a parameter or a state of the record itself, whichever declared contact it holds.
     is_address : bool
         True for the address of a function, which is another one in every process.
     below : Size or None
-        What an integer is always less than, as a function of the counts of a system. A checkpoint from a file is looked
-        through by it.
+        Least number above all values of an integer, as a function of the counts of a system. Checkpoints from files are
+        checked against it.
     owner : type
-        Class that it stands in.
+        Class that declares it.
     name : str
         Its name there.
     """
@@ -106,33 +106,43 @@ class Declaration:
     name: str = ""
 
     def __set_name__(self, owner: type, name: str) -> None:
-        """Take the name and the class that the class statement gives."""
+        """Set name and owner. Python calls it for each declaration when the class is made."""
         self.owner, self.name = owner, name
 
     @property
+    def is_scalar(self) -> bool:
+        """True if it is one number of a part, False if it is an array or a number of each record."""
+        return self.size is None and issubclass(self.owner, Part)
+
+    @property
     def is_float(self) -> bool:
-        """True if it stands in the floats of the workspace, False if in its integers."""
+        """True if it is among the floats of the workspace, False if among its integers."""
         return self.kind is float
 
     @property
     def outlives_a_step(self) -> bool:
-        """True if a step may read what an earlier one wrote: a checkpoint holds it."""
+        """True if a step may read it from an earlier step, so that a checkpoint holds it. Else each step writes it."""
         return self.life in (Life.STATE, Life.REUSED)
 
     @property
     def key(self) -> str:
-        """Name of its storage."""
+        """Name of its storage, ``owner.name``: its own, or that of the declaration that it is a view of."""
         storage, _first = self.inside
         if not storage:
             return f"{self.owner.key}.{self.name}"
         return storage if "." in storage else f"{self.owner.key}.{storage}"
 
 
+Vector2: TypeAlias = tuple[float, float]
+Vector3: TypeAlias = tuple[float, float, float]
+Vector4: TypeAlias = tuple[float, float, float, float]
+
+
 class FloatRow(Protocol):
     """An array of floats of the workspace."""
 
     start: int
-    """Where it begins among all floats."""
+    """Its offset among all floats."""
 
     def __getitem__(self, index: int, /) -> float: ...
 
@@ -143,7 +153,7 @@ class IntegerRow(Protocol):
     """An array of integers of the workspace."""
 
     start: int
-    """Where it begins among all integers."""
+    """Its offset among all integers."""
 
     def __getitem__(self, index: int, /) -> int: ...
 
@@ -167,10 +177,10 @@ class Record(Owner):
 
     Attributes
     ----------
-    capacity : str or Size
-        How many there is room for: a count of the model.
+    capacity : Size
+        Number of records that are allocated, as a function of the counts of a system.
     length : str
-        Scalar that says how many there are.
+        Key of the scalar that is the present number of records.
     index : int
         Number of the record.
     """
@@ -180,7 +190,7 @@ class Record(Owner):
     index: int
 
     def __init_subclass__(cls, key: str, capacity: str | Size, length: str, copies: type[Record] | None = None) -> None:
-        """Note key, capacity and length. Declare what is known of a record of ``copies`` while it is not listed."""
+        """Set key, capacity and length. Copy from ``copies`` what is known of a record while it is not listed."""
         cls.key, cls.length = key, length
         cls.capacity = staticmethod(per(1, capacity) if isinstance(capacity, str) else capacity)
         for name, declared in declarations(copies).items() if copies else ():
@@ -192,7 +202,7 @@ class Part(Owner):
     """Base of the owners of which there is one."""
 
     def __init_subclass__(cls, key: str) -> None:
-        """Note the key."""
+        """Set the key."""
         cls.key = key
 
 
@@ -212,7 +222,7 @@ def row(life: Life, numbers: int, unit: str, sentence: str, **options: Any) -> A
 
 
 def whole(life: Life, sentence: str, **options: Any) -> Any:
-    """Declare an integer: a count, a number of another record, or a place in the workspace."""
+    """Declare an integer: a count, the number of another record, or an offset in the workspace."""
     return Declaration(int, life, "", sentence, **options)
 
 
@@ -241,12 +251,22 @@ def array(life: Life, size: Size, kind: type, unit: str, sentence: str, **option
     return Declaration(kind, life, unit, sentence, size=size, **options)
 
 
+def floats(life: Life, size: Size, unit: str, sentence: str, **options: Any) -> Any:
+    """Declare an array of floats of a part."""
+    return array(life, size, float, unit, sentence, **options)
+
+
+def integers(life: Life, size: Size, sentence: str, **options: Any) -> Any:
+    """Declare an array of integers of a part."""
+    return array(life, size, int, "", sentence, **options)
+
+
 def declarations(owner: type) -> Mapping[str, Declaration]:
-    """Declarations of an owner, by name."""
+    """Declarations of an owner, by name. They are searched once for each owner."""
     if owner not in _declarations:
         _declarations[owner] = {name: value for name, value in vars(owner).items() if isinstance(value, Declaration)}
     return _declarations[owner]
 
 
 _declarations: dict[type, Mapping[str, Declaration]] = {}
-"""What was found, as each memory asks for it."""
+"""The declarations found so far, by owner."""

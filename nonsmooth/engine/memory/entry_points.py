@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-# the halves, which are compiled side by side, take the same time: forces and impacts first, then motion and events;
-# a large function that several of them call is one itself, as each would compile it again
+# two processes compile them from both ends. The first half, forces and impacts, takes the same time as the second,
+# motion and events. A large function with several callers is an entry point: each caller would compile it again.
 ENTRY_POINTS = (
     "resolve",
     "energetic_impact",

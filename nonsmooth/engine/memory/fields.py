@@ -1,39 +1,34 @@
-"""Fields of records: where in the workspace they stand."""
+"""Fields of records: where in the workspace they are."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from enum import IntEnum
 from typing import TypeAlias, final
 
-from nonsmooth.engine.memory.declare import Declaration, Record, declarations
+from nonsmooth.engine.memory.declare import Record, declarations
 from nonsmooth.engine.memory.tables import storage_of, stride_of
 
 
 @final
 @dataclass(frozen=True)
 class Field:
-    """Where a field of a record stands.
+    """Where a field of a record is.
 
     Attributes
     ----------
     array : str
-        The array; without a name the record is a block among the floats.
+        Key of the array; "" if the record is a block among the floats.
     stride : int
-        Numbers from that of one record to that of the next.
+        Entries of the array from one record to the next.
     first, numbers : int
-        Which of them the field is.
+        Position of the first number of the field within its record, and how many there are.
     is_vector : bool
-        True if they are a tuple.
+        True if they are read and written as a tuple, False if one by one.
     behind : str
-        Scalar that says how far into the array the first record is.
-    is_boolean : bool
-        True if the number answers a question.
-    enumeration : type or None
-        IntEnum of which the number is a member.
-    is_float : bool
-        True if it is a float, False if an integer.
+        Key of the scalar that is the position of the first record in the array; "" if that is 0.
+    kind : type
+        float, int, bool or an IntEnum.
     """
 
     array: str
@@ -42,9 +37,7 @@ class Field:
     numbers: int = 1
     is_vector: bool = False
     behind: str = ""
-    is_boolean: bool = False
-    enumeration: type[IntEnum] | None = None
-    is_float: bool = True
+    kind: type = float
 
 
 Fields: TypeAlias = Mapping[str, Field]
@@ -52,22 +45,12 @@ Fields: TypeAlias = Mapping[str, Field]
 
 def fields_of(owner: type[Record]) -> Fields:
     """Fields of the compiled record of an owner, by name."""
-    return {name: _field(declared) for name, declared in declarations(owner).items()}
-
-
-def _field(declared: Declaration) -> Field:
-    storage = storage_of(declared)
-    return Field(
-        array=declared.key,
-        stride=stride_of(storage),
-        first=declared.inside[1],
-        numbers=declared.numbers,
-        is_vector=declared.is_vector,
-        behind=declared.behind,
-        is_boolean=declared.kind is bool,
-        enumeration=declared.kind if issubclass(declared.kind, IntEnum) else None,
-        is_float=storage.is_float,
-    )
+    return {
+        name: Field(
+            one.key, stride_of(storage_of(one)), one.inside[1], one.numbers, one.is_vector, one.behind, one.kind
+        )
+        for name, one in declarations(owner).items()
+    }
 
 
 def packed(first: int, numbers: int = 1, stride: int = 0) -> Field:

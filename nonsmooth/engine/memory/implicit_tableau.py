@@ -1,16 +1,16 @@
 """The stiffly accurate pair ESDIRK4(3)6L[2]SA (Kennedy and Carpenter 2003, Appl. Numer. Math. 44, 139-181).
 
-Its six stages stand in the last six of seven rows: the first row is left to the slope where the step starts as it is,
-the second to that on which the motion settles at once.
+Its six stages are the last six of seven rows. The first row belongs to the slope at the start of the step, the second
+to the slope after fast motion has decayed.
 """
 
 from __future__ import annotations
 
 DIAGONAL = 1 / 4
 ITERATIONS = 12
-"""Of a stage, on what is not stiff in it,"""
+"""Most fixed-point iterations of the part of a stage that is not stiff."""
 SETTLED = 0.01
-"""up to this part of the tolerance."""
+"""Iterations end when the change is below this fraction of the tolerance."""
 NODES = (0.0, 0.0, 1 / 2, 83 / 250, 31 / 50, 17 / 20, 1.0)
 STAGES = (
     (0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
@@ -21,7 +21,7 @@ STAGES = (
     (0.0, 15267082809 / 155376265600, -71443401 / 120774400, 730878875 / 902184768, 2285395 / 8070912, 0.0),
     (0.0, 82889 / 524892, 0.0, 15625 / 83664, 69875 / 102672, -2260 / 8211),
 )
-"""Of the stages before; each has :data:`DIAGONAL` of its own besides."""
+"""Weights of the earlier stages. The weight of the stage itself is :data:`DIAGONAL`."""
 PREDICTOR = (
     (0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
     (0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
@@ -45,7 +45,7 @@ PREDICTOR = (
         4040 / 17871,
     ),
 )
-"""Of the stages before in the state from which a stage is looked for: the explicit pair that belongs to this one."""
+"""Weights of the earlier stages in the first guess of a stage: the explicit pair that belongs to this implicit one."""
 ERROR = (
     0.0,
     82889 / 524892 - 4586570599 / 29645900160,
@@ -56,5 +56,5 @@ ERROR = (
     1 / 4 - 61727 / 225920,
 )
 BEND = (0.0, -189857 / 172391, 3253 / 1407, 55156250 / 19502427, -10625 / 2077, 0.0, 12047 / 11189)
-"""Weights of the slopes in what the interpolant of fourth order adds to the cubic through both ends, whose values and
-slopes there it keeps: h theta^2 (1 - theta)^2 times their sum."""
+"""Weights of the slopes in the interpolant of fourth order: h theta^2 (1 - theta)^2 times their sum is added to the
+cubic Hermite interpolant. This changes neither values nor slopes at the ends of the step."""

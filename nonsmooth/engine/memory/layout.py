@@ -5,30 +5,28 @@ from __future__ import annotations
 from nonsmooth.engine.memory import tableau
 
 PARTS = 48
-"""Halvings of a step in search of a gap that closes, or of an event: as many as its fractions can be told apart."""
+"""Most halvings of a step in search of a root. More would give fractions that differ by round-off only."""
 PART_END = 7
-"""Floats of an end of a part of a step."""
-ORIENTED = 7
-"""Numbers of an anisotropic law: side of the body, its axis, friction forward, backward and across."""
+"""Floats of an end of a part of a step: fraction, gap, gap rate, distance past the features, offset of the witness."""
 DRIVEN, FRICTION_LOSS, EXCHANGED, LOADS = 0, 1, 2, 3
-"""Which of the accounts is which."""
+"""Positions of the integrated energies."""
 N_ACCOUNTS = 4
-"""Energies integrated with the state: work of driven bodies, loss to friction, gross exchange, work of loads."""
+"""Number of energies integrated with the state: work of driven bodies, friction loss, gross exchange, work of loads."""
 BOOKED = 4
-"""Energies booked at instants and projections: work of driven bodies, losses by restitution, friction and closing."""
+"""Number of energies accounted at instants: work of driven bodies, losses by restitution, friction and closing."""
 MOST_BLOCKS = 2**22
-"""Pairs of contacts that act on one another, of which a system has room for all up to so many."""
+"""Most Delassus blocks that are allocated, 0.3 GB. Smaller systems have one for each pair of contacts."""
 MOST_ENTRIES = 2**26
-"""Entries of a matrix of the contacts' unknowns, of which there is room for all up to so many."""
+"""Most entries of a matrix of unknowns that are allocated, 0.5 GB. Smaller systems have a full matrix."""
 N_STAGES = len(tableau.NODES)
-"""Stages of the Runge-Kutta pair;"""
+"""Number of stages of both Runge-Kutta pairs."""
 LAST_STAGE = N_STAGES - 1
-"""the slope of the last one is that at the end of the step."""
+"""The last stage: its slope is that at the end of the step."""
 NORMAL_ROW, FIRST_ROW, SECOND_ROW = 0, 1, 2
 """Rows of a contact: along the normal and along the two tangents."""
 IMPULSE, DEFORMATION, WORK, DISSIPATED, ENERGY, LOST = 0, 3, 4, 5, 6, 7
-"""Where the numbers of a contact begin in the state of an impact."""
+"""Positions of the numbers of a contact in the state of an impact."""
 IMPACT_STATE = 8
-"""Floats of a contact in the state of an impact."""
+"""Number of floats of a contact in the state of an impact."""
 IMPACT_GUARDS = 3
-"""Guards of a contact within an impact."""
+"""Number of guards of a contact within an impact: rate, energy and friction."""

@@ -1,4 +1,4 @@
-"""What may limit a step of the flow."""
+"""The causes that limit the length of a step."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from enum import IntEnum
 
 
 class Limit(IntEnum):
-    """What limited a step."""
+    """Cause that limited the length of a step."""
 
     NO_STEP = 0
     """No step was taken: an event began where another one ended, or the neighbour list was made again."""
@@ -54,4 +54,4 @@ LIMITS = (
     "averaging of forces",
     "turning in flight",
 )
-"""The same in words, by number."""
+"""The limits in words, by number."""

@@ -1,4 +1,4 @@
-"""The workspace of one trajectory in Python: views by declaration, and blocks behind the arrays of the table."""
+"""The workspace of one trajectory in Python: views by declaration, and the blocks behind the arrays of the table."""
 
 from __future__ import annotations
 
@@ -32,7 +32,10 @@ from nonsmooth.parameters import Table
 
 
 class Heap:
-    """The blocks that come behind the fixed arrays: output blocks, Jacobians, parameters."""
+    """The blocks behind the arrays of the table, while a model is assembled: output blocks, Jacobians, parameters.
+
+    Their total length is known only at the end, so that they are collected here and copied by :meth:`close`.
+    """
 
     def __init__(self, memory: Memory) -> None:
         self._memory = memory
@@ -42,40 +45,40 @@ class Heap:
         self._references: list[tuple[int, int, Table]] = []
 
     def block(self, size: int) -> int:
-        """Reserve floats that the engine writes; return their offset."""
+        """Append zeros for numbers that the engine writes. Their offset."""
         start = self._first + len(self._values)
         self._values.frombytes(bytes(self._values.itemsize * size))
         self.write(start, size)
         return start
 
     def write(self, starts: int | np.ndarray, size: int) -> None:
-        """Note that numbers of blocks are no parameters: the engine or a plug-in writes them."""
+        """Mark ``size`` numbers from each of the offsets as written by the engine or a plug-in: no parameters."""
         self._written.append((np.atleast_1d(starts) - self._first, size))
 
     def store(self, values: Sequence[float] | np.ndarray) -> int:
-        """Append values; return their offset."""
+        """Append parameters. Their offset."""
         start = self._first + len(self._values)
         self._values.extend(values)
         return start
 
     def repeat(self, values: Sequence[float], times: int) -> int:
-        """Append the same values so many times; return the offset of the first."""
+        """Append the same parameters ``times`` times. The offset of the first."""
         start = self._first + len(self._values)
         self._values.extend(times * array("d", values))
         return start
 
     def refer(self, place: int, start: int, table: Table) -> None:
-        """Let the number at an offset say how far behind the offset ``start`` a table lies."""
+        """Let :meth:`close` set the number at an offset to the distance from the offset ``start`` to a table."""
         self._references.append((place, start, table))
 
     def output(self, size: int) -> int:
-        """Reserve floats that a plug-in writes, and guards behind them; return their offset."""
+        """Append numbers that a plug-in writes, and guards against writing too many. Their offset."""
         start = self.store(output_block(size))
         self.write(start, size)
         return start
 
     def close(self) -> Memory:
-        """The memory with all blocks, and each table once behind them."""
+        """The memory with all blocks. The tables follow, each of them once."""
         old, tables = self._memory, {id(table): table for _, _, table in self._references}
         first, places = self._first + len(self._values), dict[int, int]()
         end = first
@@ -98,24 +101,27 @@ class Heap:
 
 
 def output_block(size: int) -> list[float]:
-    """Content of a block before a plug-in has written it, guards included."""
+    """Zeros for the numbers that a plug-in writes, then guards, which show whether it has written too many."""
     return size * [0.0] + GUARD * [UNTOUCHED]
 
 
 def counts_in(record: np.void) -> Counts:
-    """Counts that a record of scalars was laid out for."""
+    """Counts of bodies, contacts, ... in a record of scalars."""
     return {name: record[f"{Model.key}.{name}"].item() for name in COUNTS}
 
 
 def view_of(declared: Declaration, record: np.void, counts: Counts, numbers: np.ndarray) -> np.ndarray:
-    """View of the numbers of a declaration among all floats or integers. The record of scalars gives its place."""
+    """View of the numbers of a declaration among all floats or integers.
+
+    The record of scalars has its offset. The first axis is the record, the second, if there are several, the number.
+    """
     storage, start = storage_of(declared), int(record[declared.key])
     numbers = numbers[start : start + length_of(storage, counts)]
     if issubclass(declared.owner, Part):
         return numbers
     stride, first, n = stride_of(storage), declared.inside[1], declared.owner.capacity(counts)
     if declared.numbers == 1:
-        # the end of a range is the start of the next one, in the row behind its own
+        # for starts of ranges, the end of the last range follows
         return numbers[first::stride][: n + declared.has_end]
     return numbers[: stride * n].reshape(n, stride)[:, first : first + declared.numbers]
 
@@ -133,16 +139,16 @@ class Memory:
     integers : numpy.ndarray
         The arrays of integers.
     blocks, tables : int
-        Where in ``floats`` the blocks that the assembly appended begin, and the tables behind them.
+        Offsets in ``floats`` of the blocks that the assembly appended, and of the tables behind them.
     references : tuple
-        (place of a number, the place from which that number counts, place of the table that it leads to), for every
-        table that a function reads.
+        For every table that a function reads: the offset of a number that is the distance to the table, the offset from
+        which the distance counts, and that of the table.
     written : array
-        Of each number of the blocks whether the engine or a plug-in writes it: the others are parameters.
+        For each number of the blocks, True if the engine or a plug-in writes it, False for a parameter.
     own : tuple of type
-        Parts of an engine that is no built-in one.
+        Parts that the engine adds to the workspace.
     owner : Memory or None
-        Whose tables it reads, if it has none of its own.
+        The memory whose tables it reads, if it has none itself.
     """
 
     scalars: np.ndarray
@@ -160,33 +166,29 @@ class Memory:
 
         The first axis of the numbers of a record is the record, the second one, if it has several, the number.
         """
-        if declared.size is None and issubclass(declared.owner, Part):
-            return self.record[declared.key].item()
-        return self._view(declared)
+        return self.record[declared.key].item() if declared.is_scalar else self._view(declared)
 
     def __setitem__(self, declared: Any, value: Any) -> None:
         """Set a scalar, or all numbers of an array."""
-        if declared.size is None and issubclass(declared.owner, Part):
+        if declared.is_scalar:
             self.record[declared.key] = value
         else:
             self._view(declared)[...] = value
 
     def start(self, declared: Any) -> int:
-        """Place of the first number of an array among all floats or integers."""
+        """Offset of an array among all floats or integers."""
         return int(self.record[declared.key])
 
     def declared(self, declared: Any) -> np.ndarray:
-        """View of a number of all declared contacts, active or not."""
+        """View of a number of all declared contacts, whether they are listed or not."""
         return self._view(getattr(DeclaredContact, declared.name))
 
     def _view(self, declared: Declaration) -> np.ndarray:
+        """View of an array, which is made once."""
         if declared not in self._views:
-            self._views[declared] = self._made_view(declared)
+            numbers = self.floats if declared.is_float else self.integers
+            self._views[declared] = view_of(declared, self.record, self._counts, numbers)
         return self._views[declared]
-
-    def _made_view(self, declared: Declaration) -> np.ndarray:
-        numbers = self.floats if storage_of(declared).is_float else self.integers
-        return view_of(declared, self.record, self._counts, numbers)
 
     @functools.cached_property
     def _views(self) -> dict[Declaration, np.ndarray]:
@@ -194,14 +196,14 @@ class Memory:
 
     @functools.cached_property
     def record(self) -> np.void:
-        """The record of the scalars: a view, of which one number is read and set most quickly."""
+        """The record of scalars. One number is read and set fastest through this view."""
         return cast(np.void, self.scalars[0])
 
     @functools.cached_property
     def cells(self) -> tuple[np.ndarray, np.ndarray]:
-        """All scalars as floats, and as integers, each at its place (:func:`nonsmooth.engine.memory.tables.places`).
+        """Views of all scalars as floats and as integers, by position (:func:`nonsmooth.engine.memory.tables.places`).
 
-        Views, through which short runs read and set a number at a fifth of the time that its name takes.
+        Short runs read and set numbers through them, in a fifth of the time that a name takes.
         """
         return self.scalars.view(np.float64), self.scalars.view(np.int64)
 
@@ -216,9 +218,9 @@ class Memory:
 
     @functools.cached_property
     def kept(self) -> tuple[np.ndarray, ...]:
-        """All scalars, the arrays that outlive a step, and the blocks: what a step may find of those before it.
+        """All numbers that a step may read from earlier steps: scalars, arrays that outlive a step, and blocks.
 
-        Views of integers with the bits of the numbers: a number that is not finite differs from itself.
+        Views as integers with the same bits, so that they can be compared: NaN differs from itself.
         """
         (floats, *_), (integers, *_) = self._lengths
         parts = self.scalars, self.floats[:floats], self.integers[:integers], self.floats[self.blocks : self.tables]
@@ -226,7 +228,7 @@ class Memory:
 
     @functools.cached_property
     def changing(self) -> tuple[np.ndarray, ...]:
-        """Of each number of :attr:`kept` whether a run may change it."""
+        """For each number of :attr:`kept`, True if a run may change it."""
         _, floats, integers, _ = self.kept
         return kept_scalars(self.own), np.ones(len(floats), bool), np.ones(len(integers), bool), self.written
 
@@ -242,9 +244,9 @@ class Memory:
 
 
 def allocate(counts: Mapping[str, int], own: tuple[type[Part], ...] = ()) -> Memory:
-    """Lay out all arrays for the given counts, all of ``COUNTS``.
+    """Workspace with all arrays for the given counts, all of ``COUNTS``. :class:`Heap` appends the blocks.
 
-    ``own`` are the parts of an engine that is no built-in one. Blocks are appended by :class:`Heap`.
+    ``own`` are the parts that an engine adds.
     """
     values, totals = _laid(tuple(counts.items()), own)
     scalars = np.array([values], record_with(own))
@@ -264,9 +266,9 @@ def allocate(counts: Mapping[str, int], own: tuple[type[Part], ...] = ()) -> Mem
 def _laid(
     counts: tuple[tuple[str, int], ...], own: tuple[type[Part], ...]
 ) -> tuple[tuple[float, ...], tuple[int, int]]:
-    """Numbers of the record of scalars, and the lengths of floats and integers.
+    """Values of the record of scalars before any run, and the numbers of floats and of integers.
 
-    Kept, as systems that differ in their numbers only are laid out alike, and often one after another.
+    Cached, because systems that differ in their numbers only have the same, and often follow each other.
     """
     owners, known = (*OWNERS, *own), dict(counts)
     values = {**scalars_of(owners), **{f"{Model.key}.{name}": number for name, number in counts}}

@@ -21,13 +21,13 @@ class Mode(IntEnum):
 
 
 BEFORE, DURING, AFTER = 0, 3, 6
-"""First bits of the three codes of a contact, Eq. (29), in the integer that is recorded with an event."""
+"""First bits of the codes of a contact before, during and after an event, Eq. (29), in the recorded integer."""
 CODE = 7
-"""All bits of one code."""
+"""Mask of the three bits of a code."""
 
 
 class Cause(IntEnum):
-    """What makes an instant an event."""
+    """Cause of an event."""
 
     START = 0
     """The run begins."""
@@ -100,7 +100,7 @@ class Phase(IntEnum):
 
 
 class Truncation(IntEnum):
-    """How an impact ended that was cut short."""
+    """Why an impact was cut short."""
 
     NONE = 0
     """It was not cut short, or has no end."""
@@ -111,7 +111,7 @@ class Truncation(IntEnum):
 
 
 class Painleve(IntEnum):
-    """What happens if sliding has no contact force."""
+    """What the engine does if sliding has no contact force (Painleve's paradox)."""
 
     BY_LAW = 0
     """An impact without collision, by the impact law of the contact."""
@@ -126,7 +126,7 @@ POLICIES = ("impact", "compliant", "refuse")
 
 
 class Status(IntEnum):
-    """What the engine, a step or an instant returns."""
+    """Result of a call of the engine, of a step, or of an instant."""
 
     RUNNING = 0
     """The motion continues."""

@@ -1,4 +1,4 @@
-"""Sizes: how long an array is, as a function of the counts of a system."""
+"""Sizes: the number of entries of an array, as a function of the counts of a system."""
 
 from __future__ import annotations
 
@@ -6,29 +6,29 @@ from collections.abc import Callable, Mapping
 from typing import TypeAlias
 
 from nonsmooth.engine.memory.blocks import DELASSUS, GUARD
-from nonsmooth.engine.memory.layout import BOOKED, MOST_BLOCKS, MOST_ENTRIES, N_STAGES, PART_END, PARTS
+from nonsmooth.engine.memory.layout import BOOKED, MOST_BLOCKS, MOST_ENTRIES, PART_END, PARTS
 
 Counts: TypeAlias = Mapping[str, int]
 Size: TypeAlias = Callable[[Counts], int]
 
 
 def per(stride: int, count: str) -> Size:
-    """Size of ``stride`` numbers for each of what is counted."""
+    """Size of an array with ``stride`` numbers for each counted thing: ``per(3, "n_slots")``."""
     return lambda n: stride * n[count]
 
 
 def fixed(length: int) -> Size:
-    """Size that is the same in all systems."""
+    """Size of an array that has the same length in all systems."""
     return lambda n: length
 
 
 def ends(count: str) -> Size:
-    """Size of a list of starts and the end of the last."""
+    """Size of a list of the starts of ranges, with the end of the last range."""
     return lambda n: n[count] + 1
 
 
 def matrix_entries(n: Counts) -> int:
-    """Length of a matrix of all unknowns of the contacts."""
+    """Number of entries of a matrix of all unknowns of the contacts, three each."""
     return int(min((3 * n["n_slots"]) ** 2, MOST_ENTRIES))
 
 
@@ -38,7 +38,7 @@ def delassus_blocks(n: Counts) -> int:
 
 
 def delassus_numbers(n: Counts) -> int:
-    """Length of the Delassus blocks."""
+    """Number of floats of all Delassus blocks."""
     return DELASSUS * delassus_blocks(n)
 
 
@@ -58,35 +58,30 @@ def spans(n: Counts) -> int:
 
 
 def step_part_numbers(n: Counts) -> int:
-    """Length of the list of ends of parts of a step."""
+    """Number of floats of the list of ends of parts of a step."""
     return PART_END * (PARTS + 1)
 
 
 def impulse_numbers(n: Counts) -> int:
-    """Length of the impulses of all contacts, with the numbers behind that a law must not change."""
+    """Number of impulses of all contacts, with guards behind, which show whether a law has written too many."""
     return 3 * n["n_slots"] + GUARD
 
 
 def map_numbers(n: Counts) -> int:
-    """Length of what an impact law that maps velocities is given."""
+    """Number of floats that an impact law which maps velocities reads and writes."""
     return n["map_width"] * n["n_slots"]
 
 
 def lemke_columns(n: Counts) -> int:
-    """Number of columns of Lemke's method, the artificial one among them."""
+    """Number of columns of Lemke's tableau: six for each contact, and that of the artificial variable."""
     return 6 * n["n_pivoted"] + 1
 
 
 def lemke_numbers(n: Counts) -> int:
-    """Length of the tableau of Lemke's method."""
+    """Number of entries of Lemke's tableau: six rows for each contact, with the columns and the right-hand side."""
     return 6 * n["n_pivoted"] * (6 * n["n_pivoted"] + 2)
 
 
 def sample_numbers(n: Counts) -> int:
-    """Length of the buffer of samples."""
+    """Number of floats of the buffer of samples: time, state, and the energies accounted at instants."""
     return n["sample_capacity"] * (1 + n["n_y"] + BOOKED)
-
-
-def stage_numbers(count: str, each: int = 1) -> Size:
-    """Size of the slopes of all stages."""
-    return per(each * N_STAGES, count)

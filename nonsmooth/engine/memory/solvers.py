@@ -1,6 +1,6 @@
 """The solvers of the contact problem: their names, their numbers in the engine, and the rule that chooses.
 
-"auto" goes by the number n of contacts that act on one another, and takes the first verified answer:
+"auto" chooses by the number n of contacts that act on one another, and takes the first verified solution:
 
 =========  ==================================================================
 n          solvers, in this order
@@ -12,7 +12,7 @@ above 16   newton, gauss_seidel
 
 Newton comes first because it was the fastest or level with the fastest at every size from four contacts on, with no
 problem unsolved (``python -m tests.benchmarks.solvers``); the others follow because they fail elsewhere.  Enumeration
-comes last, and for few contacts only: its time grows like 3^n.  A name takes that solver alone.
+comes last, and for few contacts only: its time grows like 3^n.  Any other name selects that solver alone.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ AUTO, ENUMERATION, LEMKE, GAUSS_SEIDEL, NEWTON = range(5)
 SOLVERS = ("auto", "enumeration", "lemke", "gauss_seidel", "newton")
 """Names by number."""
 MOST_ENUMERATED = 8
-"""Contacts that enumeration takes: 3^8 = 6561 combinations of modes."""
+"""Most contacts of enumeration: 3^8 = 6561 combinations of modes."""
 ENUMERATED_AT_LAST = 5
-"""Contacts up to which "auto" may fall back on enumeration."""
+"""Most contacts for which "auto" may try enumeration: 3^5 = 243 combinations of modes."""
 MOST_PIVOTED = 16
-"""Contacts up to which "auto" may fall back on Lemke, whose tableau has room for no more then."""
+"""Most contacts for which "auto" may try Lemke; its tableau is allocated for no more."""
 
 
 def solver_number(name: str) -> int:
@@ -44,5 +44,5 @@ def solver_number(name: str) -> int:
 
 
 def pivoted_contacts(solver: int, n_contacts: int) -> int:
-    """Number of contacts that Lemke's tableau has room for."""
+    """Number of contacts for which Lemke's tableau is allocated: 0 if the solver never uses it."""
     return n_contacts if solver == LEMKE else min(n_contacts, MOST_PIVOTED) if solver == AUTO else 0

@@ -16,19 +16,19 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.engine.memory.declare import Declaration, Part, Record, declarations
+from nonsmooth.engine.memory.declare import Declaration, Part, declarations
 from nonsmooth.engine.memory.owners.model import Model
 from nonsmooth.engine.memory.sizes import Counts, Size
 from nonsmooth.engine.memory.workspace import PARTS, RECORDS
 
 
 def has_array(declared: Declaration) -> bool:
-    """True if a declaration has an array of its own: it is no scalar, and no view of another one."""
-    return not declared.inside[0] and (declared.size is not None or issubclass(declared.owner, Record))
+    """True if a declaration has an array of its own. False for a scalar, and for a view of another array."""
+    return not declared.inside[0] and not declared.is_scalar
 
 
 def length_of(declared: Declaration, counts: Counts) -> int:
-    """Length of the array of a declaration."""
+    """Number of entries of the array of a declaration, in a system of the given counts."""
     if declared.size is not None:
         return declared.size(counts)
     return int(declared.numbers * declared.owner.capacity(counts) + declared.has_end)
@@ -39,26 +39,30 @@ def _all(owners: Iterable[type]) -> list[Declaration]:
 
 
 def arrays_of(owners: Iterable[type], of_floats: bool) -> dict[str, Size]:
-    """Sizes of all arrays of some owners by name, in the order of their places."""
+    """Sizes of the arrays of floats, or of integers, of some owners: by key, in the order of their offsets."""
     found = [one for one in _all(owners) if has_array(one) and one.is_float == of_floats]
     return {one.key: functools.partial(length_of, one) for one in sorted(found, key=_rank)}
 
 
 def _rank(declared: Declaration) -> int:
+    """Position of an array among the three kinds that follow each other."""
     return _LATE if declared.is_late else _KEPT if declared.outlives_a_step else _SHORT
 
 
 _KEPT, _SHORT, _LATE = range(3)
+"""Arrays that outlive a step, those that do not, and those that are late."""
 
 
 def lengths_of(owners: Iterable[type], of_floats: bool, counts: Counts) -> tuple[int, int, int]:
-    """Length of the arrays that outlive a step, of those that are not late, and of all."""
+    """Numbers of entries of the arrays that outlive a step, of all that are not late, and of all.
+
+    They are kept: systems that differ in their numbers only have the same lengths, and often follow each other.
+    """
     return _lengths_of(tuple(owners), of_floats, tuple(counts.items()))
 
 
 @functools.lru_cache(maxsize=16)
 def _lengths_of(owners: tuple[type, ...], of_floats: bool, counts: tuple[tuple[str, int], ...]) -> tuple[int, int, int]:
-    # kept, as systems that differ in their numbers only are laid out alike, and often one after another
     totals, known = [0, 0, 0], dict(counts)
     for one in _all(owners):
         if has_array(one) and one.is_float == of_floats:
@@ -68,12 +72,12 @@ def _lengths_of(owners: tuple[type, ...], of_floats: bool, counts: tuple[tuple[s
 
 
 def scalars_of(owners: Iterable[type]) -> dict[str, float]:
-    """Value of each scalar of some owners before any run."""
-    return {one.key: one.begin for one in _all(owners) if issubclass(one.owner, Part) and one.size is None}
+    """Value of each scalar of some owners before any run, by key."""
+    return {one.key: one.begin for one in _all(owners) if one.is_scalar}
 
 
 def _entries(owners: Iterable[type]) -> list[tuple[str, str]]:
-    owners = list(owners)
+    """Names and types of the scalars of some owners, and of the offsets of their arrays."""
     numbers = [(name, "f8" if isinstance(begin, float) else "i8") for name, begin in scalars_of(owners).items()]
     offsets = [*arrays_of(owners, of_floats=True), *arrays_of(owners, of_floats=False)]
     return numbers + [(name, "i8") for name in offsets]
@@ -86,39 +90,42 @@ INTEGER_ARRAYS: Mapping[str, Size] = arrays_of(OWNERS, of_floats=False)
 SCALARS = np.dtype(_entries(OWNERS), align=True)
 """The record of scalars."""
 N_SCALARS = len(SCALARS.names or ())
-"""How many entries it has."""
+"""Number of its entries."""
 COUNTS = tuple(name for name, one in declarations(Model).items() if one.kind is int and one.size is None)
 """Counts that size the arrays, and the other integers of a model."""
 CONSTANT_SCALARS = frozenset((*(f"{Model.key}.{name}" for name in COUNTS), *FLOAT_ARRAYS, *INTEGER_ARRAYS))
-"""What never changes once the workspace is laid out."""
+"""Scalars that never change after the allocation of the workspace: counts and offsets."""
 
 
 def kept_scalars(own: Iterable[type[Part]]) -> NDArray[np.bool_]:
-    """Of each entry of the record of scalars: whether it outlives a step."""
+    """For each entry of the record of scalars, with the parts ``own`` of an engine, True if it outlives a step."""
     kept = {one.key for one in _all((*OWNERS, *own)) if one.outlives_a_step and not has_array(one)}
     return np.array([name in kept for name in record_with(own).names or ()])
 
 
 def record_with(own: Iterable[type[Part]]) -> np.dtype[np.void]:
-    """Record of scalars of an engine that has numbers of its own, which come last."""
+    """Type of the record of scalars of an engine that adds the parts ``own``, whose scalars come last."""
     return _record_with(tuple(own))
 
 
 @functools.cache
 def _record_with(own: tuple[type[Part], ...]) -> np.dtype[np.void]:
-    # kept, as each run asks for it
+    # cached, because each run needs it
     entries = _entries(own)
     return np.dtype([*SCALARS.descr, *entries], align=True) if entries else SCALARS
 
 
 def places(*names: str) -> NDArray[np.int64]:
-    """Places of scalars in the record, all of which have the same length."""
+    """Positions of scalars among all, which have the same length."""
     known = SCALARS.names or ()
     return np.array([known.index(name) for name in names])
 
 
 def stride_of(storage: Declaration) -> int:
-    """Number of entries from one record to the next in a storage."""
+    """Number of entries from one record to the next in a storage.
+
+    The storage is an array of the records, or an array of a part with as many numbers for each contact.
+    """
     if storage.size is None:
         return storage.numbers
     none: Counts = dict.fromkeys(COUNTS, 0)

@@ -5,61 +5,52 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, get_args, get_type_hints
 
+from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.declare import Part, Record
-from nonsmooth.engine.memory.owners.active_contact import ActiveContact, Unknown
-from nonsmooth.engine.memory.owners.bodies import Articulation, Body, Joint, Load
-from nonsmooth.engine.memory.owners.contact import Contact, DeclaredContact
-from nonsmooth.engine.memory.owners.event import Event
-from nonsmooth.engine.memory.owners.guards import Guard, ImpactGuard, OwnGuard
-from nonsmooth.engine.memory.owners.impact import Impact
-from nonsmooth.engine.memory.owners.island import Island, Step
-from nonsmooth.engine.memory.owners.model import Coefficients, Model, Options, Tolerance
-from nonsmooth.engine.memory.owners.neighbours import Carrier, HalfSpace, Pair, Search, Sphere
-from nonsmooth.engine.memory.owners.problem import Problem
-from nonsmooth.engine.memory.owners.run import Output, Request, Run, Totals
 
 
 class Workspace:
     """All numbers of one trajectory, by owner."""
 
-    model: Model
-    options: Options
-    tolerance: Tolerance
-    coefficients: Coefficients
-    request: Request
-    totals: Totals
-    run: Run
-    output: Output
-    island: Island
-    step: Step
-    event: Event
-    impact: Impact
-    problem: Problem
+    model: owners.Model
+    options: owners.Options
+    tolerance: owners.Tolerance
+    coefficients: owners.Coefficients
+    request: owners.Request
+    totals: owners.Totals
+    run: owners.Run
+    output: owners.Output
+    island: owners.Island
+    step: owners.Step
+    event: owners.Event
+    impact: owners.Impact
+    problem: owners.Problem
 
-    bodies: Sequence[Body]
-    articulations: Sequence[Articulation]
-    joints: Sequence[Joint]
-    loads: Sequence[Load]
-    contacts: Sequence[Contact]
-    declared_contacts: Sequence[DeclaredContact]
-    actives: Sequence[ActiveContact]
-    unknowns: Sequence[Unknown]
-    guards: Sequence[Guard]
-    own_guards: Sequence[OwnGuard]
-    impact_guards: Sequence[ImpactGuard]
-    spheres: Sequence[Sphere]
-    half_spaces: Sequence[HalfSpace]
-    searches: Sequence[Search]
-    pairs: Sequence[Pair]
-    carriers: Sequence[Carrier]
+    bodies: Sequence[owners.Body]
+    articulations: Sequence[owners.Articulation]
+    joints: Sequence[owners.Joint]
+    loads: Sequence[owners.Load]
+    contacts: Sequence[owners.Contact]
+    declared_contacts: Sequence[owners.DeclaredContact]
+    actives: Sequence[owners.ActiveContact]
+    unknowns: Sequence[owners.Unknown]
+    guards: Sequence[owners.Guard]
+    own_guards: Sequence[owners.OwnGuard]
+    impact_guards: Sequence[owners.ImpactGuard]
+    spheres: Sequence[owners.Sphere]
+    half_spaces: Sequence[owners.HalfSpace]
+    searches: Sequence[owners.Search]
+    pairs: Sequence[owners.Pair]
+    carriers: Sequence[owners.Carrier]
 
     floats: Any
-    """All floats: blocks that plug-ins write are found there by their place."""
+    """All floats, with the blocks that plug-ins write, which are found by their offsets."""
     integers: Any
     """All integers."""
 
 
 def _owners() -> tuple[dict[str, type[Part]], dict[str, type[Record]]]:
+    """Parts and records of the workspace by name, from its type hints."""
     parts, records = dict[str, type[Part]](), dict[str, type[Record]]()
     for name, hint in get_type_hints(Workspace).items():
         if get_args(hint):

@@ -18,11 +18,11 @@ from nonsmooth.engine.native.forms import FORMS
 from nonsmooth.engine.native.numba_names import cgutils, ir
 from nonsmooth.engine.native.shared import Shared
 from nonsmooth.engine.native.signatures import signature_of
-from nonsmooth.engine.native.types import FLOATS, call_at, moved
+from nonsmooth.engine.native.types import FLOATS, WORD, call_at, moved
 
 
 def by_address(signature: Any) -> Any:
-    """Make an intrinsic ``call(address, *values)`` of the C function of a signature."""
+    """Intrinsic ``call(address, *values)``, which calls a C function of a signature at an address."""
 
     def call(typingctx: Any, address: Any, *values: Any) -> Any:
         def lower(context: Any, builder: Any, _: Any, args: Any) -> Any:
@@ -31,7 +31,7 @@ def by_address(signature: Any) -> Any:
 
         return signature.return_type(types.int64, *signature.args), lower
 
-    # an intrinsic must name its parameters
+    # numba reads the names of an intrinsic's parameters, so that `*values` alone does not do
     scope: dict[str, Any] = {"call": call}
     names = ", ".join(f"v{i}" for i in range(len(signature.args)))
     exec(f"def typed(typingctx, address, {names}): return call(typingctx, address, {names})", scope)
@@ -39,21 +39,21 @@ def by_address(signature: Any) -> Any:
 
 
 calls = {name: by_address(signature_of(form.signature)) for name, form in FORMS.items()}
-"""Calls of a function at an address, for each form."""
+"""Calls of a function at an address, by the name of its form."""
 call_watch = by_address(types.float64(types.float64))
 """Call of the interrupt check."""
 
 
 def address_of(shim: Callable[..., Any], form: str, key: str) -> int:
-    """Address of a shim as a C function of a form. It is compiled, or loaded from disk by its key.
+    """Address of a shim as a C function of a form. The shim is compiled, or loaded from disk by its key.
 
-    Equal keys must mean equal functions. An empty key keeps nothing on disk.
+    Equal keys must mean equal functions. With an empty key nothing is kept on disk.
     """
     return shim_address(shim, signature_of(FORMS[form].signature), key)
 
 
 watches: dict[int, Any] = {}
-"""The C functions of interrupt checks by their addresses; they live as long as they are here."""
+"""The C functions of interrupt checks by their addresses. Python frees those that are not listed here."""
 
 
 def watch_address(function: Callable[[float], float]) -> int:
@@ -71,40 +71,41 @@ def forget_watch(address: int) -> None:
 
 @intrinsic
 def at(typingctx: Any, floats: Any, offset: Any) -> Any:
-    """The floats from ``offset`` on, as a pointer."""
+    """Pointer to the number at an offset from a pointer."""
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        return moved(context, builder, floats, *args)
+        return moved(builder, floats.kind, *args)
 
     return floats(floats, types.int64), codegen
 
 
 @intrinsic
-def _support_at(typingctx: Any, floats: Any, place: Any, x: Any, y: Any, z: Any) -> Any:
-    point = types.UniTuple(types.float64, 3)
+def _vector(typingctx: Any, x: Any, y: Any, z: Any) -> Any:
+    """Three floats on the stack, as a pointer."""
 
     def lower(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        number, size = ir.DoubleType(), ir.IntType(64)
-        direction, found = (cgutils.alloca_once(builder, number, 3) for _ in range(2))
-        indices = [size(i) for i in range(3)]
-        for i, value in zip(indices, args[2:], strict=True):
-            builder.store(value, moved(context, builder, FLOATS, direction, i))
-        if floats == FLOATS:
-            address = builder.load(moved(context, builder, floats, args[0], args[1]), typ=number)
-            parameters = moved(context, builder, floats, args[0], builder.add(args[1], size(1)))
-            call_at(builder, builder.fptosi(address, size), ir.VoidType(), [direction, parameters, found])
-        values = [builder.load(moved(context, builder, FLOATS, found, i), typ=number) for i in indices]
-        return context.make_tuple(builder, point, values)
+        vector = cgutils.alloca_once(builder, ir.DoubleType(), 3)
+        for i, value in enumerate(args):
+            builder.store(value, moved(builder, float, vector, WORD(i)))
+        return vector
 
-    return point(floats, types.int64, types.float64, types.float64, types.float64), lower
+    return FLOATS(types.float64, types.float64, types.float64), lower
 
 
-def _compiled_support(floats: Any, place: int, x: float, y: float, z: float) -> Any:
-    return _support_at(floats, place, x, y, z)
+_support_at_address = calls["support"]
+
+
+def _compiled_support(floats: Any, place: int, x: float, y: float, z: float) -> tuple[float, float, float]:
+    direction, found = _vector(x, y, z), _vector(0.0, 0.0, 0.0)
+    _support_at_address(int(floats[place]), direction, at(floats, place + 1), found)
+    return found[0], found[1], found[2]
 
 
 def _support(floats: Any, place: int, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Call ``support(direction, parameters, point)``. Its address stands at a place, followed by the parameters."""
+    """Farthest point of a body in the direction (x, y, z), by a function whose address is ``floats[place]``.
+
+    The parameters of the function follow its address.
+    """
     parameters = (ctypes.c_double * (len(floats) - place))(*floats[place + 1 :])
     direction, found = (ctypes.c_double * 3)(x, y, z), (ctypes.c_double * 3)()
     FORMS["support"].prototype()(int(floats[place]))(direction, parameters, found)
@@ -119,7 +120,7 @@ def _compiled_block(block: Any, place: int) -> Any:
 
 
 def _block(block: Any, place: int) -> Any:
-    """The numbers of a block from a place on."""
+    """The numbers of a block from a position on."""
     return block[place:]
 
 

@@ -22,14 +22,14 @@ from nonsmooth.engine.native.numba_names import CompileResult, dumps, parse_asse
 from nonsmooth.notices import say
 
 _ALLOCATING = b"NRT_"
-"""Prefix of the functions by which compiled code of plug-ins allocates memory."""
+"""Prefix of the names of numba's functions that allocate memory. Only laws call them."""
 _CHECKSUM = hashlib.sha256().digest_size
 
 
 def _to_call(compiled: Any) -> tuple[Any, ...]:
-    """Pickled form of compiled code, without the intermediate code that callers could include.
+    """Pickled form of compiled code in which a declaration of its symbol replaces the intermediate code.
 
-    A module that declares the symbol to call takes its place.
+    Only callers that include the code would need the intermediate code.
     """
     (name, kind, (code, _)), *others = compiled._reduce()
     symbol = compiled.fndesc.llvm_cfunc_wrapper_name
@@ -38,7 +38,7 @@ def _to_call(compiled: Any) -> tuple[Any, ...]:
 
 @final
 class Store:
-    """The file of one function's machine code. It takes the place of numba's cache.
+    """The file of one function's machine code, with the methods of numba's cache, which it replaces.
 
     Parameters
     ----------
@@ -51,13 +51,13 @@ class Store:
         self._content: bytes | None = None
 
     def is_filled(self) -> bool:
-        """True if the file holds valid code. Its content is read once, and kept for the load."""
+        """True if the file has valid code. Its content is kept for :meth:`load_overload`."""
         if self._content is None:
             self._content = self._sound()
         return self._content is not None
 
     def load_overload(self, signature: Any, context: Any) -> Any:
-        """Compiled code as numba represents it, or None."""
+        """Compiled code as numba represents it. None if there is no valid file, or only one of another processor."""
         content = self._content or self._sound()
         self._content = None
         if content is None:
@@ -69,25 +69,26 @@ class Store:
         return None if processor != context.codegen().magic_tuple() else CompileResult._rebuild(context, *reduced)
 
     def save_overload(self, signature: Any, compiled: Any) -> None:
-        """Write the code, if there is a folder for it."""
+        """Write the code to disk, unless it has addresses of this process or no folder can be written to."""
         folder = folders()[1]
         if folder is None:
             say("no folder of yours to keep the compiled engine in: name one in XDG_CACHE_HOME")
             return
         if compiled.library.has_dynamic_globals:
-            return  # the code holds addresses of this process
+            return
         content = dumps((compiled.codegen.magic_tuple(), _to_call(compiled)))
         part = folder / f"{self._name}.{uuid.uuid4().hex[:16]}"
         try:
             with open(part, "xb", opener=lambda path, flags: os.open(path, flags, 0o644)) as file:
                 file.write(self._checksum(content) + content)
             part.replace(folder / self._name)
-        except OSError:  # a full disk, or on Windows another process that reads the file
+        except OSError:
+            # a full disk, or on Windows another process that reads the file: each process then compiles
             with contextlib.suppress(OSError):
                 part.unlink()
 
     def _sound(self) -> bytes | None:
-        """Contents of the first file that may be read and is undamaged."""
+        """Content of the first undamaged file that nobody else can have written, or None."""
         for folder in folders()[0]:
             path = folder / self._name
             try:
@@ -105,4 +106,5 @@ class Store:
         return None
 
     def _checksum(self, content: bytes) -> bytes:
+        """Checksum of the name and the content of a file."""
         return hashlib.sha256(self._name.encode() + content).digest()

@@ -27,9 +27,9 @@ class Kernel:
     is_compiled: bool = False
 
     def compile(self) -> None:
-        """Compile the kernel for its signature, once.
+        """Compile the kernel for its signature, if it is not compiled yet.
 
-        A call with other types then converts its arguments. Numba would compile one more copy for each set of types.
+        A call with other types then converts its arguments. Else numba would compile a copy for each set of types.
         """
         if not self.is_compiled:
             self.dispatcher.compile(self.signature)
@@ -42,7 +42,7 @@ KERNELS: list[Kernel] = []
 
 
 def callees_of(function: Callable[..., Any]) -> list[Kernel]:
-    """List the kernels that a function calls and those that these call, each before its callers.
+    """The kernels that a function calls, and those that these call, each before its callers.
 
     A kernel is found by the global name under which it is called: ``module.kernel(ws)`` would not be found.
     """

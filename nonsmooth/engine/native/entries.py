@@ -8,7 +8,7 @@ from typing import Any, TypeAlias, TypeVar
 from nonsmooth.errors import UnknownName
 
 Fingerprint: TypeAlias = Callable[[Callable[..., Any], str], str]
-"""Digest of a function and of a context, the key of its code on disk; empty if the code cannot be kept."""
+"""``fingerprint(function, context)``: key of the function's code on disk; empty if the code must not be kept."""
 _Entry = TypeVar("_Entry")
 
 
@@ -23,7 +23,7 @@ def known(entries: Mapping[str, _Entry], name: str) -> _Entry:
     Raises
     ------
     UnknownName
-        If there is none of that name.
+        If the name is that of no entry point and no step.
     """
     if name not in entries:
         raise UnknownName("entry point", name, entries)

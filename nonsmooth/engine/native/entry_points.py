@@ -1,7 +1,8 @@
-"""Entry points: functions of the engine that are compiled apart from their callers and called by address.
+"""Kernels, which are compiled into their callers, and entry points, which are compiled apart and called by address.
 
 Numba optimises a kernel again within each of its callers. An entry point ends this: its callers read its address from
-the workspace. Python calls entry points, too. Their machine code is kept on disk.
+the workspace. Python calls entry points, too. Their machine code is kept on disk. Nothing is compiled when a module is
+imported: a kernel is compiled when an entry point that calls it is.
 """
 
 from __future__ import annotations
@@ -23,12 +24,11 @@ from nonsmooth.engine.memory.declare import Part
 from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.native.address_calls import by_address
-from nonsmooth.engine.native.callees import callees_of
-from nonsmooth.engine.native.compiler import entry_address, is_stored
+from nonsmooth.engine.native.callees import KERNELS, Kernel, callees_of
+from nonsmooth.engine.native.compiler import entry_address, is_stored, kernel_dispatcher
 from nonsmooth.engine.native.entries import Fingerprint, known, own_name
 from nonsmooth.engine.native.folders import folders
 from nonsmooth.engine.native.forms import C_TYPES
-from nonsmooth.engine.native.kernels import kernel
 from nonsmooth.engine.native.signatures import signature_of, workspace_with
 from nonsmooth.notices import say
 
@@ -36,7 +36,7 @@ _STUB = "def stub_{name}({names}): return call(ws.model.entry_points[{index}], {
 
 
 class Entry(NamedTuple):
-    """A function that Python may call by name.
+    """An entry point, or a step of an engine.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class Entry(NamedTuple):
     signature : str
         Its signature.
     address : callable
-        Compiles or loads it, and returns its address.
+        Function that compiles or loads it, and returns its address.
     """
 
     function: Callable[..., Any]
@@ -56,10 +56,30 @@ class Entry(NamedTuple):
 ENTRIES: dict[str, Entry] = {}
 """Entry points and steps of engines by name."""
 _callables: dict[str, Callable[..., Any]] = {}
+"""Those that Python has called, by name, as C functions."""
+
+
+def kernel(signature: str = "void(ws)") -> Callable[[Callable[..., Any]], Any]:
+    """Make a kernel with the given signature."""
+    return _kernel(signature_of(signature))
+
+
+def own_kernel(own: type[Part], signature: str) -> Callable[[Callable[..., Any]], Any]:
+    """Make a kernel of an engine that adds a part of its own to the workspace."""
+    return _kernel(signature_of(signature, workspace_with(own)))
+
+
+def _kernel(signature: Any) -> Callable[[Callable[..., Any]], Any]:
+    def decorate(function: Callable[..., Any]) -> Any:
+        dispatcher = kernel_dispatcher(function)
+        KERNELS.append(Kernel(dispatcher, signature))
+        return dispatcher
+
+    return decorate
 
 
 def entry_point(signature: str = "void(ws)") -> Callable[[Callable[..., Any]], Any]:
-    """Make an entry point. Kernels call it by a stub of its name, which reads the address from the workspace."""
+    """Make a function an entry point. In kernels its name is a stub, which reads its address from the workspace."""
 
     def decorate(function: Callable[..., Any]) -> Any:
         name = function.__name__
@@ -73,13 +93,13 @@ def entry_point(signature: str = "void(ws)") -> Callable[[Callable[..., Any]], A
 
 
 def add_step(function: Callable[..., Any], own: type[Part], signature: str, fingerprint: Fingerprint) -> str:
-    """Let :func:`call_entry` find the step of an engine by the returned name. It is compiled when first called.
+    """Register the step of an engine. The name for :func:`call_entry`, whose first call compiles the step.
 
     Its machine code is kept on disk if ``fingerprint`` gives a digest.
     """
     name, typed = own_name(function), signature_of(signature, workspace_with(own))
     ENTRIES[name] = Entry(function, signature, lambda: _step_address(function, typed, fingerprint))
-    # a cell of a notebook that is run again has another function of that name
+    # a cell of a notebook that is run again defines another function of the same name
     _callables.pop(name, None)
     return name
 
@@ -98,24 +118,18 @@ def _address(name: str) -> int:
 
 @functools.cache
 def entry_addresses() -> tuple[int, ...]:
-    """Addresses of all entry points, in the order of ``ENTRY_POINTS``. Those that are not on disk are compiled."""
+    """Addresses of all entry points, in the order of ``ENTRY_POINTS``. The first call compiles those not on disk."""
     importlib.import_module("nonsmooth.engine.events.event_loop")
-    if missing := _missing():
+    if missing := tuple(name for name in ENTRY_POINTS if not is_stored(name)):
         say("compiling the engine once for this machine (some 20 s, longer where it is busy) ...")
         _compile_apart(missing)
-        compile_entries(_missing())
     return tuple(_address(name) for name in ENTRY_POINTS)
-
-
-def _missing() -> tuple[str, ...]:
-    return tuple(name for name in ENTRY_POINTS if not is_stored(name))
 
 
 def _compile_apart(names: tuple[str, ...]) -> None:
     """Compile entry points into files, in two processes that begin at either end; in one on a single processor.
 
-    Other processes are used because the compiler would leave half a gigabyte in this one. They may fail: this process
-    then compiles what is missing.
+    The compiler would leave half a gigabyte in this process. If the others fail, this process compiles what is missing.
     """
     if folders()[1] is None:
         return
@@ -127,7 +141,7 @@ def _compile_apart(names: tuple[str, ...]) -> None:
 
 
 def _helper(names: tuple[str, ...]) -> subprocess.Popen[bytes] | None:
-    # an interpreter of our own: multiprocessing would run the user's script again, a frozen program itself
+    # no multiprocessing, which would run the user's script again. A frozen program has no interpreter
     if "python" not in Path(sys.executable or "").name:
         return None
     task = (
@@ -142,10 +156,7 @@ def _helper(names: tuple[str, ...]) -> subprocess.Popen[bytes] | None:
 
 
 def compile_entries(names: tuple[str, ...]) -> None:
-    """Compile entry points one after another, except those that are on disk by then.
-
-    Two processes that begin at either end meet where both have taken the same time.
-    """
+    """Compile entry points one after another, except those on disk: another process may have compiled them by then."""
     for name in names:
         if not is_stored(name):
             _address(name)
@@ -157,13 +168,13 @@ def call_entry(name: str, memory: Memory, *arguments: float) -> Any:
     Raises
     ------
     UnknownName
-        If there is none of that name.
+        If the name is that of no entry point and no step.
     """
     return _callable(name)(*memory.addresses, *arguments)
 
 
 def _callable(name: str) -> Callable[..., Any]:
-    """An entry point, or a step, as a function of the addresses of scalars, floats and integers, and of numbers."""
+    """An entry point, or a step, as a C function of the addresses of scalars, floats and integers, and of numbers."""
     if name not in _callables:
         entry_addresses()
         _callables[name] = prototype_of(name)(known(ENTRIES, name).address())

@@ -33,7 +33,7 @@ def build_name() -> str:
 
     The versions of numba, numpy and Python and the kind of processor are part of it. So an old file is never found.
     """
-    # processors that NUMBA_CPU_NAME makes alike have the same name
+    # NUMBA_CPU_NAME lets a cluster of different processors use the same code
     processor = f"{numba.config.CPU_NAME or get_host_cpu_name()}{numba.config.CPU_FEATURES or ''}"
     digest = hashlib.sha256(f"{numba.__version__}{np.__version__}{sys.version}{processor}".encode())
     for source in sorted(_ENGINE.rglob("*.py")):
@@ -42,9 +42,9 @@ def build_name() -> str:
 
 
 def folders() -> tuple[list[Path], Path | None]:
-    """Folders to read compiled code from, in this order, and the one to write it to, if there is one.
+    """Folders from which compiled code is read, in this order, and the folder to which it is written, or None.
 
-    The first is in the user's cache. A temporary one follows if that cannot be written to.
+    The first is in the user's cache. A temporary one follows if the first cannot be written to.
     """
     readable: list[Path] = []
     for home, permissions in _homes():
@@ -79,7 +79,7 @@ def _homes() -> Iterator[tuple[Path, int]]:
 
 
 def _close(folder: Path) -> None:
-    """Withdraw write permission on a folder of the user's from all others."""
+    """Withdraw write permission from all other users, if the folder belongs to this user. Say so if any had it."""
     status = folder.lstat()
     if sys.platform == "win32" or not stat.S_ISDIR(status.st_mode) or status.st_uid != os.geteuid():
         return
@@ -96,5 +96,6 @@ def is_safe(status: os.stat_result) -> bool:
 
 
 def _is_safe_folder(folder: Path) -> bool:
+    """True if a folder is no link, and only this user and the administrator can have written to it."""
     status = folder.lstat()
     return stat.S_ISDIR(status.st_mode) and is_safe(status)

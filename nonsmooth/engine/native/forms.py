@@ -29,14 +29,13 @@ class Form:
     Attributes
     ----------
     given : mapping of str to str
-        Names and types of the arguments before the function's own parameters.
+        Names and types of the arguments before the parameters of the function.
     returns : bool
         Whether it returns a number. Otherwise it writes to ``out``.
     recorded : mapping of str to int
-        Arguments that are recorded before the parameters if the result is not finite, for a message, and how many
-        numbers of each.
+        Arguments that are recorded for a message if the result is not finite, and how many numbers of each.
     watched : int
-        How many numbers of ``out`` must be finite.
+        How many numbers of ``out``, from the first, must be finite.
     """
 
     given: Mapping[str, str]
@@ -46,12 +45,12 @@ class Form:
 
     @cached_property
     def roles(self) -> tuple[str, ...]:
-        """Names of the arguments before the function's own parameters."""
+        """Names of the arguments but for the parameters of the function."""
         return (*self.given, *(() if self.returns else ("out",)))
 
     @cached_property
     def arguments(self) -> Mapping[str, str]:
-        """Names and types of the arguments of the C function, in order. ``p`` are the parameters."""
+        """Names and types of the arguments of the C function, in order. ``p`` are the parameters of the function."""
         return {**self.given, "p": "F", **({} if self.returns else {"out": "F"})}
 
     @cached_property
@@ -61,7 +60,7 @@ class Form:
 
     @cached_property
     def n_recorded(self) -> int:
-        """Number of numbers that are recorded."""
+        """How many numbers are recorded in all."""
         return sum(self.recorded.values())
 
     @property
@@ -69,7 +68,7 @@ class Form:
         return "f8" if self.returns else "void"
 
     def prototype(self, pointer: Any = ctypes.c_void_p) -> Any:
-        """Type of the C function for :mod:`ctypes`."""
+        """Type of the C function for :mod:`ctypes`, with floats passed as a type of pointer."""
         types = {**C_TYPES, "F": pointer}
         return ctypes.CFUNCTYPE(types[self._result], *[types[kind] for kind in self.arguments.values()])
 

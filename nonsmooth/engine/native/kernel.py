@@ -23,6 +23,7 @@ from __future__ import annotations
 import importlib
 import os
 from collections.abc import Callable, Mapping
+from types import ModuleType
 from typing import Any, Protocol, TypeAlias, TypeVar
 
 from nonsmooth.engine.memory.declare import Part
@@ -46,47 +47,53 @@ class _Decorator(Protocol):
     def __call__(self, signature: str = "void(ws)", /) -> Callable[[_Function], _Function]: ...
 
 
-_half = importlib.import_module("nonsmooth.engine.native.plain" if PLAIN else "nonsmooth.engine.native.native")
+def _half(compiled: str) -> ModuleType:
+    """The module of compiled functions of that name, or that of plain ones, which has the same names."""
+    return importlib.import_module(f"nonsmooth.engine.native.{'plain' if PLAIN else compiled}")
 
-kernel: _Decorator = _half.kernel
+
+_calls, _entries, _shared = _half("address_calls"), _half("entry_points"), _half("shared")
+_signatures, _views = _half("signatures"), _half("views")
+
+kernel: _Decorator = _entries.kernel
 """Decorator of a function of the engine that is compiled into its callers."""
-result: Callable[[_Class], _Class] = _half.result
+result: Callable[[_Class], _Class] = _signatures.result
 """Decorator of a named tuple of numbers that a kernel may return. Signatures use the name of its class."""
-entry_point: _Decorator = _half.entry_point
+entry_point: _Decorator = _entries.entry_point
 """Decorator of a function of the engine that is compiled apart and called by its address, from Python too."""
-entry_addresses: Callable[[], tuple[int, ...]] = _half.entry_addresses
+entry_addresses: Callable[[], tuple[int, ...]] = _entries.entry_addresses
 """Addresses of all entry points, which the workspace holds."""
-prototype_of: Callable[[str], Any] = _half.prototype_of
+prototype_of: Callable[[str], Any] = _entries.prototype_of
 """Type of the C function of an entry point, for :mod:`ctypes`."""
-call_entry: Callable[..., Any] = _half.call_entry
+call_entry: Callable[..., Any] = _entries.call_entry
 """``call_entry(name, memory, *numbers)``: call an entry point, or the step of an engine, from Python."""
-own_kernel: Callable[[type[Part], str], Callable[[_Function], _Function]] = _half.own_kernel
+own_kernel: Callable[[type[Part], str], Callable[[_Function], _Function]] = _entries.own_kernel
 """Decorator of a kernel of an engine that adds a part of its own to the workspace."""
-add_step: Callable[[Callable[..., Any], type[Part], str, Fingerprint], str] = _half.add_step
+add_step: Callable[[Callable[..., Any], type[Part], str, Fingerprint], str] = _entries.add_step
 """``add_step(function, own, signature, fingerprint)``: let :data:`call_entry` find a step by the returned name."""
 
-copy_fields: Callable[[Any, Any], None] = _half.copy_fields
+copy_fields: Callable[[Any, Any], None] = _views.copy_fields
 """Copy the numbers that two records of different owners have in common."""
-frame_at: Callable[[Floats, int], Any] = _half.records["frame"]
+frame_at: Callable[[Floats, int], Any] = _views.records["frame"]
 """``frame_at(floats, start)``: the frame that a body writes, by name."""
-part_at: Callable[[Floats, int], Any] = _half.records["part"]
+part_at: Callable[[Floats, int], Any] = _views.records["part"]
 """``part_at(floats, start)``: the numbers of a convex part, by name."""
-part_end: Callable[[Floats, int, int], Any] = _half.records["part_end"]
+part_end: Callable[[Floats, int, int], Any] = _views.records["part_end"]
 """``part_end(floats, start, n)``: end n of the parts of a step, by name."""
-joint_row: Callable[[Floats, int, int], Any] = _half.records["joint_row"]
+joint_row: Callable[[Floats, int, int], Any] = _views.records["joint_row"]
 """``joint_row(floats, joint.out, r)``: row r that a joint writes, by name."""
-load_wrench: Callable[[Floats, int], Any] = _half.records["load_wrench"]
+load_wrench: Callable[[Floats, int], Any] = _views.records["load_wrench"]
 """``load_wrench(floats, load.out)``: the force and torque that a load writes, by name."""
-impact_state: Callable[[Floats, int, int], Any] = _half.records["impact_state"]
+impact_state: Callable[[Floats, int, int], Any] = _views.records["impact_state"]
 """``impact_state(floats, start, a)``: active contact a in the state of an impact, or in its slope, by name."""
-delassus_block: Callable[[Floats, int, int], Any] = _half.records["delassus_block"]
+delassus_block: Callable[[Floats, int, int], Any] = _views.records["delassus_block"]
 """``delassus_block(floats, start, block)``: a block on the diagonal of the Delassus matrix, by name."""
-at: Callable[[Floats, int], Floats] = _half.at
+at: Callable[[Floats, int], Floats] = _calls.at
 """``at(floats, offset)``: the floats from an offset on."""
 
 _Filling: TypeAlias = Callable[[int, float, Floats, Floats, Floats, Floats], None]
 
-calls: Mapping[str, Callable[..., Any]] = _half.calls
+calls: Mapping[str, Callable[..., Any]] = _calls.calls
 """Calls of a function at an address, for each of :data:`nonsmooth.engine.native.forms.FORMS`."""
 call_scalar: Callable[[int, float, Floats], float] = calls["scalar"]
 """Call ``law(x, parameters)`` at an address."""
@@ -106,84 +113,25 @@ call_pair: Callable[[int, Floats, Floats, Floats, Floats], None] = calls["pair"]
 """Call ``geometry(frame_a, frame_b, parameters, out)`` at an address."""
 call_map: Callable[[int, int, Floats, Floats, Floats, Floats], None] = calls["map"]
 """Call ``impact(n, delassus, rates, parameters, impulses)`` at an address."""
-call_support: Callable[[Floats, int, float, float, float], tuple[float, float, float]] = _half.call_support
+call_support: Callable[[Floats, int, float, float, float], tuple[float, float, float]] = _calls.call_support
 """Call ``support(direction, parameters, point)``, whose address stands at a place, followed by the parameters."""
-call_watch: Callable[[int, float], float] = _half.call_watch
+call_watch: Callable[[int, float], float] = _calls.call_watch
 """Call the interrupt check at an address: ``check(t)`` returns the next work budget."""
-watch_address: Callable[[Callable[[float], float]], int] = _half.watch_address
+watch_address: Callable[[Callable[[float], float]], int] = _calls.watch_address
 """Address of a Python function for :func:`call_watch`, valid until :func:`forget_watch`."""
-forget_watch: Callable[[int], None] = _half.forget_watch
+forget_watch: Callable[[int], None] = _calls.forget_watch
 """Release an address of :func:`watch_address`."""
 
-block_at: Callable[[Floats, int], Floats] = _half.block_at
+block_at: Callable[[Floats, int], Floats] = _calls.block_at
 """The numbers of a block from a place on, for the functions of plug-ins."""
-jit: Callable[[Callable[..., Any]], Any] = _half.jit
+jit: Callable[[Callable[..., Any]], Any] = _shared.jit
 """Compile a plug-in's function on demand."""
-shared: Callable[[Callable[..., Any]], Any] = _half.shared
+shared: Callable[[Callable[..., Any]], Any] = _shared.shared
 """Let the functions of plug-ins call a function, compiled or not."""
-unshared: Callable[[Any], Any] = _half.unshared
+unshared: Callable[[Any], Any] = _shared.unshared
 """The function from which :func:`shared` has made a value; any other value as it is."""
-address_of: Callable[[Callable[..., Any], str, str], int] = _half.address_of
+address_of: Callable[[Callable[..., Any], str, str], int] = _calls.address_of
 """``address_of(shim, form, key)``: address of a shim of one of :data:`nonsmooth.engine.native.forms.FORMS`.
 
 It is compiled, or found on disk under its key. Without a key nothing is kept on disk.
 """
-
-__all__ = [
-    "PLAIN",
-    "ActiveContact",
-    "Articulation",
-    "Body",
-    "Carrier",
-    "Contact",
-    "DeclaredContact",
-    "Floats",
-    "Guard",
-    "HalfSpace",
-    "ImpactGuard",
-    "Integers",
-    "Joint",
-    "Load",
-    "Memory",
-    "OwnGuard",
-    "Pair",
-    "Search",
-    "Sphere",
-    "Unknown",
-    "Workspace",
-    "add_step",
-    "address_of",
-    "at",
-    "block_at",
-    "call_body",
-    "call_compliance",
-    "call_entry",
-    "call_guard",
-    "call_load",
-    "call_map",
-    "call_pair",
-    "call_rates",
-    "call_scalar",
-    "call_support",
-    "call_traction",
-    "call_watch",
-    "calls",
-    "copy_fields",
-    "delassus_block",
-    "entry_addresses",
-    "entry_point",
-    "forget_watch",
-    "frame_at",
-    "impact_state",
-    "jit",
-    "joint_row",
-    "kernel",
-    "load_wrench",
-    "own_kernel",
-    "part_at",
-    "part_end",
-    "result",
-    "shared",
-    "unshared",
-    "watch_address",
-]

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Iterable, Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 import numba
 from numba import types
@@ -24,82 +24,19 @@ from numba import types
 SUPPORTED = ">=0.61,<0.70"
 """Supported versions of numba, as in pyproject.toml."""
 
-__all__ = [
-    "MISSING",
-    "NO_ALLOCATION",
-    "NO_WRAPPERS",
-    "OF_PASSES",
-    "OF_TYPES",
-    "SUPPORTED",
-    "AbstractTemplate",
-    "Attribute",
-    "AttributeTemplate",
-    "CFunc",
-    "CompileResult",
-    "CompilerBase",
-    "Conversion",
-    "DefaultPassBuilder",
-    "Dispatcher",
-    "FixupArgs",
-    "FunctionPass",
-    "IRLegalization",
-    "IRProcessing",
-    "JITCodeLibrary",
-    "NativeLowering",
-    "NoPythonBackend",
-    "NopythonTypeInference",
-    "PassManager",
-    "PreLowerStripPhis",
-    "ReconstructSSA",
-    "RefType",
-    "TranslateByteCode",
-    "cgutils",
-    "create_pass_builder",
-    "create_pipeline_tuning_options",
-    "dumps",
-    "get_host_cpu_name",
-    "infer_getattr",
-    "ir",
-    "iternext_impl",
-    "lower_cast",
-    "lower_getattr_generic",
-    "lower_setattr_generic",
-    "normalize_signature",
-    "parse_assembly",
-    "register_pass",
-    "rtsys",
-    "signature",
-]
 
-
-class Attribute(NamedTuple):
-    """An attribute of a class of numba that the engine overrides or calls.
-
-    Attributes
-    ----------
-    owner : object
-        The class, or an instance.
-    name : str
-        The attribute.
-    without : str
-        The consequence if it is missing.
-    """
-
-    owner: Any
-    name: str
-    without: str
-
-
-def _first_missing(attributes: Iterable[Attribute]) -> str:
-    """Full name of the first attribute that this version lacks; empty if there is none."""
-    for owner, name, _ in attributes:
-        if inspect.getattr_static(owner, name, None) is None:
-            kind = owner if isinstance(owner, type) else type(owner)
-            return f"{kind.__module__}.{kind.__qualname__}.{name}"
+def _first_missing(attributes: Mapping[Any, Iterable[str]]) -> str:
+    """Full name of the first attribute that a class or an instance lacks in this version; empty if there is none."""
+    for owner, names in attributes.items():
+        kind = owner if isinstance(owner, type) else type(owner)
+        for name in names:
+            if inspect.getattr_static(owner, name, None) is None:
+                return f"{kind.__module__}.{kind.__qualname__}.{name}"
     return ""
 
 
 def _refusal(missing: object) -> ImportError:
+    """Error for a version of numba without a name of the first group."""
     return ImportError(
         f"The compiled engine does not work with numba {numba.__version__}: {missing}. "
         f"Install numba{SUPPORTED}, or set NONSMOOTH_PLAIN=1 to run the engine as plain Python, which is slow."
@@ -118,23 +55,23 @@ try:
 except ImportError as error:
     raise _refusal(error) from error
 
-OF_TYPES = (
-    Attribute(Dispatcher, "compile", "kernels are not compiled with the signatures that they declare"),
-    Attribute(Dispatcher, "disable_compile", "a kernel is compiled again for each literal that it is called with"),
-    Attribute(cgutils.create_struct_proxy(types.complex128), "_getvalue", "records have no value"),
-)
+OF_TYPES: Mapping[Any, Iterable[str]] = {
+    # kernels are compiled with the signatures that they declare, and not again for each literal
+    Dispatcher: ("compile", "disable_compile"),
+    cgutils.create_struct_proxy(types.complex128): ("_getvalue",),
+}
 """Attributes of the first group."""
 if _name := _first_missing(OF_TYPES):
     raise _refusal(f"it lacks {_name}")
 
 MISSING = ""
 """The first name of the second group that this version lacks; empty if all are there."""
-OF_PASSES: tuple[Attribute, ...] = ()
+OF_PASSES: Mapping[Any, Iterable[str]] = {}
 """Attributes of the second group."""
 try:
     from llvmlite.binding import create_pass_builder, create_pipeline_tuning_options, parse_assembly
     from numba.core.ccallback import CFunc
-    from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
+    from numba.core.codegen import JITCodeLibrary
     from numba.core.compiler import CompilerBase, CompileResult, DefaultPassBuilder
     from numba.core.compiler_machinery import FunctionPass, PassManager, register_pass
     from numba.core.funcdesc import FunctionDescriptor
@@ -152,35 +89,31 @@ try:
     from numba.core.typing import Context
     from numba.core.untyped_passes import FixupArgs, IRProcessing, ReconstructSSA, TranslateByteCode
 
-    _codegen = cpu_target.target_context.codegen()
-    OF_PASSES = (
-        Attribute(JITCodeLibrary, "_optimize_final_module", "each kernel is optimised alone, and again in each caller"),
-        Attribute(JITCodeLibrary, "add_ir_module", "a law is called by two calls"),
-        Attribute(JITCodeLibrary, "_optimize_functions", "loops are unrolled, which costs a fifth more time"),
-        Attribute(_codegen, "_tm", "the engine has no optimiser of its own"),
-        Attribute(_codegen, "_data_layout", "code is optimised for a processor without vectors"),
-        Attribute(JITCodeLibrary, "_finalize_final_module", "each kernel becomes machine code that nobody calls"),
-        Attribute(JITCodeLibrary, "_finalized", "callers do not include the intermediate code of kernels"),
-        Attribute(JITCodeLibrary, "has_dynamic_globals", "code with addresses of this process is written to disk"),
-        Attribute(JITCodeLibrary, "codegen", "intermediate code is given an environment, which has no address"),
-        Attribute(JITCPUCodegen, "set_env", "the same"),
-        Attribute(JITCPUCodegen, "magic_tuple", "code of another processor is loaded"),
-        Attribute(CompilerBase, "define_pipelines", "numba's own passes run, which doubles the time"),
-        Attribute(PassManager, "add_pass_after", "functions have no unique numbers"),
-        Attribute(DefaultPassBuilder, "define_nopython_pipeline", "laws are not compiled"),
-        Attribute(FunctionDescriptor, "llvm_cfunc_wrapper_name", "code from disk has no symbol to call"),
-        Attribute(CompileResult, "_reduce", "nothing is written to disk"),
-        Attribute(CompileResult, "_rebuild", "nothing is loaded from disk"),
-        Attribute(Context, "resolve_function_type", "types are searched again at each place, a tenth of the time"),
-        Attribute(rtsys, "initialize", "a law that allocates memory, loaded from disk, ends the process"),
-    )
+    OF_PASSES = {
+        # when a module is optimised and becomes machine code, and what is linked
+        JITCodeLibrary: (
+            *("_optimize_functions", "_optimize_final_module", "_finalize_final_module", "_finalized"),
+            *("add_ir_module", "codegen", "has_dynamic_globals"),
+        ),
+        # the processor, and the environment of Python objects that kernels do not have
+        cpu_target.target_context.codegen(): ("_tm", "_data_layout", "set_env", "magic_tuple"),
+        # which passes run
+        CompilerBase: ("define_pipelines",),
+        PassManager: ("add_pass_after",),
+        DefaultPassBuilder: ("define_nopython_pipeline",),
+        Context: ("resolve_function_type",),
+        # files of machine code
+        FunctionDescriptor: ("llvm_cfunc_wrapper_name",),
+        CompileResult: ("_reduce", "_rebuild"),
+        rtsys: ("initialize",),
+    }
     MISSING = _first_missing(OF_PASSES)
 except (ImportError, AttributeError) as error:
     MISSING = str(error).split(" (")[0]
 
 
 def _known(options: Mapping[str, bool]) -> Mapping[str, bool]:
-    """The options of ``numba.jit`` that this version knows: it refuses all others."""
+    """Those of some options of ``numba.jit`` that this version knows: it raises an error for others."""
     try:
         from numba.core.cpu import CPUTargetOptions
     except ImportError:

@@ -17,35 +17,13 @@ from typing import Any, final
 
 from numba import types
 
+from nonsmooth.engine.native import numba_names as private
 from nonsmooth.engine.native.cache import Store
-from nonsmooth.engine.native.numba_names import (
-    NO_ALLOCATION,
-    CFunc,
-    CompilerBase,
-    DefaultPassBuilder,
-    FixupArgs,
-    FunctionPass,
-    IRLegalization,
-    IRProcessing,
-    JITCodeLibrary,
-    NativeLowering,
-    NoPythonBackend,
-    NopythonTypeInference,
-    PassManager,
-    PreLowerStripPhis,
-    ReconstructSSA,
-    TranslateByteCode,
-    create_pass_builder,
-    create_pipeline_tuning_options,
-    ir,
-    normalize_signature,
-    register_pass,
-)
 
 
-@register_pass(mutates_CFG=False, analysis_only=False)
+@private.register_pass(mutates_CFG=False, analysis_only=False)
 @final
-class Number(FunctionPass):
+class Number(private.FunctionPass):
     """Give a function a random number in place of numba's count.
 
     Symbols consist of a function's name, types and number. Code that several processes have kept on disk is linked by
@@ -58,7 +36,7 @@ class Number(FunctionPass):
         """The base class keeps its argument; this pass has none."""
 
     def run_pass(self, state: Any) -> bool:
-        """Draw the number."""
+        """Set the random number. True: the function has changed."""
         state.func_id.unique_id = secrets.randbits(48)
         return True
 
@@ -85,15 +63,15 @@ _typed: dict[Any, Any] = {}
 """Signatures found so far, by function and types of arguments."""
 
 
-@register_pass(mutates_CFG=True, analysis_only=False)
+@private.register_pass(mutates_CFG=True, analysis_only=False)
 @final
-class TypeOnce(NopythonTypeInference):
+class TypeOnce(private.NopythonTypeInference):
     """Type inference that finds the types of each operation once, which saves a tenth of the time."""
 
     _name = "remembering_type_inference"
 
     def run_pass(self, state: Any) -> bool:
-        """Infer the types of all variables."""
+        """Infer the types of all variables, with a context that keeps the types of operations."""
         context = state.typingctx
         state.typingctx = _Typing(context)
         try:
@@ -102,16 +80,16 @@ class TypeOnce(NopythonTypeInference):
             state.typingctx = context
 
 
-class _RolledLibrary(JITCodeLibrary):
+class _RolledLibrary(private.JITCodeLibrary):
     """Code whose loops are neither unrolled nor interleaved.
 
     Most loops run over a dozen numbers. Unrolled, they take longer to compile and to run.
     """
 
     def _builder(self) -> Any:
-        options = create_pipeline_tuning_options(speed_level=3)
+        options = private.create_pipeline_tuning_options(speed_level=3)
         options.loop_vectorization, options.loop_unrolling, options.loop_interleaving = True, False, False
-        return create_pass_builder(self._codegen._tm, options)
+        return private.create_pass_builder(self._codegen._tm, options)
 
     def _optimize_functions(self, module: Any) -> None:
         module.data_layout = self._codegen._data_layout
@@ -139,16 +117,7 @@ class _RawLibrary(_RolledLibrary):
         return self
 
     def set_env(self, name: str, environment: Any) -> None:
-        """Do nothing: without machine code there is no environment."""
-
-
-def _let_inline(module: Any) -> None:
-    """Let the wrapper that has the address include the function that it wraps, which numba forbids."""
-    for function in module.functions if module.name == "cfunc_wrapper" else ():
-        for block in function.blocks:
-            for instruction in block.instructions:
-                if isinstance(instruction, ir.CallInstr):
-                    instruction.attributes.discard("noinline")
+        """Do nothing: without machine code there is no environment of Python objects."""
 
 
 class _OneFunction:
@@ -157,11 +126,16 @@ class _OneFunction:
     _final_module: Any
 
     def add_ir_module(self, module: Any) -> None:
-        """Add a module to those that are linked."""
-        _let_inline(module)
+        """Link a module. A C wrapper may inline the function that it calls, which numba forbids."""
+        for function in module.functions if module.name == "cfunc_wrapper" else ():
+            for block in function.blocks:
+                for instruction in block.instructions:
+                    if isinstance(instruction, private.ir.CallInstr):
+                        instruction.attributes.discard("noinline")
         super().add_ir_module(module)  # type: ignore[misc]
 
     def _optimize_final_module(self) -> None:
+        """Optimise the module, of which only the wrapper can be called from outside."""
         for function in self._final_module.functions:
             if not function.is_declaration and not function.name.startswith("cfunc."):
                 function.linkage = "internal"
@@ -172,96 +146,81 @@ class _EntryLibrary(_OneFunction, _RolledLibrary):
     """Code of an entry point."""
 
 
-class _ShimLibrary(_OneFunction, JITCodeLibrary):
+class _ShimLibrary(_OneFunction, private.JITCodeLibrary):
     """Code of a shim."""
 
 
-class _Lower(NativeLowering):
-    """Lowering to intermediate code, into a library of the engine's own."""
+def _lowering(name: str, library: type[private.JITCodeLibrary]) -> type[private.NativeLowering]:
+    """Pass that lowers a function to intermediate code, in a library of one of the classes above.
 
-    _library: type[JITCodeLibrary]
+    The library makes machine code of it, or leaves that to the callers of the function.
+    """
 
-    def run_pass(self, state: Any) -> bool:
-        """Lower the function. The library makes machine code of it, or leaves that to its callers."""
-        state.library = self._library(state.targetctx.codegen(), state.func_id.func_qualname)
-        state.library.enable_object_caching()
-        return bool(super().run_pass(state))
+    @private.register_pass(mutates_CFG=True, analysis_only=False)
+    @final
+    class Lower(private.NativeLowering):
+        _name = f"{name}_native_lowering"
 
+        def run_pass(self, state: Any) -> bool:
+            """Lower the function."""
+            state.library = library(state.targetctx.codegen(), state.func_id.func_qualname)
+            state.library.enable_object_caching()
+            return bool(super().run_pass(state))
 
-@register_pass(mutates_CFG=True, analysis_only=False)
-@final
-class LowerRaw(_Lower):
-    """Lowering of kernels and laws, whose machine code is part of their callers. It saves half of the time."""
-
-    _name, _library = "raw_native_lowering", _RawLibrary
-
-
-@register_pass(mutates_CFG=True, analysis_only=False)
-@final
-class LowerEntry(_Lower):
-    """Lowering of entry points."""
-
-    _name, _library = "entry_native_lowering", _EntryLibrary
+    return Lower
 
 
-@register_pass(mutates_CFG=True, analysis_only=False)
-@final
-class LowerShim(_Lower):
-    """Lowering of shims."""
-
-    _name, _library = "shim_native_lowering", _ShimLibrary
+_LOWER_RAW = _lowering("raw", _RawLibrary)
+"""Lowering of kernels and laws, whose machine code is part of their callers. It saves half of the time."""
 
 
-_ENGINE = (
-    TranslateByteCode,
-    FixupArgs,
-    IRProcessing,
-    ReconstructSSA,
-    NopythonTypeInference,
-    PreLowerStripPhis,
-    IRLegalization,
-    NativeLowering,
-    NoPythonBackend,
-)
-"""The passes of numba that the engine's loops over numbers need."""
-
-
-def _engine_passes(state: Any) -> PassManager:
-    passes = PassManager("engine")
-    for kind in _ENGINE:
+def _engine_passes(state: Any) -> private.PassManager:
+    """The passes of numba that the engine's loops over numbers need."""
+    passes = private.PassManager("engine")
+    for kind in (
+        private.TranslateByteCode,
+        private.FixupArgs,
+        private.IRProcessing,
+        private.ReconstructSSA,
+        private.NopythonTypeInference,
+        private.PreLowerStripPhis,
+        private.IRLegalization,
+        private.NativeLowering,
+        private.NoPythonBackend,
+    ):
         passes.add_pass(kind, kind.__name__)
     return passes
 
 
-def _compiler(numba_passes: Callable[[Any], PassManager], lowering: type) -> type[CompilerBase]:
+def _compiler(numba_passes: Callable[[Any], private.PassManager], lowering: type) -> type[private.CompilerBase]:
     """Compiler class with numba's passes, in which the engine's own replace two and the numbering is added."""
-    own = {NopythonTypeInference: TypeOnce, NativeLowering: lowering}
+    own = {private.NopythonTypeInference: TypeOnce, private.NativeLowering: lowering}
 
     @final
-    class Passes(CompilerBase):
-        def define_pipelines(self) -> list[PassManager]:
-            """Numba's passes, some replaced by those of ``own``, and the numbering of variables behind the first."""
+    class Passes(private.CompilerBase):
+        def define_pipelines(self) -> list[private.PassManager]:
+            """Numba's passes, with those of ``own`` in their places and the numbering of functions after the first."""
             passes = numba_passes(self.state)
             passes.passes = [(own.get(kind, kind), name) for kind, name in passes.passes]
-            passes.add_pass_after(Number, TranslateByteCode)
+            passes.add_pass_after(Number, private.TranslateByteCode)
             passes.finalize()
             return [passes]
 
     return Passes
 
 
-EntryPasses = _compiler(_engine_passes, LowerEntry)
+EntryPasses = _compiler(_engine_passes, _lowering("entry", _EntryLibrary))
 """For entry points."""
-KernelPasses = _compiler(_engine_passes, LowerRaw)
+KernelPasses = _compiler(_engine_passes, _LOWER_RAW)
 """For kernels, whose code is part of entry points."""
-ShimPasses = _compiler(DefaultPassBuilder.define_nopython_pipeline, LowerShim)
+ShimPasses = _compiler(private.DefaultPassBuilder.define_nopython_pipeline, _lowering("shim", _ShimLibrary))
 """For shims, which have an address and call a plug-in's function."""
-LawPasses = _compiler(DefaultPassBuilder.define_nopython_pipeline, LowerRaw)
+LawPasses = _compiler(private.DefaultPassBuilder.define_nopython_pipeline, _LOWER_RAW)
 """For functions of plug-ins, whose code is part of shims."""
 
 
 @final
-class CFunction(CFunc):
+class CFunction(private.CFunc):
     """A C function that is compiled or taken from disk by :meth:`compile`.
 
     Parameters
@@ -274,20 +233,13 @@ class CFunction(CFunc):
         Its file, if it is kept on disk.
     passes : type
         The passes of the compiler.
-    may_allocate : bool
-        Whether a function that allocates memory compiles, as laws of impact with arrays do.
+    options : bool
+        Further options of the compiler.
     """
 
-    def __init__(
-        self,
-        function: Callable[..., Any],
-        signature: Any,
-        store: Store | None,
-        passes: type[CompilerBase],
-        *,
-        may_allocate: bool = False,
-    ) -> None:
-        options = {"nopython": True, "error_model": "numpy", **({} if may_allocate else NO_ALLOCATION)}
-        super().__init__(function, normalize_signature(signature), locals={}, options=options, pipeline_class=passes)
+    def __init__(self, function: Any, signature: Any, store: Store | None, passes: type, **options: bool) -> None:
+        all_options = {"nopython": True, "error_model": "numpy", **options}
+        typed = private.normalize_signature(signature)
+        super().__init__(function, typed, locals={}, options=all_options, pipeline_class=passes)
         if store is not None:
             self._cache = store

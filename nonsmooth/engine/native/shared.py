@@ -12,10 +12,8 @@ from numba.extending import typeof_impl
 from nonsmooth.engine.native.compiler import law_dispatcher
 from nonsmooth.engine.native.numba_names import Dispatcher
 
-
-def jit(function: Callable[..., Any]) -> Any:
-    """Compile a plug-in's function on demand. Its code is kept with that of the shim that calls it."""
-    return law_dispatcher(function)
+jit = law_dispatcher
+"""Compile a plug-in's function on demand. Its code is kept with that of the shim that calls it."""
 
 
 @final
@@ -37,7 +35,7 @@ class Shared:
 
     @functools.cached_property
     def dispatcher(self) -> Any:
-        """Numba's dispatcher. It is made when first needed, as a run needs few of them."""
+        """Numba's dispatcher. It is made at the first use, because a run uses few of them."""
         return jit(self._compiled)
 
     def __call__(self, *arguments: Any) -> Any:
@@ -50,9 +48,8 @@ def _type_of_shared(value: Shared, context: Any) -> Any:
     return types.Dispatcher(value.dispatcher)
 
 
-def shared(function: Callable[..., Any]) -> Any:
-    """Let the compiled functions of plug-ins call a function."""
-    return Shared(function)
+shared = Shared
+"""Let the compiled functions of plug-ins call a function."""
 
 
 def unshared(value: Any) -> Any:

@@ -2,21 +2,32 @@
 
 ``"f8(ws, Contact)"`` takes the workspace and a contact, and returns a float. All names are listed in
 :mod:`nonsmooth.engine.native.kernel`. No name stands for an array: kernels reach arrays through the workspace.
+
+``_replace`` of a named tuple works as in Python. Numba lacks it.
 """
 
 from __future__ import annotations
 
-from typing import Any
+import inspect
+from enum import IntEnum
+from typing import Any, get_type_hints
 
 from numba import types
+from numba.extending import lower_builtin
 
 from nonsmooth.engine.memory.declare import Part
 from nonsmooth.engine.memory.modes import ENUMERATIONS
-from nonsmooth.engine.memory.tables import record_with
-from nonsmooth.engine.native.record_view import types_of
-from nonsmooth.engine.native.results import type_of_result
-from nonsmooth.engine.native.types import FLOATS, INTEGERS, ScalarRecord
-from nonsmooth.engine.native.workspace_view import WORKSPACE, Workspace
+from nonsmooth.engine.native.numba_names import AbstractTemplate, AttributeTemplate, infer_getattr, signature
+from nonsmooth.engine.native.types import FLOATS, INTEGERS, type_of_number
+from nonsmooth.engine.native.views import WORKSPACE, Workspace, types_of
+
+
+def type_of_result(kind: Any) -> Any:
+    """Numba type of a member of an enumeration, or of a named tuple of numbers."""
+    if issubclass(kind, IntEnum):
+        return type_of_number(kind)
+    return types.BaseTuple.from_types([type_of_number(hint) for hint in get_type_hints(kind).values()], kind)
+
 
 _TYPES: dict[str, Any] = {
     "ws": WORKSPACE,
@@ -34,13 +45,13 @@ _TYPES: dict[str, Any] = {
 
 
 def result(kind: Any) -> Any:
-    """Let a kernel return a named tuple of numbers, or an enumeration. Signatures use the name of its class."""
+    """Let signatures of kernels use the name of a class: a named tuple of numbers, or an enumeration."""
     _TYPES[kind.__name__] = type_of_result(kind)
     return kind
 
 
 def signature_of(text: str, workspace: Any = WORKSPACE) -> Any:
-    """Numba signature of a text. ``workspace`` is the type of ``ws``."""
+    """Numba signature of a text as ``"f8(ws, Contact)"``. ``workspace`` is the type of ``ws``."""
     returned, _, arguments = text.partition("(")
     names = [name.strip() for name in arguments.rstrip(")").split(",") if name.strip()]
     known = {**_TYPES, "ws": workspace}
@@ -49,4 +60,36 @@ def signature_of(text: str, workspace: Any = WORKSPACE) -> Any:
 
 def workspace_with(own: type[Part]) -> Any:
     """Type of the workspace of an engine that adds a part of its own."""
-    return Workspace(ScalarRecord(record_with([own])), {own.key: own})
+    return Workspace({own.key: own})
+
+
+class _Replace(AbstractTemplate):
+    """Typing of ``_replace``: all fields are parameters, and those that are not passed are omitted."""
+
+    key = "result._replace"
+
+    def generic(self, args: Any, keywords: Any) -> Any:
+        fields = self.this.fields
+        numbers = zip(fields, self.this, strict=True)
+        given = [kind if name in keywords else types.Omitted(None) for name, kind in numbers]
+        parameters = [inspect.Parameter(name, inspect.Parameter.POSITIONAL_OR_KEYWORD, default=None) for name in fields]
+        found = signature(self.this, *given, recvr=self.this)
+        return found.replace(pysig=inspect.Signature(parameters))
+
+
+@infer_getattr
+class _Methods(AttributeTemplate):
+    key = types.BaseNamedTuple
+
+    def resolve__replace(self, result: Any) -> Any:
+        return types.BoundFunction(_Replace, result)
+
+
+@lower_builtin("result._replace", types.BaseTuple, types.VarArg(types.Any))
+def _replace(context: Any, builder: Any, called: Any, args: Any) -> Any:
+    """A copy of a named tuple with the values that are passed."""
+    old, *new = args
+    for i, kind in enumerate(called.args[1:]):
+        if not isinstance(kind, types.Omitted):
+            old = builder.insert_value(old, new[i], i)
+    return old

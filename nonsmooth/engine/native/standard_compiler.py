@@ -36,7 +36,7 @@ def law_dispatcher(function: Callable[..., Any]) -> Any:
 
 
 def is_stored(key: str) -> bool:
-    """Numba keeps code in files of its own, and finds them when an entry point is compiled."""
+    """Always True: numba looks for its files itself when an entry point is compiled."""
     return True
 
 
@@ -46,7 +46,6 @@ def entry_address(function: Callable[..., Any], signature: Any, key: str) -> int
     Numba does not tell whether it has a file. So the entry point is compiled first while no kernel can be. This
     succeeds if there is a file, and fails at the first call of a kernel otherwise.
     """
-    _say_why()
     kernels = callees_of(function)
     with _uncompilable(kernels), contextlib.suppress(numba.TypingError):
         return _address(function, signature, key, **NO_ALLOCATION)
@@ -57,7 +56,7 @@ def entry_address(function: Callable[..., Any], signature: Any, key: str) -> int
 
 @contextlib.contextmanager
 def _uncompilable(kernels: Sequence[Kernel]) -> Iterator[None]:
-    """Let numba refuse to compile kernels that are not compiled yet."""
+    """Within a ``with`` block, let numba raise `TypingError` for each call of a kernel that is not compiled yet."""
 
     def refuse(signature: Any) -> None:
         raise numba.TypingError("to be compiled with the signature that it declares")
@@ -74,18 +73,18 @@ def _uncompilable(kernels: Sequence[Kernel]) -> Iterator[None]:
 
 def shim_address(function: Callable[..., Any], signature: Any, key: str) -> int:
     """Address of the C function of a shim. It is compiled in each process, as numba keeps only functions of files."""
-    _say_why()
     return _address(function, signature, "")
 
 
-def _say_why() -> None:
+def _address(function: Callable[..., Any], signature: Any, key: str, **options: bool) -> int:
+    """Address of a C function, kept in a file of numba's if it has a key and is defined in a file.
+
+    The user is told, once, why compiling takes long.
+    """
     say(
         f"numba {numba.__version__} lacks a name that fast compilation needs ({MISSING}): "
         "the engine is compiled by numba.njit(cache=True), which takes some minutes the first time"
     )
-
-
-def _address(function: Callable[..., Any], signature: Any, key: str, **options: bool) -> int:
     compiler = functools.partial(numba.cfunc, signature, **_OPTIONS, **options)
     if key and Path(function.__code__.co_filename).is_file():
         compiled = compiler(cache=True)(_renamed(function, key))

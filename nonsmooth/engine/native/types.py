@@ -1,7 +1,7 @@
-"""The numba types of the record of scalars, of floats and of integers, and what the optimiser may know of them.
+"""The numba types of floats and of integers, and what the optimiser may know of the numbers of the workspace.
 
-All three are pointers. Each access names the type of the number, because llvmlite is about to drop the types of
-pointers. Loads and stores carry alias metadata:
+The workspace is reached by pointers. Each access names the type of the number, because llvmlite is about to drop the
+types of pointers. Loads and stores carry alias metadata:
 
 * a store to floats changes neither integers nor scalars;
 * a store to a scalar changes no other scalar;
@@ -12,70 +12,87 @@ Without it, the compiler would load each offset again after each store.
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Sequence
+from enum import IntEnum
 from typing import Any
 
-import numpy as np
 from numba import types
-from numba.extending import lower_builtin, models, register_model, type_callable
+from numba.extending import models, register_model
 
-from nonsmooth.engine.memory.tables import CONSTANT_SCALARS, N_SCALARS, SCALARS
+from nonsmooth.engine.memory.tables import CONSTANT_SCALARS
 from nonsmooth.engine.native.numba_names import ir
+
+WORD = ir.IntType(64)
+"""The llvmlite type of integers, booleans and members of enumerations in memory."""
+_TYPES = {bool: types.boolean, int: types.int64, float: types.float64}
+
+
+def type_of_number(kind: type) -> Any:
+    """Numba type of a boolean, an integer, a float, or a member of an enumeration."""
+    return types.IntEnumMember(kind, types.int64) if issubclass(kind, IntEnum) else _TYPES[kind]
+
+
+def stored_type(kind: type) -> Any:
+    """The llvmlite type of a number in memory."""
+    return ir.DoubleType() if kind is float else WORD
 
 
 class Pointer(types.Type):
-    """A pointer to floats or integers."""
+    """A pointer to floats or integers.
 
-    def __init__(self, name: str, dtype: Any) -> None:
-        self.dtype = dtype
+    Parameters
+    ----------
+    name : str
+        Name of the memory, for :func:`tag`.
+    kind : type
+        float or int.
+    """
+
+    def __init__(self, name: str, kind: type) -> None:
+        self.kind, self.dtype = kind, _TYPES[kind]
         super().__init__(name=name)
 
 
-class ScalarRecord(types.Type):
-    """A pointer to the record of scalars, all of which are eight bytes long.
-
-    The record of an engine with a part of its own has further scalars at its end, by which its type is named.
-    """
-
-    def __init__(self, record: np.dtype[np.void]) -> None:
-        self.record = record
-        self.names = record.names or ()
-        super().__init__(name=f"Scalars({', '.join(self.names[N_SCALARS:])})")
-
-
-FLOATS = Pointer("Floats", types.float64)
-INTEGERS = Pointer("Integers", types.int64)
-SCALAR_RECORD = ScalarRecord(SCALARS)
+FLOATS, INTEGERS, SCALARS = Pointer("Floats", float), Pointer("Integers", int), Pointer("Scalars", int)
 
 
 @register_model(Pointer)
 class _PointerModel(models.PrimitiveModel):
-    def __init__(self, manager: Any, kind: Pointer) -> None:
-        super().__init__(manager, kind, manager.lookup(kind.dtype).get_data_type().as_pointer())
+    def __init__(self, manager: Any, pointer: Pointer) -> None:
+        super().__init__(manager, pointer, stored_type(pointer.kind).as_pointer())
 
 
-@register_model(ScalarRecord)
-class _ScalarRecordModel(models.PrimitiveModel):
-    def __init__(self, manager: Any, kind: ScalarRecord) -> None:
-        super().__init__(manager, kind, ir.IntType(64).as_pointer())
+def pointer_to(kind: type) -> Pointer:
+    """Type of a pointer to numbers of a Python type. Booleans and members of enumerations are among the integers."""
+    return FLOATS if kind is float else INTEGERS
 
 
-def moved(context: Any, builder: Any, kind: Pointer, pointer: Any, offset: Any) -> Any:
-    """The pointer ``offset`` elements further."""
-    return builder.gep(pointer, [offset], source_etype=context.get_value_type(kind.dtype))
+def moved(builder: Any, kind: type, pointer: Any, offset: Any) -> Any:
+    """The pointer ``offset`` numbers further."""
+    return builder.gep(pointer, [offset], source_etype=stored_type(kind))
 
 
-def load(context: Any, builder: Any, kind: Pointer, place: Any) -> Any:
-    """Load the number at a pointer."""
-    number = builder.load(place, typ=context.get_value_type(kind.dtype))
-    tag(number, kind.name)
-    return number
+def load(builder: Any, kind: type, place: Any, memory: str = "") -> Any:
+    """Load the number of a Python type at a pointer into the floats or integers, or into another memory."""
+    number = builder.load(place, typ=stored_type(kind))
+    tag(number, memory or pointer_to(kind).name)
+    if memory in CONSTANT_SCALARS:
+        number.set_metadata("invariant.load", builder.module.add_metadata([]))
+    return builder.icmp_signed("!=", number, WORD(0)) if kind is bool else number
 
 
-def store(builder: Any, kind: Pointer, place: Any, number: Any) -> None:
-    """Store a number at a pointer."""
-    tag(builder.store(number, place), kind.name)
+def store(builder: Any, kind: type, place: Any, number: Any, memory: str = "") -> None:
+    """Store a number of a Python type at a pointer into the floats or integers, or into another memory."""
+    stored = builder.zext(number, WORD) if kind is bool else number
+    tag(builder.store(stored, place), memory or pointer_to(kind).name)
+
+
+def tag(access: Any, memory: str) -> None:
+    """Mark a load or store as one of the memory of that name. Memories of different names do not overlap."""
+    module = access.function.module
+    root = module.add_metadata(["nonsmooth"])
+    kind = module.add_metadata([memory, root, WORD(0)])
+    access.set_metadata("tbaa", module.add_metadata([kind, kind, WORD(0)]))
 
 
 class Callee:
@@ -99,73 +116,3 @@ def call_at(builder: Any, address: Any, result: Any, arguments: Sequence[Any]) -
     """Call the C function at an address, which is an integer. ``result`` is the llvmlite type of its result."""
     function_type = ir.FunctionType(result, [argument.type for argument in arguments])
     return builder.call(Callee(builder.inttoptr(address, function_type.as_pointer()), function_type), arguments)
-
-
-def tag(access: Any, name: str) -> None:
-    """Mark a load or store as one of the memory called ``name``. Memories of different names do not overlap."""
-    module = access.function.module
-    zero = ir.Constant(ir.IntType(64), 0)
-    root = module.add_metadata(["nonsmooth"])
-    kind = module.add_metadata([name, root, zero])
-    access.set_metadata("tbaa", module.add_metadata([kind, kind, zero]))
-
-
-@type_callable(operator.getitem)
-def _type_getitem(context: Any) -> Any:
-    def typer(pointer: Any, index: Any) -> Any:
-        return pointer.dtype if isinstance(pointer, Pointer) and isinstance(index, types.Integer) else None
-
-    return typer
-
-
-@type_callable(operator.setitem)
-def _type_setitem(context: Any) -> Any:
-    def typer(pointer: Any, index: Any, value: Any) -> Any:
-        if isinstance(pointer, Pointer) and isinstance(index, types.Integer):
-            return types.void(pointer, types.int64, pointer.dtype)
-        return None
-
-    return typer
-
-
-@lower_builtin(operator.getitem, Pointer, types.Integer)
-def _get_item(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-    kind = signature.args[0]
-    return load(context, builder, kind, moved(context, builder, kind, *args))
-
-
-@lower_builtin(operator.setitem, Pointer, types.Integer, types.Any)
-def _set_item(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-    kind, _index, given = signature.args
-    place = moved(context, builder, kind, args[0], args[1])
-    store(builder, kind, place, context.cast(builder, args[2], given, kind.dtype))
-    return context.get_dummy_value()
-
-
-def type_of_scalar(scalars: ScalarRecord, name: str) -> Any:
-    """Numba type of a scalar."""
-    return types.float64 if scalars.record[name].kind == "f" else types.int64
-
-
-def _place_of_scalar(context: Any, builder: Any, scalars: ScalarRecord, pointer: Any, name: str) -> Any:
-    word = ir.IntType(64)
-    place = builder.gep(pointer, [ir.Constant(word, scalars.names.index(name))], source_etype=word)
-    return builder.bitcast(place, context.get_value_type(type_of_scalar(scalars, name)).as_pointer())
-
-
-def load_scalar(context: Any, builder: Any, scalars: ScalarRecord, pointer: Any, name: str) -> Any:
-    """Load a scalar of the record at a pointer."""
-    place = _place_of_scalar(context, builder, scalars, pointer, name)
-    number = builder.load(place, typ=context.get_value_type(type_of_scalar(scalars, name)))
-    tag(number, name)
-    if name in CONSTANT_SCALARS:
-        number.set_metadata("invariant.load", builder.module.add_metadata([]))
-    return number
-
-
-def store_scalar(
-    context: Any, builder: Any, scalars: ScalarRecord, pointer: Any, name: str, value: Any, given: Any
-) -> None:
-    """Store a value of the numba type ``given`` as a scalar of the record at a pointer."""
-    number = context.cast(builder, value, given, type_of_scalar(scalars, name))
-    tag(builder.store(number, _place_of_scalar(context, builder, scalars, pointer, name)), name)

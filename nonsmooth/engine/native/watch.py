@@ -7,10 +7,10 @@ from nonsmooth.engine.native.kernel import Workspace, call_watch, kernel
 
 @kernel("b1(ws, i8)")
 def interrupted(ws: Workspace, work: int) -> bool:
-    """True if the run is to stop. Adds ``work``, about one per evaluation of a contact or pair in a matrix.
+    """Add ``work`` to the work done, and call the interrupt check if the budget is used up. True if the run must stop.
 
-    The check is called when the work budget is used up, and returns the next budget; zero stops the run. Long loops
-    then end as if they had failed, so that no unfinished result is used.
+    A unit of work is about one evaluation of a contact, or of a pair in a matrix. The check returns the next budget,
+    zero to stop the run. Long loops then end as if they had failed, so that no unfinished result is used.
     """
     ws.request.n_work += work
     if ws.request.n_work >= ws.request.work_budget and ws.request.interrupt_check != 0:

@@ -13,35 +13,3 @@ from nonsmooth.engine.memory.owners.model import Coefficients, Model, Options, T
 from nonsmooth.engine.memory.owners.neighbours import Carrier, HalfSpace, Pair, Search, Sphere
 from nonsmooth.engine.memory.owners.problem import Problem
 from nonsmooth.engine.memory.owners.run import Output, Request, Run, Totals
-
-__all__ = [
-    "ActiveContact",
-    "Articulation",
-    "Body",
-    "Carrier",
-    "Coefficients",
-    "Contact",
-    "DeclaredContact",
-    "Event",
-    "Guard",
-    "HalfSpace",
-    "Impact",
-    "ImpactGuard",
-    "Island",
-    "Joint",
-    "Load",
-    "Model",
-    "Options",
-    "Output",
-    "OwnGuard",
-    "Pair",
-    "Problem",
-    "Request",
-    "Run",
-    "Search",
-    "Sphere",
-    "Step",
-    "Tolerance",
-    "Totals",
-    "Unknown",
-]

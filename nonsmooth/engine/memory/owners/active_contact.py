@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import final
 
-from nonsmooth.engine.memory.declare import Life, Record, one_of, question, real, row, vector, whole
+from nonsmooth.engine.memory.declare import Life, Record, Vector2, one_of, question, real, row, vector, whole
 from nonsmooth.engine.memory.modes import Mode, Phase
 from nonsmooth.engine.memory.sizes import per
 from nonsmooth.types import Floats
@@ -36,20 +36,16 @@ class ActiveContact(Record, key="actives", capacity="n_slots", length="problem.n
     has_given_force: bool = question(_SOLUTION, "The normal force is given by a law.")
     acceleration: Floats = row(_SOLUTION, 3, "m/s^2", "Acceleration, n, t1, t2.")
     normal_acceleration: float = real(_SOLUTION, "m/s^2", "Normal acceleration.", inside=("acceleration", 0))
-    slip_acceleration: tuple[float, float] = vector(
-        _SOLUTION, 2, "m/s^2", "Slip acceleration.", inside=("acceleration", 1)
-    )
+    slip_acceleration: Vector2 = vector(_SOLUTION, 2, "m/s^2", "Slip acceleration.", inside=("acceleration", 1))
     gap_after: float = real(_SOLUTION, "m", "Gap after the time over which forces are averaged.")
     force: Floats = row(_SOLUTION, 3, "N", "Contact force, n, t1, t2.", inside=("problem.forces", 0))
     normal_force: float = real(_SOLUTION, "N", "Normal force.", inside=("problem.forces", 0))
-    friction: tuple[float, float] = vector(_SOLUTION, 2, "N", "Friction force.", inside=("problem.forces", 1))
-    free: Floats = row(
-        _SOLUTION, 3, "m/s^2", "Acceleration without contact forces.", inside=("problem.free_accelerations", 0)
-    )
+    friction: Vector2 = vector(_SOLUTION, 2, "N", "Friction force.", inside=("problem.forces", 1))
+    free: Floats = row(_SOLUTION, 3, "m/s^2", "Contact-free acceleration.", inside=("problem.free_accelerations", 0))
     rigid: Floats = row(_SOLUTION, 3, "1/kg", "Diagonal of its Delassus block, while the search changes it.")
-    direction: tuple[float, float] = vector(_SOLUTION, 2, "1", "Slip direction that the search tries.")
-    direction_found: tuple[float, float] = vector(_SOLUTION, 2, "1", "Slip direction of the best attempt.")
-    direction_closed: tuple[float, float] = vector(_SOLUTION, 2, "1", "Slip direction while static friction is tried.")
+    direction: Vector2 = vector(_SOLUTION, 2, "1", "Slip direction that the search tries.")
+    direction_found: Vector2 = vector(_SOLUTION, 2, "1", "Slip direction of the best attempt.")
+    direction_closed: Vector2 = vector(_SOLUTION, 2, "1", "Slip direction while static friction is tried.")
 
     # --- its rows of the matrices -------------------------------------------------------------------------------------
     first_unknown: int = whole(_SOLUTION, "First of its unknowns.", inside=("problem.first_unknown", 0))
@@ -63,7 +59,7 @@ class ActiveContact(Record, key="actives", capacity="n_slots", length="problem.n
     diagonal_block: int = whole(Life.DERIVED, "Its Delassus block on the diagonal.", behind="problem.first_grouped")
     n_blocks: int = whole(_SOLUTION, "Number of contacts that it acts on.")
     block_mark: int = whole(_SOLUTION, "Contact that has counted it last.")
-    rank: int = whole(_SOLUTION, "Its place in the order with a small band, or -1.")
+    rank: int = whole(_SOLUTION, "Its position in the order with a small band, or -1.")
 
     # --- an impact ----------------------------------------------------------------------------------------------------
     phase: Phase = one_of(Phase, _IMPACT, "Phase of the impact.")
@@ -77,14 +73,10 @@ class ActiveContact(Record, key="actives", capacity="n_slots", length="problem.n
     impulse: Floats = row(_IMPACT, 3, "N s", "Impulse, n, t1, t2.", inside=("impact.impulse", 0))
     rate: Floats = row(_IMPACT, 3, "m/s", "Gap rate and slip velocity.", inside=("impact.rates", 0))
     gap_rate: float = real(_IMPACT, "m/s", "Gap rate.", inside=("impact.rates", 0))
-    slip: tuple[float, float] = vector(_IMPACT, 2, "m/s", "Slip velocity.", inside=("impact.rates", 1))
-    rate_before: Floats = row(
-        _IMPACT, 3, "m/s", "Gap rate and slip velocity before the impact.", inside=("impact.rates_before", 0)
-    )
+    slip: Vector2 = vector(_IMPACT, 2, "m/s", "Slip velocity.", inside=("impact.rates", 1))
+    rate_before: Floats = row(_IMPACT, 3, "m/s", "Gap rate and slip before impact.", inside=("impact.rates_before", 0))
     gap_rate_before: float = real(_IMPACT, "m/s", "Gap rate before the impact.", inside=("impact.rates_before", 0))
-    slip_before: tuple[float, float] = vector(
-        _IMPACT, 2, "m/s", "Slip velocity before the impact.", inside=("impact.rates_before", 1)
-    )
+    slip_before: Vector2 = vector(_IMPACT, 2, "m/s", "Slip velocity before impact.", inside=("impact.rates_before", 1))
     deformation_scale: float = real(_IMPACT, "m", "Scale of the deformation.")
     force_scale: float = real(_IMPACT, "N", "Scale of the force.")
     energy_scale: float = real(_IMPACT, "J", "Scale of the energy.")
@@ -94,7 +86,7 @@ class ActiveContact(Record, key="actives", capacity="n_slots", length="problem.n
     stored_kept: float = real(_IMPACT, "J", "Energy stored before a contact became the clock.")
     returned_kept: float = real(_IMPACT, "J", "Energy returned before a contact became the clock.")
     accounted_kept: float = real(_IMPACT, "J", "Work accounted for before a contact became the clock.")
-    direction_kept: tuple[float, float] = vector(_IMPACT, 2, "1", "Slip direction before a contact became the clock.")
+    direction_kept: Vector2 = vector(_IMPACT, 2, "1", "Slip direction before a contact became the clock.")
 
 
 @final

@@ -4,27 +4,29 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, final
 
-from nonsmooth.engine.memory.blocks import (
-    FEATURE,
-    GAP,
-    GEOMETRY,
-    NORMAL,
-    PAST_END,
-    POINT_A,
-    POINT_B,
-    SIDE_A,
-    SIDE_B,
-    SLIDE_MATRIX,
-    TANGENT,
-    TURN_MATRIX,
+from nonsmooth.engine.memory import blocks
+from nonsmooth.engine.memory.declare import (
+    Life,
+    Record,
+    Vector2,
+    Vector3,
+    Vector4,
+    address,
+    one_of,
+    question,
+    real,
+    row,
+    vector,
+    whole,
 )
-from nonsmooth.engine.memory.declare import Life, Record, address, one_of, question, real, row, vector, whole
 from nonsmooth.engine.memory.modes import Cause, Mode, Phase
 from nonsmooth.engine.memory.sizes import per
 from nonsmooth.types import Floats
 
 _PARAMETER, _STATE, _REUSED = Life.PARAMETER, Life.STATE, Life.REUSED
 _STEP, _EVENT, _IMPACT = Life.STEP, Life.EVENT, Life.IMPACT
+_SLIDE_A, _TURN_A = blocks.SIDE_A + blocks.SLIDE_MATRIX, blocks.SIDE_A + blocks.TURN_MATRIX
+_SLIDE_B, _TURN_B = blocks.SIDE_B + blocks.SLIDE_MATRIX, blocks.SIDE_B + blocks.TURN_MATRIX
 
 
 @final
@@ -40,60 +42,54 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     body_b: int = whole(_PARAMETER, "Second body.")
     articulation_a: int = whole(_PARAMETER, "Articulation of the first body.")
     articulation_b: int = whole(_PARAMETER, "Articulation of the second body.")
-    frame_a: int = whole(_PARAMETER, "Place of the frame of the first body.")
-    frame_b: int = whole(_PARAMETER, "Place of the frame of the second body.")
+    frame_a: int = whole(_PARAMETER, "Offset of the frame of the first body.")
+    frame_b: int = whole(_PARAMETER, "Offset of the frame of the second body.")
     n_u_a: int = whole(_PARAMETER, "Number of velocities of the first body.")
     n_u_b: int = whole(_PARAMETER, "Number of velocities of the second body.")
     column_a: int = whole(_PARAMETER, "Column of the first body in the Jacobian of its articulation.")
     column_b: int = whole(_PARAMETER, "Column of the second body in the Jacobian of its articulation.")
     support_radius_a: float = real(_PARAMETER, "m", "Largest distance of surface a from its origin.")
     support_radius_b: float = real(_PARAMETER, "m", "Largest distance of surface b from its origin.")
-    spin_axis: tuple[float, float, float] = vector(
-        _PARAMETER, 3, "1", "Body-fixed axis about which the smaller shape may spin unseen, or zero."
-    )
+    spin_axis: Vector3 = vector(_PARAMETER, 3, "1", "Body axis about which the smaller shape may spin unseen, or zero.")
     size: float = real(_PARAMETER, "m", "Size of the smaller body.")
     contact_time: float = real(_PARAMETER, "s", "Duration of an impact, below which bounces are not resolved.")
     reach: float = real(_PARAMETER, "m", "Gap up to which a compliant contact acts.")
     geometry_function: int = address(_PARAMETER, "Address of the function that writes the geometry.")
-    geometry_parameters: int = whole(_PARAMETER, "Place of the parameters of the geometry.")
-    is_compliant: bool = question(
-        _PARAMETER, "The normal force is a function of gap and rate.", inside=("normal_function", 0)
-    )
+    geometry_parameters: int = whole(_PARAMETER, "Offset of the parameters of the geometry.")
+    is_compliant: bool = question(_PARAMETER, "Normal force depends on gap and rate.", inside=("normal_function", 0))
     normal_function: int = address(_PARAMETER, "Address of the normal law of a compliant contact, else 0.")
-    geometry: Floats = row(_REUSED, GEOMETRY, "", "Block that the kinematics writes; its parts have names below.")
-    normal_parameters: int = whole(_PARAMETER, "Place of the parameters of the normal law.")
+    geometry: Floats = row(_REUSED, blocks.GEOMETRY, "", "Block that the kinematics writes, by parts below.")
+    normal_parameters: int = whole(_PARAMETER, "Offset of the parameters of the normal law.")
     friction_function: int = address(_PARAMETER, "Address of the friction law.")
-    friction_parameters: int = whole(_PARAMETER, "Place of the parameters of the friction law.")
+    friction_parameters: int = whole(_PARAMETER, "Offset of the parameters of the friction law.")
     is_anisotropic: bool = question(_PARAMETER, "Friction depends on the direction.")
-    anisotropy: int = whole(_PARAMETER, "Place of axis and ratios of anisotropic friction.")
-    has_traction_law: bool = question(
-        _PARAMETER, "A law gives friction force and moment.", inside=("traction_function", 0)
-    )
+    anisotropy: int = whole(_PARAMETER, "Offset of axis and ratios of anisotropic friction.")
+    has_traction_law: bool = question(_PARAMETER, "A law gives friction and moment.", inside=("traction_function", 0))
     traction_function: int = address(_PARAMETER, "Address of the traction law, or 0.")
-    traction_parameters: int = whole(_PARAMETER, "Place of the parameters of the traction law.")
-    traction_out: int = whole(_PARAMETER, "Place where the traction law writes.")
+    traction_parameters: int = whole(_PARAMETER, "Offset of the parameters of the traction law.")
+    traction_out: int = whole(_PARAMETER, "Offset at which the traction law writes.")
     rates_function: int = address(_PARAMETER, "Address of the function of the rates of inner states, or 0.")
-    rates_parameters: int = whole(_PARAMETER, "Place of the parameters of the rates.")
-    rates_out: int = whole(_PARAMETER, "Place where the rates of inner states are written.")
+    rates_parameters: int = whole(_PARAMETER, "Offset of the parameters of the rates.")
+    rates_out: int = whole(_PARAMETER, "Offset at which the rates of inner states begin.")
     inner_states: int = whole(_PARAMETER, "Offset of the law's inner states in the state.")
     n_inner_states: int = whole(_PARAMETER, "Number of inner states of the law.")
-    inner_states_at_start: int = whole(_PARAMETER, "Place of the inner states of a new contact.")
-    inner_states_copy: int = whole(_PARAMETER, "Place of the inner states that the law reads.")
+    inner_states_at_start: int = whole(_PARAMETER, "Offset of the inner states of a new contact.")
+    inner_states_copy: int = whole(_PARAMETER, "Offset of the inner states that the law reads.")
     impact_force_function: int = address(_PARAMETER, "Address of force over deformation in an impact.")
-    impact_force_parameters: int = whole(_PARAMETER, "Place of the parameters of force over deformation.")
+    impact_force_parameters: int = whole(_PARAMETER, "Offset of the parameters of force over deformation.")
     efficiency_function: int = address(_PARAMETER, "Address of the efficiency over the gap rate, Eq. (28).")
-    efficiency_parameters: int = whole(_PARAMETER, "Place of the parameters of the efficiency.")
-    map_parameters: int = whole(_PARAMETER, "Place of the parameters of an impact law that maps velocities.")
-    features: int = whole(_PARAMETER, "Place of the pair of features out of a pool, or 0.")
+    efficiency_parameters: int = whole(_PARAMETER, "Offset of the parameters of the efficiency.")
+    map_parameters: int = whole(_PARAMETER, "Offset of the parameters of an impact law that maps velocities.")
+    features: int = whole(_PARAMETER, "Offset of the pair of features out of a pool, or 0.")
     pair: int = whole(_PARAMETER, "Pair of convex parts that the contact belongs to, or -1.")
-    jacobian_a: int = whole(_PARAMETER, "Place of W^T and N^T of the first body, rows n, t1, t2.", is_of_slot=True)
-    jacobian_b: int = whole(_PARAMETER, "Place of W^T and N^T of the second body.", is_of_slot=True)
-    response_a: int = whole(_PARAMETER, "Place of K W and K N of the first body.", is_of_slot=True)
-    response_b: int = whole(_PARAMETER, "Place of K W and K N of the second body.", is_of_slot=True)
+    jacobian_a: int = whole(_PARAMETER, "Offset of W^T and N^T of the first body, rows n, t1, t2.", is_of_slot=True)
+    jacobian_b: int = whole(_PARAMETER, "Offset of W^T and N^T of the second body.", is_of_slot=True)
+    response_a: int = whole(_PARAMETER, "Offset of K W and K N of the first body.", is_of_slot=True)
+    response_b: int = whole(_PARAMETER, "Offset of K W and K N of the second body.", is_of_slot=True)
 
     # --- its history --------------------------------------------------------------------------------------------------
     mode: Mode = one_of(Mode, _STATE, "Open, stick or slide.")
-    direction: tuple[float, float] = vector(_STATE, 2, "1", "Unit direction of the slip, or of the slip that begins.")
+    direction: Vector2 = vector(_STATE, 2, "1", "Unit direction of the slip, or of the slip that begins.")
     facing: int = whole(_STATE, "Side, 1 or -1, from which anisotropic friction is opposed.", is_of_slot=True)
     closing_rate: float = real(_STATE, "m/s", "Gap rate with which a compliant contact closed.")
     force_round_off: float = real(_STATE, "N", "Normal force that counts as zero.")
@@ -114,22 +110,15 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     # --- what the next step starts from -------------------------------------------------------------------------------
     gap_at_end: float = real(_REUSED, "m", "Gap at the end of the step.")
     gap_rate_at_end: float = real(_REUSED, "m/s", "Gap rate at the end of the step.")
-    velocity_at_end: tuple[float, float, float] = vector(_REUSED, 3, "m/s", "Gap rate and slip at the end of the step.")
-    slip_at_end: tuple[float, float] = vector(
-        _REUSED, 2, "m/s", "Slip velocity at the end of the step.", inside=("velocity_at_end", 1)
-    )
+    velocity_at_end: Vector3 = vector(_REUSED, 3, "m/s", "Gap rate and slip at the end of the step.")
+    slip_at_end: Vector2 = vector(_REUSED, 2, "m/s", "Slip at the end of the step.", inside=("velocity_at_end", 1))
     overlap_at_end: float = real(_REUSED, "m", "Overlap at the end of the step.")
     past_feature_at_end: float = real(_REUSED, "m", "Distance past the features at the end of the step.")
     speed_at_end: float = real(_REUSED, "m/s", "Bound of the rate of the gap at the end of the step.")
-    acceleration_bound_at_end: tuple[float, float, float] = vector(
+    acceleration_bound_at_end: Vector3 = vector(
         _REUSED, 3, "m/s^2, m/s^2, 1/s", "Bounds of gap acceleration and turning at the end of the step."
     )
-    turning_bound_at_end: float = real(
-        _REUSED, "1/s", "Bound of the relative turning at the end of the step.", inside=("acceleration_bound_at_end", 2)
-    )
-    offset_at_end: tuple[float, float, float] = vector(
-        _REUSED, 3, "m", "Offset of the contact point from the body at the end of the step."
-    )
+    offset_at_end: Vector3 = vector(_REUSED, 3, "m", "Offset of the contact point from the body at the step's end.")
     is_held_by_friction: bool = question(_REUSED, "Friction holds the contact.")
     has_redundant_force: bool = question(_REUSED, "The force is not unique.")
     static_margin: float = real(_REUSED, "N", "Distance of the friction to its static bound.")
@@ -137,71 +126,33 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     force: Floats = row(_REUSED, 3, "N", "Contact force, n, t1, t2.")
     is_touching: bool = question(_REUSED, "The surfaces touch within the tolerances.")
     group: int = whole(Life.DERIVED, "Island of the contact.")
-    gap: float = real(
-        _REUSED, "m", "Distance of the surfaces along the normal, negative if they overlap.", inside=("geometry", GAP)
-    )
-    normal: tuple[float, float, float] = vector(
-        _REUSED, 3, "1", "Normal as the kinematics writes it.", inside=("geometry", NORMAL)
-    )
-    tangent: tuple[float, float, float] = vector(
-        _REUSED, 3, "1", "First tangent as the kinematics writes it.", inside=("geometry", TANGENT)
-    )
-    point_a: tuple[float, float, float] = vector(
-        _REUSED, 3, "m", "Witness point on the first body.", inside=("geometry", POINT_A)
-    )
-    point_b: tuple[float, float, float] = vector(
-        _REUSED, 3, "m", "Witness point on the second body.", inside=("geometry", POINT_B)
-    )
-    slide_a: tuple[float, float, float, float] = vector(
-        _REUSED,
-        4,
-        "1",
-        "Matrix that maps sliding of the witness over the first surface.",
-        inside=("geometry", SIDE_A + SLIDE_MATRIX),
-    )
-    turn_a: tuple[float, float, float, float] = vector(
-        _REUSED,
-        4,
-        "m",
-        "Matrix that maps turning of the normal on the first surface.",
-        inside=("geometry", SIDE_A + TURN_MATRIX),
-    )
-    slide_b: tuple[float, float, float, float] = vector(
-        _REUSED,
-        4,
-        "1",
-        "Matrix that maps sliding of the witness over the second surface.",
-        inside=("geometry", SIDE_B + SLIDE_MATRIX),
-    )
-    turn_b: tuple[float, float, float, float] = vector(
-        _REUSED,
-        4,
-        "m",
-        "Matrix that maps turning of the normal on the second surface.",
-        inside=("geometry", SIDE_B + TURN_MATRIX),
-    )
+    gap: float = real(_REUSED, "m", "Gap along the normal, negative in an overlap.", inside=("geometry", blocks.GAP))
+    normal: Vector3 = vector(_REUSED, 3, "1", "Normal, from the kinematics.", inside=("geometry", blocks.NORMAL))
+    tangent: Vector3 = vector(_REUSED, 3, "1", "Tangent t1, from the kinematics.", inside=("geometry", blocks.TANGENT))
+    point_a: Vector3 = vector(_REUSED, 3, "m", "Witness point on the first body.", inside=("geometry", blocks.POINT_A))
+    point_b: Vector3 = vector(_REUSED, 3, "m", "Witness point on the second body.", inside=("geometry", blocks.POINT_B))
+    slide_a: Vector4 = vector(_REUSED, 4, "1", "Matrix of sliding over surface a.", inside=("geometry", _SLIDE_A))
+    turn_a: Vector4 = vector(_REUSED, 4, "m", "Matrix of turning on surface a.", inside=("geometry", _TURN_A))
+    slide_b: Vector4 = vector(_REUSED, 4, "1", "Matrix of sliding over surface b.", inside=("geometry", _SLIDE_B))
+    turn_b: Vector4 = vector(_REUSED, 4, "m", "Matrix of turning on surface b.", inside=("geometry", _TURN_B))
     axes: Floats = row(_REUSED, 9, "1", "Rows n, t1, t2; of anisotropic friction t1 and t2 are stretched.")
-    axis_n: tuple[float, float, float] = vector(_REUSED, 3, "1", "Row n of the axes.", inside=("axes", 0))
-    axis_1: tuple[float, float, float] = vector(_REUSED, 3, "1", "Row t1 of the axes.", inside=("axes", 3))
-    axis_2: tuple[float, float, float] = vector(_REUSED, 3, "1", "Row t2 of the axes.", inside=("axes", 6))
-    stretch_1: tuple[float, float] = vector(_REUSED, 2, "1", "Row t1 along the unit tangents.")
-    stretch_2: tuple[float, float] = vector(_REUSED, 2, "1", "Row t2 along the unit tangents.")
+    axis_n: Vector3 = vector(_REUSED, 3, "1", "Row n of the axes.", inside=("axes", 0))
+    axis_1: Vector3 = vector(_REUSED, 3, "1", "Row t1 of the axes.", inside=("axes", 3))
+    axis_2: Vector3 = vector(_REUSED, 3, "1", "Row t2 of the axes.", inside=("axes", 6))
+    stretch_1: Vector2 = vector(_REUSED, 2, "1", "Row t1 along the unit tangents.")
+    stretch_2: Vector2 = vector(_REUSED, 2, "1", "Row t2 along the unit tangents.")
     version_a: int = whole(_REUSED, "Evaluation of the first body that the contact was evaluated with.")
     version_b: int = whole(_REUSED, "Evaluation of the second body that the contact was evaluated with.")
-    feature_now: float = real(_REUSED, "1", "Number of the features in contact.", inside=("geometry", FEATURE))
+    feature_now: float = real(_REUSED, "1", "Number of the features in contact.", inside=("geometry", blocks.FEATURE))
     past_feature: float = real(
-        _REUSED, "m", "Distance of the witness points past the end of their features.", inside=("geometry", PAST_END)
+        _REUSED, "m", "Distance past the ends of features.", inside=("geometry", blocks.PAST_END)
     )
     overlap: float = real(_REUSED, "m", "Gap where the surfaces overlap, else 0.")
     rate: Floats = row(_REUSED, 3, "m/s", "Gap rate and slip velocity, one by one.")
-    velocity: tuple[float, float, float] = vector(
-        _REUSED, 3, "m/s", "Gap rate and slip velocity, as a tuple.", inside=("rate", 0)
-    )
+    velocity: Vector3 = vector(_REUSED, 3, "m/s", "Gap rate and slip velocity, as a tuple.", inside=("rate", 0))
     normal_rate: float = real(_REUSED, "m/s", "Gap rate.", inside=("rate", 0))
-    slip: tuple[float, float] = vector(
-        _REUSED, 2, "m/s", "Slip velocity along the rows of the axes.", inside=("rate", 1)
-    )
-    slip_of_tangents: tuple[float, float] = vector(_REUSED, 2, "m/s", "Slip velocity along the unit tangents.")
+    slip: Vector2 = vector(_REUSED, 2, "m/s", "Slip velocity along the rows of the axes.", inside=("rate", 1))
+    slip_of_tangents: Vector2 = vector(_REUSED, 2, "m/s", "Slip velocity along the unit tangents.")
     gap_rate_at_start: float = real(_REUSED, "m/s", "Gap rate at the start of the step.")
 
     # --- a step -------------------------------------------------------------------------------------------------------
@@ -212,18 +163,10 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     gap_at_start: float = real(_STEP, "m", "Gap at the start of the step.")
     past_feature_at_start: float = real(_STEP, "m", "Distance past the features at the start of the step.")
     speed_at_start: float = real(_STEP, "m/s", "Bound of the rate of the gap at the start of the step.")
-    acceleration_bound_at_start: tuple[float, float, float] = vector(
+    acceleration_bound_at_start: Vector3 = vector(
         _STEP, 3, "m/s^2, m/s^2, 1/s", "Bounds of gap acceleration and turning at the start of the step."
     )
-    turning_bound_at_start: float = real(
-        _STEP,
-        "1/s",
-        "Bound of the relative turning at the start of the step.",
-        inside=("acceleration_bound_at_start", 2),
-    )
-    offset_at_start: tuple[float, float, float] = vector(
-        _STEP, 3, "m", "Offset of the contact point from the body at the start of the step."
-    )
+    offset_at_start: Vector3 = vector(_STEP, 3, "m", "Offset of the contact point from the body at the step's start.")
     closing_time: float = real(_STEP, "s", "Expected time until the gap of bodies in flight closes.")
     least_force: float = real(_STEP, "N", "Smallest normal guard in the stages of the step.")
     feature: int = whole(_STEP, "Features at the start of the step, -1 if not watched.")
@@ -236,24 +179,16 @@ class Contact(Record, key="contacts", capacity="n_slots", length="island.n_conta
     code_during: int = whole(_EVENT, "Bits of Eq. (29) during the impact.")
     was_averaged: bool = question(_EVENT, "Forces were averaged before the event.")
     event_impulse: Floats = row(_EVENT, 3, "N s", "Impulse of the event, n, t1, t2.")
-    event_friction: tuple[float, float] = vector(
-        _EVENT, 2, "N s", "Tangential impulse of the event.", inside=("event_impulse", 1)
-    )
+    event_friction: Vector2 = vector(_EVENT, 2, "N s", "Tangential impulse of the event.", inside=("event_impulse", 1))
     prescribed_rate: Floats = row(_EVENT, 3, "m/s", "Part of the rates that driven bodies prescribe.")
     mode_agreed: Mode = one_of(Mode, _EVENT, "Mode that the contact problem found.")
-    direction_agreed: tuple[float, float] = vector(_EVENT, 2, "1", "Slip direction that the contact problem found.")
+    direction_agreed: Vector2 = vector(_EVENT, 2, "1", "Slip direction that the contact problem found.")
     has_no_force: bool = question(_EVENT, "Sliding has no contact force (Painleve).")
-    release: Cause = one_of(
-        Cause, _STATE, "Cause by which a jump of the contact point released it at this instant, else `NO_RELEASE`."
-    )
-    point_a_before_jump: tuple[float, float, float] = vector(
-        _EVENT, 3, "m", "Witness point on the first body before the jump."
-    )
-    point_b_before_jump: tuple[float, float, float] = vector(
-        _EVENT, 3, "m", "Witness point on the second body before the jump."
-    )
-    jump_a: tuple[float, float, float] = vector(_EVENT, 3, "m", "Displacement of the first witness point in the jump.")
-    jump_b: tuple[float, float, float] = vector(_EVENT, 3, "m", "Displacement of the second witness point in the jump.")
+    release: Cause = one_of(Cause, _STATE, "Cause of its release by a jump of the contact point, else `NO_RELEASE`.")
+    point_a_before_jump: Vector3 = vector(_EVENT, 3, "m", "Witness point on the first body before the jump.")
+    point_b_before_jump: Vector3 = vector(_EVENT, 3, "m", "Witness point on the second body before the jump.")
+    jump_a: Vector3 = vector(_EVENT, 3, "m", "Displacement of the first witness point in the jump.")
+    jump_b: Vector3 = vector(_EVENT, 3, "m", "Displacement of the second witness point in the jump.")
 
     # --- an impact ----------------------------------------------------------------------------------------------------
     window_phase: Phase = one_of(Phase, _IMPACT, "Phase at the end of the last window.")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import final
 
-from nonsmooth.engine.memory.declare import FloatRow, IntegerRow, Life, Part, array, one_of, real, whole
+from nonsmooth.engine.memory.declare import FloatRow, IntegerRow, Life, Part, floats, integers, one_of, real, whole
 from nonsmooth.engine.memory.modes import Truncation
 from nonsmooth.engine.memory.sizes import fixed, per
 
@@ -19,6 +19,6 @@ class Event(Part, key="event"):
     n_phases: int = whole(_EVENT, "Number of phases of the impact.")
     truncation: Truncation = one_of(Truncation, _EVENT, "How the impact ended if it was cut short.")
     slow_speed: float = real(_EVENT, "m/s", "Approach below which bounces are shorter than their contact time.")
-    head: FloatRow = array(_EVENT, fixed(5), float, "", "Time of the event and its energies.")
-    u_before: FloatRow = array(_EVENT, per(1, "n_u"), float, "", "Velocities before the event.")
-    listed: IntegerRow = array(_EVENT, per(1, "n_slots"), int, "", "Contacts that are recorded with the event.")
+    head: FloatRow = floats(_EVENT, fixed(5), "", "Time of the event and its energies.")
+    u_before: FloatRow = floats(_EVENT, per(1, "n_u"), "", "Velocities before the event.")
+    listed: IntegerRow = integers(_EVENT, per(1, "n_slots"), "Contacts that are recorded with the event.")

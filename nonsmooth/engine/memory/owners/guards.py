@@ -29,7 +29,7 @@ class OwnGuard(Record, key="own_guards", capacity="n_own_guards", length="model.
     """A guard that the user declared."""
 
     function: int = address(Life.PARAMETER, "Address of the function of time, q and u.")
-    parameters: int = whole(Life.PARAMETER, "Place of the parameters of that function.")
+    parameters: int = whole(Life.PARAMETER, "Offset of the parameters of that function.")
     has_just_fired: bool = question(Life.STATE, "It fired at the last event.")
     ends_the_run: bool = question(Life.PARAMETER, "The run ends when it fires.")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import final
 
-from nonsmooth.engine.memory.declare import FloatRow, IntegerRow, Life, Part, array, question, real, whole
+from nonsmooth.engine.memory.declare import FloatRow, IntegerRow, Life, Part, floats, integers, question, real, whole
 from nonsmooth.engine.memory.layout import IMPACT_STATE, N_STAGES
 from nonsmooth.engine.memory.sizes import impulse_numbers, map_numbers, per
 
@@ -23,33 +23,21 @@ class Impact(Part, key="impact"):
     speed_scale: float = real(_IMPACT, "m/s", "Largest speed of the impact.")
     rest_speed: float = real(_IMPACT, "m/s", "Slip that counts as rest.")
     h: float = real(_IMPACT, "", "Step with which the next window begins, in pseudo-time.")
-    faint_rate: float = real(
-        _IMPACT, "1", "Approach with which a contact of a window begins a phase, relative to the largest speed."
-    )
+    faint_rate: float = real(_IMPACT, "1", "Approach that begins a phase in a window, over the largest speed.")
     n_colliding: int = whole(_IMPACT, "Number of contacts of the whole impact.")
-    colliding: IntegerRow = array(_IMPACT, per(1, "n_slots"), int, "", "Contacts of the whole impact.")
-    chain: IntegerRow = array(
-        _IMPACT, per(2, "n_slots"), int, "", "Next entry of the list of contacts of an articulation."
-    )
-    u: FloatRow = array(_IMPACT, per(1, "n_u"), float, "", "Velocities between windows of a large impact.")
+    colliding: IntegerRow = integers(_IMPACT, per(1, "n_slots"), "Contacts of the whole impact.")
+    chain: IntegerRow = integers(_IMPACT, per(2, "n_slots"), "Next entry in an articulation's list of contacts.")
+    u: FloatRow = floats(_IMPACT, per(1, "n_u"), "", "Velocities between windows of a large impact.")
     n_guards: int = whole(_IMPACT, "Number of guards of the impact.")
-    rates: FloatRow = array(_IMPACT, per(3, "n_slots"), float, "m/s", "Rates of the active contacts.")
-    rates_before: FloatRow = array(
-        _IMPACT, per(3, "n_slots"), float, "m/s", "Rates of the active contacts before the impact."
+    rates: FloatRow = floats(_IMPACT, per(3, "n_slots"), "m/s", "Rates of the active contacts.")
+    rates_before: FloatRow = floats(_IMPACT, per(3, "n_slots"), "m/s", "Rates of the active contacts before impact.")
+    impulse: FloatRow = floats(_IMPACT, impulse_numbers, "N s", "Impulses of the active contacts.")
+    map_block: FloatRow = floats(_IMPACT, map_numbers, "", "What an impact law that maps velocities is given.")
+    y: FloatRow = floats(_IMPACT, per(IMPACT_STATE, "n_slots"), "", "State of the impact.", is_late=True)
+    y_new: FloatRow = floats(_IMPACT, per(IMPACT_STATE, "n_slots"), "", "State at the end of the step.", is_late=True)
+    y_stage: FloatRow = floats(_IMPACT, per(IMPACT_STATE, "n_slots"), "", "State of a stage.", is_late=True)
+    y_guess: FloatRow = floats(_IMPACT, per(IMPACT_STATE, "n_slots"), "", "Guess of an implicit stage.", is_late=True)
+    y_kept: FloatRow = floats(
+        _IMPACT, per(IMPACT_STATE, "n_slots"), "", "State before a contact became the clock.", is_late=True
     )
-    impulse: FloatRow = array(_IMPACT, impulse_numbers, float, "N s", "Impulses of the active contacts.")
-    map_block: FloatRow = array(_IMPACT, map_numbers, float, "", "What an impact law that maps velocities is given.")
-    y: FloatRow = array(_IMPACT, per(IMPACT_STATE, "n_slots"), float, "", "State of the impact.", is_late=True)
-    y_new: FloatRow = array(
-        _IMPACT, per(IMPACT_STATE, "n_slots"), float, "", "State at the end of the step.", is_late=True
-    )
-    y_stage: FloatRow = array(_IMPACT, per(IMPACT_STATE, "n_slots"), float, "", "State of a stage.", is_late=True)
-    y_guess: FloatRow = array(
-        _IMPACT, per(IMPACT_STATE, "n_slots"), float, "", "First guess of an implicit stage.", is_late=True
-    )
-    y_kept: FloatRow = array(
-        _IMPACT, per(IMPACT_STATE, "n_slots"), float, "", "State before a contact became the clock.", is_late=True
-    )
-    slopes: FloatRow = array(
-        _IMPACT, per(IMPACT_STATE * N_STAGES, "n_slots"), float, "", "Slopes of the stages.", is_late=True
-    )
+    slopes: FloatRow = floats(_IMPACT, per(IMPACT_STATE * N_STAGES, "n_slots"), "", "Slopes of stages.", is_late=True)

@@ -5,7 +5,18 @@ from __future__ import annotations
 import math
 from typing import final
 
-from nonsmooth.engine.memory.declare import FloatRow, IntegerRow, Life, Part, array, one_of, question, real, whole
+from nonsmooth.engine.memory.declare import (
+    FloatRow,
+    IntegerRow,
+    Life,
+    Part,
+    floats,
+    integers,
+    one_of,
+    question,
+    real,
+    whole,
+)
 from nonsmooth.engine.memory.layout import N_STAGES
 from nonsmooth.engine.memory.limits import Limit
 from nonsmooth.engine.memory.sizes import (
@@ -18,7 +29,7 @@ from nonsmooth.engine.memory.sizes import (
     step_part_numbers,
 )
 
-_STATE, _REUSED, _DERIVED = Life.STATE, Life.REUSED, Life.DERIVED
+_STATE, _REUSED, _DERIVED, _STEP = Life.STATE, Life.REUSED, Life.DERIVED, Life.STEP
 
 
 @final
@@ -27,18 +38,11 @@ class Island(Part, key="island"):
 
     # --- state --------------------------------------------------------------------------------------------------------
     time: float = real(_STATE, "s", "Time.")
-    y: FloatRow = array(
-        _STATE, per(1, "n_y"), float, "", "Integrated state: q, u, energy accounts, inner states of laws."
-    )
+    y: FloatRow = floats(_STATE, per(1, "n_y"), "", "Integrated state: q, u, energy accounts, inner states of laws.")
     n_contacts: int = whole(_STATE, "Number of listed contacts.", below=ends("n_slots"))
     list_margin: float = real(_STATE, "m", "Margin of the neighbour list.")
-    sphere_order: IntegerRow = array(
-        _STATE,
-        per(1, "n_spheres"),
-        int,
-        "",
-        "Bounding spheres, sorted along the axis of the sweep.",
-        below=per(1, "n_spheres"),
+    sphere_order: IntegerRow = integers(
+        _STATE, per(1, "n_spheres"), "Bounding spheres, sorted along the axis of the sweep.", below=per(1, "n_spheres")
     )
     follows_a_step: bool = question(_STATE, "No event has come since the last step.")
     free_step: float = real(_STATE, "s", "Next step while no contact is closed.")
@@ -63,36 +67,30 @@ class Island(Part, key="island"):
     velocities: int = whole(_DERIVED, "Where the velocities of all bodies are, on which kinematics is evaluated.")
     driven_time: float = real(_REUSED, "s", "Time at which driven bodies were evaluated.", begin=-math.inf)
     free_time: float = real(_REUSED, "s", "Time at which free bodies were evaluated.", begin=math.nan)
-    du: FloatRow = array(_REUSED, per(1, "n_u"), float, "", "Accelerations of all bodies.")
-    du_free: FloatRow = array(_REUSED, per(1, "n_u"), float, "", "Accelerations without contact forces.")
-    u_free: FloatRow = array(_REUSED, per(1, "n_u"), float, "", "Velocities on which joints prescribe nothing.")
-    y_evaluated: FloatRow = array(
-        _REUSED, coordinates_and_velocities, float, "", "q and u at which the bodies were evaluated."
-    )
+    du: FloatRow = floats(_REUSED, per(1, "n_u"), "", "Accelerations of all bodies.")
+    du_free: FloatRow = floats(_REUSED, per(1, "n_u"), "", "Contact-free accelerations.")
+    u_free: FloatRow = floats(_REUSED, per(1, "n_u"), "", "Velocities on which joints prescribe nothing.")
+    y_evaluated: FloatRow = floats(_REUSED, coordinates_and_velocities, "", "q and u at which bodies were evaluated.")
     n_grouped: int = whole(_DERIVED, "Number of contacts in groups.")
     n_groups: int = whole(_DERIVED, "Number of groups of contacts that act on one another.")
-    grouped: IntegerRow = array(_DERIVED, per(1, "n_slots"), int, "", "Contacts in groups, group after group.")
-    group_start: IntegerRow = array(_DERIVED, ends("n_slots"), int, "", "Where each group begins in `grouped`.")
-    group_next: IntegerRow = array(Life.STEP, per(1, "n_slots"), int, "", "Where the next contact of each group goes.")
-    block_start: IntegerRow = array(
-        _DERIVED, ends("n_slots"), int, "", "Where the Delassus blocks of each grouped contact begin."
+    grouped: IntegerRow = integers(_DERIVED, per(1, "n_slots"), "Contacts in groups, group after group.")
+    group_start: IntegerRow = integers(_DERIVED, ends("n_slots"), "Where each group begins in `grouped`.")
+    group_next: IntegerRow = integers(_STEP, per(1, "n_slots"), "Where the next contact of each group goes.")
+    block_start: IntegerRow = integers(_DERIVED, ends("n_slots"), "First Delassus block of each grouped contact.")
+    block_column: IntegerRow = integers(
+        _DERIVED, delassus_blocks, "Active contact that each Delassus block couples with.", is_late=True
     )
-    block_column: IntegerRow = array(
-        _DERIVED, delassus_blocks, int, "", "Active contact that each Delassus block couples with.", is_late=True
-    )
-    delassus: FloatRow = array(
-        _REUSED, delassus_numbers, float, "1/kg", "Delassus blocks, rows n, t1, t2.", is_late=True
-    )
+    delassus: FloatRow = floats(_REUSED, delassus_numbers, "1/kg", "Delassus blocks, rows n, t1, t2.", is_late=True)
     n_integrated: int = whole(_DERIVED, "Number of bodies that the integrator steps.")
-    integrated: IntegerRow = array(_DERIVED, per(1, "n_bodies"), int, "", "Bodies that the integrator steps.")
+    integrated: IntegerRow = integers(_DERIVED, per(1, "n_bodies"), "Bodies that the integrator steps.")
     n_ballistic: int = whole(_DERIVED, "Number of bodies in ballistic motion.")
-    ballistic: IntegerRow = array(_DERIVED, per(1, "n_bodies"), int, "", "Bodies in ballistic motion.")
+    ballistic: IntegerRow = integers(_DERIVED, per(1, "n_bodies"), "Bodies in ballistic motion.")
     n_spans: int = whole(_DERIVED, "Number of spans of the state that the integrator steps.")
-    span_first: IntegerRow = array(_DERIVED, spans, int, "", "First entry of each span.")
-    span_length: IntegerRow = array(_DERIVED, spans, int, "", "Length of each span.")
+    span_first: IntegerRow = integers(_DERIVED, spans, "First entry of each span.")
+    span_length: IntegerRow = integers(_DERIVED, spans, "Length of each span.")
     n_spinning: int = whole(_REUSED, "Number of bodies whose spin is integrated apart.", below=ends("n_bodies"))
-    spinning: IntegerRow = array(
-        _REUSED, per(1, "n_bodies"), int, "", "Bodies whose spin is integrated apart.", below=per(1, "n_bodies")
+    spinning: IntegerRow = integers(
+        _REUSED, per(1, "n_bodies"), "Bodies whose spin is integrated apart.", below=per(1, "n_bodies")
     )
     singular_contact: int = whole(
         _REUSED, "Contact whose slip is near the Painleve singularity, or -1.", begin=-1, below=per(1, "n_slots")
@@ -107,58 +105,46 @@ class Island(Part, key="island"):
     stage_time: float = real(_REUSED, "s", "Time of an implicit stage, 0 if there is none.")
     fastest_turn: float = real(_REUSED, "1/s", "Largest turning rate of a body.")
     power_at_end: float = real(_REUSED, "W", "Power of gravity on ballistic bodies at the end of the step.")
-    slopes: FloatRow = array(
-        _REUSED, per(N_STAGES, "n_y"), float, "", "Slopes of the stages; the last one is the first of the next step."
+    slopes: FloatRow = floats(_REUSED, per(N_STAGES, "n_y"), "", "Stage slopes; the last one is the next step's first.")
+    spin_slopes: FloatRow = floats(_REUSED, per(3 * N_STAGES, "n_bodies"), "1/s^2", "Spin slopes of the stages.")
+    spin_start: FloatRow = floats(_REUSED, per(3, "n_bodies"), "1/s", "Spins at the start of the step.")
+    quaternion_length: FloatRow = floats(_REUSED, per(1, "n_bodies"), "1", "Lengths of quaternions before normalising.")
+    own_start: FloatRow = floats(
+        _STATE, per(1, "n_y"), "", "State at the start of steps of bodies with their own step."
     )
-    spin_slopes: FloatRow = array(
-        _REUSED, per(3 * N_STAGES, "n_bodies"), float, "1/s^2", "Slopes of the spins of the stages."
-    )
-    spin_start: FloatRow = array(_REUSED, per(3, "n_bodies"), float, "1/s", "Spins at the start of the step.")
-    quaternion_length: FloatRow = array(
-        _REUSED, per(1, "n_bodies"), float, "1", "Lengths of the quaternions before they were normalised."
-    )
-    own_start: FloatRow = array(
-        _STATE, per(1, "n_y"), float, "", "State at the start of the steps of bodies with a step of their own."
-    )
-    own_slopes: FloatRow = array(_STATE, per(N_STAGES, "n_y"), float, "", "Slopes of these steps.")
+    own_slopes: FloatRow = floats(_STATE, per(N_STAGES, "n_y"), "", "Slopes of these steps.")
 
 
 @final
 class Step(Part, key="step"):
     """Numbers of one step."""
 
-    limit: Limit = one_of(Limit, Life.STEP, "What limited the step.")
-    h: float = real(Life.STEP, "s", "Length of the step.")
-    listed_step: float = real(Life.STEP, "s", "Longest step for which the neighbour list holds.")
-    closing_step: float = real(Life.STEP, "s", "Longest step by the gaps that close.")
-    turning_step: float = real(Life.STEP, "s", "Longest step by the turning of the bodies.")
-    arrival_step: float = real(Life.STEP, "s", "Longest step by gaps of ballistic bodies that close.")
-    error: float = real(Life.STEP, "1", "Error of the step, relative to its tolerance.")
-    relaxation: float = real(Life.STEP, "s", "Shortest relaxation time of friction laws and implicit slip.")
-    halting_contact: int = whole(Life.STEP, "Contact whose slip ends the step, or -1.")
-    driven_power: float = real(Life.STEP, "W", "Power of driven bodies.")
-    load_power: float = real(Life.STEP, "W", "Power of loads.")
-    guard: int = whole(Life.STEP, "Guard that fired, or -1.")
-    guard_slope: float = real(Life.STEP, "", "Slope of that guard at its root, in the unit of the guard per second.")
-    has_doubtful_force: bool = question(Life.STEP, "A stage had a force of the wrong sign.")
-    uses_last_slope: bool = question(Life.STEP, "The first slope is the last one of the step before.")
-    has_replaced_slope: bool = question(Life.STEP, "An implicit step has replaced the first slope.")
-    is_blended: bool = question(Life.STEP, "Redundant forces are blended over the step.")
-    n_may_close: int = whole(Life.STEP, "Number of gaps that may close in the step.")
-    may_close: IntegerRow = array(Life.STEP, per(1, "n_slots"), int, "", "Contacts whose gap may close in the step.")
-    n_not_facing: int = whole(Life.STEP, "Number of contacts whose features do not face each other.")
-    not_facing: IntegerRow = array(
-        Life.STEP, per(1, "n_slots"), int, "", "Contacts whose features do not face each other."
-    )
-    power_at_start: float = real(Life.STEP, "W", "Power of gravity on ballistic bodies at the start of the step.")
-    ballistic_exchange: float = real(Life.STEP, "J", "Energy that ballistic bodies exchange with gravity in the step.")
-    y_new: FloatRow = array(Life.STEP, per(1, "n_y"), float, "", "State at the end of the step.")
-    y_stage: FloatRow = array(Life.STEP, per(1, "n_y"), float, "", "State of a stage.")
-    y_scale: FloatRow = array(Life.PARAMETER, per(1, "n_y"), float, "", "Scale of each entry of the state.")
-    y_guess: FloatRow = array(Life.STEP, per(1, "n_y"), float, "", "First guess of an implicit stage.")
-    first_slope: FloatRow = array(
-        Life.STEP, per(1, "n_y"), float, "", "First slope, while an implicit step replaces it."
-    )
-    part_ends: FloatRow = array(
-        Life.STEP, step_part_numbers, float, "", "Ends of the parts of a step in search of a root."
-    )
+    limit: Limit = one_of(Limit, _STEP, "What limited the step.")
+    h: float = real(_STEP, "s", "Length of the step.")
+    listed_step: float = real(_STEP, "s", "Longest step for which the neighbour list holds.")
+    closing_step: float = real(_STEP, "s", "Longest step by the gaps that close.")
+    turning_step: float = real(_STEP, "s", "Longest step by the turning of the bodies.")
+    arrival_step: float = real(_STEP, "s", "Longest step by gaps of ballistic bodies that close.")
+    error: float = real(_STEP, "1", "Error of the step, relative to its tolerance.")
+    relaxation: float = real(_STEP, "s", "Shortest relaxation time of friction laws and implicit slip.")
+    halting_contact: int = whole(_STEP, "Contact whose slip ends the step, or -1.")
+    driven_power: float = real(_STEP, "W", "Power of driven bodies.")
+    load_power: float = real(_STEP, "W", "Power of loads.")
+    guard: int = whole(_STEP, "Guard that fired, or -1.")
+    guard_slope: float = real(_STEP, "", "Slope of that guard at its root, in the unit of the guard per second.")
+    has_doubtful_force: bool = question(_STEP, "A stage had a force of the wrong sign.")
+    uses_last_slope: bool = question(_STEP, "The first slope is the last one of the step before.")
+    has_replaced_slope: bool = question(_STEP, "An implicit step has replaced the first slope.")
+    is_blended: bool = question(_STEP, "Redundant forces are blended over the step.")
+    n_may_close: int = whole(_STEP, "Number of gaps that may close in the step.")
+    may_close: IntegerRow = integers(_STEP, per(1, "n_slots"), "Contacts whose gap may close in the step.")
+    n_not_facing: int = whole(_STEP, "Number of contacts whose features do not face each other.")
+    not_facing: IntegerRow = integers(_STEP, per(1, "n_slots"), "Contacts whose features do not face each other.")
+    power_at_start: float = real(_STEP, "W", "Power of gravity on ballistic bodies at the start of the step.")
+    ballistic_exchange: float = real(_STEP, "J", "Energy that ballistic bodies exchange with gravity in the step.")
+    y_new: FloatRow = floats(_STEP, per(1, "n_y"), "", "State at the end of the step.")
+    y_stage: FloatRow = floats(_STEP, per(1, "n_y"), "", "State of a stage.")
+    y_scale: FloatRow = floats(Life.PARAMETER, per(1, "n_y"), "", "Scale of each entry of the state.")
+    y_guess: FloatRow = floats(_STEP, per(1, "n_y"), "", "First guess of an implicit stage.")
+    first_slope: FloatRow = floats(_STEP, per(1, "n_y"), "", "First slope, while an implicit step replaces it.")
+    part_ends: FloatRow = floats(_STEP, step_part_numbers, "", "Ends of the parts of a step in search of a root.")

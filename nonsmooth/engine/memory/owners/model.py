@@ -4,7 +4,18 @@ from __future__ import annotations
 
 from typing import final
 
-from nonsmooth.engine.memory.declare import FloatRow, IntegerRow, Life, Part, address, array, one_of, real, whole
+from nonsmooth.engine.memory.declare import (
+    FloatRow,
+    IntegerRow,
+    Life,
+    Part,
+    address,
+    floats,
+    integers,
+    one_of,
+    real,
+    whole,
+)
 from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from nonsmooth.engine.memory.layout import N_STAGES
 from nonsmooth.engine.memory.modes import Painleve
@@ -43,18 +54,14 @@ class Model(Part, key="model"):
     event_floats: int = whole(_PARAMETER, "Length of the buffer of floats of events.")
     event_integers: int = whole(_PARAMETER, "Length of the buffer of integers of events.")
     sample_capacity: int = whole(_PARAMETER, "Number of samples that the buffer holds.")
-    entry_points: IntegerRow = array(
-        _PARAMETER, fixed(len(ENTRY_POINTS)), int, "", "Addresses of the entry points.", is_address=True
+    entry_points: IntegerRow = integers(
+        _PARAMETER, fixed(len(ENTRY_POINTS)), "Addresses of the entry points.", is_address=True
     )
-    partner: IntegerRow = array(
-        _PARAMETER, per(1, "n_partners"), int, "", "Second bounding sphere of each pair, ascending for each first one."
+    partner: IntegerRow = integers(
+        _PARAMETER, per(1, "n_partners"), "Second bounding sphere of each pair, ascending for each first one."
     )
-    partner_contact: IntegerRow = array(
-        _PARAMETER, ends("n_partners"), int, "", "Where the contacts of each pair begin in `paired_contact`."
-    )
-    paired_contact: IntegerRow = array(
-        _PARAMETER, per(1, "n_paired"), int, "", "Declared contacts, pair after pair of bounding spheres."
-    )
+    partner_contact: IntegerRow = integers(_PARAMETER, ends("n_partners"), "First of each pair in `paired_contact`.")
+    paired_contact: IntegerRow = integers(_PARAMETER, per(1, "n_paired"), "Declared contacts, sphere pair after pair.")
 
 
 @final
@@ -86,18 +93,10 @@ class Tolerance(Part, key="tolerance"):
 class Coefficients(Part, key="coefficients"):
     """Coefficients of the Runge-Kutta pairs."""
 
-    stages: FloatRow = array(_PARAMETER, fixed(6 * N_STAGES), float, "1", "Coefficients of the explicit stages.")
-    error_weights: FloatRow = array(_PARAMETER, fixed(N_STAGES), float, "1", "Weights of the explicit error estimate.")
-    dense: FloatRow = array(_PARAMETER, fixed(4 * N_STAGES), float, "1", "Coefficients of the explicit dense output.")
-    implicit_stages: FloatRow = array(
-        _PARAMETER, fixed(6 * N_STAGES), float, "1", "Coefficients of the implicit stages."
-    )
-    implicit_predictor: FloatRow = array(
-        _PARAMETER, fixed(6 * N_STAGES), float, "1", "Coefficients of the first guess of an implicit stage."
-    )
-    implicit_errors: FloatRow = array(
-        _PARAMETER, fixed(N_STAGES), float, "1", "Weights of the implicit error estimate."
-    )
-    implicit_bend: FloatRow = array(
-        _PARAMETER, fixed(N_STAGES), float, "1", "Weights of the curvature of an implicit step."
-    )
+    stages: FloatRow = floats(_PARAMETER, fixed(6 * N_STAGES), "1", "Coefficients of the explicit stages.")
+    error_weights: FloatRow = floats(_PARAMETER, fixed(N_STAGES), "1", "Weights of the explicit error estimate.")
+    dense: FloatRow = floats(_PARAMETER, fixed(4 * N_STAGES), "1", "Coefficients of the explicit dense output.")
+    implicit_stages: FloatRow = floats(_PARAMETER, fixed(6 * N_STAGES), "1", "Coefficients of the implicit stages.")
+    implicit_predictor: FloatRow = floats(_PARAMETER, fixed(6 * N_STAGES), "1", "Coefficients of the implicit guess.")
+    implicit_errors: FloatRow = floats(_PARAMETER, fixed(N_STAGES), "1", "Weights of the implicit error estimate.")
+    implicit_bend: FloatRow = floats(_PARAMETER, fixed(N_STAGES), "1", "Weights of the curvature of an implicit step.")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import final
 
-from nonsmooth.engine.memory.declare import Life, Record, address, end_of, question, real, row, vector, whole
+from nonsmooth.engine.memory.declare import Life, Record, Vector3, address, end_of, question, real, row, vector, whole
 from nonsmooth.types import Floats
 
 _PARAMETER, _REUSED = Life.PARAMETER, Life.REUSED
@@ -14,14 +14,14 @@ _PARAMETER, _REUSED = Life.PARAMETER, Life.REUSED
 class Sphere(Record, key="spheres", capacity="n_spheres", length="model.n_spheres"):
     """A bounding sphere about the origin of a frame, which holds all bounded shapes that the frame carries."""
 
-    frame: int = whole(_PARAMETER, "Place of the frame.")
+    frame: int = whole(_PARAMETER, "Offset of the frame.")
     radius: float = real(_PARAMETER, "m", "Radius.")
     first_partner: int = whole(_PARAMETER, "First of its pairs among all.", has_end=True)
     end_partner: int = end_of("first_partner", "End of its pairs.")
     feature_radius: float = real(_PARAMETER, "m", "Radius of the features that are searched for, 0 if there are none.")
     speed: float = real(_REUSED, "m/s", "Bound of its speed within a step.")
     distance: float = real(_REUSED, "m", "Bound of its displacement since the neighbour list was made.")
-    place: tuple[float, float, float] = vector(_REUSED, 3, "m", "Centre when the neighbour list was made.")
+    place: Vector3 = vector(_REUSED, 3, "m", "Centre when the neighbour list was made.")
     places: Floats = row(_REUSED, 3, "m", "The same, number by number.", inside=("place", 0))
     axes: Floats = row(_REUSED, 9, "1", "Axes of the frame when the neighbour list was made.")
 
@@ -32,7 +32,7 @@ class HalfSpace(Record, key="half_spaces", capacity="n_half_spaces", length="mod
 
     contact: int = whole(_PARAMETER, "Declared contact.")
     sphere: int = whole(_PARAMETER, "Bounding sphere of the other shape.")
-    frame: int = whole(_PARAMETER, "Place of the frame of the unbounded shape.")
+    frame: int = whole(_PARAMETER, "Offset of the frame of the unbounded shape.")
     is_steady: bool = question(_PARAMETER, "The frame is at rest, and the shape is below a plane.")
     ceiling: float = real(_PARAMETER, "m", "Height of that plane along the third axis of the frame.")
 
@@ -42,8 +42,8 @@ class Search(Record, key="searches", capacity="n_searches", length="model.n_sear
     """A search for candidate features: those of two shapes that are near each other share a number of contacts."""
 
     function: int = address(_PARAMETER, "Address of the function that finds pairs of features.")
-    parameters: int = whole(_PARAMETER, "Place of the parameters of that function.")
-    out: int = whole(_PARAMETER, "Place where the function writes.")
+    parameters: int = whole(_PARAMETER, "Offset of the parameters of that function.")
+    out: int = whole(_PARAMETER, "Offset at which the function writes.")
     first_contact: int = whole(_PARAMETER, "First of the declared contacts that hold the pairs.")
     n_contacts: int = whole(_PARAMETER, "Number of these contacts.")
     sphere_a: int = whole(_PARAMETER, "Bounding sphere of the first shape.")
@@ -56,29 +56,29 @@ class Pair(Record, key="pairs", capacity="n_pairs", length="model.n_pairs"):
 
     carrier_a: int = whole(_PARAMETER, "Carrier of the first part.")
     carrier_b: int = whole(_PARAMETER, "Carrier of the second part.")
-    frame_a: int = whole(_PARAMETER, "Place of the frame of the first part.")
-    frame_b: int = whole(_PARAMETER, "Place of the frame of the second part.")
-    part_a: int = whole(_PARAMETER, "Place of the numbers of the first part.")
-    part_b: int = whole(_PARAMETER, "Place of the numbers of the second part.")
+    frame_a: int = whole(_PARAMETER, "Offset of the frame of the first part.")
+    frame_b: int = whole(_PARAMETER, "Offset of the frame of the second part.")
+    part_a: int = whole(_PARAMETER, "Offset of the numbers of the first part.")
+    part_b: int = whole(_PARAMETER, "Offset of the numbers of the second part.")
     group: int = whole(_PARAMETER, "First pair of the same shapes.")
     contact: int = whole(_PARAMETER, "First declared contact of the pair.")
     are_both_flat: bool = question(_PARAMETER, "Both parts are discs without thickness.")
     allowed: float = real(_PARAMETER, "m", "Overlap that the laws of the pair allow.")
     size: float = real(_PARAMETER, "m", "Size of the smaller part.")
     margin: float = real(_REUSED, "m", "Distance that the parts may move before the pair is evaluated again.")
-    is_closed: bool = question(_REUSED, "A contact of the pair is closed.")
-    deepest: float = real(_REUSED, "m", "Least gap of the closed contacts.")
-    direction: tuple[float, float, float] = vector(_REUSED, 3, "1", "Direction in which the parts are farthest apart.")
-    normal: tuple[float, float, float] = vector(_REUSED, 3, "1", "Normal of the deepest closed contact.")
-    between: tuple[float, float, float] = vector(_REUSED, 3, "1", "Normal of a plane between two sharp discs.")
+    is_closed: bool = question(Life.STEP, "A contact of the pair is closed.")
+    deepest: float = real(Life.STEP, "m", "Least gap of the closed contacts.")
+    direction: Vector3 = vector(_REUSED, 3, "1", "Direction in which the parts are farthest apart.")
+    normal: Vector3 = vector(Life.STEP, 3, "1", "Normal of the deepest closed contact.")
+    between: Vector3 = vector(_REUSED, 3, "1", "Normal of a plane between two sharp discs.")
 
 
 @final
 class Carrier(Record, key="carriers", capacity="n_carriers", length="model.n_carriers"):
     """A frame that carries convex parts."""
 
-    frame: int = whole(_PARAMETER, "Place of the frame.")
+    frame: int = whole(_PARAMETER, "Offset of the frame.")
     radius: float = real(_PARAMETER, "m", "Radius about the origin of the frame that holds all of its parts.")
-    place: tuple[float, float, float] = vector(_REUSED, 3, "m", "Origin when it was evaluated last.")
+    place: Vector3 = vector(_REUSED, 3, "m", "Origin when it was evaluated last.")
     axes: Floats = row(_REUSED, 9, "1", "Axes when it was evaluated last.")
     distance: float = real(_REUSED, "m", "Bound of its displacement since its pairs were evaluated.")

@@ -11,7 +11,8 @@ from nonsmooth.engine.memory.declare import (
     Life,
     Part,
     address,
-    array,
+    floats,
+    integers,
     one_of,
     question,
     real,
@@ -55,7 +56,7 @@ class Totals(Part, key="totals"):
     n_evaluations: int = whole(_STATE, "Number of evaluations of contact forces.")
     n_impact_steps: int = whole(_STATE, "Number of steps of impacts.")
     n_gap_evaluations: int = whole(_STATE, "Number of evaluations of gaps in search of a root.")
-    n_steps_limited: IntegerRow = array(_STATE, fixed(len(LIMITS)), int, "", "Number of steps that each limit ended.")
+    n_steps_limited: IntegerRow = integers(_STATE, fixed(len(LIMITS)), "Number of steps that each limit ended.")
 
 
 @final
@@ -71,7 +72,6 @@ class Run(Part, key="run"):
     passed_pair: int = whole(_OUTPUT, "Pair of convex parts that passed into each other, or -1.", begin=-1)
     passed_depth: float = real(_OUTPUT, "m", "Depth of that pair.")
     passed_allowed: float = real(_OUTPUT, "m", "Depth that the tolerances allow.")
-    unscaled_contact: int = whole(_OUTPUT, "Contact whose law gave no scale of an impact.")
     n_past_map: int = whole(_OUTPUT, "Number of contacts of an impact law that wrote past its block.")
     has_too_many_blocks: bool = question(_OUTPUT, "More contacts act on one another than there are blocks for.")
 
@@ -98,8 +98,6 @@ class Output(Part, key="output"):
     n_samples: int = whole(_OUTPUT, "Number of samples in the buffer.")
     sample_index: int = whole(_STATE, "Number of the next sample.")
     next_sample: float = real(_STATE, "s", "Time of the next sample.")
-    event_numbers: FloatRow = array(_OUTPUT, per(1, "event_floats"), float, "", "Floats of the events.", is_late=True)
-    event_codes: IntegerRow = array(_OUTPUT, per(1, "event_integers"), int, "", "Integers of the events.", is_late=True)
-    samples: FloatRow = array(
-        _OUTPUT, sample_numbers, float, "", "Time, state and totals of each sample.", is_late=True
-    )
+    event_numbers: FloatRow = floats(_OUTPUT, per(1, "event_floats"), "", "Floats of the events.", is_late=True)
+    event_codes: IntegerRow = integers(_OUTPUT, per(1, "event_integers"), "Integers of the events.", is_late=True)
+    samples: FloatRow = floats(_OUTPUT, sample_numbers, "", "Time, state and totals of each sample.", is_late=True)
