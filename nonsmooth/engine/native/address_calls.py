@@ -80,25 +80,30 @@ def at(typingctx: Any, floats: Any, offset: Any) -> Any:
 
 
 @intrinsic
-def _vector(typingctx: Any, x: Any, y: Any, z: Any) -> Any:
-    """Three floats on the stack, as a pointer."""
+def _compiled_support_at(typingctx: Any, floats: Any, place: Any, x: Any, y: Any, z: Any) -> Any:
+    """The support point as a tuple; (0, 0, 0) for a tuple of floats, which holds no function.
+
+    A shape's own kernel is compiled for tuples too, and calls a function only if it has one.
+    """
+    point = types.UniTuple(types.float64, 3)
 
     def lower(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        vector = cgutils.alloca_once(builder, ir.DoubleType(), 3)
-        for i, value in enumerate(args):
-            builder.store(value, moved(builder, float, vector, WORD(i)))
-        return vector
+        direction, found = (cgutils.alloca_once(builder, ir.DoubleType(), 3) for _ in range(2))
+        for i, value in enumerate(args[2:]):
+            builder.store(value, moved(builder, float, direction, WORD(i)))
+            builder.store(ir.DoubleType()(0.0), moved(builder, float, found, WORD(i)))
+        if floats == FLOATS:
+            address = builder.load(moved(builder, float, *args[:2]), typ=ir.DoubleType())
+            parameters = moved(builder, float, args[0], builder.add(args[1], WORD(1)))
+            call_at(builder, builder.fptosi(address, WORD), ir.VoidType(), [direction, parameters, found])
+        values = [builder.load(moved(builder, float, found, WORD(i)), typ=ir.DoubleType()) for i in range(3)]
+        return context.make_tuple(builder, point, values)
 
-    return FLOATS(types.float64, types.float64, types.float64), lower
+    return point(floats, types.int64, types.float64, types.float64, types.float64), lower
 
 
-_support_at_address = calls["support"]
-
-
-def _compiled_support(floats: Any, place: int, x: float, y: float, z: float) -> tuple[float, float, float]:
-    direction, found = _vector(x, y, z), _vector(0.0, 0.0, 0.0)
-    _support_at_address(int(floats[place]), direction, at(floats, place + 1), found)
-    return found[0], found[1], found[2]
+def _compiled_support(floats: Any, place: int, x: float, y: float, z: float) -> Any:
+    return _compiled_support_at(floats, place, x, y, z)
 
 
 def _support(floats: Any, place: int, x: float, y: float, z: float) -> tuple[float, float, float]:
