@@ -106,7 +106,7 @@ class Declaration:
     name: str = ""
 
     def __set_name__(self, owner: type, name: str) -> None:
-        """Set name and owner. Python calls it for each declaration when the class is made."""
+        """Set name and owner, from the class body. Python calls it for each declaration when the class is made."""
         self.owner, self.name = owner, name
 
     @property
@@ -126,8 +126,9 @@ class Declaration:
 
     @property
     def key(self) -> str:
-        """Name of its storage, ``owner.name``: its own, or that of the declaration that it is a view of."""
+        """Key of the storage that holds it, such as "contacts.gap": its own, or that of which it is a view."""
         storage, _first = self.inside
+        # a storage without an owner in its name belongs to the same owner
         if not storage:
             return f"{self.owner.key}.{self.name}"
         return storage if "." in storage else f"{self.owner.key}.{storage}"
@@ -190,8 +191,13 @@ class Record(Owner):
     index: int
 
     def __init_subclass__(cls, key: str, capacity: str | Size, length: str, copies: type[Record] | None = None) -> None:
-        """Set key, capacity and length. Copy from ``copies`` what is known of a record while it is not listed."""
+        """Set key, capacity and length from the class statement; ``capacity`` may be the name of a count.
+
+        ``copies`` is an owner of records that are on a list only at times. The class declares again each number that is
+        known of such a record while it is off the list: its parameters and its state, but not those of the list entry.
+        """
         cls.key, cls.length = key, length
+        # a function in a class would else be a method
         cls.capacity = staticmethod(per(1, capacity) if isinstance(capacity, str) else capacity)
         for name, declared in declarations(copies).items() if copies else ():
             if declared.life in (Life.PARAMETER, Life.STATE) and not declared.is_of_slot:
@@ -207,7 +213,11 @@ class Part(Owner):
 
 
 def real(life: Life, unit: str, sentence: str, **options: Any) -> Any:
-    """Declare a float."""
+    """Declare a float. ``options`` are further attributes of the :class:`Declaration`.
+
+    The result is Any, so that a type checker takes ``gap: float = real(...)`` for a float.
+    """
+    # 0.0 and not 0: the type of the first value is that of a scalar in the record of scalars
     return Declaration(float, life, unit, sentence, **{"begin": 0.0, **options})
 
 
@@ -262,7 +272,7 @@ def integers(life: Life, size: Size, sentence: str, **options: Any) -> Any:
 
 
 def declarations(owner: type) -> Mapping[str, Declaration]:
-    """Declarations of an owner, by name. They are searched once for each owner."""
+    """Declarations in the class of an owner, by name. The class is searched once, as each layout needs them."""
     if owner not in _declarations:
         _declarations[owner] = {name: value for name, value in vars(owner).items() if isinstance(value, Declaration)}
     return _declarations[owner]

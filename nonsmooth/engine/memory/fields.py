@@ -44,7 +44,8 @@ Fields: TypeAlias = Mapping[str, Field]
 
 
 def fields_of(owner: type[Record]) -> Fields:
-    """Fields of the compiled record of an owner, by name."""
+    """Fields of the compiled record of an owner, by name: where its numbers are in the workspace."""
+    # array and stride are those of the storage: several fields may be views of one
     return {
         name: Field(
             one.key, stride_of(storage_of(one)), one.inside[1], one.numbers, one.is_vector, one.behind, one.kind
@@ -54,5 +55,8 @@ def fields_of(owner: type[Record]) -> Fields:
 
 
 def packed(first: int, numbers: int = 1, stride: int = 0) -> Field:
-    """A field of a block among the floats; three numbers are a vector."""
+    """A field of a block among the floats, at position ``first`` of the block; three numbers are a vector.
+
+    ``stride`` is the number of floats from one block to the next, 0 if there is one block only.
+    """
     return Field("", stride, first, numbers, is_vector=numbers == 3)

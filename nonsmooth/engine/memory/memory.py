@@ -38,90 +38,112 @@ class Heap:
     """
 
     def __init__(self, memory: Memory) -> None:
+        """Begin without blocks. They will follow all arrays of ``memory``, which :func:`allocate` made."""
         self._memory = memory
         self._first = len(memory.floats)
         self._values = array("d")
+        # starts relative to the first block, and how many numbers from each are written
         self._written: list[tuple[np.ndarray, int]] = []
+        # place of the number, offset from which its distance counts, and table
         self._references: list[tuple[int, int, Table]] = []
 
     def block(self, size: int) -> int:
-        """Append zeros for numbers that the engine writes. Their offset."""
+        """Append ``size`` zeros, for numbers that the engine writes. Result: their offset among all floats."""
         start = self._first + len(self._values)
+        # bytes of zeros are the float 0.0
         self._values.frombytes(bytes(self._values.itemsize * size))
         self.write(start, size)
         return start
 
     def write(self, starts: int | np.ndarray, size: int) -> None:
-        """Mark ``size`` numbers from each of the offsets as written by the engine or a plug-in: no parameters."""
+        """Mark ``size`` numbers from each of the offsets ``starts``: the engine or a plug-in writes them in a run.
+
+        All other numbers of the blocks are parameters, which are the same in every run.
+        """
         self._written.append((np.atleast_1d(starts) - self._first, size))
 
     def store(self, values: Sequence[float] | np.ndarray) -> int:
-        """Append parameters. Their offset."""
+        """Append parameters. Result: their offset among all floats."""
         start = self._first + len(self._values)
         self._values.extend(values)
         return start
 
     def repeat(self, values: Sequence[float], times: int) -> int:
-        """Append the same parameters ``times`` times. The offset of the first."""
+        """Append the same parameters ``times`` times. Result: the offset of the first among all floats."""
         start = self._first + len(self._values)
         self._values.extend(times * array("d", values))
         return start
 
     def refer(self, place: int, start: int, table: Table) -> None:
-        """Let :meth:`close` set the number at an offset to the distance from the offset ``start`` to a table."""
+        """Let the number at offset ``place`` refer to a table; :meth:`close` sets it, as no table has an offset yet.
+
+        It will be the distance [floats] of the table from ``start``, where the parameters of the function that reads
+        the table begin: a function gets their address only.
+        """
         self._references.append((place, start, table))
 
     def output(self, size: int) -> int:
-        """Append numbers that a plug-in writes, and guards against writing too many. Their offset."""
+        """Append ``size`` numbers that a plug-in writes, then guards, which show if it wrote too many.
+
+        The result is their offset among all floats.
+        """
         start = self.store(output_block(size))
         self.write(start, size)
         return start
 
     def close(self) -> Memory:
-        """The memory with all blocks. The tables follow, each of them once."""
+        """The memory with all blocks behind its arrays, and then the tables, each of them once."""
+        # many contacts may refer to the same table
         old, tables = self._memory, {id(table): table for _, _, table in self._references}
-        first, places = self._first + len(self._values), dict[int, int]()
-        end = first
+        first_table, offsets = self._first + len(self._values), dict[int, int]()
+        end = first_table
         for key, table in tables.items():
-            places[key] = end
+            offsets[key] = end
             end += len(table)
+        # one float more: the offset of an empty block at the end is inside of the array, too
         floats = np.zeros(end + 1)
+        # late arrays hold zeros; they are not written, so that the system gives them no memory yet
         arrays = old.early[0]
         floats[: len(arrays)] = arrays
-        floats[self._first : first] = self._values
+        floats[self._first : first_table] = self._values
         written = np.zeros(len(self._values), bool)
         for starts, size in self._written:
             written[starts[:, None] + np.arange(size)] = True
         for key, table in tables.items():
-            floats[places[key] : places[key] + len(table)] = table.numbers
-        references = tuple((place, start, places[id(table)]) for place, start, table in self._references)
-        for place, start, at in references:
-            floats[place] = at - start
-        return replace(old, floats=floats, tables=first, references=references, written=written)
+            floats[offsets[key] : offsets[key] + len(table)] = table.numbers
+        references = tuple((place, start, offsets[id(table)]) for place, start, table in self._references)
+        for place, start, offset in references:
+            floats[place] = offset - start
+        return replace(old, floats=floats, tables=first_table, references=references, written=written)
 
 
 def output_block(size: int) -> list[float]:
-    """Zeros for the numbers that a plug-in writes, then guards, which show whether it has written too many."""
+    """Content of a block before a plug-in writes it: ``size`` zeros, then guards.
+
+    A guard is a float with a value that no plug-in writes by chance. If it changes, the plug-in wrote too many numbers.
+    """
     return size * [0.0] + GUARD * [UNTOUCHED]
 
 
 def counts_in(record: np.void) -> Counts:
-    """Counts of bodies, contacts, ... in a record of scalars."""
+    """The counts that size the arrays of a workspace (bodies, contacts, ...), from its record of scalars."""
     return {name: record[f"{Model.key}.{name}"].item() for name in COUNTS}
 
 
 def view_of(declared: Declaration, record: np.void, counts: Counts, numbers: np.ndarray) -> np.ndarray:
-    """View of the numbers of a declaration among all floats or integers.
+    """View of the numbers of a declaration in ``numbers``, all floats or all integers of a workspace.
 
-    The record of scalars has its offset. The first axis is the record, the second, if there are several, the number.
+    A part has one array of numbers. Of records, the first axis is the record; the second is the number within the
+    declaration, if it has several. ``record`` are the scalars, which hold the offset of each array.
     """
+    # the declaration may be a view of the storage of another one
     storage, start = storage_of(declared), int(record[declared.key])
     numbers = numbers[start : start + length_of(storage, counts)]
     if issubclass(declared.owner, Part):
         return numbers
     stride, first, n = stride_of(storage), declared.inside[1], declared.owner.capacity(counts)
     if declared.numbers == 1:
-        # for starts of ranges, the end of the last range follows
+        # starts of ranges have one entry more, the end of the last range
         return numbers[first::stride][: n + declared.has_end]
     return numbers[: stride * n].reshape(n, stride)[:, first : first + declared.numbers]
 
@@ -164,7 +186,7 @@ class Memory:
     def __getitem__(self, declared: Any) -> Any:
         """A scalar, or a view of an array: ``memory[Island.time]``, ``memory[Contact.gap]``.
 
-        The first axis of the numbers of a record is the record, the second one, if it has several, the number.
+        Of records, the first axis is the record; the second is the number, if each record has several.
         """
         return self.record[declared.key].item() if declared.is_scalar else self._view(declared)
 
@@ -180,11 +202,14 @@ class Memory:
         return int(self.record[declared.key])
 
     def declared(self, declared: Any) -> np.ndarray:
-        """View of a number of all declared contacts, whether they are listed or not."""
+        """View of a number of all declared contacts: ``memory.declared(Contact.mode)``.
+
+        ``memory[Contact.mode]`` has those on the neighbour list only, with their newest values.
+        """
         return self._view(getattr(DeclaredContact, declared.name))
 
     def _view(self, declared: Declaration) -> np.ndarray:
-        """View of an array, which is made once."""
+        """View of an array. It is made once and kept, because that takes longer than reading it."""
         if declared not in self._views:
             numbers = self.floats if declared.is_float else self.integers
             self._views[declared] = view_of(declared, self.record, self._counts, numbers)
@@ -222,19 +247,24 @@ class Memory:
 
         Views as integers with the same bits, so that they can be compared: NaN differs from itself.
         """
+        # arrays that outlive a step come first among the floats and among the integers
         (floats, *_), (integers, *_) = self._lengths
         parts = self.scalars, self.floats[:floats], self.integers[:integers], self.floats[self.blocks : self.tables]
         return tuple(part.view(np.int64) for part in parts)
 
     @functools.cached_property
     def changing(self) -> tuple[np.ndarray, ...]:
-        """For each number of :attr:`kept`, True if a run may change it."""
+        """For each number of :attr:`kept`, True if a run may change it.
+
+        Scalars and blocks also hold parameters; arrays that outlive a step hold none.
+        """
         _, floats, integers, _ = self.kept
         return kept_scalars(self.own), np.ones(len(floats), bool), np.ones(len(integers), bool), self.written
 
     @functools.cached_property
     def early(self) -> tuple[np.ndarray, ...]:
-        """Views of all arrays that are not late, and of the blocks."""
+        """Views of floats, integers and blocks, without late arrays, which most runs leave unused, and tables."""
+        # late arrays come last; the second length is without them
         (_, floats, _), (_, integers, _) = self._lengths
         return self.floats[:floats], self.integers[:integers], self.floats[self.blocks : self.tables]
 
@@ -246,11 +276,14 @@ class Memory:
 def allocate(counts: Mapping[str, int], own: tuple[type[Part], ...] = ()) -> Memory:
     """Workspace with all arrays for the given counts, all of ``COUNTS``. :class:`Heap` appends the blocks.
 
-    ``own`` are the parts that an engine adds.
+    ``own`` are the parts that an engine adds. All numbers have their values before any run, and the coefficients of the
+    Runge-Kutta pairs are written.
     """
-    values, totals = _laid(tuple(counts.items()), own)
+    values, (n_floats, n_integers) = _laid(tuple(counts.items()), own)
     scalars = np.array([values], record_with(own))
-    memory = Memory(scalars, np.zeros(totals[0]), np.zeros(max(totals[1], 1), np.int64), totals[0], totals[0], own=own)
+    # an array without entries has no address. Blocks and tables, still empty, begin behind the arrays
+    memory = Memory(scalars, np.zeros(n_floats), np.zeros(max(n_integers, 1), np.int64), n_floats, n_floats, own=own)
+    # guards behind each block of a kinematics: they change if it writes too many numbers
     memory[Contact.geometry][:, PAIR:] = UNTOUCHED
     memory[Coefficients.stages] = np.ravel(tableau.STAGES)
     memory[Coefficients.error_weights] = tableau.ERROR
@@ -268,11 +301,13 @@ def _laid(
 ) -> tuple[tuple[float, ...], tuple[int, int]]:
     """Values of the record of scalars before any run, and the numbers of floats and of integers.
 
-    Cached, because systems that differ in their numbers only have the same, and often follow each other.
+    The record has the scalars, the counts, and the offset of each array. The result is cached, because systems that
+    differ in their parameters only have the same one, and often follow each other.
     """
     owners, known = (*OWNERS, *own), dict(counts)
     values = {**scalars_of(owners), **{f"{Model.key}.{name}": number for name, number in counts}}
     totals: list[int] = []
+    # all floats are one array, all integers another: offsets begin at 0 in each
     for of_floats in (True, False):
         total = 0
         for name, size in arrays_of(owners, of_floats).items():

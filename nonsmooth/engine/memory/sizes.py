@@ -13,7 +13,7 @@ Size: TypeAlias = Callable[[Counts], int]
 
 
 def per(stride: int, count: str) -> Size:
-    """Size of an array with ``stride`` numbers for each counted thing: ``per(3, "n_slots")``."""
+    """Size of an array with ``stride`` numbers for each counted thing: ``per(3, "n_slots")``, three per contact."""
     return lambda n: stride * n[count]
 
 
@@ -23,17 +23,23 @@ def fixed(length: int) -> Size:
 
 
 def ends(count: str) -> Size:
-    """Size of a list of the starts of ranges, with the end of the last range."""
+    """Size of a list of the starts of ranges, one for each counted thing, with the end of the last range."""
     return lambda n: n[count] + 1
 
 
 def matrix_entries(n: Counts) -> int:
-    """Number of entries of a matrix of all unknowns of the contacts, three each."""
+    """Number of entries that are allocated for a matrix of all unknowns of the contacts, three each.
+
+    A full matrix of a large system would not fit into memory, so the number is limited.
+    """
     return int(min((3 * n["n_slots"]) ** 2, MOST_ENTRIES))
 
 
 def delassus_blocks(n: Counts) -> int:
-    """Number of pairs of contacts that may act on one another."""
+    """Number of Delassus blocks that are allocated, one for each pair of contacts that act on one another.
+
+    In a large system most pairs do not, so the number is limited; the run ends if more are needed.
+    """
     return int(min(n["n_slots"] ** 2, MOST_BLOCKS))
 
 
@@ -68,7 +74,7 @@ def impulse_numbers(n: Counts) -> int:
 
 
 def map_numbers(n: Counts) -> int:
-    """Number of floats that an impact law which maps velocities reads and writes."""
+    """Number of floats that an impact law which maps velocities reads: the parameters of each contact."""
     return n["map_width"] * n["n_slots"]
 
 
@@ -78,7 +84,10 @@ def lemke_columns(n: Counts) -> int:
 
 
 def lemke_numbers(n: Counts) -> int:
-    """Number of entries of Lemke's tableau: six rows for each contact, with the columns and the right-hand side."""
+    """Number of entries of Lemke's tableau: six rows for each contact.
+
+    Columns are six for each contact, the artificial variable, and the right-hand side.
+    """
     return 6 * n["n_pivoted"] * (6 * n["n_pivoted"] + 2)
 
 

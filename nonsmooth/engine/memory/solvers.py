@@ -31,7 +31,7 @@ MOST_PIVOTED = 16
 
 
 def solver_number(name: str) -> int:
-    """Number of a solver.
+    """Number of a solver of the contact problem, by which the engine knows it.
 
     Raises
     ------
@@ -44,5 +44,8 @@ def solver_number(name: str) -> int:
 
 
 def pivoted_contacts(solver: int, n_contacts: int) -> int:
-    """Number of contacts for which Lemke's tableau is allocated: 0 if the solver never uses it."""
+    """Number of contacts for which Lemke's tableau is allocated, of a system with ``n_contacts`` at most.
+
+    "auto" tries Lemke for few contacts only, and the other solvers never do.
+    """
     return n_contacts if solver == LEMKE else min(n_contacts, MOST_PIVOTED) if solver == AUTO else 0

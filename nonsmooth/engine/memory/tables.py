@@ -23,7 +23,7 @@ from nonsmooth.engine.memory.workspace import PARTS, RECORDS
 
 
 def has_array(declared: Declaration) -> bool:
-    """True if a declaration has an array of its own. False for a scalar, and for a view of another array."""
+    """True if a declaration has an array of its own. False for a scalar, and for a view of another storage."""
     return not declared.inside[0] and not declared.is_scalar
 
 
@@ -39,13 +39,16 @@ def _all(owners: Iterable[type]) -> list[Declaration]:
 
 
 def arrays_of(owners: Iterable[type], of_floats: bool) -> dict[str, Size]:
-    """Sizes of the arrays of floats, or of integers, of some owners: by key, in the order of their offsets."""
+    """Size of each array of some owners, of floats if ``of_floats``, else of integers.
+
+    Keys are as "contacts.gap". The order is that of the offsets: arrays that outlive a step, other arrays, late arrays.
+    """
     found = [one for one in _all(owners) if has_array(one) and one.is_float == of_floats]
     return {one.key: functools.partial(length_of, one) for one in sorted(found, key=_rank)}
 
 
 def _rank(declared: Declaration) -> int:
-    """Position of an array among the three kinds that follow each other."""
+    """Kind of an array, by which arrays are sorted: 0 if it outlives a step, 1 if it does not, 2 if it is late."""
     return _LATE if declared.is_late else _KEPT if declared.outlives_a_step else _SHORT
 
 
@@ -54,18 +57,21 @@ _KEPT, _SHORT, _LATE = range(3)
 
 
 def lengths_of(owners: Iterable[type], of_floats: bool, counts: Counts) -> tuple[int, int, int]:
-    """Numbers of entries of the arrays that outlive a step, of all that are not late, and of all.
+    """Total entries of the arrays that outlive a step, of all that are not late, and of all.
 
-    They are kept: systems that differ in their numbers only have the same lengths, and often follow each other.
+    Arrays of floats if ``of_floats``, else of integers. The result is cached, because systems that differ in their
+    parameters only have the same lengths, and often follow each other.
     """
     return _lengths_of(tuple(owners), of_floats, tuple(counts.items()))
 
 
 @functools.lru_cache(maxsize=16)
 def _lengths_of(owners: tuple[type, ...], of_floats: bool, counts: tuple[tuple[str, int], ...]) -> tuple[int, int, int]:
+    """:func:`lengths_of` with arguments that a cache can hold."""
     totals, known = [0, 0, 0], dict(counts)
     for one in _all(owners):
         if has_array(one) and one.is_float == of_floats:
+            # each total includes those before it
             for rank in range(_rank(one), len(totals)):
                 totals[rank] += length_of(one, known)
     return totals[_KEPT], totals[_SHORT], totals[_LATE]
@@ -77,7 +83,10 @@ def scalars_of(owners: Iterable[type]) -> dict[str, float]:
 
 
 def _entries(owners: Iterable[type]) -> list[tuple[str, str]]:
-    """Names and types of the scalars of some owners, and of the offsets of their arrays."""
+    """Entries of the record of scalars: names and types of the scalars of some owners, and offsets of their arrays.
+
+    All have 8 bytes. Integers, booleans and enumerations are stored as i8; the value before any run shows which it is.
+    """
     numbers = [(name, "f8" if isinstance(begin, float) else "i8") for name, begin in scalars_of(owners).items()]
     offsets = [*arrays_of(owners, of_floats=True), *arrays_of(owners, of_floats=False)]
     return numbers + [(name, "i8") for name in offsets]
@@ -99,6 +108,7 @@ CONSTANT_SCALARS = frozenset((*(f"{Model.key}.{name}" for name in COUNTS), *FLOA
 
 def kept_scalars(own: Iterable[type[Part]]) -> NDArray[np.bool_]:
     """For each entry of the record of scalars, with the parts ``own`` of an engine, True if it outlives a step."""
+    # a scalar has no array
     kept = {one.key for one in _all((*OWNERS, *own)) if one.outlives_a_step and not has_array(one)}
     return np.array([name in kept for name in record_with(own).names or ()])
 
@@ -110,13 +120,17 @@ def record_with(own: Iterable[type[Part]]) -> np.dtype[np.void]:
 
 @functools.cache
 def _record_with(own: tuple[type[Part], ...]) -> np.dtype[np.void]:
-    # cached, because each run needs it
+    """:func:`record_with`, cached by a tuple, because each run needs it."""
+    # without parts of the engine, the common type itself
     entries = _entries(own)
     return np.dtype([*SCALARS.descr, *entries], align=True) if entries else SCALARS
 
 
 def places(*names: str) -> NDArray[np.int64]:
-    """Positions of scalars among all, which have the same length."""
+    """Positions of the scalars with these keys, such as "island.time", in ``Memory.cells``.
+
+    A cell is one scalar of the record, all of which have 8 bytes.
+    """
     known = SCALARS.names or ()
     return np.array([known.index(name) for name in names])
 
@@ -124,10 +138,11 @@ def places(*names: str) -> NDArray[np.int64]:
 def stride_of(storage: Declaration) -> int:
     """Number of entries from one record to the next in a storage.
 
-    The storage is an array of the records, or an array of a part with as many numbers for each contact.
+    The storage is an array of the records, or an array of a part with as many numbers for each active contact.
     """
     if storage.size is None:
         return storage.numbers
+    # the size is a function of the counts: the stride is its increase by one active contact
     none: Counts = dict.fromkeys(COUNTS, 0)
     return storage.size({**none, "n_slots": 1}) - storage.size(none)
 

@@ -53,6 +53,7 @@ def _owners() -> tuple[dict[str, type[Part]], dict[str, type[Record]]]:
     """Parts and records of the workspace by name, from its type hints."""
     parts, records = dict[str, type[Part]](), dict[str, type[Record]]()
     for name, hint in get_type_hints(Workspace).items():
+        # records are hinted as sequences of their owner, parts by their owner, all floats and integers as Any
         if get_args(hint):
             records[name] = get_args(hint)[0]
         elif isinstance(hint, type) and issubclass(hint, Part):
