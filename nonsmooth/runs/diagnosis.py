@@ -44,7 +44,8 @@ _FAILED_CHECKS = (
 def failing_function(model: LaidOut, status: int) -> str:
     """Sentence that names the first function found to fail after a run ended with a status, or "".
 
-    It raises nothing: the results of the run matter more than the reason of its end, and failing functions are called.
+    No exception leaves it, not even SystemExit of a user's function that is called here: the results of the run matter
+    more than the reason of its end.
     """
     try:
         return _failing_function(model, status)
@@ -53,11 +54,15 @@ def failing_function(model: LaidOut, status: int) -> str:
 
 
 def _failing_function(model: LaidOut, status: int) -> str:
-    """The sentence of :func:`failing_function`. Diagnoses that need few calls come first; one may raise."""
+    """The sentence of :func:`failing_function`. Diagnoses that need few calls come first.
+
+    They call functions of the user, so this may raise.
+    """
     if status in _FAILED_CHECKS:
         return failed_check(model, status)
     if found := squeezed_body(model, status):
         return found
+    # both lead to forces or impulses that are not finite
     found = _immobile(model) or _failing_map(model) if status == Status.NOT_FINITE else ""
     found = found or failed_search(model.memory, model.system.contacts) or _failing_block(model)
     # a law without a finite value may also reject steps until they are too small
@@ -82,7 +87,11 @@ def _immobile(model: LaidOut) -> str:
 
 
 def _law_findings(model: LaidOut) -> Iterator[Finding | None]:
-    """For each function of the laws of each contact: the last input without a finite value, or None."""
+    """For each function of the laws of each contact: a sentence on the last input without a finite value, or None.
+
+    The engine has stored this input in front of the parameters of the function, which begin the slice of floats. The
+    function is called again with the inner states of the last state.
+    """
     memory, contact = model.memory, owners.Contact
     states = memory[owners.Island.y][model.n_q + model.n_u + N_ACCOUNTS :]
     for number, declared in enumerate(model.system.contacts):
@@ -96,7 +105,7 @@ def _failing_block(model: LaidOut) -> str:
     """Sentence that names a body, load or contact whose function gives no finite numbers, or "".
 
     They are evaluated at the last state, at its time, at the end of the failed step and shortly after: functions of
-    time may fail between two steps.
+    time may fail between two steps. The time in the memory is changed for the evaluation only.
     """
     memory = model.memory
     t = memory[owners.Island.time]
@@ -113,13 +122,19 @@ def _failing_block(model: LaidOut) -> str:
 
 
 def _failing_map(model: LaidOut) -> str:
-    """Sentence about the impact map if its last impulses are not finite, called again as plain Python, or ""."""
+    """Sentence about the impact map if its last impulses are not finite, or "".
+
+    An impact map is a law for all contacts of a system at once. It is called again as plain Python, with copies of the
+    numbers that the engine gave it, because it may change its arguments.
+    """
     memory = model.memory
+    # contacts of the last impact. Rates, impulses and Delassus matrix have three components for each
     n = int(memory[owners.Problem.n_active])
     law = model.system.contacts[0].impact if model.system.contacts else None
     if n == 0 or not isinstance(law, ImpactMap) or np.all(np.isfinite(memory[owners.Impact.impulse][: 3 * n])):
         return ""
     names = parameter_names(law.impulses, "map")
+    # a row for each parameter, with a column for each contact
     parameters = memory[owners.Impact.map_block][: n * len(names)].reshape(-1, n)
     delassus = memory[owners.Problem.matrix][: 9 * n * n].copy()
     rates = memory[owners.Impact.rates_before][: 3 * n]
@@ -130,6 +145,7 @@ def _failing_map(model: LaidOut) -> str:
     except Exception as error:
         fault = raised(law.impulses, error)
     contacts = [str(model.system.contacts[i]) for i in model.active[memory[owners.Problem.active][:n]]]
+    # without line breaks
     before = " ".join(np.array2string(rates.reshape(n, 3), precision=6, threshold=30, separator=", ").split())
     return (
         f"{type(law).__name__}: {described(law.impulses)}, {fault} for the rates {before} m/s "
@@ -138,7 +154,10 @@ def _failing_map(model: LaidOut) -> str:
 
 
 def _failing_guard(model: LaidOut) -> str:
-    """Sentence that names a guard of the user without a finite value at the end of the failed step, or ""."""
+    """Sentence that names a guard of the user without a finite value at the end of the failed step, or "".
+
+    A guard is a function of time and state whose zeros are events.
+    """
     state, h = model.memory[owners.Step.y_new], model.memory[owners.Step.h]
     q, u = state[: model.n_q], state[model.n_q : model.n_q + model.n_u]
     for watched in model.system.watched:

@@ -40,6 +40,7 @@ class EngineDriver:
     """
 
     def __init__(self, engine: Engine, model: LaidOut, call: Callable[..., Any]) -> None:
+        """Drive an engine: its statuses are the common ones and the codes of causes of its own."""
         self._engine, self._memory, self._call = engine, model.memory, call
         self._name = f"{type(engine).__name__}.advance"
         self._statuses = {*_STATUSES, *(cause.code for cause in engine.causes)}
@@ -47,8 +48,8 @@ class EngineDriver:
     def advance(self, most_steps: int, pauses_before_end: bool) -> int:
         """Advance the run by at most ``most_steps`` steps; the result is the status.
 
-        With ``pauses_before_end`` the engine pauses before a step whose length depends on the end time. The engine may
-        do nothing, for example if it pauses there at once.
+        With ``pauses_before_end`` the engine pauses before a step whose length depends on the end time, so that a
+        checkpoint there is valid for any end time. It does nothing if the next step is such a step.
 
         Raises
         ------
@@ -60,6 +61,7 @@ class EngineDriver:
         try:
             status = self._engine.advance(self._call, self._memory, most_steps, pauses_before_end)
         except UnknownName as error:
+            # the engine called an entry point that does not exist: the message shall name the engine
             raise InvalidInput(f"{self._name}: {error.thing}", error.rule, error.value, error.remedy) from error
         if status not in self._statuses:
             names = "DONE, PAUSED, STOPPED, a failure of nonsmooth.engine.memory.modes or a code of its causes"
@@ -96,6 +98,7 @@ class EngineDriver:
         """True if the memory holds a checkpoint, apart from counters of calls: the engine has done nothing since."""
         if self._memory[owners.Island.time] != checkpoint[owners.Island.time]:
             return False
+        # integers of the same bits as the numbers
         (scalars, *arrays), (old_scalars, *old_arrays) = self._memory.kept, checkpoint.parts
         differs = scalars != old_scalars
         differs[_CALL_COUNTERS] = False

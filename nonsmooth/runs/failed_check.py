@@ -23,8 +23,12 @@ _COMPLIANT = "Give it a compliant normal law such as LinearCompliant, or leave o
 
 
 def failed_check(model: LaidOut, status: int) -> str:
-    """Sentences about the check that a run failed by a status, or "" for another status."""
+    """Sentences about the check that a run failed, by the last status of the engine; "" for a status of no check.
+
+    The engine has stored the value found and the largest value allowed.
+    """
     run = owners.Run
+    # by the status, the number is that of an active contact, a declared contact or a body
     found, allowed, number = (model.memory[one] for one in (run.found, run.allowed, run.failed_number))
     if status == Status.GAP_UNEXPLAINED:
         return _gap(model, number, found, allowed)
@@ -53,7 +57,11 @@ def failed_check(model: LaidOut, status: int) -> str:
 
 
 def _gap(model: LaidOut, index: int, found: float, allowed: float) -> str:
-    """Sentences about the gap ``found`` of an active contact, which is larger than the tolerances allow [m]."""
+    """Sentences about an active contact whose gap ``found`` [m] is beyond what the tolerances allow.
+
+    A closed contact may not have a gap, an open one no overlap. Either other closed contacts of its bodies contradict
+    it, or its kinematics is not continuous.
+    """
     contact = model.system.contacts[model.active[index]]
     text = f"The {contact}: the gap is {found:.3g} m; the tolerances allow {allowed:.3g} m."
     if model.memory[owners.Contact.mode][index] != Mode.OPEN and (others := _other_closed(model, contact)):
@@ -73,7 +81,11 @@ def _overlap(model: LaidOut, number: int, found: float, allowed: float) -> str:
 
 
 def _lightest(model: LaidOut) -> str:
-    """Sentences on the joined body whose inertia is least, if round-off of the largest inertia moves it, else ""."""
+    """Sentences on the joined body whose inertia is least, if round-off of the largest inertia moves it, else "".
+
+    An inertia is a mass [kg] or a moment of inertia [kg m^2], here the inverse of a diagonal entry of the inverse mass
+    matrix. Numbers of both kinds are compared, since round-off does not know units.
+    """
     bodies, joined = model.system.bodies, {id(body) for tie in model.system.joints for body in (tie.first, tie.second)}
     inverse_inertias = [
         (float(value), model.system.names.bodies[number], unit)
@@ -96,8 +108,12 @@ def _lightest(model: LaidOut) -> str:
 
 
 def _other_closed(model: LaidOut, contact: Contact) -> str:
-    """Names of closed contacts that share a free body with a contact, one for each other pair of bodies, or ""."""
+    """Names of closed contacts that share a free body with a contact, or "".
+
+    Of contacts between the same two bodies the first is named. Those between both bodies of ``contact`` are left out.
+    """
     modes = model.memory[owners.Contact.mode][: len(model.active)]
+    # a driven body has no velocities, and takes no part in a contradiction
     free = {id(body) for body in (contact.first, contact.second) if body.n_u > 0}
     pairs = dict[tuple[int, int], str]()
     for number in model.active[modes != Mode.OPEN].tolist():

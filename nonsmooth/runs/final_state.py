@@ -36,11 +36,11 @@ from nonsmooth.system.system import System
 
 
 class FixedPlaces(NamedTuple):
-    """Where a checkpoint of a model has the numbers that the state of a run needs. All runs of a model share it.
+    """Where a checkpoint of a model has the numbers that the state of a run needs. All runs of a model share these.
 
     Attributes
     ----------
-    rates : array
+    tails : array
         Place among the blocks of q' of each body, behind which are force, inverse mass and energies.
     features : array
         Place among the blocks of the features of each declared contact, negative if it has none.
@@ -48,15 +48,19 @@ class FixedPlaces(NamedTuple):
         Which numbers a run may change (:attr:`nonsmooth.engine.memory.memory.Memory.changing`).
     """
 
-    rates: Integers
+    tails: Integers
     features: Integers
     changing: tuple[Booleans, ...]
 
     @classmethod
     def of(cls, memory: Memory) -> FixedPlaces:
-        """The places in checkpoints of a memory."""
-        rates, features = memory[owners.Body.tail], memory.declared(owners.Contact.features)
-        return cls(rates - memory.blocks, features - memory.blocks, memory.changing)
+        """The places in checkpoints of a memory.
+
+        A memory has offsets among all floats; a checkpoint has the blocks apart, which begin at ``memory.blocks``.
+        """
+        tails, features = memory[owners.Body.tail], memory.declared(owners.Contact.features)
+        # a contact without a search for features has the offset 0, which becomes negative
+        return cls(tails - memory.blocks, features - memory.blocks, memory.changing)
 
 
 class FinalState(NamedTuple):
@@ -116,8 +120,12 @@ class FinalState(NamedTuple):
         return End(state, counters, status, message, cause.name if cause else "", self._verdict())
 
     def state(self) -> State:
-        """State of the model now."""
+        """State of the model at the end of the run, with what a later run needs to continue this one.
+
+        That is the difference of the resumable checkpoint from the blank memory, which is short.
+        """
         now, contact, places = self.now, owners.Contact, self.places.features
+        # y has q, u, the energy accounts, and the inner states of laws
         n_q, n_u, y = now[owners.Model.n_q], now[owners.Model.n_u], now[owners.Island.y]
         features, searched = np.zeros((len(places), CANDIDATE)), np.flatnonzero(places >= 0)
         features[searched] = now.blocks[places[searched, None] + np.arange(CANDIDATE)]
@@ -137,7 +145,10 @@ class FinalState(NamedTuple):
         return state.with_continuation(Continuation(self.key(), difference, self.n_known_events))
 
     def _of_contacts(self, declared: Any) -> np.ndarray:
-        """Numbers of all contacts. Those of an active contact are newer than the record of its declared contact."""
+        """A number of every contact of the system, as a copy.
+
+        Contacts on the neighbour list, the active ones, have newer numbers than the records of all declared contacts.
+        """
         found = self.now.declared(declared).copy()
         active = self.now[owners.Contact.declared][: self.now[owners.Island.n_contacts]]
         found[active] = self.now[declared][: len(active)]
@@ -159,26 +170,33 @@ class FinalState(NamedTuple):
         )
 
     def _suspicions(self, end: End, recorded: Recorded) -> str:
-        """Sentences about a run that reached its end but fails a check of its energy or of its quaternions, or ""."""
+        """Sentences about a run that reached its end but fails a check of its energy or of its quaternions, or "".
+
+        ``end`` is the end of the run without their result.
+        """
         now, run = self.now, owners.Run
         solution = Solution.known(self.system, recorded, end)
         return suspicions(
             self.engine,
-            (now[run.worst_energy_time], now[run.worst_energy], now[run.worst_energy_ratio]),
-            (now[run.jump_time], now[run.jumped_energy]),
-            0.0 if self._friction_stores_energy() else solution.friction_gain,
-            end.state.energy,
-            dict(zip(self.system.names.bodies, self.system.bodies, strict=True)),
-            (recorded.rows[:, 0], recorded.rows[:, 1 : 1 + now[owners.Model.n_q]]),
-            (now[owners.Tolerance.relative], now[owners.Tolerance.impact]),
-            end.counters.steps,
-            now[run.energy_scale],
-            self._least_scale(),
-            partial(imbalance_span, solution),
+            worst_event=(now[run.worst_energy_time], now[run.worst_energy], now[run.worst_energy_ratio]),
+            jump=(now[run.jump_time], now[run.jumped_energy]),
+            # friction may return energy that its law stored
+            rubbed=0.0 if self._friction_stores_energy() else solution.friction_gain,
+            energy=end.state.energy,
+            bodies=dict(zip(self.system.names.bodies, self.system.bodies, strict=True)),
+            # times and coordinates
+            samples=(recorded.rows[:, 0], recorded.rows[:, 1 : 1 + now[owners.Model.n_q]]),
+            tolerances=(now[owners.Tolerance.relative], now[owners.Tolerance.impact]),
+            steps=end.counters.steps,
+            scale=now[run.energy_scale],
+            floor=self._least_scale(),
+            # evaluated only if it is needed, because it takes long
+            span=partial(imbalance_span, solution),
         )
 
     def _verdict(self) -> dict[Measure, float]:
-        """The measures by which the engine judges a run: numbers of its own part of the workspace."""
+        """The measures by which the engine judges a run: scalars of the parts that it added to the workspace."""
+        # the first part of a checkpoint is the record of scalars, with those of the engine at its end
         own = self.now.parts[0].view(record_with(own_of(self.engine)))[0]
         return {
             measure: float(own[f"{part.key}.{measure.name}"])
@@ -193,22 +211,26 @@ class FinalState(NamedTuple):
     def _least_scale(self) -> float:
         """Scale of the energy account of bodies that hardly move [J].
 
-        It is the work of the force on each body over a distance of its size.
+        It is the sum over the free bodies of force times size, for each the work of its force over its own size.
         """
         total = 0.0
-        for body, rates in zip(self.system.bodies, self.places.rates.tolist(), strict=True):
-            size, first = size_of(body), rates + body.n_q
+        for body, tail in zip(self.system.bodies, self.places.tails.tolist(), strict=True):
+            # the force follows q'
+            size, first = size_of(body), tail + body.n_q
             if body.n_u > 0 and math.isfinite(size):
                 total += float(np.linalg.norm(self.now.blocks[first : first + body.n_u])) * size
         return total
 
     def _account(self, integrated: Floats) -> EnergyAccount:
-        """Energy account. ``integrated`` begins with the energies that the engine integrates with the state [J]."""
+        """Energy account. ``integrated`` begins with the energies that the engine integrates with the state [J].
+
+        The engine adds the others at instants. Work of driven bodies and friction loss have a part of each kind.
+        """
         now, totals = self.now, owners.Totals
         driven, dissipated, exchanged, loads = integrated[:N_ACCOUNTS].tolist()
         return EnergyAccount(
             *self.start_energy,
-            *energies(self.system.bodies, self.places.rates, now.blocks),
+            *energies(self.system.bodies, self.places.tails, now.blocks),
             driven_work=now[totals.driven_work] + driven,
             restitution_loss=now[totals.restitution_loss],
             friction_loss=now[totals.friction_loss] + dissipated,

@@ -59,29 +59,33 @@ class FolderSink(OutputSink):
     _commit: Future[None] | None = None
 
     def steps(self) -> int:
-        """Number of steps that take about 0.15 s."""
+        """Largest number of steps of the next call of the engine. They take about 0.15 s."""
         return self._steps
 
     def begin(self, checkpoint: Checkpoint) -> None:
-        """Write the start of the run."""
+        """Write the start of the run. The wall time of the first call of the engine counts from here."""
         self.folder.begin(*self.records.take_unwritten(), self.state_at(checkpoint), self.wall)
         self._last_call = time.perf_counter()
 
     def write(self, checkpoint: Checkpoint) -> None:
         """Start a commit of the new results, if it is time and the last commit has ended; adapt the steps per call."""
         now = time.perf_counter()
+        # the time of a call may be below the resolution of the clock; one fast call gives at most 4 times the steps
         wanted = self._steps * _CALL_TIME / max(now - self._last_call, 1e-6)
         self._steps = int(min(_MOST_STEPS, 4 * self._steps, max(_FEWEST_STEPS, wanted)))
         if now >= self._next_commit and (self._commit is None or self._commit.done()):
+            # raises the error of the last commit
             self._wait()
             self._next_commit = now + _COMMIT_INTERVAL
+            # the buffers hold results up to the checkpoint
             self.records.drain()
             state, wall = self.state_at(checkpoint), self.wall + now - self._start
             self._commit = self._thread.submit(self.folder.append, *self.records.take_unwritten(), state, wall)
+        # the time of the next call is without that of this method
         self._last_call = time.perf_counter()
 
     def finish(self, solution: Solution) -> None:
-        """Write the remaining results and the end of the run."""
+        """Write the remaining results and the end of the run, after the last commit."""
         self._wait()
         self.folder.finish(*self.records.take_unwritten(), solution)
 
@@ -91,7 +95,7 @@ class FolderSink(OutputSink):
         self.folder.close()
 
     def _wait(self) -> None:
-        """Wait for the last commit.
+        """Wait for the last commit, which another thread writes, so that its error is raised here.
 
         Raises
         ------

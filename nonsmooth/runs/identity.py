@@ -22,11 +22,11 @@ _LAYOUT = hashlib.blake2b(repr((SCALARS.names, (*FLOAT_ARRAYS,), (*INTEGER_ARRAY
 def digest(model: LaidOut, engine: Engine) -> str:
     """Digest of all parameters of a model, of the classes of its parts, and of the options of an engine.
 
-    Models with the same digest give the same runs, to the last bit.
+    Models with the same digest give the same runs, to the last bit. So a run of one can be continued by the other.
     """
     found = hashlib.blake2b(_LAYOUT + _classes(model) + _options(engine))
     for numbers in _parameters(model.memory):
-        # most numbers are zero, so the places and bits of the others are fewer bytes
+        # bits, because NaN and -0.0 count, too; most are zero, and places and bits of the others are fewer bytes
         bits = np.ascontiguousarray(numbers).view(np.uint8 if numbers.dtype == bool else np.int64).ravel()
         nonzero = np.flatnonzero(bits)
         found.update(nonzero.data)
@@ -37,6 +37,7 @@ def digest(model: LaidOut, engine: Engine) -> str:
 def _parameters(memory: Memory) -> Iterator[np.ndarray]:
     """All numbers of a memory that no run changes and that are the same in every process, array by array."""
     for owner in (*OWNERS, *memory.own):
+        # a view of another array is that array, and addresses of functions are others in each process
         for one in declarations(owner).values():
             if one.life is Life.PARAMETER and not one.inside[0] and not one.is_address and not _is_copied(one):
                 yield np.atleast_1d(np.asarray(memory[one]))
@@ -45,27 +46,33 @@ def _parameters(memory: Memory) -> Iterator[np.ndarray]:
     # numbers that refer to tables: in the memory of a copy they are other distances
     blocks[[place - memory.blocks for place, _, _ in memory.references]] = 0.0
     yield blocks
+    # the tables, which a copy of a model reads in the memory of the original
     yield (memory.owner or memory).floats[memory.tables :]
 
 
 def _is_copied(one: Declaration) -> bool:
-    """True for a number that an active contact copies from its declared contact."""
+    """True for a number that an active contact copies from its declared contact. It follows from that of the latter."""
     return one.owner is owners.Contact and not one.is_of_slot
 
 
 def _options(engine: Engine) -> bytes:
-    """Class of an engine, and the values of its options."""
+    """Class of an engine, and the values of its options, as bytes for the digest."""
     return repr((type(engine).__qualname__, {name: getattr(engine, name) for name in rules(type(engine))})).encode()
 
 
 def _classes(model: LaidOut) -> bytes:
-    """Names of the classes of all parts of a system, and the number of the class of each part."""
+    """Names of the classes of all parts of a system, and the number of the class of each part, as bytes.
+
+    Two classes with the same parameters would else give the same digest.
+    """
     system = model.system
     parts: list[object] = [*system.bodies, *system.guards, *(tie.component for tie in (*system.joints, *system.loads))]
+    # classes are numbered in the order in which they are met
     known: dict[type, int] = {}
     numbers = [known.setdefault(type(part), len(known)) for part in parts]
     contacts = system.contacts
     rows = np.zeros((len(contacts), 4), np.int64)
+    # many contacts share their laws, so they are treated kind by kind
     for same in by_kind(contacts):
         one = contacts[same[0]]
         laws = one.kinematics, one.normal, one.friction, one.impact

@@ -35,12 +35,14 @@ def imbalance_span(solution: Solution) -> str:
         return ""
     first, last = _span(imbalance)
     if first == last:
+        # the imbalance is constant
         return ""
     span = f"Most of it came about from t = {times[first]:.9g} s to {times[last]:.9g} s"
     contacts, has_fallback = _contacts_within(events, times[first], times[last])
     if len(contacts) == 0:
         return f"{span}."
     pairs = [solution.system.contacts[number] for number in np.unique(contacts).tolist()]
+    # the free bodies, each of them once
     bodies = {id(body): body for one in pairs for body in (one.first, one.second) if body.n_u > 0}
     names = [repr(solution.system.name_of(body)) for body in bodies.values()]
     more = f" and {len(names) - _N_NAMED} more" if len(names) > _N_NAMED else ""
@@ -49,11 +51,14 @@ def imbalance_span(solution: Solution) -> str:
 
 
 def _span(imbalance: Floats) -> tuple[int, int]:
-    """First and last index of the largest change of an imbalance [J], without ends where little changes."""
+    """First and last index of the span between the least and the largest value of an imbalance [J].
+
+    Both ends move inward as long as the value there is within a tenth of the whole change.
+    """
     first, last = sorted((int(np.argmin(imbalance)), int(np.argmax(imbalance))))
     if first == last:
         return first, last
-    # last index near the first value, and first index near the last value
+    # the span begins at the last index near its first value, and ends at the first index near its last value
     within, negligible = imbalance[first : last + 1], _NEGLIGIBLE * float(np.ptp(imbalance))
     last = first + int(np.argmax(np.abs(within - within[-1]) <= negligible))
     first += int(np.flatnonzero(np.abs(within - within[0]) <= negligible)[-1])
@@ -61,9 +66,14 @@ def _span(imbalance: Floats) -> tuple[int, int]:
 
 
 def _contacts_within(events: Events, begin: float, end: float) -> tuple[Integers, bool]:
-    """Contacts of the events from ``begin`` to ``end`` [s], and whether they are those of the fallback."""
+    """Contacts of the events from ``begin`` to ``end`` [s], and whether they are those of the fallback.
+
+    If any is in the time-stepping fallback, which solves for mean forces, only those are in the result.
+    """
+    # the last event before the span shows the contacts at its beginning
     first = max(0, int(np.searchsorted(events.time, begin, side="right")) - 1)
     last = int(np.searchsorted(events.time, end, side="right"))
+    # events.first has the first entry of each event in the list of contacts, then the end of the list
     entries = slice(*events.first[[first, max(first, last)]].tolist()) if len(events) else slice(0)
     contacts = events.listed[entries]
     in_fallback = contacts[events.listed_memory[entries, _MODE_AFTER_FALLBACK] != Mode.OPEN]

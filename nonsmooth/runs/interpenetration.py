@@ -22,7 +22,7 @@ _MOVED = 0.01
 def interpenetration(model: LaidOut, rows: Floats) -> str:
     """Sentences about the first sample at which bodies of contacts overlap more than is allowed, or "".
 
-    The memory holds each sample in turn, and then its content of before.
+    Each sample that moved is written to the memory in turn. At the end the memory has its former content again.
 
     Parameters
     ----------
@@ -46,6 +46,7 @@ def interpenetration(model: LaidOut, rows: Floats) -> str:
                 return _sentences(model, row[0], found)
     finally:
         before.put(model.memory)
+        # a checkpoint has no results of evaluations
         model.evaluate()
     return ""
 
@@ -62,7 +63,10 @@ def _sentences(model: LaidOut, t: float, overlap: Overlap) -> str:
 
 
 def _moved_samples(q: Floats, least_move: float) -> list[int]:
-    """Numbers of samples of which each moved by ``least_move`` since the one before, and of the last one."""
+    """Numbers of the samples that are compared: the first, the last, and between them each that moved enough.
+
+    That is one of which a coordinate has changed by more than ``least_move`` [m or rad] since the last chosen sample.
+    """
     chosen = [0]
     for i in range(1, len(q)):
         if np.max(np.abs(q[i] - q[chosen[-1]]), initial=0.0) > least_move:

@@ -94,6 +94,7 @@ class EngineLoop:
     _n_calls: int = 0
 
     def __post_init__(self) -> None:
+        """Begin with the start as the last checkpoint; a condition gets a view of the run so far."""
         self._checkpoint, self._n_events_before = self.start, self.records.n_events
         self._run_so_far = None if self.until is None else RunSoFar(self.model, self.records, self.engine)
 
@@ -108,7 +109,7 @@ class EngineLoop:
             An exception of ``progress`` or ``until``.
         """
         records = self.records
-        # an engine may have codes of its own
+        # an engine may have codes of its own. A run that is cut off by an exception keeps this status
         status: int = Status.PAUSED
         is_interrupted, output_error = False, ""
         try:
@@ -123,7 +124,7 @@ class EngineLoop:
             records.drain()
             output_error = str(error)
         except MemoryError as error:
-            # the records that were drained before are still there
+            # to drain takes memory; the records that were drained before are still there
             output_error = f"the memory ran out: {error}."
         if status == Status.DONE:
             records.check_complete(self.engine)
@@ -137,11 +138,15 @@ class EngineLoop:
 
     @functools.cached_property
     def _monitor(self) -> StallMonitor:
-        """Monitor of the calls so far. A run of one call needs none."""
+        """Monitor of the calls so far, made at its first use, because most short runs end in one call."""
         return StallMonitor(self.model, self.start)
 
     def _call_engine(self) -> int:
-        """Call the engine until the run ends; the result is the status."""
+        """Call the engine until the run ends; the result is the status.
+
+        Between two calls ``until`` is evaluated and ``progress`` is called. The watch also reports the time to
+        ``progress`` within a long call, and turns Ctrl-C into a KeyboardInterrupt between two steps.
+        """
         memory, progress = self.model.memory, self.progress
         t_end = float(memory[owners.Request.t_end])
         report = None if progress is None else lambda t: progress(t, t_end)
@@ -157,31 +162,40 @@ class EngineLoop:
         return status
 
     def _advance(self, driver: EngineDriver) -> int:
-        """Call the engine once, or twice near the end time, and drain its buffers; the result is the status."""
+        """Call the engine once, or again if it paused, and drain its buffers; the result is the status.
+
+        The first call pauses before a step that depends on the end time, so that a checkpoint can be taken. From there
+        the second call takes at least one step.
+        """
         run, records, sink = self._run_so_far, self.records, self.sink
         self._n_calls += 1
         before = None if run is None else run.reached
         # a condition is evaluated at the start, before any step, and after each step
         most_steps = sink.steps() if run is None else min(self._n_calls - 1, 1)
         status = driver.advance(most_steps, pauses_before_end=True)
-        # with a condition, the engine has paused before its step if it did nothing
-        is_near_end = status == Status.PAUSED and (run is None or before == run.reached)
-        if is_near_end or (status == Status.PAUSED and self._n_calls % sink.steps() == 0):
+        # a pause near the end looks like one after most_steps or with full buffers; but with a condition the engine,
+        # which was to take one step, has then done nothing
+        may_be_near_end = status == Status.PAUSED and (run is None or before == run.reached)
+        # with a condition each call is one step, and not each gets a checkpoint
+        if may_be_near_end or (status == Status.PAUSED and self._n_calls % sink.steps() == 0):
             self._take_checkpoint()
             sink.write(self._checkpoint)
-        if is_near_end:
+        if may_be_near_end:
             if records.has_buffered:
                 # an engine with full buffers takes no step
                 self._monitor.observe(status)
                 records.drain()
+            # a continued run repeats these steps; with few, checkpoints would take most of the time
             most_steps = max(_STEPS_NEAR_END, self._checkpoint.size // _BYTES_PER_STEP)
             status = driver.advance_past(self._checkpoint, most_steps if run is None else 1)
+        # the monitor reads the buffers, so they are drained after it
         if status != Status.DONE:
             self._monitor.observe(status)
         records.drain()
         return status
 
     def _take_checkpoint(self) -> None:
+        """Copy the memory, from which a continued run starts, and store the number of events until then."""
         self._checkpoint, self._n_events_before = Checkpoint.of(self.model.memory), self.records.n_events
 
     def _is_condition_met(self) -> bool:

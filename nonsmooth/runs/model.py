@@ -59,6 +59,10 @@ class Model:
     """
 
     def __init__(self, laid: LaidOut, engine: Engine, start: State, key: Callable[[], str] | None = None) -> None:
+        """Store the memory of ``laid``, on which nothing ran yet, before and after the default start is written to it.
+
+        ``key`` computes the digest of an equal model.
+        """
         self._laid, self._engine, self._start = laid, engine, start
         self._blank = Checkpoint.of(laid.memory)
         # only continued runs need the digest, and it takes as long as the layout
@@ -90,9 +94,10 @@ class Model:
         check_kind("assemble: system", system, System, "Make it by nonsmooth.System([...]).")
         check_kind("engine", engine, Engine, "Give nonsmooth.EventDriven(), or another one with its options.")
         made = cls.anywhere(system, engine)
+        # the memory of a new model holds the default start
         made._check_start()
-        made._undeclared.warn_of_lone()
-        made._undeclared.warn_of_start(made._laid.places())
+        made._pairs_without_contact.warn_of_lone()
+        made._pairs_without_contact.warn_of_start(made._laid.places())
         return made
 
     @classmethod
@@ -149,7 +154,7 @@ class Model:
         InvalidInput
             If the model runs.
         """
-        return Model(self._copied(), self._engine, self._start, self._key)
+        return Model(self._blank_copy(), self._engine, self._start, self._key)
 
     def with_laws_of(self, system: System) -> Model:
         """Model of a system that differs in its laws only, without assembling it.
@@ -166,7 +171,8 @@ class Model:
             If anything else differs, the start is not valid, or the model runs.
         """
         check_kind("with_laws_of: system", system, System, "Make it by nonsmooth.with_laws(model.system, ...).")
-        laid = lay_laws(self._copied(), system)
+        laid = lay_laws(self._blank_copy(), system)
+        # what the engine writes before any run may depend on the laws
         self._engine.prepare(laid)
         made = Model(laid, self._engine, State.at(system))
         made._check_start()
@@ -224,6 +230,7 @@ class Model:
         state = self._start if start is None else start
         check_kind("run: start", state, State, "Give the state of a solution, or State.at(system, ...).")
         check_calls("run", until, progress)
+        # the default start is valid; a state that continues a run gives the memory of that run, not its arrays
         if state is not self._start:
             check_arrays(self._laid, state)
             if not self._continues(state):
@@ -289,11 +296,13 @@ class Model:
         check_calls("resume", until, progress)
         with contextlib.closing(SolutionFolder.held(Output.to(output))) as folder, self._reserved("resume"):
             request = checked_request(folder, until)
-            state = self._state_of(folder)
+            # this removes all that is newer than the checkpoint; what is left are the results before it
+            state = self._cut_to_checkpoint(folder)
             laid = self._laid
             self._records = Records(laid, (folder.events(), folder.rows()))
             resume_run(laid, self._blank, state)
             write_request(laid.memory, request)
+            # the energy account is that of the whole run
             energy, wall = (state.energy.kinetic_start, state.energy.potential_start), folder.wall_seconds
             sink = FolderSink(folder, self._records, self._states_from(energy), wall)
             start = Checkpoint.of(laid.memory)
@@ -301,17 +310,18 @@ class Model:
             return self._complete(loop, energy, wall)
 
     @functools.cached_property
-    def _undeclared(self) -> Undeclared:
-        """The pairs of bodies without a contact, for warnings."""
+    def _pairs_without_contact(self) -> Undeclared:
+        """The pairs of bodies that may meet and have neither contact nor exclusion, for warnings if they overlap."""
         return Undeclared.of(self._laid.system)
 
     @functools.cached_property
     def _places(self) -> FixedPlaces:
+        """Where a checkpoint of this model has the numbers of a state."""
         return FixedPlaces.of(self._laid.memory)
 
     @contextlib.contextmanager
     def _reserved(self, method: str) -> Iterator[None]:
-        """Reserve the memory for a call of a method.
+        """Reserve the memory for a call of a method, also against a callback or another thread that calls one.
 
         Raises
         ------
@@ -325,18 +335,24 @@ class Model:
         finally:
             self._runs.release()
 
-    def _copied(self) -> LaidOut:
-        """The model before any run, in another memory."""
+    def _blank_copy(self) -> LaidOut:
+        """The layout before any run, in a new memory.
+
+        The memory of the model itself is reset, too. This loses nothing, as each run writes its start first.
+        """
         with self._reserved("copy"):
             self._blank.put(self._laid.memory)
             return replace(self._laid, memory=copied(self._laid.memory))
 
     def _continues(self, state: State) -> bool:
-        """True if a run of this model left a state, so that a run from there continues it."""
+        """True if a state was left by a run of this model or of an equal one, so that a run from there continues it."""
         return state.continuation is not None and state.continuation.model == self._key()
 
-    def _state_of(self, folder: SolutionFolder) -> State:
-        """State from which the run in a folder is resumed; errors as :meth:`resume`."""
+    def _cut_to_checkpoint(self, folder: SolutionFolder) -> State:
+        """Remove the results after the last checkpoint from a folder. State there, from which the run is resumed.
+
+        Errors as :meth:`resume`.
+        """
         state = folder.cut_to_checkpoint()
         if not self._continues(state):
             raise InvalidInput(
@@ -348,15 +364,20 @@ class Model:
         return state
 
     def _states_from(self, start_energy: tuple[float, float]) -> Callable[[Checkpoint], State]:
-        """A function that makes the state of a checkpoint; the energy account starts at ``start_energy`` [J]."""
+        """Function for the sink that makes the state of a checkpoint, which the memory holds.
+
+        ``start_energy`` are kinetic and potential energy at the start of the energy account [J]. No event is after the
+        checkpoint.
+        """
         return lambda checkpoint: self._final_state(start_energy, checkpoint, 0).state()
 
     def _final_state(self, start_energy: tuple[float, float], resumable: Checkpoint, n_known_events: int) -> FinalState:
         """The state of the memory now, ``n_known_events`` events after the checkpoint ``resumable``.
 
-        The energy account starts at ``start_energy`` [J].
+        The energy account starts at ``start_energy``, kinetic and potential [J].
         """
         laid = self._laid
+        # the energies of bodies are numbers of their blocks
         laid.evaluate()
         return FinalState(
             laid.system,
@@ -373,9 +394,13 @@ class Model:
     def _run(
         self, request: RunRequest, state: State, progress: Progress | None, output: Output | None, until: Until | None
     ) -> Solution:
-        """Run from a state, while the memory is reserved."""
+        """Run from a state, while the memory is reserved; errors as :meth:`run`.
+
+        Bodies without a contact that overlap at the end, but not at the start, cause a warning.
+        """
         laid = self._laid
         self._records = Records(laid)
+        # kinetic and potential energy at the start of the energy account
         energy = self._put_start(state)
         write_request(laid.memory, request)
         write_first_sample(laid.memory, request)
@@ -386,23 +411,26 @@ class Model:
         sink = OutputSink()
         if output is not None:
             folder = SolutionFolder.created(output, laid.system, self._engine, request, laid.n_states)
-            sink = FolderSink(folder, self._records, self._states_from(energy), 0.0)
-        before = laid.places() if self._undeclared.any else []
+            sink = FolderSink(folder, self._records, self._states_from(energy), wall=0.0)
+        # where the bodies are before the run
+        before = laid.places() if self._pairs_without_contact.any else []
         loop = EngineLoop(self._engine, laid, self._records, start, sink, progress, until)
-        solution = self._complete(loop, energy, 0.0)
-        if self._undeclared.any:
+        solution = self._complete(loop, energy, wall=0.0)
+        if self._pairs_without_contact.any:
             laid.evaluate()
-            self._undeclared.warn_of_end(before, laid.places())
+            self._pairs_without_contact.warn_of_end(before, laid.places())
         return solution
 
     def _put_start(self, state: State) -> tuple[float, float]:
-        """Put the memory where a run starts; the result is kinetic and potential energy at the start [J].
+        """Put the memory where a run starts. Kinetic and potential energy [J] at the start of its energy account.
 
-        A run that continues another one has the start of the other one, and gets a start event.
+        The energy account of a run that continues another one begins at the start of the other one. The engine records
+        no start event in such a run, so it is added here.
         """
         laid = self._laid
         if state is self._start:
             self._start_checkpoint.put(laid.memory)
+            # checked at the first run if assembly did not check it
             self._check_start()
             return self._start_energy
         if self._continues(state):
@@ -415,9 +443,10 @@ class Model:
         return laid.energy()
 
     def _complete(self, loop: EngineLoop, energy: tuple[float, float], wall: float) -> Solution:
-        """Run to the end from the start of a loop.
+        """Run to the end from the start of a loop, and raise RunFailed with the solution if the run failed.
 
-        ``energy`` [J] is that at the start of the energy account, ``wall`` [s] the wall time of the run before.
+        ``energy`` are kinetic and potential energy at the start of the energy account [J]; ``wall`` is the wall time
+        that the run took in earlier processes [s].
         """
         laid, clock, records = self._laid, time.perf_counter(), loop.records
         try:
@@ -430,10 +459,11 @@ class Model:
             if found.status == "done" and (overlap := interpenetration(laid, recorded.rows)):
                 found = Outcome("failed", overlap)
             solution = Solution(laid.system, recorded, partial(final.end, found, ending.status, wall, recorded))
+            # a solution holds two checkpoints until its end is read; then it releases them
             if 2 * self._blank.size > _LARGEST_UNREAD:
-                # the solution reads its end here, and releases the memory
                 _ = solution.end
             has_failed = found.status == "failed"
+            # the results are in memory, also if they cannot be written
             try:
                 if not ending.output_error:
                     loop.sink.finish(solution)

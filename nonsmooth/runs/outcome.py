@@ -34,8 +34,12 @@ def cause_of(engine: Engine, status: int) -> Cause | None:
 
 
 def outcome(model: LaidOut, ending: Ending, engine: Engine) -> Outcome:
-    """Status and message of a run of an engine that has ended."""
-    # a function that wrote past its block may have changed anything, so it is the reason before all others
+    """Status and message of a run of an engine that has ended.
+
+    The first that holds is the reason: lost results, a function that wrote past its block, a cause that the engine
+    declares, a failure, the end time or a condition.
+    """
+    # what a function wrote past its block may have changed anything, also the status
     overrun, status = block_overrun(model), ending.status
     at = f"At t = {model.memory[owners.Island.time]:.9g} s"
     if ending.output_error:
@@ -44,6 +48,7 @@ def outcome(model: LaidOut, ending: Ending, engine: Engine) -> Outcome:
     if cause and not overrun:
         message = f"{at} {cause.reason}. {cause.remedy}".strip()
         return Outcome("failed" if cause.is_failure else "done", message)
+    # PAUSED is the status of a run that the user interrupted
     if overrun or status not in (Status.DONE, Status.STOPPED, Status.CONDITION_MET, Status.PAUSED):
         reason = cause.reason if cause else REASONS[Status(status)]
         details = overrun or failing_function(model, status) or ending.hint

@@ -66,12 +66,15 @@ class Records:
 
     @property
     def _width(self) -> int:
-        """Length of a sample: time, integrated state and accounted energies."""
+        """Number of floats of a sample: time, integrated state, and the energies accounted at instants."""
         return 1 + self.model.n_y + BOOKED
 
     @property
     def n_events(self) -> int:
-        """Number of events so far, with those of an earlier process, without those that a continued run repeats."""
+        """Number of events so far, with those of an earlier process, without those that a continued run repeats.
+
+        While a continued run repeats events, the count is less by those that it has yet to repeat.
+        """
         _, integers = self.model.memory.cells
         earlier = 0 if self.earlier is None else len(self.earlier[0])
         return earlier + self._n_drained + int(integers.item(_N_EVENTS) - integers.item(_N_KNOWN))
@@ -83,7 +86,10 @@ class Records:
         return bool(integers.item(_N_SAMPLES) > 0 or integers.item(_N_EVENTS) > 0)
 
     def drain(self) -> None:
-        """Copy the buffers of the engine, unless those of its last call are copied already, and empty them."""
+        """Copy the buffers of the engine and empty them.
+
+        If an interrupt came between the two, the part of the engine's last call exists, and they are only emptied.
+        """
         memory, width = self.model.memory, self._width
         _, integers = memory.cells
         key, n_events, n_samples = integers.item(_N_CALLS), integers.item(_N_EVENTS), integers.item(_N_SAMPLES)
@@ -102,7 +108,8 @@ class Records:
 
         The engine records none there, because the run has started before.
         """
-        # an event: time, q, u before and after, the rest of the integrated state, and numbers of the closed contacts
+        # an event: time, four energies, q, u before and after, the rest of the integrated state, and then numbers of
+        # the closed contacts. Impulses are 0. A state has no side of anisotropic friction (FACING), 1 by default
         closed = np.flatnonzero(state.modes != Mode.OPEN)
         codes = _ALWAYS * np.where(state.modes[closed] == Mode.SLIDE, _SLIDE_CODE, _STICK_CODE)
         head = np.zeros(EVENT_HEAD)
@@ -113,6 +120,7 @@ class Records:
         contacts[:, FEATURES:] = state.features[closed]
         rest = row_of(state)[1 + len(state.q) + len(state.u) :]
         floats = np.concatenate([head, state.q, state.u, state.u, rest, contacts.ravel()])
+        # cause, no contact, no phases, not truncated, number of contacts; then number and code of each contact
         numbers = np.column_stack([closed, codes]).ravel()
         integers = np.concatenate([[Cause.START, -1, 0, 0, len(closed)], numbers]).astype(np.int64)
         self._parts[_START_PART] = floats, integers, np.zeros((0, self._width))
@@ -127,6 +135,7 @@ class Records:
         """
         self._check_events(engine)
         floats, _ = self.model.memory.cells
+        # the time of the next sample is after the end if none is left out
         expected = floats.item(_NEXT)
         # a run that is shorter than the accuracy of its times has no step
         if expected < floats.item(_T) - max(_ROUND_OFF * floats.item(_INTERVAL), floats.item(_RESOLUTION)):
@@ -138,7 +147,7 @@ class Records:
             )
 
     def _check_events(self, engine: Engine) -> None:
-        """Check the events of a system with contacts; errors as :meth:`check_complete`."""
+        """Check the events of a system with contacts: none, or one at the start; errors as :meth:`check_complete`."""
         if not self.model.system.contacts:
             return
         thing, start = f"{type(engine).__name__}.advance", self.model.memory.cells[0].item(_START)
@@ -151,6 +160,7 @@ class Records:
             )
         # the floats of an event begin with its time
         first = next((floats.item(0) for floats, _, _ in self._parts.values() if len(floats)), math.inf)
+        # a resumed run has its start event in the earlier process
         if self.earlier is None and engine.records_contacts and first > start:
             raise InvalidInput(
                 thing,
@@ -160,16 +170,20 @@ class Records:
             )
 
     def add_last_sample(self) -> None:
-        """Add a sample at the time reached, unless the last sample is there."""
+        """Add a sample of the present state at the time reached, unless the last sample is there.
+
+        So the end of a run, which need not be a multiple of the sample interval, is a sample, too.
+        """
         memory, (floats, integers) = self.model.memory, self.model.memory.cells
         t, interval = floats.item(_T), floats.item(_INTERVAL)
+        # the last sample was an interval before the next one
         if integers.item(_INDEX) > 0 and t - (floats.item(_NEXT) - interval) <= _ROUND_OFF * interval:
             return
         row = np.concatenate([[t], memory[owners.Island.y], floats[_ACCOUNTED]])
         self._parts[_END_PART] = np.zeros(0), np.zeros(0, np.int64), row[None]
 
     def joined(self, engine: Engine) -> Recorded:
-        """Events and samples of the whole run, which ``engine`` integrated."""
+        """Events and samples of the whole run, with those of an earlier process; ``engine`` integrated it."""
         floats, integers, samples = self._joined(0)
         if self.earlier is None:
             return Recorded(samples, engine, floats, integers, self.model.sizes)
@@ -177,13 +191,16 @@ class Records:
         return Recorded(np.concatenate([rows, samples]), engine, floats, integers, self.model.sizes, events)
 
     def take_unwritten(self) -> tuple[Events, Floats]:
-        """Events and samples of the parts that no earlier call returned, for the output folder."""
+        """Events and samples of the parts that no earlier call took, for the output folder; the parts are kept."""
         floats, integers, samples = self._joined(self._n_taken)
         self._n_taken = len(self._parts)
         return Events.from_buffers(floats, integers, *self.model.sizes), samples
 
     def _joined(self, first: int) -> tuple[Floats, Integers, Floats]:
-        """Floats and integers of events, and samples, of the parts from number ``first`` on."""
+        """Floats and integers of events, and samples, of the parts from number ``first`` on, in their order.
+
+        A part has what one call of the engine recorded. A single part is not copied.
+        """
         parts = list(self._parts.values())[first:]
         if len(parts) == 1:
             return parts[0]

@@ -74,12 +74,13 @@ def resume(
 
 
 def check_resumable(where: Output) -> SolutionFolder:
-    """Folder of a run that can be resumed; warnings and errors as :func:`resume`."""
+    """Folder of a run that can be resumed. A warning names programs of other versions; errors as :func:`resume`."""
     folder = SolutionFolder.opened(where)
     folder.check_cut_off()
     began, now = folder.said("versions"), versions()
     other = [f"{name} {began.get(name)}, now {now.get(name)}" for name in now if began.get(name) != now.get(name)]
     if other:
         text = f"{where.folder}: the run began with {'; '.join(other)}. Its last bits may differ from there on."
+        # the warning names the line that called the caller of this function
         warnings.warn(text, OtherVersions, stacklevel=3)
     return folder

@@ -30,7 +30,7 @@ def check_calls(name: str, until: Until | None, progress: Progress | None) -> No
 
 
 def check_steps(duration: float, largest_step: float) -> None:
-    """Check that a run of a duration [s] can end in a reasonable time with its largest step [s], 0 if unlimited.
+    """Check that a run of a duration [s] can end within hours if no step exceeds ``largest_step`` [s], 0 if unlimited.
 
     Raises
     ------
@@ -48,7 +48,9 @@ def check_steps(duration: float, largest_step: float) -> None:
 
 
 def check_times(name: str, t_end: float, sample_interval: float | None, start: float = 0.0) -> float:
-    """Check the times [s] of a run from ``start``; the result is the time between samples, by default a 2000th of it.
+    """Check the times [s] of a run from ``start``. Time between samples [s]: a 2000th of the run if None is given.
+
+    ``name`` is that of the user's call, for messages. Comparisons are written so that NaN fails them.
 
     Raises
     ------
@@ -68,7 +70,7 @@ def check_times(name: str, t_end: float, sample_interval: float | None, start: f
 
 
 def checked_request(folder: SolutionFolder, until: Until | None) -> RunRequest:
-    """Arguments of a run that was cut off, which its folder holds.
+    """Arguments of a run that was cut off, read from its folder, so that it can be resumed with them.
 
     Raises
     ------

@@ -66,7 +66,7 @@ class _Support(NamedTuple):
     def bears(self, direction: np.ndarray) -> bool:
         """True if the support can exert a force along a unit vector, into the free body."""
         if self.friction is not None:
-            # the friction cone at rest
+            # within the cone about the normal whose half angle is the angle of friction at rest
             return bool(direction @ self.normal >= math.cos(math.atan(coefficient_of(self.friction)(0.0))))
         # the part of the direction that no combination of the axes gives
         rest = direction - self.normal.T @ np.linalg.lstsq(self.normal.T, direction, rcond=None)[0]
@@ -74,7 +74,10 @@ class _Support(NamedTuple):
 
 
 def squeezed_body(model: LaidOut, status: int) -> str:
-    """Sentences that name a squeezed body and its supports after a run ended with a status, or ""."""
+    """Sentences that name a squeezed body and its supports after a run ended with a status, or "".
+
+    Two supports of a body are compared at a time, of which at least one is a contact.
+    """
     if status not in _STATUSES:
         return ""
     memory = model.memory
@@ -85,6 +88,7 @@ def squeezed_body(model: LaidOut, status: int) -> str:
         length = float(np.linalg.norm(between))
         if one.body != two.body or length == 0.0:
             continue
+        # from the first point to the second: both forces are into the body, toward the other point
         direction = between / length
         approach = float(direction @ (one.velocity - two.velocity))
         if one.bears(direction) and two.bears(-direction) and approach > float(memory[owners.Tolerance.velocity]):
@@ -98,7 +102,10 @@ def squeezed_body(model: LaidOut, status: int) -> str:
 
 
 def _free_body(model: LaidOut, first: Body, second: Body) -> tuple[int, bool] | None:
-    """Number of the free one of a free and a driven body, and whether it is the second; None for other pairs."""
+    """Number of the free body of a pair of a free and a driven one, and True if it is the second; None for other pairs.
+
+    A driven body has a prescribed motion, and no velocities of its own.
+    """
     bodies = model.system.bodies
     pair = [next(i for i, body in enumerate(bodies) if body is one) for one in (first, second)]
     free = [i for i in pair if bodies[i].n_u > 0]
@@ -113,6 +120,7 @@ def _point_and_velocity(
     The first numbers of ``row`` hold a point on either body, ``frames`` are the places of the frames of both bodies,
     and ``is_second`` is True if the second body is the free one.
     """
+    # offsets of the points in the row, "A" on the first body
     free, driven = (blocks.POINT_B, blocks.POINT_A) if is_second else (blocks.POINT_A, blocks.POINT_B)
     frame = model.memory.floats[frames[0] if is_second else frames[1] :]
     position, velocity, spin = (frame[at : at + 3] for at in (blocks.POSITION, blocks.VELOCITY, blocks.SPIN))
@@ -120,7 +128,10 @@ def _point_and_velocity(
 
 
 def _contact(model: LaidOut, index: int) -> list[_Support]:
-    """The active contact of an index, if it is closed, rigid, and between a free and a driven body; else nothing."""
+    """The active contact of an index as a support, if it is closed, and between a free and a driven body; else nothing.
+
+    Only a contact with Coulomb friction has a cone of forces.
+    """
     memory = model.memory
     contact = model.system.contacts[model.active[index]]
     block = memory[owners.Contact.geometry][index]
@@ -131,12 +142,16 @@ def _contact(model: LaidOut, index: int) -> list[_Support]:
     body, is_second = found
     frames = memory[owners.Contact.frame_a][index], memory[owners.Contact.frame_b][index]
     point, velocity = _point_and_velocity(model, frames, is_second, block)
+    # the normal of a contact is from its first body to its second, that of a support into the free body
     normal = (1.0 if is_second else -1.0) * block[blocks.NORMAL : blocks.NORMAL + 3]
     return [_Support(str(contact), body, point, velocity, normal, contact.friction)]
 
 
 def _joints(model: LaidOut) -> Iterator[_Support]:
-    """The joints between a free and a driven body that constrain a point along one axis or more."""
+    """The joints, as supports, between a free and a driven body that constrain a point along one axis or more.
+
+    A row of a joint is one scalar constraint.
+    """
     memory = model.memory
     for number, joint in enumerate(joints_in_order(model.system)):
         found = _free_body(model, joint.first, joint.second)

@@ -66,8 +66,12 @@ class StallMonitor:
     _has_warned: bool = False
 
     def __post_init__(self) -> None:
+        """Begin to count at the start: time [s], and number of steps that each cause has limited so far.
+
+        The counts "before" are those at which time passed last.
+        """
         self._t = self._t_start = float(self.start[owners.Island.time])
-        self._limits = self._limits_before = self.start[owners.Totals.n_steps_limited]
+        self._n_limited = self._n_limited_before = self.start[owners.Totals.n_steps_limited]
 
     def observe(self, status: int) -> None:
         """Count steps and events of the last call of the engine, which ended with a status.
@@ -80,15 +84,16 @@ class StallMonitor:
             If time hardly passes, once in a run.
         """
         memory, t_before = self.model.memory, self._t
-        t, limits = float(memory[owners.Island.time]), memory[owners.Totals.n_steps_limited].copy()
-        n_steps = int(np.sum(limits - self._limits))
-        self._t, self._limits = t, limits
+        t, n_limited = float(memory[owners.Island.time]), memory[owners.Totals.n_steps_limited].copy()
+        # each step is counted under one cause
+        n_steps = int(np.sum(n_limited - self._n_limited))
+        self._t, self._n_limited = t, n_limited
         # time passes if the mean length of the new steps is not short
         passes = t - t_before > _SHORT_STEP * n_steps * (float(memory[owners.Request.t_end]) - self._t_start)
         if passes:
-            self._n_short, self._short_time, self._limits_before = 0, 0.0, limits
+            self._n_short, self._short_time, self._n_limited_before = 0, 0.0, n_limited
             self._last_events.clear()
-        # the events of a call that ended in a failure are counted in any case
+        # the events of a call that ended in a failure are counted in any case, for the hint
         if not passes or status not in (Status.PAUSED, Status.DONE, Status.STOPPED):
             self._last_events.extend(self._new_events())
             self._n_short, self._short_time = self._n_short + n_steps, self._short_time + t - t_before
@@ -99,7 +104,10 @@ class StallMonitor:
             warnings.warn(text, TimeHardlyPasses, stacklevel=7)
 
     def hint(self, status: int) -> str:
-        """Sentences about what a failed run was doing when it ended with a status; "" for other statuses."""
+        """Sentences for the message of a failed run: its last events, errors or contacts, by the status of its end.
+
+        "" for a status about which the monitor knows nothing.
+        """
         if status == Status.STALLED:
             return f"{self._counted_events()} {_REMEDY}"
         if status == Status.STEP_TOO_SMALL:
@@ -107,7 +115,10 @@ class StallMonitor:
         return _last_contacts(self.model) if status in _STATUSES_AT_AN_INSTANT else ""
 
     def _new_events(self) -> Iterable[_Event]:
-        """Cause, and contact or guard, of the events that the buffers of the engine hold."""
+        """Cause, and contact or guard, of the events that the buffers of the engine hold.
+
+        The integers of an event are a head, which ends with a number of contacts, and two for each of these contacts.
+        """
         memory = self.model.memory
         codes = memory[owners.Output.event_codes][: int(memory[owners.Output.integers_used])].tolist()
         at = 0
@@ -116,22 +127,28 @@ class StallMonitor:
             at += CODE_HEAD + 2 * codes[at + CODE_HEAD - 1]
 
     def _remaining(self, t: float) -> str:
-        """Sentence with the mean length of the short steps and the number of them that remain from ``t`` [s]."""
+        """Sentence with the mean length of the steps since time passed last, and the number that remains from ``t`` [s].
+
+        It is meant for steps below 1e-10 of the run: more than 1e10 steps take days.
+        """
         t_end, step = float(self.model.memory[owners.Request.t_end]), self._short_time / self._n_short
+        # a step of length 0 is an event at the time reached
         far = f"would take {(t_end - t) / step:.1g} of them, that is days" if step > 0.0 else "is out of reach"
         return f"the steps are {step:.2g} s long (mean of the last {self._n_short}); t_end = {t_end:.9g} s {far}."
 
     def _limited_by(self) -> str:
-        """Sentences with the limits of the short steps, most frequent first, and the last events."""
-        counts = self._limits - self._limits_before
+        """Sentences with the limits of the steps since time passed last, most frequent first, and the last events."""
+        counts = self._n_limited - self._n_limited_before
         ranked = [i for i in np.argsort(-counts, kind="stable").tolist() if counts[i] > 0][:_N_NAMED]
         limits = ", ".join(f"{LIMITS[i]} ({counts[i]})" for i in ranked)
         error = _largest_error(self.model) if ranked[:1] == [Limit.ERROR] else ""
+        # without the second space if there is no sentence on the error
         return " ".join(f"The steps were limited by: {limits}. {error} {self._counted_events()}".split())
 
     def _counted_events(self) -> str:
         """Sentence with the most frequent of the last events and their numbers, or "" if there are none."""
         names = self.model.system.names
+        # an event is its cause, and its contact or guard; the start has neither
         counted = Counter(event for event in self._last_events if event[0] != Cause.START)
         if not counted:
             return ""
@@ -145,16 +162,17 @@ class StallMonitor:
 def _largest_error(model: LaidOut) -> str:
     """Sentence that names the coordinate, velocity or inner state with the largest relative error of the last step.
 
-    A step that is too small was rejected, and its error is still where stages are written.
+    The integrator writes the error of a step over the state of a stage. That of a rejected step is still there.
     """
     memory, n = model.memory, model.n_y
+    # a tolerance is relative to the size of a number plus a scale, which counts if the number is small
     error, scale, y = (memory[one] for one in (owners.Step.y_stage, owners.Step.y_scale, owners.Island.y))
     size = scale + np.abs(y)
     relative = np.divide(np.abs(error), size, out=np.zeros(n), where=size > 0.0)
     # the energy accounts do not limit steps
     relative[model.n_q + model.n_u :][:N_ACCOUNTS] = 0.0
     worst = int(np.argmax(np.nan_to_num(relative, nan=np.inf)))
-    # q of all bodies comes first, then u of all, then the inner states
+    # q of all bodies comes first, then u of all, then the inner states; worst counts on from each body
     for letter, count in (("q", "n_q"), ("u", "n_u")):
         for name, body in zip(model.system.names.bodies, model.system.bodies, strict=True):
             if worst < getattr(body, count):
@@ -164,7 +182,7 @@ def _largest_error(model: LaidOut) -> str:
 
 
 def _last_contacts(model: LaidOut) -> str:
-    """Sentence that names the contacts of the last contact problem, or ""."""
+    """Sentence that names the contacts whose forces or impulses were to be solved for last, or "" without any."""
     memory = model.memory
     in_problem = memory[owners.Problem.active][: int(memory[owners.Problem.n_active])]
     numbers = model.active[in_problem].tolist()
@@ -175,6 +193,6 @@ def _last_contacts(model: LaidOut) -> str:
 
 
 def _enumeration(words: list[str], total: int) -> str:
-    """The words, and the number of others if there are ``total`` in all."""
+    """The words as a list for a sentence: "a, b, 3 others" if there are more words, ``total`` in all."""
     more = [f"{total - len(words)} others"] if total > len(words) else []
     return ", ".join([*words, *more])

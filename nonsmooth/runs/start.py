@@ -38,7 +38,8 @@ _BUFFER_PART = 0.5
 def begin(model: LaidOut, blank: Checkpoint, state: State) -> None:
     """Write a state into the memory as a new start, and make the neighbour list.
 
-    ``blank`` is the content of the memory before any run.
+    ``blank`` is the content of the memory before any run. Contacts with a search for features need a check, because the
+    list of a new search may lack the features of a closed contact.
 
     Raises
     ------
@@ -54,6 +55,7 @@ def continue_run(model: LaidOut, blank: Checkpoint, state: State) -> None:
     """Put the memory where the run that left a state continues, with the counters at zero.
 
     The engine repeats the events after the checkpoint, and must not record them again: the memory holds their number.
+    Energies are not set to zero, because the energy account includes the earlier run.
 
     Raises
     ------
@@ -68,7 +70,7 @@ def continue_run(model: LaidOut, blank: Checkpoint, state: State) -> None:
 
 
 def resume_run(model: LaidOut, blank: Checkpoint, state: State) -> None:
-    """Put the memory where the run that left a state was cut off, with the counters of this run.
+    """Put the memory at the checkpoint from which the run that left a state continues, with the counters of that run.
 
     Raises
     ------
@@ -77,6 +79,7 @@ def resume_run(model: LaidOut, blank: Checkpoint, state: State) -> None:
     """
     continuation, memory = state.continuation, model.memory
     assert continuation is not None
+    # a state has the difference of the checkpoint from the blank memory
     blank.put(memory)
     continuation.difference.put(memory)
     check_candidates(model)
@@ -84,12 +87,14 @@ def resume_run(model: LaidOut, blank: Checkpoint, state: State) -> None:
     if not t <= state.time or n_known_events < 0:
         rule = f"must begin before {state.time:.9g} s"
         raise InvalidInput("State.continuation", rule, (t, n_known_events), "It is damaged: take another.")
-    # a run that was cut off before its first instant starts anew
+    # a resumed run derives again what no checkpoint holds; one that was cut off before its first instant starts anew
     memory[owners.Request.is_resumed] = memory[owners.Run.has_started]
 
 
 def _check_features(model: LaidOut, blank: Checkpoint, state: State) -> None:
-    """Check that a search finds the features of each closed contact; it leaves the state in the memory, all open.
+    """Check that a search finds the features of each closed contact.
+
+    It writes the state into the memory with all contacts open, so that the search assigns features to contacts freely.
 
     Raises
     ------
@@ -97,6 +102,7 @@ def _check_features(model: LaidOut, blank: Checkpoint, state: State) -> None:
         If the search finds other features.
     """
     _write(model, blank, state, np.full(len(state.modes), Mode.OPEN))
+    # offsets of the features, 0 for a contact without a search
     features = model.memory.declared(owners.Contact.features)
     for number in np.flatnonzero((features > 0) & (state.modes != Mode.OPEN)).tolist():
         if not np.array_equal(model.memory.floats[features[number] :][:CANDIDATE], state.features[number]):
@@ -109,16 +115,18 @@ def _check_features(model: LaidOut, blank: Checkpoint, state: State) -> None:
 
 
 def _write(model: LaidOut, blank: Checkpoint, state: State, modes: Integers) -> None:
-    """Write a state into the memory, but with these modes of the contacts, and make the neighbour list."""
+    """Write a state into the blank memory, but with these modes of the contacts, and make the neighbour list."""
     blank.put(model.memory)
     memory = model.memory
     memory[owners.Island.time] = state.time
     y = memory[owners.Island.y]
+    # the energy accounts between u and the inner states of laws begin at zero
     y[: model.n_q], y[model.n_q : model.n_q + model.n_u] = state.q, state.u
     y[model.n_q + model.n_u + N_ACCOUNTS :] = state.law_states
     memory.declared(owners.Contact.mode)[:] = modes
     memory.declared(owners.Contact.closing_rate)[:] = state.closing_rates
     memory.declared(owners.Contact.direction)[:] = state.slip_directions
+    # only contacts with a search have features in the memory; a first number of 0 means that none were found
     features = memory.declared(owners.Contact.features)
     found = np.flatnonzero((features > 0) & (state.features[:, 0] != 0.0))
     memory.floats[features[found, None] + np.arange(CANDIDATE)] = state.features[found]
@@ -127,15 +135,15 @@ def _write(model: LaidOut, blank: Checkpoint, state: State, modes: Integers) -> 
 
 
 def write_request(memory: Memory, request: RunRequest) -> None:
-    """Write the end time and the times of samples [s]."""
+    """Write the end time and the times of samples [s], and the longest step whose samples fit their buffer."""
     memory[owners.Request.t_end] = request.t_end
     memory[owners.Request.sample_start] = request.sample_start
     memory[owners.Request.sample_interval] = request.sample_interval
-    # the default interval depends on the end time, which must not change the steps; its samples fit the buffer
-    longest = _BUFFER_PART * memory[owners.Model.sample_capacity] * request.sample_interval
-    memory[owners.Request.sample_span] = math.inf if request.has_default_samples else longest
+    longest_step = _BUFFER_PART * memory[owners.Model.sample_capacity] * request.sample_interval
+    # the default interval depends on the end time, which must not change the steps; its few samples fit in any case
+    memory[owners.Request.sample_span] = math.inf if request.has_default_samples else longest_step
 
 
 def write_first_sample(memory: Memory, request: RunRequest) -> None:
-    """Write that the next sample is the first one of a request."""
+    """Set time [s] and number of the next sample to those of the first one of a request, for a run from its start."""
     memory[owners.Output.next_sample], memory[owners.Output.sample_index] = request.sample_start, 0

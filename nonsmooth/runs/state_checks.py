@@ -46,6 +46,7 @@ def check_arrays(model: LaidOut, state: State) -> None:
     if not is_finite(state.time):
         raise InvalidInput("State.time", "must be finite", state.time, "Give it in [s].")
     for name, shape in shapes.items():
+        # kinds of numpy types: booleans, signed and unsigned integers, floats
         value, kinds = getattr(state, name), "biu" if name in _INTEGERS else "biuf"
         if value.dtype.kind not in kinds:
             rule = f"must be {'integers' if name in _INTEGERS else 'numbers'}"
@@ -92,7 +93,9 @@ def check_closed(model: LaidOut, state: State) -> None:
     allowed = _LARGEST_GAP * float(model.memory[owners.Tolerance.gap])
     for number in np.flatnonzero(state.modes).tolist():
         normal = model.system.contacts[number].normal
+        # a compliant law may act before the surfaces touch
         reach = normal.reach if isinstance(normal, CompliantNormalLaw) else 0.0
+        # the gap is infinite if the bodies are far apart, and may be NaN
         if not gaps[number] <= reach + allowed:
             raise InvalidInput(
                 f"State.modes[{number}], the {model.system.contacts[number]},",
@@ -112,6 +115,7 @@ def check_candidates(model: LaidOut) -> None:
     InvalidInput
         If a feature does not exist.
     """
+    # offsets of the features, 0 for a contact without a search; the first feature number is 0 if none were found
     places = model.memory.declared(owners.Contact.features)
     numbers = np.flatnonzero(places > 0)
     for number in numbers[model.memory.floats[places[numbers]] != 0.0].tolist():
@@ -119,6 +123,7 @@ def check_candidates(model: LaidOut) -> None:
         search = contact.kinematics.candidates
         assert search is not None
         kind, *features, distance = model.memory.floats[places[number] :][: CANDIDATE + 1].tolist()
+        # numbers of features of both shapes by the kind of the pair
         pair = zip(features, search.counts.get(kind, (0, 0)), strict=True)
         exist = all(feature.is_integer() and 0 <= feature < count for feature, count in pair)
         if not (exist and 0.0 <= distance < np.inf):

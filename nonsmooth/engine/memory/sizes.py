@@ -74,7 +74,7 @@ def impulse_numbers(n: Counts) -> int:
 
 
 def map_numbers(n: Counts) -> int:
-    """Number of floats that an impact law which maps velocities reads: the parameters of each contact."""
+    """Number of floats that an impact map reads: the friction coefficient and the parameters of each contact."""
     return n["map_width"] * n["n_slots"]
 
 
