@@ -127,7 +127,7 @@ class StallMonitor:
             at += CODE_HEAD + 2 * codes[at + CODE_HEAD - 1]
 
     def _remaining(self, t: float) -> str:
-        """Sentence with the mean length of the steps since time passed last, and the number that remains from ``t`` [s].
+        """Sentence with the mean length of the steps since time passed last, and the number remaining from ``t`` [s].
 
         It is meant for steps below 1e-10 of the run: more than 1e10 steps take days.
         """
