@@ -62,7 +62,7 @@ def _failing_function(model: LaidOut, status: int) -> str:
         return failed_check(model, status)
     if found := squeezed_body(model, status):
         return found
-    # both lead to forces or impulses that are not finite
+    # a contact that joints hold has no finite force, and an impact map may give impulses that are not finite
     found = _immobile(model) or _failing_map(model) if status == Status.NOT_FINITE else ""
     found = found or failed_search(model.memory, model.system.contacts) or _failing_block(model)
     # a law without a finite value may also reject steps until they are too small
@@ -109,7 +109,7 @@ def _failing_block(model: LaidOut) -> str:
     """
     memory = model.memory
     t = memory[owners.Island.time]
-    # ten time tolerances after an event: a function of time has switched there
+    # ten time tolerances after an event at t: a function of time that switches there has switched
     for time in (t, t + memory[owners.Step.h], t + 10.0 * memory[owners.Tolerance.time]):
         memory[owners.Island.time] = time
         call_entry("evaluate_at", memory)

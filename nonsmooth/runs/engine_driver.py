@@ -40,7 +40,10 @@ class EngineDriver:
     """
 
     def __init__(self, engine: Engine, model: LaidOut, call: Callable[..., Any]) -> None:
-        """Drive an engine: its statuses are the common ones and the codes of causes of its own."""
+        """Drive an engine on the memory of a model. ``call`` calls an entry point of the compiled code by name.
+
+        The engine may return the common statuses and the codes of its own causes.
+        """
         self._engine, self._memory, self._call = engine, model.memory, call
         self._name = f"{type(engine).__name__}.advance"
         self._statuses = {*_STATUSES, *(cause.code for cause in engine.causes)}
@@ -56,7 +59,7 @@ class EngineDriver:
         InvalidInput
             If the engine breaks its contract.
         """
-        # records are filed under the number of the call
+        # the scalars as integers; records are filed under the number of the call
         self._memory.cells[1][_N_CALLS] += 1
         try:
             status = self._engine.advance(self._call, self._memory, most_steps, pauses_before_end)
@@ -67,6 +70,7 @@ class EngineDriver:
             names = "DONE, PAUSED, STOPPED, a failure of nonsmooth.engine.memory.modes or a code of its causes"
             remedy = "Return PAUSED to be called again."
             raise InvalidInput(f"{self._name}: its status", f"must be {names}", status, remedy)
+        # a run that is done has ended at the time that was requested, to the last bit
         t, t_end = self._memory[owners.Island.time], self._memory[owners.Request.t_end]
         if status == Status.DONE and t != t_end:
             rule = f"must be the end time {t_end:.9g} s if the status is DONE"
@@ -96,6 +100,7 @@ class EngineDriver:
 
     def _holds(self, checkpoint: Checkpoint) -> bool:
         """True if the memory holds a checkpoint, apart from counters of calls: the engine has done nothing since."""
+        # the cheapest test, and it decides most cases
         if self._memory[owners.Island.time] != checkpoint[owners.Island.time]:
             return False
         # integers of the same bits as the numbers

@@ -84,7 +84,7 @@ def _lightest(model: LaidOut) -> str:
     """Sentences on the joined body whose inertia is least, if round-off of the largest inertia moves it, else "".
 
     An inertia is a mass [kg] or a moment of inertia [kg m^2], here the inverse of a diagonal entry of the inverse mass
-    matrix. Numbers of both kinds are compared, since round-off does not know units.
+    matrix. Numbers of both kinds are compared, since round-off does not know units. The text follows another sentence.
     """
     bodies, joined = model.system.bodies, {id(body) for tie in model.system.joints for body in (tie.first, tie.second)}
     inverse_inertias = [

@@ -211,7 +211,8 @@ class FinalState(NamedTuple):
     def _least_scale(self) -> float:
         """Scale of the energy account of bodies that hardly move [J].
 
-        It is the sum over the free bodies of force times size, for each the work of its force over its own size.
+        An imbalance is compared with it if less energy was exchanged. It is the sum, over the free bounded bodies, of
+        the work of the force on each over its own size.
         """
         total = 0.0
         for body, tail in zip(self.system.bodies, self.places.tails.tolist(), strict=True):

@@ -42,6 +42,7 @@ def _parameters(memory: Memory) -> Iterator[np.ndarray]:
             if one.life is Life.PARAMETER and not one.inside[0] and not one.is_address and not _is_copied(one):
                 yield np.atleast_1d(np.asarray(memory[one]))
     blocks = memory.floats[memory.blocks : memory.tables].copy()
+    # what a run writes
     blocks[memory.written] = 0.0
     # numbers that refer to tables: in the memory of a copy they are other distances
     blocks[[place - memory.blocks for place, _, _ in memory.references]] = 0.0
@@ -63,7 +64,7 @@ def _options(engine: Engine) -> bytes:
 def _classes(model: LaidOut) -> bytes:
     """Names of the classes of all parts of a system, and the number of the class of each part, as bytes.
 
-    Two classes with the same parameters would else give the same digest.
+    Otherwise two classes with the same parameters would give the same digest.
     """
     system = model.system
     parts: list[object] = [*system.bodies, *system.guards, *(tie.component for tie in (*system.joints, *system.loads))]

@@ -25,7 +25,10 @@ _N_NAMED = 4
 
 
 def imbalance_span(solution: Solution) -> str:
-    """Sentence with the span of time in which most of the imbalance arose, and the bodies in contact, or ""."""
+    """Sentence with the span of time in which most of the imbalance arose, and the bodies in contact, or "".
+
+    The imbalance [J] is the change of energy that no work and no loss explains, a function of time.
+    """
     events = solution.events
     times = np.unique(np.concatenate([solution.t, events.time, [solution.t_end]]))
     try:

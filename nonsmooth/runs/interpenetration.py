@@ -32,6 +32,7 @@ def interpenetration(model: LaidOut, rows: Floats) -> str:
         Its samples, shape [n, m]: columns are t [s], q, u and more.
     """
     contacts, numbers = model.system.contacts, model.contacts_without_parts
+    # the engine has compared all others during the run
     if not numbers:
         return ""
     before = Checkpoint.of(model.memory)

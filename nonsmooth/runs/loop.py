@@ -129,7 +129,7 @@ class EngineLoop:
         if status == Status.DONE:
             records.check_complete(self.engine)
         records.add_last_sample()
-        # these ends do not depend on the end time
+        # these ends do not depend on the end time, so a continued run may start there
         if status in (Status.STOPPED, Status.CONDITION_MET, *(c.code for c in self.engine.causes if not c.is_failure)):
             self._take_checkpoint()
         n_known_events = records.n_events - self._n_events_before
@@ -170,7 +170,7 @@ class EngineLoop:
         run, records, sink = self._run_so_far, self.records, self.sink
         self._n_calls += 1
         before = None if run is None else run.reached
-        # a condition is evaluated at the start, before any step, and after each step
+        # a condition is evaluated at the start, before any step, and after each step: no step at first, then one
         most_steps = sink.steps() if run is None else min(self._n_calls - 1, 1)
         status = driver.advance(most_steps, pauses_before_end=True)
         # a pause near the end looks like one after most_steps or with full buffers; but with a condition the engine,

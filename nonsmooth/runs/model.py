@@ -302,7 +302,7 @@ class Model:
             self._records = Records(laid, (folder.events(), folder.rows()))
             resume_run(laid, self._blank, state)
             write_request(laid.memory, request)
-            # the energy account is that of the whole run
+            # the checkpoint has the time of the next sample. The energy account is that of the whole run
             energy, wall = (state.energy.kinetic_start, state.energy.potential_start), folder.wall_seconds
             sink = FolderSink(folder, self._records, self._states_from(energy), wall)
             start = Checkpoint.of(laid.memory)
@@ -463,7 +463,7 @@ class Model:
             if 2 * self._blank.size > _LARGEST_UNREAD:
                 _ = solution.end
             has_failed = found.status == "failed"
-            # the results are in memory, also if they cannot be written
+            # results that cannot be written are in memory, so the error gets the solution
             try:
                 if not ending.output_error:
                     loop.sink.finish(solution)

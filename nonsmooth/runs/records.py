@@ -100,6 +100,7 @@ class Records:
                 memory[owners.Output.samples][: n_samples * width].reshape(n_samples, width).copy(),
             )
             self._n_drained += n_events
+        # counters of the content of the buffers, and the place of the last event in them
         for place in _FILLED:
             integers[place] = 0
 
@@ -113,6 +114,7 @@ class Records:
         closed = np.flatnonzero(state.modes != Mode.OPEN)
         codes = _ALWAYS * np.where(state.modes[closed] == Mode.SLIDE, _SLIDE_CODE, _STICK_CODE)
         head = np.zeros(EVENT_HEAD)
+        # the energies of the event are zero
         head[0] = state.time
         contacts = np.zeros((len(closed), LISTED))
         contacts[:, SLIP_DIRECTION:CLOSED_WITH] = state.slip_directions[closed]

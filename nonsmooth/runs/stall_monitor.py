@@ -100,7 +100,7 @@ class StallMonitor:
         if self._n_short >= _MANY_STEPS and not self._has_warned:
             self._has_warned = True
             text = f"At t = {t:.9g} s time hardly passes: {self._remaining(t)} {self._limited_by()}"
-            # the frame of Model.run
+            # the warning names the line that called Model.run
             warnings.warn(text, TimeHardlyPasses, stacklevel=7)
 
     def hint(self, status: int) -> str:
@@ -129,7 +129,7 @@ class StallMonitor:
     def _remaining(self, t: float) -> str:
         """Sentence with the mean length of the steps since time passed last, and the number remaining from ``t`` [s].
 
-        It is meant for steps below 1e-10 of the run: more than 1e10 steps take days.
+        It is meant for steps below 1e-10 of the run: at some ten microseconds each, 1e10 steps take days.
         """
         t_end, step = float(self.model.memory[owners.Request.t_end]), self._short_time / self._n_short
         # a step of length 0 is an event at the time reached

@@ -38,8 +38,8 @@ _BUFFER_PART = 0.5
 def begin(model: LaidOut, blank: Checkpoint, state: State) -> None:
     """Write a state into the memory as a new start, and make the neighbour list.
 
-    ``blank`` is the content of the memory before any run. Contacts with a search for features need a check, because the
-    list of a new search may lack the features of a closed contact.
+    ``blank`` is the content of the memory before any run. The features of closed contacts are checked if a search found
+    them, as they would be kept even if they are far apart.
 
     Raises
     ------
@@ -94,7 +94,8 @@ def resume_run(model: LaidOut, blank: Checkpoint, state: State) -> None:
 def _check_features(model: LaidOut, blank: Checkpoint, state: State) -> None:
     """Check that a search finds the features of each closed contact.
 
-    It writes the state into the memory with all contacts open, so that the search assigns features to contacts freely.
+    It writes the state into the memory with all contacts open. The search empties an open contact whose features it does
+    not find; a closed one would keep them in any case.
 
     Raises
     ------
@@ -130,6 +131,7 @@ def _write(model: LaidOut, blank: Checkpoint, state: State, modes: Integers) -> 
     features = memory.declared(owners.Contact.features)
     found = np.flatnonzero((features > 0) & (state.features[:, 0] != 0.0))
     memory.floats[features[found, None] + np.arange(CANDIDATE)] = state.features[found]
+    # these guards of the user do not fire at the start again
     memory[owners.OwnGuard.has_just_fired] = state.guards_spent
     model.list_contacts()
 

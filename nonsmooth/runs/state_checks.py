@@ -25,7 +25,9 @@ _LARGEST_GAP = 1e3
 
 
 def check_arrays(model: LaidOut, state: State) -> None:
-    """Check kind and shape of the arrays of a state, and the values of its modes and marks of guards.
+    """Check kind and shape of the arrays of a state, and the values of its modes and of its marks of guards.
+
+    A mark is 1 if the guard of the user has just fired.
 
     Raises
     ------
@@ -80,7 +82,7 @@ def check_numbers(model: LaidOut, state: State) -> None:
 
 
 def check_closed(model: LaidOut, state: State) -> None:
-    """Check that the closed contacts of a state, which the memory holds, have no gap.
+    """Check that the closed contacts of a state, which the memory holds, have no gap, as after a change of q.
 
     Raises
     ------

@@ -197,7 +197,7 @@ class Record(Owner):
         known of such a record while it is off the list: its parameters and its state, but not those of the list entry.
         """
         cls.key, cls.length = key, length
-        # a function in a class would else be a method
+        # a function in a class would otherwise be a method
         cls.capacity = staticmethod(per(1, capacity) if isinstance(capacity, str) else capacity)
         for name, declared in declarations(copies).items() if copies else ():
             if declared.life in (Life.PARAMETER, Life.STATE) and not declared.is_of_slot:
@@ -208,7 +208,7 @@ class Part(Owner):
     """Base of the owners of which there is one."""
 
     def __init_subclass__(cls, key: str) -> None:
-        """Set the key."""
+        """Set the key, the name of the part in the workspace, from the class statement."""
         cls.key = key
 
 
@@ -222,12 +222,12 @@ def real(life: Life, unit: str, sentence: str, **options: Any) -> Any:
 
 
 def vector(life: Life, numbers: int, unit: str, sentence: str, **options: Any) -> Any:
-    """Declare a few floats that are read and written as a tuple."""
+    """Declare ``numbers`` floats of each record that are read and written as a tuple."""
     return Declaration(float, life, unit, sentence, numbers, is_vector=True, **options)
 
 
 def row(life: Life, numbers: int, unit: str, sentence: str, **options: Any) -> Any:
-    """Declare a few floats that are read one by one."""
+    """Declare ``numbers`` floats of each record that are read and written one by one."""
     return Declaration(float, life, unit, sentence, numbers, **options)
 
 
@@ -252,7 +252,7 @@ def one_of(kind: type, life: Life, sentence: str, **options: Any) -> Any:
 
 
 def end_of(start: str, sentence: str, **options: Any) -> Any:
-    """Declare the end of the range that begins at ``start``: the start of the next range."""
+    """Declare the end of the range that begins at ``start``: a view of the start of the next record's range."""
     return Declaration(int, Life.PARAMETER, "", sentence, inside=(start, 1), **options)
 
 

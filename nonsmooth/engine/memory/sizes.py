@@ -13,7 +13,7 @@ Size: TypeAlias = Callable[[Counts], int]
 
 
 def per(stride: int, count: str) -> Size:
-    """Size of an array with ``stride`` numbers for each counted thing: ``per(3, "n_slots")``, three per contact."""
+    """Size of an array of ``stride`` numbers for each counted thing. ``per(3, "n_slots")``: 3 per active contact."""
     return lambda n: stride * n[count]
 
 
@@ -49,7 +49,7 @@ def delassus_numbers(n: Counts) -> int:
 
 
 def all_guards(n: Counts) -> int:
-    """Number of guards: three for each contact, and those of the user."""
+    """Number of guards, functions whose roots are events: three for each active contact, and those of the user."""
     return 3 * n["n_slots"] + n["n_own_guards"]
 
 
@@ -59,17 +59,20 @@ def coordinates_and_velocities(n: Counts) -> int:
 
 
 def spans(n: Counts) -> int:
-    """Largest number of spans of the state: coordinates and velocities of each body, and the accounts."""
+    """Largest number of spans, the ranges of the state that a step integrates.
+
+    There is one for the coordinates of each body, one for its velocities, and one for accounts and inner states.
+    """
     return 2 * n["n_bodies"] + 1
 
 
 def step_part_numbers(n: Counts) -> int:
-    """Number of floats of the list of ends of parts of a step."""
+    """Number of floats of the list of ends of the parts into which a step is halved in search of a root."""
     return PART_END * (PARTS + 1)
 
 
 def impulse_numbers(n: Counts) -> int:
-    """Number of impulses of all contacts, with guards behind, which show whether a law has written too many."""
+    """Number of impulses of all contacts, and of the marks behind them, which show if a law has written too many."""
     return 3 * n["n_slots"] + GUARD
 
 
@@ -92,5 +95,5 @@ def lemke_numbers(n: Counts) -> int:
 
 
 def sample_numbers(n: Counts) -> int:
-    """Number of floats of the buffer of samples: time, state, and the energies accounted at instants."""
+    """Number of floats of the buffer of samples. A sample is time, state, and the energies accounted at instants."""
     return n["sample_capacity"] * (1 + n["n_y"] + BOOKED)

@@ -108,7 +108,7 @@ CONSTANT_SCALARS = frozenset((*(f"{Model.key}.{name}" for name in COUNTS), *FLOA
 
 def kept_scalars(own: Iterable[type[Part]]) -> NDArray[np.bool_]:
     """For each entry of the record of scalars, with the parts ``own`` of an engine, True if it outlives a step."""
-    # a scalar has no array
+    # a declaration without an array is a scalar, or a view
     kept = {one.key for one in _all((*OWNERS, *own)) if one.outlives_a_step and not has_array(one)}
     return np.array([name in kept for name in record_with(own).names or ()])
 
@@ -148,7 +148,7 @@ def stride_of(storage: Declaration) -> int:
 
 
 def storage_of(declared: Declaration) -> Declaration:
-    """The declaration whose storage a declaration is a view of: itself, if it has its own."""
+    """The declaration that owns the storage of a declaration: itself, unless it is a view of another one."""
     return declared if not declared.inside[0] else _STORAGE[declared.key]
 
 
