@@ -364,11 +364,8 @@ class Model:
         return state
 
     def _states_from(self, start_energy: tuple[float, float]) -> Callable[[Checkpoint], State]:
-        """Function for the sink that makes the state of a checkpoint, which the memory holds.
-
-        ``start_energy`` are kinetic and potential energy at the start of the energy account [J]. No event is after the
-        checkpoint.
-        """
+        """Function that makes the state of a checkpoint, for the sink; its account starts at ``start_energy`` [J]."""
+        # kinetic and potential energy; the memory holds the checkpoint, so no event is after it
         return lambda checkpoint: self._final_state(start_energy, checkpoint, 0).state()
 
     def _final_state(self, start_energy: tuple[float, float], resumable: Checkpoint, n_known_events: int) -> FinalState:

@@ -94,8 +94,8 @@ def resume_run(model: LaidOut, blank: Checkpoint, state: State) -> None:
 def _check_features(model: LaidOut, blank: Checkpoint, state: State) -> None:
     """Check that a search finds the features of each closed contact.
 
-    It writes the state into the memory with all contacts open. The search empties an open contact whose features it does
-    not find; a closed one would keep them in any case.
+    It writes the state into the memory with all contacts open. The search empties an open contact whose features it
+    does not find; a closed one would keep them in any case.
 
     Raises
     ------

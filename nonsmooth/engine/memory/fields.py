@@ -55,8 +55,6 @@ def fields_of(owner: type[Record]) -> Fields:
 
 
 def packed(first: int, numbers: int = 1, stride: int = 0) -> Field:
-    """A field of a block among the floats, at position ``first`` of the block; three numbers are a vector.
-
-    ``stride`` is the number of floats from one block to the next, 0 if there is one block only.
-    """
+    """A field at position ``first`` of blocks among the floats, ``stride`` floats apart, 0 if there is one block."""
+    # three numbers are a vector
     return Field("", stride, first, numbers, is_vector=numbers == 3)

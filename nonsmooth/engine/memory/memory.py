@@ -56,10 +56,8 @@ class Heap:
         return start
 
     def write(self, starts: int | np.ndarray, size: int) -> None:
-        """Mark ``size`` numbers from each of the offsets ``starts``: the engine or a plug-in writes them in a run.
-
-        All other numbers of the blocks are parameters, which are the same in every run.
-        """
+        """Mark ``size`` numbers from each of the offsets ``starts``: the engine or a plug-in writes them in a run."""
+        # all other numbers of the blocks are parameters, the same in every run
         self._written.append((np.atleast_1d(starts) - self._first, size))
 
     def store(self, values: Sequence[float] | np.ndarray) -> int:
@@ -75,11 +73,9 @@ class Heap:
         return start
 
     def refer(self, place: int, start: int, table: Table) -> None:
-        """Let the number at offset ``place`` refer to a table; :meth:`close` sets it, as no table has an offset yet.
-
-        It will be the distance [floats] of the table from ``start``, where the parameters of the function that reads
-        the table begin: a function gets their address only.
-        """
+        """Let :meth:`close` set the number at offset ``place`` to the distance [floats] of a table from ``start``."""
+        # at start begin the parameters of the function that reads the table, which gets their address only;
+        # no table has an offset before close
         self._references.append((place, start, table))
 
     def output(self, size: int) -> int:
@@ -118,10 +114,8 @@ class Heap:
 
 
 def output_block(size: int) -> list[float]:
-    """Content of a block before a plug-in writes it: ``size`` zeros, then guards.
-
-    A guard is a float with a value that no plug-in writes by chance. If it changes, the plug-in wrote too many numbers.
-    """
+    """Content of a block before a plug-in writes it: ``size`` zeros, then guards."""
+    # a guard has a value that no plug-in writes by chance; if it changes, the plug-in wrote too many numbers
     return size * [0.0] + GUARD * [UNTOUCHED]
 
 
@@ -202,10 +196,8 @@ class Memory:
         return int(self.record[declared.key])
 
     def declared(self, declared: Any) -> np.ndarray:
-        """View of a number of all declared contacts: ``memory.declared(Contact.mode)``.
-
-        ``memory[Contact.mode]`` has those on the neighbour list only, with their newest values.
-        """
+        """View of a number of all declared contacts: ``memory.declared(Contact.mode)``."""
+        # memory[Contact.mode] has those on the neighbour list only, with their newest values
         return self._view(getattr(DeclaredContact, declared.name))
 
     def _view(self, declared: Declaration) -> np.ndarray:

@@ -195,9 +195,7 @@ ENUMERATIONS = (Mode, Cause, Phase, Truncation, Painleve, Status, Limit)
 
 
 def word(a: list[int], b: list[int], c: list[int]) -> str:
-    """Mode word of a system by Eq. (29): the bits a, b and c of each contact, first contact rightmost in each group.
-
-    Bit a: the contact is closed; b: it approaches in an impact; c: it slips.
+    """Mode word of a system by Eq. (29): bits a (closed), b (approaches), c (slips), first contact rightmost in each.
 
     >>> word([1, 0], [0, 0], [1, 0])
     '{01,00,01}'

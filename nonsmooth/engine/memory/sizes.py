@@ -28,18 +28,14 @@ def ends(count: str) -> Size:
 
 
 def matrix_entries(n: Counts) -> int:
-    """Number of entries that are allocated for a matrix of all unknowns of the contacts, three each.
-
-    A full matrix of a large system would not fit into memory, so the number is limited.
-    """
+    """Number of entries that are allocated for a matrix of all unknowns of the contacts, three each."""
+    # limited, because a full matrix of a large system would not fit into memory
     return int(min((3 * n["n_slots"]) ** 2, MOST_ENTRIES))
 
 
 def delassus_blocks(n: Counts) -> int:
-    """Number of Delassus blocks that are allocated, one for each pair of contacts that act on one another.
-
-    In a large system most pairs do not, so the number is limited; the run ends if more are needed.
-    """
+    """Number of Delassus blocks that are allocated, one for each pair of contacts that act on one another."""
+    # limited, because in a large system most pairs do not; the run ends if more are needed
     return int(min(n["n_slots"] ** 2, MOST_BLOCKS))
 
 
@@ -59,10 +55,8 @@ def coordinates_and_velocities(n: Counts) -> int:
 
 
 def spans(n: Counts) -> int:
-    """Largest number of spans, the ranges of the state that a step integrates.
-
-    There is one for the coordinates of each body, one for its velocities, and one for accounts and inner states.
-    """
+    """Largest number of spans, the ranges of the state that a step integrates."""
+    # coordinates of each body, velocities of each body; accounts and inner states
     return 2 * n["n_bodies"] + 1
 
 
@@ -87,10 +81,8 @@ def lemke_columns(n: Counts) -> int:
 
 
 def lemke_numbers(n: Counts) -> int:
-    """Number of entries of Lemke's tableau: six rows for each contact.
-
-    Columns are six for each contact, the artificial variable, and the right-hand side.
-    """
+    """Number of entries of Lemke's tableau: six rows for each contact."""
+    # columns: six for each contact, the artificial variable, and the right-hand side
     return 6 * n["n_pivoted"] * (6 * n["n_pivoted"] + 2)
 
 

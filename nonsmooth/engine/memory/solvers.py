@@ -44,8 +44,6 @@ def solver_number(name: str) -> int:
 
 
 def pivoted_contacts(solver: int, n_contacts: int) -> int:
-    """Number of contacts for which Lemke's tableau is allocated, of a system with ``n_contacts`` at most.
-
-    "auto" tries Lemke for few contacts only, and the other solvers never do.
-    """
+    """Number of contacts for which Lemke's tableau is allocated, of a system with ``n_contacts`` at most."""
+    # "auto" tries Lemke for few contacts only, and the other solvers never do
     return n_contacts if solver == LEMKE else min(n_contacts, MOST_PIVOTED) if solver == AUTO else 0

@@ -57,11 +57,8 @@ _KEPT, _SHORT, _LATE = range(3)
 
 
 def lengths_of(owners: Iterable[type], of_floats: bool, counts: Counts) -> tuple[int, int, int]:
-    """Total entries of the arrays that outlive a step, of all that are not late, and of all.
-
-    Arrays of floats if ``of_floats``, else of integers. The result is cached, because systems that differ in their
-    parameters only have the same lengths, and often follow each other.
-    """
+    """Total entries of the arrays of floats, or of integers: of those that outlive a step, of all but late, of all."""
+    # cached, because systems that differ in their parameters only have the same lengths, and often follow each other
     return _lengths_of(tuple(owners), of_floats, tuple(counts.items()))
 
 
