@@ -11,13 +11,14 @@ import pytest
 import nonsmooth as ns
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, INTEGER_ARRAYS, SCALARS
 from nonsmooth.results.state_file import state_bytes
 from nonsmooth.solution.state import State
 from tests.results.forged import T_END, forged, refused_or_runs
 from tests.results.runs import balls, on_hills
 
-_BLOCKS = 3
-"""Part of a checkpoint that holds the blocks."""
+_SCALARS, _BLOCKS = 0, 3
+"""Parts of a checkpoint that hold the scalars, and the blocks."""
 
 
 @pytest.fixture(scope="module")
@@ -48,14 +49,14 @@ def _starts(memory: Memory, place: Any) -> np.ndarray:
     return memory.declared(place) - memory.blocks
 
 
-def _with(state: State, place: int, value: float) -> State:
-    """Return what a file would give with another number at a place of the blocks."""
+def _with(state: State, place: int, value: float, part: int = _BLOCKS) -> State:
+    """State that a file would give with another number at a place of a part of its checkpoint."""
     continuation = state.continuation
     assert continuation is not None
     difference, number = continuation.difference, np.array([value]).view(np.int64)
-    kept = difference.places[_BLOCKS] != place
+    kept = difference.places[part] != place
     places, bits = [*difference.places], [*difference.bits]
-    places[_BLOCKS], bits[_BLOCKS] = np.append(places[_BLOCKS][kept], place), np.append(bits[_BLOCKS][kept], number)
+    places[part], bits[part] = np.append(places[part][kept], place), np.append(bits[part][kept], number)
     forged = replace(difference, places=tuple(places), bits=tuple(bits))
     return replace(state).with_continuation(replace(continuation, difference=forged))
 
@@ -67,6 +68,16 @@ def test_a_parameter_is_no_part_of_a_checkpoint(model: ns.Model, value: float) -
     state = _with(model.run(T_END - 1e-3).state, place, value)
     with pytest.raises(ns.InvalidInput, match=rf"places must be places of \d+ numbers that a run may change.* {place}"):
         model.run(T_END, start=state)
+
+
+def test_the_offset_of_an_array_is_no_part_of_a_checkpoint(model: ns.Model) -> None:
+    """A wrong offset would let the engine read and write outside of the memory."""
+    state, names = model.run(1e-3).state, SCALARS.names or ()
+    for key in (*FLOAT_ARRAYS, *INTEGER_ARRAYS):
+        place = names.index(key)
+        rule = rf"places must be places of \d+ numbers that a run may change.* {place}"
+        with pytest.raises(ns.InvalidInput, match=rule):
+            model.run(T_END, start=_with(state, place, 0.0, _SCALARS))
 
 
 @pytest.mark.parametrize(

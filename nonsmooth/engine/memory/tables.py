@@ -105,8 +105,7 @@ CONSTANT_SCALARS = frozenset((*(f"{Model.key}.{name}" for name in COUNTS), *FLOA
 
 def kept_scalars(own: Iterable[type[Part]]) -> NDArray[np.bool_]:
     """For each entry of the record of scalars, with the parts ``own`` of an engine, True if it outlives a step."""
-    # a declaration without an array is a scalar, or a view
-    kept = {one.key for one in _all((*OWNERS, *own)) if one.outlives_a_step and not has_array(one)}
+    kept = {one.key for one in _all((*OWNERS, *own)) if one.outlives_a_step and one.is_scalar}
     return np.array([name in kept for name in record_with(own).names or ()])
 
 
