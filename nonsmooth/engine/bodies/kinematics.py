@@ -87,10 +87,10 @@ def velocity_of_point(floats: Floats, place: int, point: Vector) -> Vector:
 
 @kernel("void(ws, i8)")
 def evaluate_rates(ws: Workspace, c: int) -> None:
-    """Write the gap rate and the slip velocity of contact ``c`` [m/s]: the velocity of the second body at its witness
-    point less that of the first, along the axes n, t1 and t2.
+    """Write the gap rate and the slip velocity of contact ``c`` [m/s] along its axes n, t1 and t2.
 
-    Anisotropic friction first stretches t1 and t2, which may depend on the slip along the unit tangents.
+    They are the velocity of the second body at its witness point less that of the first. Anisotropic friction first
+    stretches t1 and t2, which may depend on the slip along the unit tangents.
     """
     contact = ws.contacts[c]
     velocity_b = velocity_of_point(ws.floats, contact.frame_b, contact.point_b)
@@ -136,7 +136,8 @@ def entry_of_column(floats: Floats, column: int, n_u: int, axis: Vector, moment:
 def side_entries(floats: Floats, frame: int, first: int, axis: Vector, moment: Vector) -> Vector:
     """Three entries, from entry ``first`` (0 or 3) on, of the row of a body with six velocities: (axis, moment) . J.
 
-    J is the Jacobian of the frame at offset ``frame``. A row in registers instead of memory saves time.
+    J is the Jacobian of the frame at offset ``frame``. They are used for a force in closed form, which needs no row in
+    the workspace.
     """
     column = frame + FRAME + first
     return (

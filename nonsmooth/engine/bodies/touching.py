@@ -57,9 +57,10 @@ def _touches_and_approaches(ws: Workspace, contact: Contact) -> bool:
 def _does_touch(ws: Workspace, contact: Contact) -> bool:
     """True if a contact touches, by its gap and gap rate.
 
-    A closed rigid contact always touches. An open one touches if its gap is within the gap tolerance, or closes within
-    the time tolerance. A compliant contact touches up to its reach, the gap up to which its law acts, if it is closed,
-    and up to a gap of zero if it is open. Within the gap tolerance of this end it must not separate.
+    A closed rigid contact always touches. An open one touches if its gap is within the gap tolerance, or within the
+    distance that it changes in the time tolerance. A compliant contact touches up to its reach, the gap up to which its
+    law acts, if it is closed, and up to a gap of zero if it is open. Within the gap tolerance of this end it must not
+    separate.
     """
     gap, rate = contact.gap, contact.normal_rate
     # past the end of its features (a face, an edge) a positive gap is a distance to them, no gap that can close
@@ -67,7 +68,7 @@ def _does_touch(ws: Workspace, contact: Contact) -> bool:
         return False
     if contact.is_compliant:
         end = 0.0 if contact.mode == Mode.OPEN else contact.reach
-        # the comparisons are such that NaN does not count as touching by mistake
+        # a rate that is not a number counts as separating
         separates = not rate <= ws.tolerance.velocity
         return not (gap > end + ws.tolerance.gap or (gap > end - ws.tolerance.gap and separates))
     near = max(ws.tolerance.gap, ws.tolerance.time * abs(rate))
