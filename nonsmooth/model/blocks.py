@@ -124,9 +124,9 @@ def _block(owner: Tie | Contact | str, function: Callable[..., None], start: int
 def marks_behind_blocks(memory: Memory) -> NDArray[np.int64]:
     """Places of the marks behind blocks among the floats of a memory on which no plug-in was called yet.
 
-    All marks still have the value ``UNTOUCHED``, which no other number has. Geometry blocks are among the arrays, the
-    others behind them.
+    All marks still have the value ``UNTOUCHED``, which no other number has.
     """
+    # geometry blocks are among the arrays, the others behind them
     arrays, _, blocks = memory.early
     return np.concatenate([np.flatnonzero(arrays == UNTOUCHED), memory.blocks + np.flatnonzero(blocks == UNTOUCHED)])
 

@@ -89,11 +89,8 @@ class BroadPhase:
 
     @property
     def n_slots(self) -> int:
-        """Largest number of active contacts, those near each other, that the memory has places for.
-
-        Contacts with a half-space may all be active. Of the others there are at most all, or a number per sphere, for
-        six neighbours with the most contacts of a pair.
-        """
+        """Largest number of active contacts, those of bodies near each other, that the memory has places for."""
+        # contacts with a half-space may all be active; of the others as many as the contacts of six neighbours a sphere
         per_sphere = max(_CONTACTS_PER_SPHERE, _NEIGHBOURS * int(self.counts.max(initial=0)))
         return len(self.half_spaces) + min(len(self.contacts), per_sphere * len(self.frames))
 

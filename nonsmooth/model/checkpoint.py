@@ -87,10 +87,7 @@ class Checkpoint:
         return view_of(declared, self.record, self._counts, part)
 
     def declared(self, declared: Any) -> np.ndarray:
-        """A view of the numbers of all declared contacts for a field of a contact, such as its mode.
-
-        An active contact has the field, too, with a newer number.
-        """
+        """A view of a field of all declared contacts, such as the mode. The number of an active contact is newer."""
         return np.asarray(self[getattr(owners.DeclaredContact, declared.name)])
 
     def put(self, memory: Memory) -> None:

@@ -47,10 +47,8 @@ class FeatureSearch:
 
     @property
     def size(self) -> int:
-        """Largest number of floats that the search may write: a number of pairs, then the pairs.
-
-        One pair more than there are contacts shows that there are too few.
-        """
+        """Largest number of floats that the search may write: the number of pairs that it found, then the pairs."""
+        # one pair more than there are contacts shows that these are too few
         return 1 + CANDIDATE * (len(self.contacts) + 1)
 
 

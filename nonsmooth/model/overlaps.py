@@ -43,10 +43,7 @@ class Overlap(NamedTuple):
 
 
 def overlap_allowed(contact: Contact) -> float:
-    """Largest overlap of bodies that touch [m]: what round-off of a start may leave.
-
-    It is a millionth of the smaller body, at least 1e-9 m.
-    """
+    """Largest overlap of bodies that touch [m]: a millionth of the smaller one, at least 1 nm, for round-off."""
     return max(1e-9, 1e-6 * contact.size)
 
 
