@@ -181,8 +181,7 @@ def _map_width(contacts: Sequence[Contact]) -> int:
 def _length_of_events(head: int, per_contact: int, n_slots: int) -> int:
     """Length of a buffer of events: 2048 of the usual size, and as many of the largest size as one instant may have.
 
-    An event takes ``head`` numbers, and
-    ``per_contact`` for each of at most ``n_slots`` active contacts.
+    An event takes ``head`` numbers, and ``per_contact`` for each of at most ``n_slots`` active contacts.
     """
     # Python empties the buffers only between instants, so all events of an instant must fit
     usual, largest = head + per_contact * min(n_slots, _CONTACTS_PER_EVENT), head + per_contact * n_slots

@@ -119,6 +119,7 @@ def find_broad_phase(contacts: Sequence[Contact], table: ContactTable, bodies: S
     is_bounded = np.all(np.isfinite(table.extents), axis=1)
     if len(contacts) <= SMALL and not searches:
         is_bounded[:] = False
+    # the contacts of two bounded shapes
     numbers = np.flatnonzero(is_bounded)
     # the numbers of body and frame make one integer, the key of a sphere; sides has the sphere of each contact's side
     n_frames = int(table.frames.max(initial=0)) + 1
@@ -175,6 +176,7 @@ def lay_broad_phase(memory: Memory, broad_phase: BroadPhase, frames: dict[tuple[
     memory[owners.Sphere.radius] = broad_phase.radii
     # any order serves: the engine sorts it along an axis when it makes the neighbour list
     memory[owners.Island.sphere_order] = range(n)
+    # the neighbour list begins with its widest margin
     memory[owners.Island.list_margin] = memory[owners.Options.widest_margin] = _MARGIN * float(broad_phase.radii.min())
     # starts of ranges, each with the end of the last range behind: pairs of each sphere, contacts of each pair
     one, two = broad_phase.pairs.T

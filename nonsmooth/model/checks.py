@@ -38,6 +38,7 @@ def check_start(model: LaidOut) -> None:
     PluginError
         If a function writes past its block.
     """
+    # evaluates bodies and contacts for all checks
     gaps = model.gaps()
     # first: all numbers may be wrong if a function has written past its block
     if overrun := block_overrun(model):

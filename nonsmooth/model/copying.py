@@ -33,6 +33,7 @@ def copied(memory: Memory) -> Memory:
     # the tables; empty unless in plain mode
     floats[memory.tables :] = owner.floats[memory.tables : len(floats)]
     distance = 0 if PLAIN else (owner.floats.ctypes.data - floats.ctypes.data) // floats.itemsize
+    # distances from the start of the parameters of a function to its table
     for place, start, table in memory.references:
         floats[place] = table - start + distance
     return made

@@ -87,7 +87,7 @@ def _inverse_masses(model: LaidOut, index: int, side: str) -> tuple[float, float
     number, *places = (int(memory[field][index]) for field in fields[side])
     sizes = articulation.n_u, articulation.first_body, articulation.n_bodies, articulation.u
     n_u, first, count, start = (int(memory[field][number]) for field in sizes)
-    # row n of W^T, and K W: velocities of the articulation per gap rate, and accelerations per normal force
+    # row n of W^T, and K W: gap rate per velocity of the articulation, and accelerations per normal force
     row, response = (memory.floats[place : place + n_u] for place in places)
     free = sum(_free_inverse_mass(model, body, row, start) for body in range(first, first + count))
     return float(row @ response), free

@@ -135,6 +135,7 @@ class LaidOut:
         contacts.
         """
         gaps, active = self.gaps(), self.active
+        # of the contacts that are not active
         gaps[np.delete(np.arange(len(gaps)), active)] = np.nan
         rates = np.full((len(gaps), 3), np.nan)
         rates[active] = self.memory[owners.Contact.rate][: len(active)]

@@ -88,6 +88,7 @@ def lay_bodies(
     """
     n_q = sum(body.n_q for body in system.bodies)
     scale = memory[owners.Step.y_scale]
+    # bodies with a joint or a load have no closed form of ballistic motion
     tied = {id(body) for tie in (*system.joints, *system.loads) for body in (tie.first, tie.second)}
     layouts: dict[int, BodyLayout] = {}
     q = u = 0

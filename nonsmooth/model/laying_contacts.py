@@ -108,6 +108,7 @@ def lay_contacts(
     memory.declared(_CONTACT.spin_axis)[:] = table.revolutions
     lay_law_floats(memory, contacts, kinds)
     n_slots = int(memory[owners.Model.n_slots])
+    # each place of the neighbour list has Jacobians of its own
     for place in (_CONTACT.jacobian_a, _CONTACT.jacobian_b, _CONTACT.response_a, _CONTACT.response_b):
         memory[place] = blocks.block(size * n_slots) + size * np.arange(n_slots)
 

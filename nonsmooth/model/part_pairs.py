@@ -111,7 +111,7 @@ def needs_overlap_check(one: ConvexPart, two: ConvexPart, contacts: int) -> bool
 
     ``contacts`` is the number of contacts of their shapes.
     """
-    # two unbounded parts have no bound to check
+    # of a half-space the engine checks the height of the other part, which must be bounded
     if one.is_half_space and two.is_half_space:
         return False
     # if balls and half-spaces have a single contact, its gap is that of the whole parts

@@ -38,9 +38,9 @@ def _least_axis(axis: Vector) -> int:
 def stretch_tangents(ws: Workspace, c: int, t1: Vector, t2: Vector) -> None:
     """Write the tangential axes of the anisotropic contact ``c``: unit vectors, stretched by the friction ratios.
 
-    These rows make a disc of the elliptic friction bound, so that solvers keep their isotropic law. ``facing`` is 1 if
-    the slip along the law's axis is forward, else -1. A slip within the velocity tolerance does not change it, nor does
-    a contact that sticks: its slip in the stages of a step is an error of integration.
+    Along stretched axes the elliptic friction bound is a disc, so that solvers keep their isotropic law. ``facing`` is
+    1 if the slip along the law's axis is forward, else -1: it selects the ratio. A slip within the velocity tolerance
+    does not change it, nor does a contact that sticks: its slip in the stages of a step is an error of integration.
     """
     contact, law = ws.contacts[c], at(ws.floats, ws.contacts[c].anisotropy)
     e1, e2 = _projected_axis(ws, contact, t1, t2)
@@ -63,6 +63,7 @@ def _projected_axis(ws: Workspace, contact: Contact, t1: Vector, t2: Vector) -> 
     axis of the body's frame that is farthest from it is used instead, because it turns with the body too.
     """
     law, axis = at(ws.floats, contact.anisotropy), at(ws.floats, contact.anisotropy + _AXIS)
+    # the parameters say which body carries the axis; 0 is the first
     rotation = frame_at(ws.floats, contact.frame_a if law[_SIDE] == 0.0 else contact.frame_b).rotation
     world = (
         rotation[0] * axis[0] + rotation[1] * axis[1] + rotation[2] * axis[2],

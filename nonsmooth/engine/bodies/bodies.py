@@ -54,8 +54,8 @@ def evaluate_body(ws: Workspace, t: float, y: int, number: int) -> None:
 def _is_evaluated_at(ws: Workspace, t: float, y: int, body: Body) -> bool:
     """True if the last evaluation of a body was at time ``t`` [s] and the state at ``y``.
 
-    ``y_evaluated`` holds q and u of the evaluation ``evaluated_version``. Later evaluations that did not store theirs
-    have a larger version. Version 0: the body was never evaluated.
+    ``y_evaluated`` holds q and u of the evaluation ``evaluated_version``. It is not the last one if the body was then
+    evaluated at a state that is not stored, such as a stage of a step. Version 0: the body was never evaluated.
     """
     if body.version == 0 or body.evaluated_version != body.version or body.evaluated_time != t:
         return False
@@ -146,6 +146,7 @@ def evaluate_free_bodies(ws: Workspace, t: float, y: int, of_all_bodies: bool) -
     These are all bodies with coordinates, or only those that the integrator steps. The powers of driven bodies and
     loads begin at zero, and get the parts of loads and joints.
     """
+    # the frequent case, without the tests of the loop below
     if not of_all_bodies and ws.model.n_loads + ws.model.n_joints == 0:
         evaluate_integrated_bodies(ws, t, y)
         return
@@ -157,6 +158,7 @@ def evaluate_free_bodies(ws: Workspace, t: float, y: int, of_all_bodies: bool) -
         return
     for i in range(ws.model.n_bodies if of_all_bodies else ws.island.n_integrated):
         number = i if of_all_bodies else ws.island.integrated[i]
+        # a driven body
         if ws.bodies[number].n_u == 0:
             continue
         _clear_forces(ws, ws.bodies[number])

@@ -64,7 +64,8 @@ def find_candidates(ws: Workspace) -> Status:
     """Assign the pairs of features that are nearer than the margin of the neighbour list to declared contacts.
 
     A search has as many contacts as two shapes may need at once; their pairs of features change. Status: ``RUNNING``,
-    ``NO_SLOT`` if there are more pairs than contacts, ``NOT_FINITE`` if a search fails.
+    ``NO_SLOT`` if there are more pairs than contacts, so that the margin must be reduced, ``NOT_FINITE`` if a search
+    fails.
     """
     for search in ws.searches:
         n_found = _find(ws, search)
@@ -77,6 +78,7 @@ def find_candidates(ws: Workspace) -> Status:
         for declared in range(search.first_contact, end):
             if not has_no_features(ws, declared):
                 _match(ws, ws.declared_contacts[declared], search.out + 1, n_found)
+        # closed contacts keep pairs that were not found, so that the others may be too few
         if not _fill_empty(ws, search, n_found):
             return Status.NO_SLOT
         for declared in range(search.first_contact, end):

@@ -161,7 +161,8 @@ def write_wrench(ws: Workspace, c: int, f: Floats) -> None:
 def apply_traction_law(ws: Workspace, c: int, f: Floats, y: int) -> None:
     """Write the force of contact ``c``, which has a traction law, at the state ``y`` to ``f``: along n, t1, t2 [N].
 
-    Its normal part is the compliant force, which must be evaluated. Also writes what the law gives besides.
+    Its normal part is the compliant force, which must be evaluated. The moment, inner rates and power of the law are
+    written, too, to fields of the contact.
     """
     evaluate_traction(ws, c, y)
     contact = ws.contacts[c]

@@ -57,7 +57,7 @@ def _touches_and_approaches(ws: Workspace, contact: Contact) -> bool:
 def _does_touch(ws: Workspace, contact: Contact) -> bool:
     """True if a contact touches, by its gap and gap rate.
 
-    A closed rigid contact always touches. An open one touches if its gap is within the gap tolerance, or within the
+    A closed rigid contact touches. An open one touches if its gap is within the gap tolerance, or within the
     distance that it changes in the time tolerance. A compliant contact touches up to its reach, the gap up to which its
     law acts, if it is closed, and up to a gap of zero if it is open. Within the gap tolerance of this end it must not
     separate.
