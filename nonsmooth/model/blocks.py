@@ -162,6 +162,7 @@ def block_overrun(model: LaidOut) -> str:
 
 
 def _sentences(name: str, size: int, number: int) -> str:
+    """Message that a function has written past the ``size`` numbers of its block, first to ``out[number]``."""
     return (
         f"{name} has written past the {size} numbers of its block, to out[{number}] or beyond: all numbers computed "
         "since may be wrong. `nonsmooth check` shows the line."

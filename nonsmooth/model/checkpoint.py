@@ -66,6 +66,7 @@ class Checkpoint:
 
     @functools.cached_property
     def _counts(self) -> Counts:
+        """Counts of bodies, contacts, ... in the record, which give the lengths of the arrays."""
         return counts_in(self.record)
 
     @functools.cached_property

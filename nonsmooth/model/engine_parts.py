@@ -150,4 +150,5 @@ def _known(engine: Engine, what: str, names: Iterable[str], known: Collection[st
 
 
 def _name(engine: Engine) -> str:
+    """Name of the class of an engine, for messages."""
     return type(engine).__name__

@@ -232,6 +232,7 @@ def _add_function(made: Kind, contact: Contact, part: LawFunction, tried: set[tu
     tables = {n: v for n in parameter_names(function, form) if isinstance(v := available.get(n), Table)}
     # the parameters, with nothing in place of tables: the memory holds each table once, and a reference to it here
     address, values = bind(function, form, {**available, **dict.fromkeys(tables, ())}, owner)
+    # geometry with large tables is slow to try out: once for the same function and tables
     if tables and form == "pair":
         key = function, *map(id, tables.values())
         if tried is not None and key not in tried:
