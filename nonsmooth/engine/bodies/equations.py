@@ -37,23 +37,23 @@ def energies(ws: Workspace, body: Body) -> Floats:
 
 @kernel("F(ws, Contact)")
 def jacobian_of_first(ws: Workspace, contact: Contact) -> Floats:
-    """View of rows n, t1, t2 of the Jacobian W^T, N^T of a contact for the first body's articulation, row by row."""
+    """View of the Jacobian W^T, N^T of a contact for the first body and those tied to it by joints: rows n, t1, t2."""
     return at(ws.floats, contact.jacobian_a)
 
 
 @kernel("F(ws, Contact)")
 def jacobian_of_second(ws: Workspace, contact: Contact) -> Floats:
-    """View of rows n, t1, t2 of the Jacobian W^T, N^T of a contact for the second body's articulation, row by row."""
+    """View of the Jacobian W^T, N^T of a contact for the second body and those tied to it by joints: rows n, t1, t2."""
     return at(ws.floats, contact.jacobian_b)
 
 
 @kernel("F(ws, Contact)")
 def response_of_first(ws: Workspace, contact: Contact) -> Floats:
-    """View of M^-1 W and M^-1 N of a contact for the first body's articulation: column n, then t1, t2."""
+    """View of M^-1 W, M^-1 N of a contact for the first body and those tied to it by joints: columns n, t1, t2."""
     return at(ws.floats, contact.response_a)
 
 
 @kernel("F(ws, Contact)")
 def response_of_second(ws: Workspace, contact: Contact) -> Floats:
-    """View of M^-1 W and M^-1 N of a contact for the second body's articulation: column n, then t1, t2."""
+    """View of M^-1 W, M^-1 N of a contact for the second body and those tied to it by joints: columns n, t1, t2."""
     return at(ws.floats, contact.response_b)
