@@ -33,11 +33,12 @@ class Articulation:
 
 
 def articulations(system: System) -> list[Articulation]:
-    """The articulations of a system, in the order of its bodies; each body belongs to one.
+    """The articulations (groups of bodies that joints tie together) of a system, in the order of its bodies.
 
-    They are the shortest ranges of consecutive bodies such that no joint ties movable bodies of two ranges. A body
-    between two tied ones belongs to their range even without a joint. That costs time and does not change the motion.
-    Each joint must have a movable body.
+    Each body belongs to one. They are the shortest ranges of consecutive bodies such that no joint ties movable bodies
+    of two ranges. A body between two tied ones belongs to their range even without a joint. That costs time and does
+    not change the motion. Each joint must have a movable body, one with velocities (``n_u`` > 0). A driven body ties no
+    others: its motion is given.
     """
     bodies = system.bodies
     # of each body the last one that a joint ties to it
@@ -54,6 +55,7 @@ def articulations(system: System) -> list[Articulation]:
             end = max(end, last[number])
             number += 1
         members = bodies[first : end + 1]
+        # a driven body may belong to another range, so a joint belongs to the range of its movable bodies
         movable = [body for body in members if body.n_u > 0]
         joints = tuple(t for t in system.joints if any(body is t.first or body is t.second for body in movable))
         found.append(Articulation(first, members, joints))

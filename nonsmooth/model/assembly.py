@@ -51,7 +51,7 @@ class _Parts(NamedTuple):
 
     @classmethod
     def of(cls, system: System) -> _Parts:
-        """Find the parts of a system."""
+        """Find the kinds of contacts, articulations, bounding spheres and pairs of convex parts of a system."""
         bodies, contacts = system.bodies, system.contacts
         table = ContactTable.of(bodies, contacts)
         return cls(
@@ -64,7 +64,7 @@ class _Parts(NamedTuple):
 
 
 def assemble(system: System, engine: Engine) -> LaidOut:
-    """Layout of a system at its start, which is checked.
+    """Layout of a system in the memory of an engine, at its start, which is checked. For a model that runs.
 
     Raises
     ------
@@ -77,7 +77,9 @@ def assemble(system: System, engine: Engine) -> LaidOut:
 
 
 def lay_out(system: System, engine: Engine) -> LaidOut:
-    """Layout of a system at its start, with the neighbour list there. The start is not checked.
+    """Layout of a system at its start, with the neighbour list there, but no check of the start.
+
+    For queries that place bodies, as those may overlap before.
 
     Raises
     ------
@@ -91,7 +93,10 @@ def lay_out(system: System, engine: Engine) -> LaidOut:
 
 
 def lay(system: System, engine: Engine) -> LaidOut:
-    """Layout of a system whose memory holds no state yet.
+    """Layout of a system whose memory holds no state yet: sizes, parameters, and addresses of functions.
+
+    Counts and settings of the engine are read and checked before the memory is allocated. Bodies, joints, loads,
+    contacts, bounding spheres and guards are then written in turn, as later ones refer to the places of earlier ones.
 
     Raises
     ------
@@ -100,22 +105,26 @@ def lay(system: System, engine: Engine) -> LaidOut:
     """
     engine.check(system)
     check_report(engine)
+    # t = 0 s, where each system starts
     check_guards(system, 0.0, *system.starts())
     contacts, parts = system.contacts, _Parts.of(system)
     counts = _counts(system, engine, parts)
     settings = settings_of(engine, system.time_scale)
     memory = allocate(counts, laid_own(engine, counts))
     blocks = Heap(memory)
+    # by these addresses parts of the engine that are compiled apart call each other
     memory[owners.Model.entry_points][: len(entry_addresses())] = entry_addresses()
     bodies = lay_bodies(system, memory, blocks, parts.articulations)
     lay_joints(memory, blocks, parts.articulations, bodies)
     lay_loads(system, memory, blocks, bodies)
     lay_contacts(memory, blocks, contacts, parts.table, parts.kinds, bodies)
+    # offset of each frame, by the numbers of body and frame
     frames = {(body.number, frame): at for body in bodies.values() for frame, at in enumerate(body.frames)}
     lay_broad_phase(memory, parts.broad_phase, frames)
     lay_part_pairs(memory, blocks, parts.pairs, frames)
     lay_searches(memory, blocks, parts.broad_phase.searches, parts.table, parts.broad_phase.frames)
     lay_guards(system, memory, blocks)
+    # the arrays move to make room for the blocks behind them: views of the old memory are no longer valid
     memory = blocks.close()
     model = LaidOut(system, memory, counts["n_q"], counts["n_u"], counts["n_states"], marks_behind_blocks(memory))
     for scalar, value in settings.items():
@@ -125,7 +134,11 @@ def lay(system: System, engine: Engine) -> LaidOut:
 
 
 def _counts(system: System, engine: Engine, parts: _Parts) -> dict[str, int]:
-    """All counts that the memory is allocated for."""
+    """All counts that the memory is allocated for, by name: those of the system, then those that the engine decides.
+
+    An event in the buffers has a head with the velocities before, the state after and the accounted energies, and a
+    few floats and two integers (number and code) for each active contact.
+    """
     contacts, n_slots = system.contacts, parts.broad_phase.n_slots
     n_q = sum(body.n_q for body in system.bodies)
     n_u = sum(body.n_u for body in system.bodies)
@@ -151,13 +164,16 @@ def _counts(system: System, engine: Engine, parts: _Parts) -> dict[str, int]:
         "event_integers": _length_of_events(CODE_HEAD, 2, n_slots),
         "sample_capacity": _SAMPLES,
     }
-    # the engine decides the others, or they are zero
+    # the engine decides the others; those that it leaves out are zero
     others = dict.fromkeys((name for name in COUNTS if name not in counts), 0)
     return {**counts, **others, **counts_of(engine, n_slots, others)}
 
 
 def _map_width(contacts: Sequence[Contact]) -> int:
-    """Number of parameters per contact of an impact map, 1 without one."""
+    """Number of parameters per contact of an impact map (a law that maps velocities), 1 without one.
+
+    An impact map gets the parameters of all contacts as one matrix, so all contacts have the same map.
+    """
     maps = (contact.impact for contact in contacts if isinstance(contact.impact, ImpactMap))
     return next((len(parameter_names(law.impulses, "map")) for law in maps), 1)
 
@@ -167,5 +183,6 @@ def _length_of_events(head: int, per_contact: int, n_slots: int) -> int:
 
     An event takes ``head`` numbers, and ``per_contact`` for each of at most ``n_slots`` active contacts.
     """
+    # Python empties the buffers only between instants, so all events of an instant must fit
     usual, largest = head + per_contact * min(n_slots, _CONTACTS_PER_EVENT), head + per_contact * n_slots
     return _EVENTS * usual + MOST_EVENTS * largest

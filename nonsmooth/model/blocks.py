@@ -48,7 +48,11 @@ class Block(NamedTuple):
 
 
 def blocks(model: LaidOut) -> Iterator[Block]:
-    """The blocks of loads, bodies and active contacts, in the order in which one may spoil the next."""
+    """The blocks of loads, bodies and active contacts, in the order in which one may spoil the next.
+
+    A load that gives NaN spoils the forces in the blocks of its bodies, and a body the geometry of its contacts. So the
+    first block with a number that is not finite is the one at fault.
+    """
     yield from _blocks_of_bodies(model)
     for index in range(len(model.active)):
         yield _block_of_contact(model, index)
@@ -57,6 +61,7 @@ def blocks(model: LaidOut) -> Iterator[Block]:
 def _blocks_of_bodies(model: LaidOut) -> Iterator[Block]:
     """The blocks of loads, then of bodies, then of bodies whose ballistic motion has a closed form."""
     system, memory = model.system, model.memory
+    # `out` is the place of a block among the floats
     for tie, out in zip(system.loads, memory[owners.Load.out].tolist(), strict=True):
         assert isinstance(tie.component, Load)
         yield _block(tie, tie.component.evaluator, out, LOAD)
@@ -69,14 +74,19 @@ def _blocks_of_bodies(model: LaidOut) -> Iterator[Block]:
         yield Block(label, body.evaluator, start, force_end + body.n_u**2 + 2, n_written)
     functions, outs = memory[owners.Body.ballistic_function].tolist(), memory[owners.Body.ballistic_out].tolist()
     for (name, body), function, start in zip(named, functions, outs, strict=True):
+        # 0: the body has a joint or a load, so that its closed form is not used
         if body.flight is not None and function != 0:
             label = functools.partial("body {!r}, {!r} in ballistic motion:".format, name, body)
+            # the closed form writes q and u
             size = body.n_q + body.n_u
             yield Block(label, body.flight, start, size, size)
 
 
 def _block_of_contact(model: LaidOut, index: int) -> Block:
-    """The geometry block of the active contact at an index of the neighbour list."""
+    """The geometry block of the active contact at an index of the neighbour list.
+
+    ``PAIR`` of the ``GEOMETRY`` numbers from block to block are written by the kinematics, the rest is the mark.
+    """
     contact, first = model.system.contacts[model.active[index]], model.memory.start(owners.Contact.geometry)
     return _block(contact, contact.kinematics.evaluator, first + GEOMETRY * index, PAIR)
 
@@ -88,9 +98,11 @@ def _blocks_of_joints_and_laws(model: LaidOut) -> Iterator[Block]:
         assert isinstance(tie.component, Joint)
         yield _block(tie, tie.component.evaluator, out, JOINT_ROW * tie.component.n_rows)
     traction, rates = (memory.declared(out) for out in (owners.Contact.traction_out, owners.Contact.rates_out))
+    # 0: the contact has neither inner states nor a traction law
     for i in np.flatnonzero(traction).tolist():
         law = contacts[i].friction
         if isinstance(law, TractionLaw):
+            # a traction law writes the rates of its inner states behind force and moment
             yield _block(contacts[i], law.traction, int(traction[i]), FORCE_AND_MOMENT + len(law.initial_state))
         else:
             assert isinstance(law, StatefulFrictionLaw)
@@ -105,23 +117,28 @@ def _blocks_of_searches(model: LaidOut) -> Iterator[Block]:
 
 
 def _block(owner: Tie | Contact | str, function: Callable[..., None], start: int, size: int) -> Block:
-    """A block all of which a function of an owner writes."""
+    """A block all of which a function of an owner writes. Its label is made only if a message needs it."""
     return Block(lambda: f"{owner}: {described(function)},", function, start, size, size)
 
 
 def marks_behind_blocks(memory: Memory) -> NDArray[np.int64]:
-    """Places of the marks behind blocks among the floats of a memory on which no plug-in was called yet."""
+    """Places of the marks behind blocks among the floats of a memory on which no plug-in was called yet.
+
+    All marks still have the value ``UNTOUCHED``, which no other number has.
+    """
+    # geometry blocks are among the arrays, the others behind them
     arrays, _, blocks = memory.early
     return np.concatenate([np.flatnonzero(arrays == UNTOUCHED), memory.blocks + np.flatnonzero(blocks == UNTOUCHED)])
 
 
 def block_overrun(model: LaidOut) -> str:
-    """Sentences that name a function that wrote past its block, or "" if no mark has changed."""
+    """Sentences that name a function that wrote past its block, or "" if no mark behind a block has changed."""
     memory = model.memory
     # an impact map has marks of its own, which the engine checks at each impact
     n_past_map = int(memory[owners.Run.n_past_map])
     if np.all(memory.floats[model.marks] == UNTOUCHED) and n_past_map <= 0:
         return ""
+    # indices in the neighbour list of geometry blocks that are overrun
     overrun = np.flatnonzero(np.any(memory[owners.Contact.geometry][:, PAIR:] != UNTOUCHED, axis=1)).tolist()
     for block in (
         *_blocks_of_bodies(model),
@@ -129,19 +146,23 @@ def block_overrun(model: LaidOut) -> str:
         *_blocks_of_searches(model),
         *_blocks_of_joints_and_laws(model),
     ):
+        # the mark behind the block
         is_changed = memory.floats[block.start + block.size :][:GUARD] != UNTOUCHED
         if np.any(is_changed):
             return _sentences(block.label(), block.size, block.size + int(np.argmax(is_changed)))
     if n_past_map > 0:
+        # all contacts have the same map, which writes three impulses for each
         law = model.system.contacts[0].impact
         assert isinstance(law, ImpactMap)
         return _sentences(f"{type(law).__name__}: {described(law.impulses)},", 3 * n_past_map, 3 * n_past_map)
+    # a contact that has left the neighbour list cannot be named
     if len(overrun):
         return _sentences("the kinematics of a contact that is not active any more", PAIR, PAIR)
     return ""
 
 
 def _sentences(name: str, size: int, number: int) -> str:
+    """Message that a function has written past the ``size`` numbers of its block, first to ``out[number]``."""
     return (
         f"{name} has written past the {size} numbers of its block, to out[{number}] or beyond: all numbers computed "
         "since may be wrong. `nonsmooth check` shows the line."

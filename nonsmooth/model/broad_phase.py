@@ -89,7 +89,8 @@ class BroadPhase:
 
     @property
     def n_slots(self) -> int:
-        """Largest number of active contacts."""
+        """Largest number of active contacts, those of bodies near each other, that the memory has places for."""
+        # contacts with a half-space may all be active; of the others as many as the contacts of six neighbours a sphere
         per_sphere = max(_CONTACTS_PER_SPHERE, _NEIGHBOURS * int(self.counts.max(initial=0)))
         return len(self.half_spaces) + min(len(self.contacts), per_sphere * len(self.frames))
 
@@ -108,19 +109,23 @@ class BroadPhase:
 
 
 def find_broad_phase(contacts: Sequence[Contact], table: ContactTable, bodies: Sequence[Body]) -> BroadPhase:
-    """Spheres and half-spaces of the contacts of a system with these bodies.
+    """Bounding spheres, pairs of spheres with their contacts, and half-spaces of a system with these bodies.
 
-    Up to :data:`SMALL` contacts without searches have no sphere: all of them are active.
+    A frame with bounded shapes gets a sphere about its origin that holds them all. A contact of two bounded shapes
+    belongs to the pair of their spheres, any other contact to a half-space. Up to :data:`SMALL` contacts need no broad
+    phase: they all go to the half-spaces and are always active. Searches for candidate features need spheres anyway.
     """
     searches = find_searches(contacts)
     is_bounded = np.all(np.isfinite(table.extents), axis=1)
     if len(contacts) <= SMALL and not searches:
         is_bounded[:] = False
+    # the contacts of two bounded shapes
     numbers = np.flatnonzero(is_bounded)
-    # a frame of a body is known by one integer
+    # the numbers of body and frame make one integer, the key of a sphere; sides has the sphere of each contact's side
     n_frames = int(table.frames.max(initial=0)) + 1
     known, sides = np.unique(n_frames * table.bodies[numbers] + table.frames[numbers], return_inverse=True)
     frames = {divmod(key, n_frames): sphere for sphere, key in enumerate(known.tolist())}
+    # the largest extent of the shapes at each frame
     radii = np.zeros(len(frames))
     np.maximum.at(radii, sides.ravel(), table.extents[numbers].ravel())
     # contacts of the same two spheres are listed together
@@ -142,10 +147,12 @@ def _half_space(
     frames: Mapping[tuple[int, int], int],
     radii: Array,
 ) -> HalfSpace:
-    """The unbounded shape of a contact.
+    """The unbounded shape of contact ``number``, and the bounding sphere of the other shape, if there is one.
 
-    The other shape's sphere may have been made for other contacts: its radius in ``radii`` grows to hold this shape.
+    That sphere was made for other contacts of its frame. Its radius in ``radii`` grows in place to hold this shape,
+    too. If the half-space is steady, the contact is active only while the sphere is near its ceiling.
     """
+    # a small system may have two bounded shapes here: then the second takes the place of the unbounded one
     unbounded, other = (0, 1) if not math.isfinite(contact.extents[0]) else (1, 0)
     sides = [(int(table.bodies[number, i]), int(table.frames[number, i])) for i in (unbounded, other)]
     sphere, ceiling = frames.get(sides[1]), contact.shapes[unbounded].ceiling
@@ -157,15 +164,21 @@ def _half_space(
 
 
 def lay_broad_phase(memory: Memory, broad_phase: BroadPhase, frames: dict[tuple[int, int], int]) -> None:
-    """Write spheres and half-spaces, or neither if there is no sphere; ``frames`` has the offset of each frame."""
+    """Write spheres, their pairs and contacts, and half-spaces. ``frames`` has the offset of each frame.
+
+    Without spheres nothing is written: the engine then takes all contacts as active.
+    """
     n = len(broad_phase.radii)
     if n == 0:
         return
     for side, sphere in broad_phase.frames.items():
         memory[owners.Sphere.frame][sphere] = frames[side]
     memory[owners.Sphere.radius] = broad_phase.radii
+    # any order serves: the engine sorts it along an axis when it makes the neighbour list
     memory[owners.Island.sphere_order] = range(n)
+    # the neighbour list begins with its widest margin
     memory[owners.Island.list_margin] = memory[owners.Options.widest_margin] = _MARGIN * float(broad_phase.radii.min())
+    # starts of ranges, each with the end of the last range behind: pairs of each sphere, contacts of each pair
     one, two = broad_phase.pairs.T
     memory[owners.Sphere.first_partner][1:] = np.cumsum(np.bincount(one, minlength=n))
     memory[owners.Model.partner] = two

@@ -56,7 +56,7 @@ class Checkpoint:
 
     @classmethod
     def of(cls, memory: Memory) -> Checkpoint:
-        """Copy the content of a memory."""
+        """Copy all numbers of a memory that a step may read from earlier steps."""
         return cls(tuple([part.copy() for part in memory.kept]))
 
     @functools.cached_property
@@ -66,6 +66,7 @@ class Checkpoint:
 
     @functools.cached_property
     def _counts(self) -> Counts:
+        """Counts of bodies, contacts, ... in the record, which give the lengths of the arrays."""
         return counts_in(self.record)
 
     @functools.cached_property
@@ -75,22 +76,26 @@ class Checkpoint:
 
     @property
     def blocks(self) -> Array:
-        """The blocks that the assembly appended."""
+        """View of the blocks that the assembly appended to the floats: the fourth of the parts."""
         return self.parts[3].view(np.float64)
 
     def __getitem__(self, declared: Any) -> Any:
         """A scalar, or a view of an array that outlives a step, as the memory gives it."""
         if declared.size is None and issubclass(declared.owner, Part):
             return self.record[declared.key].item()
+        # the parts are scalars, floats, integers and blocks
         part = self.parts[1].view(np.float64) if declared.key in FLOAT_ARRAYS else self.parts[2]
         return view_of(declared, self.record, self._counts, part)
 
     def declared(self, declared: Any) -> np.ndarray:
-        """A view of a number of the declared contacts that active contacts have, too."""
+        """A view of a field of all declared contacts, such as the mode. The number of an active contact is newer."""
         return np.asarray(self[getattr(owners.DeclaredContact, declared.name)])
 
     def put(self, memory: Memory) -> None:
-        """Write this content into a memory of the same model."""
+        """Write this content into a memory of the same model.
+
+        The parameters of active contacts, which are not part of it, are copied anew if the neighbour list differs.
+        """
         active = _active(memory).copy()
         for numbers, kept in zip(memory.kept, self.parts, strict=True):
             numbers[:] = kept
@@ -113,25 +118,32 @@ class Difference:
     bits: tuple[Integers, ...]
 
     def __reduce__(self) -> tuple[Callable[[bytes], Difference], tuple[bytes]]:
-        """Pickle the packed difference."""
+        """Let pickle store the packed difference, which takes less room than its arrays."""
         return Difference.unpacked, (self.packed(),)
 
     @classmethod
     def between(cls, blank: Checkpoint, checkpoint: Checkpoint, changing: tuple[Booleans, ...]) -> Difference:
-        """Difference of a checkpoint from a blank one, of the numbers that a run may change."""
+        """Difference of a checkpoint from a blank one, in the numbers that a run may change.
+
+        ``changing`` is True for these, one array per part. The parts are integers, so that NaN equals itself.
+        """
         triples = zip(blank.parts, checkpoint.parts, changing, strict=True)
         places = tuple(np.flatnonzero((new != old) & may_change) for old, new, may_change in triples)
         return cls(places, tuple(part[at] for part, at in zip(checkpoint.parts, places, strict=True)))
 
     def packed(self) -> bytes:
-        """The difference as compressed bytes. Places are stored as distances, most of which are 1."""
+        """The difference as compressed bytes of little-endian integers, the same on all machines.
+
+        They are the number of parts, the number of places of each, the places, and the bits. Places are stored as
+        distances from one to the next, most of which are 1 and so compress well.
+        """
         sizes = np.array([len(self.places), *map(len, self.places)])
         steps = [np.diff(places, prepend=0) for places in self.places]
         return packed(np.concatenate([sizes, *steps, *self.bits]).astype("<i8"))
 
     @classmethod
     def unpacked(cls, content: bytes) -> Difference:
-        """The difference of packed bytes.
+        """The difference whose :meth:`packed` bytes these are.
 
         Raises
         ------
@@ -141,11 +153,15 @@ class Difference:
         numbers = unpacked(content, "<i8").astype(np.int64)
         n = int(numbers[0])
         sizes = numbers[1 : n + 1]
+        # the places of all parts, then the bits of all parts
         parts = np.split(numbers[n + 1 :], np.cumsum([*sizes, *sizes])[:-1])
         return cls(tuple(np.cumsum(steps) for steps in parts[:n]), tuple(parts[n:]))
 
     def put(self, memory: Memory) -> None:
         """Write the difference into a memory that holds the blank checkpoint. It may come from a foreign file.
+
+        Places are checked before anything is written, values afterwards, where their fields are known. Parameters of
+        active contacts are no part of it, and are copied anew.
 
         Raises
         ------
@@ -166,6 +182,7 @@ class Difference:
         InvalidInput
             If it has other parts or another place.
         """
+        # other numbers of parts are refused below
         found = [(len(places), len(bits)) for places, bits in zip(self.places, self.bits, strict=False)]
         fits = len(self.places) == len(self.bits) == len(memory.kept) and all(a == b for a, b in found)
         if not fits:
@@ -183,7 +200,10 @@ def _active(memory: Memory) -> Integers:
 
 
 def _copy_parameters(memory: Memory) -> None:
-    """Copy the parameters of its declared contact to each active contact, as the engine does when it lists one."""
+    """Copy the parameters of its declared contact to each active contact, as the engine does when it lists one.
+
+    Fields that are views (``inside``) of another field are copied with it.
+    """
     active = _active(memory)
     for name, one in declarations(owners.DeclaredContact).items():
         if one.life is Life.PARAMETER and not one.inside[0]:
@@ -201,6 +221,7 @@ def _check_values(memory: Memory) -> None:
     counts = counts_in(memory.record)
     for one in _CHECKED:
         numbers = np.atleast_1d(np.asarray(memory[one]))
+        # behind the active contacts there are none whose numbers mean anything
         if one.owner is owners.Contact:
             numbers = numbers[: memory[owners.Island.n_contacts]]
         least, end = _bounds(one, counts)
@@ -211,7 +232,11 @@ def _check_values(memory: Memory) -> None:
 
 
 def _bounds(one: Declaration, counts: Counts) -> tuple[int, int]:
-    """Least value of a number, and the first value that is too large."""
+    """Least value of an offset, code or boolean, and the first value that is too large.
+
+    A number that begins as -1, for none, may have this value. ``below`` is the end of an offset, by the counts of the
+    system. An enumeration ends with its last member, a boolean with True.
+    """
     least = min(int(one.begin), 0)
     if one.below is not None:
         return least, one.below(counts)

@@ -38,7 +38,9 @@ def check_start(model: LaidOut) -> None:
     PluginError
         If a function writes past its block.
     """
+    # evaluates bodies and contacts for all checks
     gaps = model.gaps()
+    # first: all numbers may be wrong if a function has written past its block
     if overrun := block_overrun(model):
         raise PluginError(overrun[0].upper() + overrun[1:])
     _check_energy(model)
@@ -52,7 +54,12 @@ def check_start(model: LaidOut) -> None:
 
 
 def _check_gaps(model: LaidOut, gaps: Vector) -> None:
-    """Check that no gap of a rigid contact is negative. That of a compliant contact only needs to be a number."""
+    """Check that no gap of a rigid contact is negative. That of a compliant contact only needs to be a number.
+
+    The error of a gap is allowed. A support function of a shape that fails gives a better message than the wrong gap
+    that follows, so the shapes are tested before.
+    """
+    # this finds NaN, too
     for number in np.flatnonzero(~(gaps >= 0.0)).tolist():
         contact, gap = model.system.contacts[number], float(gaps[number])
         is_compliant = isinstance(contact.normal, CompliantNormalLaw)
@@ -67,7 +74,7 @@ def _check_gaps(model: LaidOut, gaps: Vector) -> None:
 
 
 def _check_energy(model: LaidOut) -> None:
-    """Check that the energies are finite, which they are not if a number of the start is too large."""
+    """Check that both energies are finite. Too large coordinates or velocities of a start make them infinite."""
     found = energies(model.system.bodies, model.memory[owners.Body.tail], model.memory.floats)
     for what, value in zip(("kinetic", "potential"), found, strict=True):
         if not math.isfinite(value):
@@ -76,33 +83,40 @@ def _check_energy(model: LaidOut) -> None:
 
 
 def _check_shapes(model: LaidOut, number: int) -> None:
-    """Evaluate support points of both shapes of a contact, because a wrong support function raises there.
+    """Evaluate support points of both shapes of a contact, so that a wrong support function raises its own error.
 
-    The directions are the axes of both frames and the line between their origins, both ways.
+    A support point is the farthest one along a direction. The directions are the axes of both frames and the line
+    between their origins, both ways.
     """
     (origin_a, axes_a), (origin_b, axes_b) = ((one[:3], one[3:].reshape(3, 3)) for one in frames_of(model, number))
     directions = np.array([*axes_a.T, *axes_b.T, origin_b - origin_a])
+    # no direction leads from an origin to the same point
     directions = directions[np.any(directions, axis=1)]
     for shape, axes in zip(model.system.contacts[number].shapes, (axes_a, axes_b), strict=True):
         if shape.solid is not None:
             for direction in (*directions, *-directions):
+                # in axes of the frame, which are the columns
                 shape.solid.support(direction @ axes)
 
 
 def _check_joints(model: LaidOut) -> None:
-    """Check residual and rate of each row of each joint."""
+    """Check that each row of each joint is closed at the start: residual and rate are zero, up to round-off."""
     if not model.system.joints:
         return
     memory = model.memory
-    # round-off of a rate is relative to the velocities of the bodies
+    # round-off is relative to the largest coordinate or velocity
     scale = max(1.0, float(np.max(np.abs(memory[owners.Island.y][: model.n_q + model.n_u]), initial=0.0)))
+    # in the order in which the memory has the joints
     ties = [(i, tie) for i, articulation in enumerate(articulations(model.system)) for tie in articulation.joints]
     for number, (articulation, tie) in enumerate(ties):
         _check_joint(model, tie, number, articulation, _OPEN * scale)
 
 
 def _check_joint(model: LaidOut, tie: Tie, number: int, articulation: int, allowed: float) -> None:
-    """Check a joint by its number in the memory, in units of its rows [m, m/s, rad or rad/s]."""
+    """Check that residual and rate of each row of a joint are at most ``allowed`` [m, m/s, rad or rad/s].
+
+    ``number`` and ``articulation`` are the numbers of the joint and of its group of tied bodies in the memory.
+    """
     memory = model.memory
     rows, first = (int(memory[one][number]) for one in (owners.Joint.n_rows, owners.Joint.first_row))
     for what, unit, place in (
@@ -120,7 +134,7 @@ def _check_joint(model: LaidOut, tie: Tie, number: int, articulation: int, allow
 
 
 def _remedy_of_joint(model: LaidOut, tie: Tie, what: str) -> str:
-    """Remedy for a joint that is open at the start, or that opens because a driven body moves."""
+    """Remedy for a joint that is open at the start ("residual"), or that opens ("rate"), perhaps by a driven body."""
     remedy = "Place the bodies where the joint is closed; joints that contradict each other cannot all be closed."
     driven = next((body for body in (tie.first, tie.second) if body.n_u == 0), None)
     if what != "rate" or driven is None:
@@ -130,7 +144,7 @@ def _remedy_of_joint(model: LaidOut, tie: Tie, what: str) -> str:
 
 
 def _check_mobility(model: LaidOut) -> None:
-    """Check that each touching rigid contact can move along its normal."""
+    """Check that each touching rigid contact can move along its normal. Else no motion determines its force."""
     found = immobile_contact(model)
     if found is not None:
         raise InvalidInput(
@@ -152,6 +166,7 @@ def check_guards(system: System, t: float, q: Vector, u: Vector) -> None:
     for watched in system.watched:
         guard = watched.guard
         value = guard_value(guard, t, q, u)
+        # a function of the user may return anything, None or an array as well
         if not isinstance(value, float) or not math.isfinite(value):
             raise InvalidInput(
                 f"{watched}: {type(guard).__name__}.value",

@@ -39,13 +39,18 @@ class ContactTable:
 
     @classmethod
     def of(cls, bodies: Sequence[Body], contacts: Sequence[Contact]) -> ContactTable:
-        """The table of all contacts of a system with these bodies."""
+        """The table of all contacts of a system with these bodies.
+
+        Bodies and shapes are known by their identity. Attributes are read by maps, because systems may have thousands
+        of contacts, and the axis of each shape is computed once.
+        """
         number = {id(body): i for i, body in enumerate(bodies)}
         sides = [[number[i] for i in map(id, map(attrgetter(side), contacts))] for side in ("first", "second")]
         frames, extents, support_radii = (
             list(itertools.chain.from_iterable(map(attrgetter(name), contacts)))
             for name in ("frames", "extents", "levers")
         )
+        # of each contact the shape with the smaller support radius, the second if they are equal
         shapes = [contact.shapes[1 if contact.levers[1] <= contact.levers[0] else 0] for contact in contacts]
         revolutions = {id(shape): shape.revolution for shape in shapes}
         return cls(

@@ -11,11 +11,13 @@ from nonsmooth.engine.native.kernel import PLAIN
 
 
 def copied(memory: Memory) -> Memory:
-    """Memory with the same content, except for empty buffers of output, that reads the same tables.
+    """Memory with the same content, for another thread. Buffers of output are empty, and the tables are shared.
 
-    The number that refers to a table is a distance in floats. Pointers of the compiled engine have no bounds, so it may
-    point into the other memory. In plain mode there are arrays instead, and the tables are copied.
+    A function finds its table by a distance in floats, a number among its parameters. Pointers of the compiled engine
+    have no bounds, so the distance may lead into the memory that owns the tables, which must be kept alive. In plain
+    mode (``PLAIN``) there are arrays with bounds instead, and the tables are copied.
     """
+    # the memory to be copied may itself share the tables of another one
     owner = memory if memory.owner is None else memory.owner
     floats = np.zeros(len(owner.floats) if PLAIN else memory.tables)
     made = replace(
@@ -25,10 +27,13 @@ def copied(memory: Memory) -> Memory:
         integers=np.zeros_like(memory.integers),
         owner=None if PLAIN else owner,
     )
+    # all arrays but the late ones, which are buffers and work space, and the blocks
     for new, old in zip(made.early, memory.early, strict=True):
         new[:] = old
+    # the tables; empty unless in plain mode
     floats[memory.tables :] = owner.floats[memory.tables : len(floats)]
     distance = 0 if PLAIN else (owner.floats.ctypes.data - floats.ctypes.data) // floats.itemsize
+    # distances from the start of the parameters of a function to its table
     for place, start, table in memory.references:
         floats[place] = table - start + distance
     return made

@@ -16,7 +16,8 @@ Floats = NDArray[np.float64]
 def write_delassus(memory: Memory, matrix: Floats) -> None:
     """Write a Delassus matrix [1/kg] of shape [3 n, 3 n] for the contacts 0 to n - 1, in this order.
 
-    Two contacts with zero blocks both ways do not act on each other, and get no block.
+    The memory gets the blocks (3 x 3) of pairs of contacts, row by row, with the columns of the blocks and where each
+    row starts. Two contacts with zero blocks both ways do not act on each other, and get no block.
 
     Raises
     ------
@@ -26,6 +27,7 @@ def write_delassus(memory: Memory, matrix: Floats) -> None:
     n = len(matrix) // 3
     blocks = np.reshape(matrix, (n, 3, n, 3)).transpose(0, 2, 1, 3)
     coupled = np.any(blocks != 0.0, axis=(2, 3))
+    # both blocks of a pair, and the one on the diagonal even if it is zero
     coupled |= coupled.T | np.eye(n, dtype=bool)
     rows, columns = np.nonzero(coupled)
     if len(columns) > MOST_BLOCKS:
@@ -38,7 +40,7 @@ def write_delassus(memory: Memory, matrix: Floats) -> None:
 
 
 def read_delassus(memory: Memory, n: int) -> Floats:
-    """Delassus matrix [1/kg] of the contacts 0 to n - 1, shape [3 n, 3 n]."""
+    """Delassus matrix [1/kg] of the contacts 0 to n - 1, shape [3 n, 3 n]; zero where two contacts have no block."""
     starts = memory[owners.Island.block_start][: n + 1]
     columns = memory[owners.Island.block_column][: int(starts[-1])]
     rows = np.repeat(np.arange(n), np.diff(starts))

@@ -19,7 +19,9 @@ from nonsmooth.interfaces.engine_report import FIRST_CODE
 
 
 def counts_of(engine: Engine, n_slots: int, free: Collection[str]) -> Mapping[str, int]:
-    """Counts that the engine decides for at most ``n_slots`` active contacts; it may only decide those in ``free``.
+    """Counts that the engine decides for at most ``n_slots`` active contacts, checked. They are lengths of its arrays.
+
+    It may only decide the counts named in ``free``, which the system does not decide.
 
     Raises
     ------
@@ -35,7 +37,9 @@ def counts_of(engine: Engine, n_slots: int, free: Collection[str]) -> Mapping[st
 
 
 def settings_of(engine: Engine, time_scale: float) -> Mapping[Any, float]:
-    """Scalars that the engine sets, and their values; ``time_scale`` [s] is that of the prescribed motions.
+    """Scalars of the workspace that the engine sets, such as tolerances, with their values, checked.
+
+    ``time_scale`` [s] is the shortest time in which prescribed motions change.
 
     Raises
     ------
@@ -45,6 +49,7 @@ def settings_of(engine: Engine, time_scale: float) -> Mapping[Any, float]:
     found = engine.settings(time_scale)
     for one, value in found.items():
         thing, rule = f"{_name(engine)}.settings", "must have scalars of the workspace for its keys"
+        # a declaration of a Part (one of each) without a size is a scalar
         if not (isinstance(one, Declaration) and issubclass(one.owner, Part) and one.size is None):
             raise InvalidInput(thing, rule, one, "Return for example {Tolerance.relative: 1e-9}.")
         if one.key in CONSTANT_SCALARS:
@@ -55,7 +60,7 @@ def settings_of(engine: Engine, time_scale: float) -> Mapping[Any, float]:
 
 
 def own_of(engine: Engine) -> tuple[type[Part], ...]:
-    """The engine's own part of the workspace, as a tuple of one or none.
+    """The engine's own part of the workspace, a class of declarations, as a tuple of one or none.
 
     Raises
     ------
@@ -72,7 +77,9 @@ def own_of(engine: Engine) -> tuple[type[Part], ...]:
 
 
 def laid_own(engine: Engine, counts: Mapping[str, int]) -> tuple[type[Part], ...]:
-    """The engine's own part of the workspace, checked for a system of these counts, as a tuple of one or none.
+    """The engine's own part of the workspace, as a tuple of one or none, checked before memory is allocated for it.
+
+    ``counts`` are those of the system, from which arrays get their lengths.
 
     Raises
     ------
@@ -81,6 +88,7 @@ def laid_own(engine: Engine, counts: Mapping[str, int]) -> tuple[type[Part], ...
     """
     for own in own_of(engine):
         thing = f"{_name(engine)}.own"
+        # the workspace has an attribute for each owner, named by its key
         taken = get_type_hints(Workspace)
         if own.key in taken or not own.key.isidentifier():
             rule = "must be a name in Python that no other owner has"
@@ -91,7 +99,11 @@ def laid_own(engine: Engine, counts: Mapping[str, int]) -> tuple[type[Part], ...
 
 
 def _check_length(thing: str, declared: Declaration, counts: Mapping[str, int]) -> None:
-    """Check that the counts of a system give an array its length; a scalar has none."""
+    """Check that the counts of a system give an array its length. ``thing`` is the array in messages.
+
+    The length is a function of the plug-in that takes the counts by name, so it may ask for an unknown one. A scalar
+    has no length.
+    """
     if declared.size is None:
         return
     try:
@@ -104,7 +116,9 @@ def _check_length(thing: str, declared: Declaration, counts: Mapping[str, int]) 
 
 
 def check_report(engine: Engine) -> None:
-    """Check the measures, the causes and the promised residual of an engine.
+    """Check what an engine declares for its reports: measures, causes of an end, and promised residual.
+
+    Measures are scalars of its own part that the user reads after a run. The residual decides which runs are suspect.
 
     Raises
     ------
@@ -125,7 +139,10 @@ def check_report(engine: Engine) -> None:
 
 
 def _known(engine: Engine, what: str, names: Iterable[str], known: Collection[str]) -> tuple[str, ...]:
-    """The names, checked to be among the known ones; ``what`` is the attribute of the engine that has them."""
+    """The names that an engine gives in its attribute ``what``, checked to be among the known ones.
+
+    ``UnknownName`` proposes a known name for an unknown one.
+    """
     for name in (found := tuple(names)):
         if name not in known:
             raise UnknownName(f"{_name(engine)}.{what}", name, known)
@@ -133,4 +150,5 @@ def _known(engine: Engine, what: str, names: Iterable[str], known: Collection[st
 
 
 def _name(engine: Engine) -> str:
+    """Name of the class of an engine, for messages."""
     return type(engine).__name__

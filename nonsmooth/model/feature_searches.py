@@ -47,12 +47,15 @@ class FeatureSearch:
 
     @property
     def size(self) -> int:
-        """Largest number of floats that the search may write."""
+        """Largest number of floats that the search may write: the number of pairs that it found, then the pairs."""
+        # one pair more than there are contacts shows that these are too few
         return 1 + CANDIDATE * (len(self.contacts) + 1)
 
 
 def find_searches(contacts: Sequence[Contact]) -> list[FeatureSearch]:
-    """The searches, in the order of their contacts. The contacts of a search are consecutive.
+    """The searches for candidate features, in the order of their contacts.
+
+    The contacts of a search are consecutive, and have the same :class:`CandidateSearch`.
 
     Raises
     ------
@@ -86,12 +89,14 @@ def lay_searches(
     table: ContactTable,
     spheres: Mapping[tuple[int, int], int],
 ) -> None:
-    """Write the searches; ``spheres`` has the number of the bounding sphere of each frame.
+    """Write the searches. ``spheres`` has the bounding sphere of each frame, by the numbers of body and frame.
 
-    The features of a search may move as far as the farthest points of their spheres.
+    A search is valid until its features have moved too far. They may lie anywhere in their spheres, so their largest
+    radius, ``feature_radius``, is that of the sphere.
     """
     for number, search in enumerate(searches):
         fields = _lay_function(blocks, search)
+        # all contacts of a search have the same two frames
         first = search.contacts.start
         sides = zip(table.bodies[first].tolist(), table.frames[first].tolist(), strict=True)
         sphere_a, sphere_b = (spheres[side] for side in sides)
@@ -103,12 +108,14 @@ def lay_searches(
 
 
 def _lay_function(blocks: Heap, search: FeatureSearch) -> dict[str, int]:
-    """Compile and try out the function of a search, and reserve its parameters and its output.
+    """Compile and try out the function of a search, and reserve its parameters and its output among the blocks.
 
-    The result has the fields of a record.
+    The result has the fields of a record: address of the function, and offsets of parameters and output. Tables of
+    meshes may be large, so the parameters get a reference to a table, which several searches share.
     """
     function, values = search.candidates.function, search.candidates.values
     tables = {name: value for name, value in values.items() if isinstance(value, Table)}
+    # with an empty tuple in place of each table
     address, numbers = bind(function, "pair", {**values, **dict.fromkeys(tables, ())}, search.owner)
     # the trial reads the tables behind the other parameters, the engine by their distance
     all_numbers = bind(function, "pair", values, search.owner)[1] if tables else numbers
@@ -120,8 +127,12 @@ def _lay_function(blocks: Heap, search: FeatureSearch) -> dict[str, int]:
 
 
 def failed_search(memory: Memory, contacts: Sequence[Contact]) -> str:
-    """Sentence that names the first search whose number of features is negative or not a number, or ""."""
+    """Sentence that names the first search whose number of features is negative or not a number, or "".
+
+    For the message of a run that a search has failed. An exception in the function gives NaN.
+    """
     for number, search in enumerate(find_searches(contacts)):
+        # the first number of its output
         found = memory.floats[int(memory[owners.Search.out][number])]
         if not found >= 0.0:
             function = search.candidates.function

@@ -42,7 +42,11 @@ class ImmobileContact(NamedTuple):
 
 
 def immobile_contact(model: LaidOut) -> ImmobileContact | None:
-    """The first touching rigid contact that cannot move along its normal, or None."""
+    """The first touching rigid contact that joints keep from moving along its normal, or None.
+
+    Joints bear the whole force of such a contact, so that no motion determines it. Evaluates the touching contacts of
+    the present state. A compliant contact is left out, because its law gives the force.
+    """
     if not model.system.joints:
         return None
     memory = model.memory
@@ -54,7 +58,7 @@ def immobile_contact(model: LaidOut) -> ImmobileContact | None:
             continue
         sides = [_inverse_masses(model, index, side) for side in ("a", "b")]
         held, free = (sum(values) for values in zip(*sides, strict=True))
-        # two driven bodies have none, with or without joints
+        # two driven bodies have none, with or without joints; below SINGULAR the rest is round-off
         if free > 0.0 and held <= SINGULAR * free:
             bodies = contact.first, contact.second
             joints = [tie for tie in model.system.joints if tie.first in bodies or tie.second in bodies]
@@ -69,7 +73,11 @@ def held_by(joints: list[Tie]) -> str:
 
 
 def _inverse_masses(model: LaidOut, index: int, side: str) -> tuple[float, float]:
-    """Effective inverse mass of one side of an active contact along its normal, with and without joints [1/kg]."""
+    """Effective inverse mass of one side of an active contact along its normal, with and without joints [1/kg].
+
+    ``index`` is that of the neighbour list, ``side`` "a" for the first body or "b". With joints it is W^T K W, where K
+    is the inverse mass of all bodies that joints tie together. Without joints it is the sum over these bodies.
+    """
     memory = model.memory
     contact, articulation = owners.Contact, owners.Articulation
     fields = {
@@ -79,24 +87,26 @@ def _inverse_masses(model: LaidOut, index: int, side: str) -> tuple[float, float
     number, *places = (int(memory[field][index]) for field in fields[side])
     sizes = articulation.n_u, articulation.first_body, articulation.n_bodies, articulation.u
     n_u, first, count, start = (int(memory[field][number]) for field in sizes)
-    # row n of W^T, and K W: velocities of the articulation per gap rate, and accelerations per normal force
+    # row n of W^T, and K W: gap rate per velocity of the articulation, and accelerations per normal force
     row, response = (memory.floats[place : place + n_u] for place in places)
     free = sum(_free_inverse_mass(model, body, row, start) for body in range(first, first + count))
     return float(row @ response), free
 
 
 def inverse_mass(model: LaidOut, number: int) -> np.ndarray:
-    """Inverse mass matrix of a body without joints, as it was evaluated last, shape [n_u, n_u]."""
+    """View of the inverse mass matrix of a body without joints, as it was evaluated last, shape [n_u, n_u]."""
     n_u, start = model.system.bodies[number].n_u, place_of_inverse_mass(model.memory, number)
     return np.asarray(model.memory.floats[start : start + n_u**2].reshape(n_u, n_u))
 
 
 def _free_inverse_mass(model: LaidOut, number: int, row: np.ndarray, start: int) -> float:
-    """Effective inverse mass of a body without joints [1/kg].
+    """Effective inverse mass of body ``number`` along the normal of a contact, without joints [1/kg].
 
-    ``row`` has the gap rate per velocity of its articulation, the first of which is velocity ``start`` of the system.
+    ``row`` has the gap rate per velocity of its articulation, the bodies that joints tie together. The first of these
+    velocities is velocity ``start`` of the system.
     """
     body = model.system.bodies[number]
+    # a force does not move a driven body
     if body.n_u == 0:
         return 0.0
     u = int(model.memory[owners.Body.u][number])

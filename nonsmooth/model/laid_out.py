@@ -62,12 +62,12 @@ class LaidOut:
 
     @functools.cached_property
     def sizes(self) -> tuple[int, int, int, int]:
-        """Numbers of contacts, coordinates, velocities and integrated numbers."""
+        """Numbers of contacts, coordinates, velocities and integrated numbers, by which recorded events are read."""
         return len(self.system.contacts), self.n_q, self.n_u, self.n_y
 
     @functools.cached_property
     def watch(self) -> Watch:
-        """Makes the calls of the engine that may take long: it reports progress, and Ctrl-C stops them."""
+        """Object that makes calls of the engine that may take long: it reports progress, and Ctrl-C stops them."""
         return Watch(self.memory)
 
     @functools.cached_property
@@ -76,7 +76,7 @@ class LaidOut:
         return contacts_without_parts(self.system.contacts)
 
     def list_contacts(self) -> None:
-        """Make the neighbour list at the current state: the active contacts.
+        """Make the neighbour list at the current state: the active contacts, those of bodies near each other.
 
         Raises
         ------
@@ -97,16 +97,20 @@ class LaidOut:
             )
 
     def evaluate(self) -> None:
-        """Evaluate bodies and contacts at the current state."""
+        """Evaluate bodies and active contacts at the current state, and write their blocks in the memory."""
         call_entry("evaluate_at", self.memory)
 
     def energy(self) -> tuple[float, float]:
-        """Kinetic and potential energy [J] at the current state."""
+        """Kinetic and potential energy [J] at the current state. Evaluates bodies and contacts."""
         self.evaluate()
         return energies(self.system.bodies, self.memory[owners.Body.tail], self.memory.floats)
 
     def places(self) -> list[list[Place]]:
-        """Position [m] and rotation matrix of each frame of each body, as they were evaluated last."""
+        """Copies of position [m] and rotation matrix of each frame of each body, as they were evaluated last.
+
+        A frame has its motion and a Jacobian of 6 rows in the output block of the body. It begins with the position (3
+        numbers) and the rotation (9).
+        """
         found, memory = list[list[Place]](), self.memory
         for body, start in zip(self.system.bodies, memory[owners.Body.out], strict=True):
             width = FRAME + 6 * body.n_u
@@ -115,7 +119,10 @@ class LaidOut:
         return found
 
     def gaps(self) -> np.ndarray:
-        """Gaps [m] at the current state, shape [n_contacts]; infinite for contacts that are not active."""
+        """Gaps [m] at the current state, shape [n_contacts]; infinite for contacts that are not active.
+
+        Evaluates bodies and contacts. Active contacts belong to bodies near each other.
+        """
         self.evaluate()
         gaps, active = np.full(len(self.system.contacts), np.inf), self.active
         gaps[active] = self.memory[owners.Contact.geometry][: len(active), GAP]
@@ -124,9 +131,11 @@ class LaidOut:
     def rates(self) -> tuple[np.ndarray, np.ndarray]:
         """Gaps [m] and relative velocities [m/s] at the current state, shapes [n_contacts] and [n_contacts, 3].
 
-        They are nan for contacts that are not active.
+        The velocities are along n, t1, t2. Both are NaN for contacts that are not active. Evaluates bodies and
+        contacts.
         """
         gaps, active = self.gaps(), self.active
+        # of the contacts that are not active
         gaps[np.delete(np.arange(len(gaps)), active)] = np.nan
         rates = np.full((len(gaps), 3), np.nan)
         rates[active] = self.memory[owners.Contact.rate][: len(active)]
@@ -134,9 +143,10 @@ class LaidOut:
 
 
 def energies(bodies: tuple[Body, ...], rates: np.ndarray, numbers: np.ndarray) -> tuple[float, float]:
-    """Kinetic and potential energy [J] of bodies, which are read from ``numbers``.
+    """Kinetic and potential energy [J] of all bodies, read from ``numbers``.
 
-    ``rates`` has, for each body, the place of its q' there; force, inverse mass and the energies follow.
+    ``numbers`` are all floats of a memory, or the blocks of a checkpoint. ``rates`` has, for each body, the place of
+    its q' there; force, inverse mass and the energies follow. Driven bodies have no energy.
     """
     kinetic = potential = 0.0
     for body, start in zip(bodies, rates.tolist(), strict=True):

@@ -52,7 +52,7 @@ BodyLayouts = Mapping[int, BodyLayout]
 
 
 def write_record(memory: Memory, owner: type, number: int, values: Mapping[str, float]) -> None:
-    """Write fields of a record into the memory, by their names."""
+    """Write fields of record ``number`` of an owner, such as a body or a joint, into the memory, by their names."""
     for name, value in values.items():
         memory[getattr(owner, name)][number] = value
 
@@ -66,9 +66,11 @@ def _function(
     size: int,
     arguments: Sequence[float | Sequence[float]] = FRAMES,
 ) -> dict[str, int]:
-    """Compile a function that writes ``size`` numbers and try it out; reserve its parameters and its output.
+    """Compile a function of ``part`` that writes ``size`` numbers, try it out, and reserve its parameters and output.
 
-    ``arguments`` are those of the trial before the parameters. The result has the fields of a record.
+    ``form`` names the roles of its first arguments, ``available`` has the values of the others by name. The trial calls
+    it once in Python with ``arguments`` for the first ones, to find one that writes past its end. The result has the
+    fields of a record: address of the function, and offsets of parameters and output.
     """
     owner = type(part).__name__
     address, values = bind(function, form, available, owner)
@@ -79,9 +81,14 @@ def _function(
 def lay_bodies(
     system: System, memory: Memory, blocks: Heap, articulations: Sequence[Articulation]
 ) -> dict[int, BodyLayout]:
-    """Write the bodies; the result has the layout of each, by its identity."""
+    """Write the bodies, and the scales of their coordinates and velocities for the error of a step.
+
+    The result has the layout of each body, by its identity. Coordinates of all bodies come first in the state, then the
+    velocities, both in the order of the bodies.
+    """
     n_q = sum(body.n_q for body in system.bodies)
     scale = memory[owners.Step.y_scale]
+    # bodies with a joint or a load have no closed form of ballistic motion
     tied = {id(body) for tie in (*system.joints, *system.loads) for body in (tie.first, tie.second)}
     layouts: dict[int, BodyLayout] = {}
     q = u = 0
@@ -98,13 +105,15 @@ def lay_bodies(
 def _lay_body(
     system: System, memory: Memory, blocks: Heap, number: int, is_tied: bool, fields: dict[str, int]
 ) -> tuple[int, ...]:
-    """Write a body; the result has the places of its frames.
+    """Write body ``number``, which also reserves its output block; the result has the places of its frames.
 
-    ``is_tied`` is True if it has a joint or a load, and ``fields`` have its first coordinate and velocity.
+    ``is_tied`` is True if it has a joint or a load. ``fields`` are those of the record so far, the numbers of its first
+    coordinate and velocity; the others are added to them.
     """
     body = system.bodies[number]
     gravity = dict(zip(("gravity_x", "gravity_y", "gravity_z"), system.gravity, strict=True))
     available = {**body.parameters(), **gravity}
+    # arguments t, q and u of the trial
     start: Sequence[float | Sequence[float]] = (0.0, *map(tuple, system.start(body)))
     width, n = FRAME + 6 * body.n_u, body.n_q + body.n_u
     # behind the frames are q', force, inverse mass and two energies
@@ -116,19 +125,25 @@ def _lay_body(
     # the closed form of ballistic motion knows neither joints nor loads
     if body.flight is not None and not is_tied:
         ballistic = _function(blocks, body.flight, "body", body, available, n, start)
+        # it writes q and u after a time
         fields |= {f"ballistic_{name}": value for name, value in ballistic.items()}
     write_record(memory, owners.Body, number, fields)
     return tuple(range(out, out + n_of_frames, width))
 
 
 def lay_joints(memory: Memory, blocks: Heap, articulations: Sequence[Articulation], layouts: BodyLayouts) -> None:
-    """Write the articulations with their matrices, and the joints in the order of the articulations."""
+    """Write the articulations (groups of bodies tied by joints), and the joints in the order of the articulations.
+
+    Also reserves their matrices and vectors among the blocks: the inverse mass, and those of the rows of the joints,
+    the scalar conditions that the joints set.
+    """
     joint = 0
     for number, articulation in enumerate(articulations):
         bodies, ties = articulation.bodies, articulation.joints
         layout = layouts[id(bodies[0])]
         n, first, rows = layout.articulation_n_u, joint, 0
         for tie in ties:
+            # the rows of its joints follow each other
             rows += _lay_joint(memory, blocks, joint, tie, rows, layouts)
             joint += 1
         fields = {
@@ -136,7 +151,7 @@ def lay_joints(memory: Memory, blocks: Heap, articulations: Sequence[Articulatio
             "n_u": n,
             "first_body": articulation.first,
             "n_bodies": len(bodies),
-            # without joints the inverse mass is the one that the body writes
+            # without joints the articulation is one body, which writes its inverse mass itself
             "inverse": blocks.block(n * n) if ties else place_of_inverse_mass(memory, articulation.first),
             "first_joint": first,
             "n_joints": len(ties),
@@ -150,12 +165,16 @@ def lay_joints(memory: Memory, blocks: Heap, articulations: Sequence[Articulatio
 
 
 def place_of_inverse_mass(memory: Memory, body: int) -> int:
-    """Place of the inverse mass of a body among the floats. Its function writes it behind q' and the force."""
+    """Place of the inverse mass of a body among the floats. It follows q' and the force, which begin at ``tail``."""
     return int(memory[owners.Body.tail][body] + memory[owners.Body.n_q][body] + memory[owners.Body.n_u][body])
 
 
 def _lay_joint(memory: Memory, blocks: Heap, number: int, tie: Tie, first: int, layouts: BodyLayouts) -> int:
-    """Write a joint whose rows begin at ``first`` in its articulation; the result is the number of its rows."""
+    """Write joint ``number``; the result is the number of its rows, the scalar conditions that it sets.
+
+    ``first`` is the number of its first row in its articulation, the group of bodies tied by joints. The fields of its
+    two sides end in ``_a`` and ``_b``.
+    """
     joint = tie.component
     assert isinstance(joint, Joint)
     fields = _function(blocks, joint.evaluator, "pair", joint, joint.parameters(), JOINT_ROW * joint.n_rows)
@@ -168,7 +187,7 @@ def _lay_joint(memory: Memory, blocks: Heap, number: int, tie: Tie, first: int, 
 
 
 def lay_loads(system: System, memory: Memory, blocks: Heap, layouts: BodyLayouts) -> None:
-    """Write the loads."""
+    """Write the loads: functions of two frames that give a force and a moment, as of springs, and their two sides."""
     for number, tie in enumerate(system.loads):
         load = tie.component
         assert isinstance(load, Load)
@@ -181,7 +200,7 @@ def lay_loads(system: System, memory: Memory, blocks: Heap, layouts: BodyLayouts
 
 
 def lay_guards(system: System, memory: Memory, blocks: Heap) -> None:
-    """Write the guards of the user."""
+    """Write the guards of the user, functions of t, q and u whose roots are events. They write no block."""
     for number, guard in enumerate(system.guards):
         address, values = bind(guard.value, "guard", guard.parameters(), type(guard).__name__)
         fields = {"function": address, "parameters": blocks.store(values), "ends_the_run": guard.ends_run}

@@ -59,17 +59,20 @@ class Kind:
     tables: list[tuple[int, int, Table]] = field(default_factory=list)
 
     def store(self, declared: Any, values: Sequence[float]) -> int:
-        """Append values, whose place is a field of the contact; the result is the place."""
+        """Append values to the block; the result is their place, which is noted as the field ``declared``."""
         start = self.offsets[declared] = len(self.block)
         self.block += values
         return start
 
     def output(self, declared: Any, size: int) -> None:
-        """Append numbers that a law writes, whose place is a field of the contact."""
+        """Append room for ``size`` numbers that a law writes, with a mark behind; their place is field ``declared``."""
         self.mark_written(declared, self.store(declared, output_block(size)), size)
 
     def mark_written(self, declared: Any, place: int, size: int) -> None:
-        """Mark numbers of the block as written in a run, so that they are no parameters; their place is a field."""
+        """Mark ``size`` numbers of the block as written in a run; their place becomes the field ``declared``.
+
+        A saved checkpoint holds such numbers, but no parameters.
+        """
         self.offsets[declared] = place
         self.written.append((place, size))
 
@@ -77,10 +80,15 @@ class Kind:
 def lay_contacts(
     memory: Memory, blocks: Heap, contacts: Sequence[Contact], table: ContactTable, kinds: Kinds, bodies: BodyLayouts
 ) -> None:
-    """Write the declared contacts, and reserve Jacobians for as many as the neighbour list can hold."""
+    """Write the declared contacts, and reserve Jacobians for as many as the neighbour list can hold.
+
+    Contacts of a kind have the same geometry and laws, so they get the same fields and each a copy of the same block.
+    """
+    # functions with large tables that were tried out, which takes long
     tried = set[tuple[Any, ...]]()
     for numbers in kinds:
         kind = kind_of(memory, contacts[numbers[0]], tried)
+        # the copies of the block follow each other
         starts = blocks.repeat(kind.block, len(numbers)) + len(kind.block) * np.arange(len(numbers))
         for place, size in kind.written:
             blocks.write(starts + place, size)
@@ -92,18 +100,21 @@ def lay_contacts(
             for begin in starts.tolist():
                 blocks.refer(begin + place, begin + start, shared)
     _lay_states(memory, contacts, kinds)
+    # three rows of a Jacobian over the velocities of the largest articulation
     size = 3 * _lay_sides(memory, table, bodies)
+    # any unit vector, until a slip has a direction
     memory.declared(_CONTACT.direction)[:, 0] = 1.0
     memory.declared(_CONTACT.size)[:] = table.extents.min(axis=1)
     memory.declared(_CONTACT.spin_axis)[:] = table.revolutions
     lay_law_floats(memory, contacts, kinds)
     n_slots = int(memory[owners.Model.n_slots])
+    # each place of the neighbour list has Jacobians of its own
     for place in (_CONTACT.jacobian_a, _CONTACT.jacobian_b, _CONTACT.response_a, _CONTACT.response_b):
         memory[place] = blocks.block(size * n_slots) + size * np.arange(n_slots)
 
 
 def by_kind(contacts: Sequence[Contact]) -> Kinds:
-    """Numbers of the contacts of each kind."""
+    """Numbers of the contacts of each kind. A kind shares the very same objects for geometry and laws."""
     same = defaultdict[tuple[int, ...], list[int]](list)
     parts = [map(id, map(attrgetter(part), contacts)) for part in ("kinematics", "normal", "friction", "impact")]
     for number, key in enumerate(zip(*parts, strict=True)):
@@ -112,7 +123,10 @@ def by_kind(contacts: Sequence[Contact]) -> Kinds:
 
 
 def _lay_states(memory: Memory, contacts: Sequence[Contact], kinds: Kinds) -> None:
-    """Write the number of the first inner state of each contact, and the usual size of the inner states."""
+    """Write where the inner states of each contact begin, and the scales of the inner states for the error of a step.
+
+    The inner states of friction laws come last in the state, in the order of the contacts.
+    """
     laws = {
         number: law
         for numbers in kinds
@@ -124,11 +138,16 @@ def _lay_states(memory: Memory, contacts: Sequence[Contact], kinds: Kinds) -> No
         memory.declared(_CONTACT.inner_states)[number] = len(scales)
         scales += laws[number].state_scale
     n_y = int(memory[owners.Model.n_y])
+    # not [-len:], which would be all numbers if there are no scales
     memory[owners.Step.y_scale][:n_y][n_y - len(scales) :] = scales
 
 
 def _lay_sides(memory: Memory, table: ContactTable, bodies: BodyLayouts) -> int:
-    """Write bodies and frames of each contact; the result is the largest number of velocities of an articulation."""
+    """Write bodies and frames of each contact; the result is the largest number of velocities of an articulation.
+
+    An articulation is a group of bodies tied by joints. The frames of a body follow each other, each with its motion
+    and a Jacobian of 6 rows.
+    """
     # a mechanism without contacts may have no frame
     rows = [(next(iter(b.frames), 0), b.n_u, b.column, b.articulation, b.articulation_n_u) for b in bodies.values()]
     first_frame, n_u, column, articulation, n_u_together = np.array(rows, np.int64).reshape(-1, 5).T
@@ -148,17 +167,21 @@ def _lay_sides(memory: Memory, table: ContactTable, bodies: BodyLayouts) -> int:
 
 
 def lay_law_floats(memory: Memory, contacts: Sequence[Contact], kinds: Kinds) -> None:
-    """Write the times and distances [s, m] of the laws, which are fields of a declared contact."""
+    """Write the times [s] and distances [m] of the laws, which are fields of a declared contact.
+
+    These are the contact time of an impact, 0 without an impact law, and the reach: the gap up to which a compliant law
+    acts, 0 for a rigid contact.
+    """
     for numbers in kinds:
         normal, impact = contacts[numbers[0]].normal, contacts[numbers[0]].impact
         memory.declared(_CONTACT.contact_time)[numbers] = 0.0 if impact is None else impact.contact_time
-        # the time-stepping fallback was not tried yet
+        # time of the last try for forces of an instant after the time-stepping fallback: never
         memory.declared(_CONTACT.mean_forces_asked)[numbers] = -math.inf
         memory.declared(_CONTACT.reach)[numbers] = normal.reach if isinstance(normal, CompliantNormalLaw) else 0.0
 
 
 def initial_state(contact: Contact) -> tuple[float, ...]:
-    """Inner states of the friction of a contact at the start."""
+    """Inner states of the friction law of a contact at the start of a run; none for a law without them."""
     law = contact.friction
     return law.initial_state if isinstance(law, (TractionLaw, StatefulFrictionLaw)) else ()
 
@@ -166,8 +189,9 @@ def initial_state(contact: Contact) -> tuple[float, ...]:
 def kind_of(memory: Memory, contact: Contact, tried: set[tuple[Any, ...]] | None = None) -> Kind:
     """Compile the functions of a contact, and collect the fields and the block of its kind.
 
-    A function with tables takes long to try out. ``tried`` holds those tried so far, and gets the new ones; None tries
-    none of them. The address of an impact map is written into the memory, because all contacts share it.
+    The kind holds for all contacts of the same geometry and laws. A function with tables takes long to try out.
+    ``tried`` holds those tried so far, and gets the new ones; None tries none of them. The address of an impact map is
+    written into the memory, because all contacts share it.
     """
     made, law, impact, kinematics = Kind(), contact.friction, contact.impact, contact.kinematics
     geometry = LawFunction(
@@ -176,12 +200,14 @@ def kind_of(memory: Memory, contact: Contact, tried: set[tuple[Any, ...]] | None
     for part in (geometry, *law_functions(law, impact, contact.normal)):
         _add_function(made, contact, part, tried)
     start = initial_state(contact)
+    # a law with inner states writes their rates; a traction law also force and moment
     if start or isinstance(law, TractionLaw):
         made.fields[_CONTACT.n_inner_states] = len(start)
         made.store(_CONTACT.inner_states_at_start, start)
         made.output(_CONTACT.traction_out, FORCE_AND_MOMENT + len(start))
         made.output(_CONTACT.rates_out, len(start))
     if isinstance(law, AnisotropicFrictionLaw):
+        # the block has the body that carries the axis (0 or 1), the unit axis, and the three ratios
         on_second = float(law.body == "second")
         made.fields[_CONTACT.is_anisotropic] = True
         made.store(_CONTACT.anisotropy, (on_second, *np.divide(law.axis, math.hypot(*law.axis)).tolist(), *law.ratios))
@@ -191,19 +217,27 @@ def kind_of(memory: Memory, contact: Contact, tried: set[tuple[Any, ...]] | None
 
 
 def _add_function(made: Kind, contact: Contact, part: LawFunction, tried: set[tuple[Any, ...]] | None) -> None:
-    """Compile a function of the kinematics or of a law, try it out, and add its address and parameters to a kind."""
+    """Compile a function of the kinematics or of a law, try it out, and add its address and parameters to a kind.
+
+    Parameters that a run writes are marked: features that a search finds, and inner states that a coefficient reads.
+    ``tried`` as in :func:`kind_of`.
+    """
     function, form, law, owner = part.function, part.form, part.law, f"{type(part.law).__name__} ({contact})"
     available = law.parameters()
+    # a coefficient of friction may take the inner states as a parameter, "state"
     is_coefficient = part.address is _CONTACT.friction_function
     with_state = law if is_coefficient and isinstance(law, StatefulFrictionLaw) else None
     if with_state is not None:
         available = {**available, "state": with_state.initial_state}
     tables = {n: v for n in parameter_names(function, form) if isinstance(v := available.get(n), Table)}
+    # the parameters, with nothing in place of tables: the memory holds each table once, and a reference to it here
     address, values = bind(function, form, {**available, **dict.fromkeys(tables, ())}, owner)
+    # geometry with large tables is slow to try out: once for the same function and tables
     if tables and form == "pair":
         key = function, *map(id, tables.values())
         if tried is not None and key not in tried:
             tried.add(key)
+            # the trial reads the tables behind the parameters
             _try_function(contact, part, bind(function, form, available, owner)[1])
     else:
         _try_function(contact, part, values)
@@ -211,7 +245,7 @@ def _add_function(made: Kind, contact: Contact, part: LawFunction, tried: set[tu
     start = made.store(part.parameters, values)
     made.tables += [(start + parameter_place(function, form, n), start, table) for n, table in tables.items()]
     if part.address is _CONTACT.geometry_function and contact.kinematics.candidates is not None:
-        # two features and their kind, and the distance to which they are valid
+        # what a search finds: kind and numbers of two features, and the distance up to which they are valid
         made.mark_written(_CONTACT.features, start + vector_place(function, form, values, "candidate"), CANDIDATE + 1)
     if with_state is not None:
         place = start + _place_of_state(with_state, values)
@@ -219,9 +253,13 @@ def _add_function(made: Kind, contact: Contact, part: LawFunction, tried: set[tu
 
 
 def _try_function(contact: Contact, part: LawFunction, values: Sequence[float]) -> None:
-    """Call a function that writes to a block once as Python, to find one that writes past it."""
+    """Call a function that writes to a block once as Python, to find one that writes past it.
+
+    Functions of other forms return a number and write nothing, so they need no trial.
+    """
     start = initial_state(contact)
-    # size of the block, and arguments before the parameters
+    # by form: size of the block, and any valid arguments before the parameters. These are two frames; normal force,
+    # slip with spin, and inner states; slip speed and inner states
     trials: Mapping[str, tuple[int, Sequence[float | Sequence[float]]]] = {
         "pair": (PAIR, FRAMES),
         "traction": (FORCE_AND_MOMENT + len(start), (1.0, (0.1, 0.2, 0.3, 0.4, 0.5), start)),
@@ -234,7 +272,7 @@ def _try_function(contact: Contact, part: LawFunction, values: Sequence[float]) 
 
 
 def _place_of_state(law: StatefulFrictionLaw, values: Sequence[float]) -> int:
-    """Place of the inner states among the parameters of a friction coefficient.
+    """Place of the inner states among ``values``, the parameters of a friction coefficient, where the law reads them.
 
     Raises
     ------
@@ -255,6 +293,9 @@ def _place_of_state(law: StatefulFrictionLaw, values: Sequence[float]) -> int:
 def _map_values(memory: Memory, impact: ImpactMap) -> tuple[float, ...]:
     """Compile an impact map, and write its address; the result has its parameters, without the friction coefficient.
 
+    An impact map gives the impulses of all contacts at once. The engine passes the coefficient of friction of each
+    contact in front of its parameters, so the map must take it first.
+
     Raises
     ------
     InvalidInput
@@ -268,9 +309,12 @@ def _map_values(memory: Memory, impact: ImpactMap) -> tuple[float, ...]:
             names,
             "Write impulses(n, delassus, rates, out, friction, ...).",
         )
+    # any coefficient of friction serves for the trial
     available: dict[str, Value] = {**impact.parameters(), "friction": 0.0}
     address, values = bind(impact.impulses, "map", available, type(impact).__name__)
+    # number of contacts, Delassus matrix [1/kg], and rates [m/s]: one that approaches and slips
     one_contact = 1, tuple(2.0 * np.eye(3).ravel()), (-1.0, 0.2, 0.1)
     try_out(impact.impulses, "map", available, values, 3, type(impact).__name__, one_contact)
     memory[owners.Options.impact_map] = address
+    # without the coefficient
     return values[1:]

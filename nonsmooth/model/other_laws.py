@@ -17,7 +17,10 @@ _OF_GEOMETRY = (owners.Contact.geometry_parameters, owners.Contact.features)
 
 
 def lay_laws(model: LaidOut, system: System) -> LaidOut:
-    """Layout of a system with other laws, in the memory of a model that holds no run.
+    """Layout of ``system``, which differs in its laws only, in the memory of a model. That memory must hold no run.
+
+    Addresses and parameters of the laws are overwritten in place, so ``model`` must not be used any more. Geometry
+    stays.
 
     Raises
     ------
@@ -29,6 +32,7 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
     kinds = by_kind(contacts)
     for numbers in kinds:
         before, after = (kind_of(memory, one.contacts[numbers[0]]) for one in (model.system, system))
+        # the new parameters must fit in the places of the old ones
         if (before.offsets, len(before.block)) != (after.offsets, len(after.block)):
             _refuse(contacts[numbers[0]], model.system.contacts[numbers[0]])
         for declared, value in after.fields.items():
@@ -36,6 +40,7 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
         # the parameters of the geometry come first, and may refer to tables; those of the laws follow
         of_laws = [offset for declared, offset in after.offsets.items() if declared not in _OF_GEOMETRY]
         first = min(of_laws, default=len(after.block))
+        # the block of each contact begins with the parameters of the geometry
         starts = memory.declared(owners.Contact.geometry_parameters)[numbers]
         places = starts[:, None] + np.arange(first, len(after.block))
         memory.floats[places] = after.block[first:]
@@ -44,7 +49,16 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
 
 
 def _check_same(one: System, other: System) -> None:
-    """Check that two systems differ in their laws only."""
+    """Check that two systems differ in their laws only.
+
+    Bodies, joints, loads and guards must be the very same objects. Contacts must have equal bodies, frames and
+    geometry, one by one.
+
+    Raises
+    ------
+    InvalidInput
+        If anything else differs.
+    """
     remedy = "Make it by nonsmooth.with_laws(model.system, ...), or assemble it."
     if list(map(id, one.bodies)) != list(map(id, other.bodies)) or one.gravity != other.gravity:
         raise InvalidInput("with_laws_of", "needs a system of the same bodies", other, remedy)

@@ -43,7 +43,7 @@ class Overlap(NamedTuple):
 
 
 def overlap_allowed(contact: Contact) -> float:
-    """Largest overlap of bodies that touch [m]."""
+    """Largest overlap of bodies that touch [m]: a millionth of the smaller one, at least 1 nm, for round-off."""
     return max(1e-9, 1e-6 * contact.size)
 
 
@@ -70,7 +70,8 @@ def check_overlaps(model: LaidOut) -> None:
 def first_overlap(model: LaidOut, numbers: Sequence[int]) -> Overlap | None:
     """The first overlap of solids deeper than is allowed, or None.
 
-    Compliant bodies may overlap if a gap of theirs is negative, because the contact force is then positive.
+    Gaps belong to features that face each other, and do not show all overlaps, so the solids are compared. Compliant
+    bodies may overlap if a gap of theirs is negative, because then a contact force pushes them apart.
 
     Parameters
     ----------
@@ -81,12 +82,14 @@ def first_overlap(model: LaidOut, numbers: Sequence[int]) -> Overlap | None:
     """
     contacts, blocks = model.system.contacts, model.memory[owners.Contact.geometry]
     indices = {number: index for index, number in enumerate(model.active.tolist())}
+    # only pairs whose bounding spheres meet
     for same, one, two in solid_pairs(model, numbers, within=0.0):
         contact, near = contacts[same[0]], [indices[number] for number in same if number in indices]
         if np.any(blocks[near, GAP] < 0.0) and isinstance(contact.normal, CompliantNormalLaw):
             continue
+        # the surface that contacts see may lie off the solid by set_back
         allowed = overlap_allowed(contact) + one.solid.set_back + two.solid.set_back
-        # the solids are compared along the normal of the least gap first
+        # a plane across the normal of the smallest gap separates most solids; without a gap any direction is tried
         nearest = min(near, key=lambda index: abs(float(blocks[index, GAP])), default=None)
         normal = np.array([0.0, 0.0, 1.0]) if nearest is None else blocks[nearest, NORMAL : NORMAL + 3]
         depth = overlap(one, two, allowed, normal)
@@ -111,6 +114,7 @@ def solid_pairs(
     """
     for same in by_shapes(model.system.contacts, numbers):
         contact = model.system.contacts[same[0]]
+        # without both solids there is nothing to compare
         solids = [solid for shape in contact.shapes if (solid := shape.solid) is not None]
         if len(solids) < len(contact.shapes):
             continue

@@ -69,13 +69,18 @@ class PartPair(NamedTuple):
 
 
 def find_part_pairs(contacts: Sequence[Contact], table: ContactTable) -> list[PartPair]:
-    """The pairs of parts that need a check for overlap."""
+    """The pairs of convex parts of shapes with contacts that need a check for overlap.
+
+    Each part of a shape is paired with each part of the other shape. A half-space, or the larger of two discs, becomes
+    the first side, as the engine expects. ``group`` is the number of the first pair of the same two shapes.
+    """
     parts_of: dict[int, tuple[ConvexPart, ...]] = {}
     found: list[PartPair] = []
     for numbers in by_shapes(contacts, range(len(contacts))):
         contact, group = contacts[numbers[0]], len(found)
         choices: list[list[PairSide]] = []
         for shape, body, frame in zip(contact.shapes, table.bodies[numbers[0]], table.frames[numbers[0]], strict=True):
+            # the parts of a shape are computed once
             if id(shape) not in parts_of:
                 parts_of[id(shape)] = shape.parts
             carrier, parts = (int(body), int(frame)), parts_of[id(shape)]
@@ -90,7 +95,10 @@ def find_part_pairs(contacts: Sequence[Contact], table: ContactTable) -> list[Pa
 
 
 def carriers_of(pairs: Sequence[PartPair]) -> dict[tuple[int, int], float]:
-    """Bodies and frames that carry parts, each with the distance to its farthest point [m]."""
+    """Bodies and frames that carry parts, each with the distance from its origin to the farthest point of a part [m].
+
+    With this distance the engine bounds how far the parts move if the frame turns.
+    """
     radii: dict[tuple[int, int], float] = {}
     for side in itertools.chain.from_iterable(pair.sides for pair in pairs):
         reach = _UNBOUNDED if side.part.is_half_space else math.hypot(*side.part.place) + side.part.radius
@@ -99,18 +107,26 @@ def carriers_of(pairs: Sequence[PartPair]) -> dict[tuple[int, int], float]:
 
 
 def needs_overlap_check(one: ConvexPart, two: ConvexPart, contacts: int) -> bool:
-    """True if two parts can overlap without a negative gap of any of their contacts, the number of which is known."""
+    """True if two parts can overlap without a negative gap of any contact, so that the engine must check them.
+
+    ``contacts`` is the number of contacts of their shapes.
+    """
+    # of a half-space the engine checks the height of the other part, which must be bounded
     if one.is_half_space and two.is_half_space:
         return False
-    # the one contact of balls and half-spaces has the gap of the whole parts
+    # if balls and half-spaces have a single contact, its gap is that of the whole parts
     if contacts == 1 and all(part.is_ball or part.is_half_space for part in (one, two)):
         return False
-    # flat parts have no volume; of these only discs may overlap
+    # circles and points have no volume, so they cannot overlap; of these only two discs may pass through each other
     return not (one.is_flat and two.is_flat) or (one.is_disc and two.is_disc)
 
 
 def contacts_without_parts(contacts: Sequence[Contact]) -> list[int]:
-    """Numbers of contacts of a shape without convex parts, whose bodies the engine cannot check for overlap."""
+    """Numbers of contacts of a shape without convex parts, whose bodies the engine cannot check for overlap.
+
+    Their solids, if there are any, are compared in samples after the run.
+    """
+    # contacts share shapes, whose parts are costly
     shapes = {id(shape): shape for contact in contacts for shape in contact.shapes}
     without_parts = {key for key, shape in shapes.items() if not shape.parts}
     if not without_parts:
@@ -120,13 +136,17 @@ def contacts_without_parts(contacts: Sequence[Contact]) -> list[int]:
 
 def unchecked_contacts(contacts: Sequence[Contact]) -> list[str]:
     """Names of contacts of a shape without convex parts and without a solid: only their gaps show an overlap."""
+    # contacts share shapes, whose parts are costly
     shapes = {id(shape): shape for contact in contacts for shape in contact.shapes}
     bare = {key for key, shape in shapes.items() if not shape.parts and not shape.solid}
     return [contact.name for contact in contacts if not bare.isdisjoint(map(id, contact.shapes))]
 
 
 def by_shapes(contacts: Sequence[Contact], numbers: Sequence[int]) -> list[list[int]]:
-    """Numbers of contacts, for each pair of shapes on the same frames."""
+    """Those of the ``numbers`` of contacts that belong to the same pair of shapes, for each such pair.
+
+    Shapes on other bodies or frames are another pair. Bodies and shapes are known by their identity.
+    """
     groups: dict[tuple[int, ...], list[int]] = {}
     chosen = [contacts[number] for number in numbers]
     bodies = [map(id, map(attrgetter(name), chosen)) for name in ("first", "second")]
@@ -137,7 +157,11 @@ def by_shapes(contacts: Sequence[Contact], numbers: Sequence[int]) -> list[list[
 
 
 def numbers_of(part: ConvexPart) -> list[float]:
-    """Numbers of a part as the engine reads them (:mod:`nonsmooth.engine.memory.blocks`)."""
+    """Numbers of a convex part as the engine reads them (:mod:`nonsmooth.engine.memory.blocks`).
+
+    After the head come the circles, then the support function (address and parameters) of a shape that has one.
+    """
+    # -1 marks a half-space, and place 0 a part without a support function
     n_rings = -1 if part.is_half_space else len(part.rings)
     function_place = PART_RINGS + RING * len(part.rings) if part.function else 0
     head = *part.place, *np.ravel(part.axes), *part.semi, *part.powers, part.ball, part.radius, function_place, n_rings
@@ -147,7 +171,11 @@ def numbers_of(part: ConvexPart) -> list[float]:
 def lay_part_pairs(
     memory: Memory, blocks: Heap, pairs: Sequence[PartPair], frames: Mapping[tuple[int, int], int]
 ) -> None:
-    """Write the pairs, and the first pair of each contact; ``frames`` has the place of each frame in the memory."""
+    """Write the pairs of convex parts, the frames that carry them, and the first pair of each contact.
+
+    ``frames`` has the place of each frame in the memory, by the numbers of body and frame. A part that belongs to
+    several pairs is stored once.
+    """
     of_contact = memory.declared(owners.Contact.pair)
     of_contact[:] = NO_PAIR
     carriers = carriers_of(pairs)

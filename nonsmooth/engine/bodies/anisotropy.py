@@ -24,7 +24,10 @@ _SMALLEST_SINE = 1e-7
 
 @kernel("i8(v3)")
 def _least_axis(axis: Vector) -> int:
-    """Index of the component of a vector with the least absolute value. The first one if two are equal."""
+    """Index of the component of a vector with the least absolute value. The first one if two are equal.
+
+    The coordinate axis of this index is the one farthest from the direction of the vector.
+    """
     x, y, z = axis
     if abs(x) <= abs(y) and abs(x) <= abs(z):
         return 0
@@ -33,10 +36,11 @@ def _least_axis(axis: Vector) -> int:
 
 @kernel("void(ws, i8, v3, v3)")
 def stretch_tangents(ws: Workspace, c: int, t1: Vector, t2: Vector) -> None:
-    """Write the tangential rows of ``axes`` of contact ``c``, from its unit tangents and its slip along them.
+    """Write the tangential axes of the anisotropic contact ``c``: unit vectors, stretched by the friction ratios.
 
-    A slip within the velocity tolerance keeps the facing. So does a contact that sticks, because its slip in the stages
-    of a step is an error of integration.
+    Along stretched axes the elliptic friction bound is a disc, so that solvers keep their isotropic law. ``facing`` is
+    1 if the slip along the law's axis is forward, else -1: it selects the ratio. A slip within the velocity tolerance
+    does not change it, nor does a contact that sticks: its slip in the stages of a step is an error of integration.
     """
     contact, law = ws.contacts[c], at(ws.floats, ws.contacts[c].anisotropy)
     e1, e2 = _projected_axis(ws, contact, t1, t2)
@@ -45,6 +49,7 @@ def stretch_tangents(ws: Workspace, c: int, t1: Vector, t2: Vector) -> None:
     if contact.mode != Mode.STICK and abs(forward) > ws.tolerance.velocity:
         contact.facing = 1 if forward > 0.0 else -1
     along, across = law[_FORWARD] if contact.facing == 1 else law[_BACKWARD], law[_ACROSS]
+    # (e1, e2) is the law's axis in components along t1 and t2; (-e2, e1) is the direction across it
     contact.stretch_1, contact.stretch_2 = (along * e1, along * e2), (-across * e2, across * e1)
     contact.axis_1 = _combined(contact.stretch_1, t1, t2)
     contact.axis_2 = _combined(contact.stretch_2, t1, t2)
@@ -54,10 +59,11 @@ def stretch_tangents(ws: Workspace, c: int, t1: Vector, t2: Vector) -> None:
 def _projected_axis(ws: Workspace, contact: Contact, t1: Vector, t2: Vector) -> Pair:
     """Unit vector along the projection of the law's axis to the tangent plane, in components along the unit tangents.
 
-    If the law's axis is normal to that plane, the axis of the body's frame that is farthest from it is used instead: it
-    turns with the body too.
+    The axis is fixed to one of the two bodies. If it is normal to the tangent plane, it has no projection. Then the
+    axis of the body's frame that is farthest from it is used instead, because it turns with the body too.
     """
     law, axis = at(ws.floats, contact.anisotropy), at(ws.floats, contact.anisotropy + _AXIS)
+    # the parameters say which body carries the axis; 0 is the first
     rotation = frame_at(ws.floats, contact.frame_a if law[_SIDE] == 0.0 else contact.frame_b).rotation
     world = (
         rotation[0] * axis[0] + rotation[1] * axis[1] + rotation[2] * axis[2],
@@ -68,6 +74,7 @@ def _projected_axis(ws: Workspace, contact: Contact, t1: Vector, t2: Vector) -> 
     size = length((p1, p2))
     if size < _SMALLEST_SINE:
         r = _least_axis((axis[0], axis[1], axis[2]))
+        # axis r of the frame: column r of the rotation matrix, which is stored row by row
         world = rotation[r], rotation[r + 3], rotation[r + 6]
         p1, p2 = dot(world, t1), dot(world, t2)
         size = length((p1, p2))
@@ -82,7 +89,10 @@ def _combined(s: Pair, t1: Vector, t2: Vector) -> Vector:
 
 @kernel("void(ws, i8)")
 def stretch_bias(ws: Workspace, c: int) -> None:
-    """Transform the tangential second-order terms of contact ``c`` from the unit tangents to the rows [m/s^2]."""
+    """Transform the tangential bias of contact ``c`` from unit tangents to stretched rows [m/s^2], in place.
+
+    The bias is the acceleration of the contact while all velocities are constant. It transforms as a velocity does.
+    """
     contact = ws.contacts[c]
     b1, b2 = contact.bias[1], contact.bias[2]
     (s11, s12), (s21, s22) = contact.stretch_1, contact.stretch_2
@@ -91,7 +101,7 @@ def stretch_bias(ws: Workspace, c: int) -> None:
 
 @kernel("v2(ws, i8, v2)")
 def on_unit_tangents(ws: Workspace, c: int, friction: Pair) -> Pair:
-    """Friction force or impulse of contact ``c`` along the unit tangents, from its components along the rows.
+    """Friction force [N] or impulse [N s] of contact ``c`` along the unit tangents, from that along the stretched rows.
 
     It is the transpose of the map of velocities, so that the power is the same.
     """
@@ -104,7 +114,8 @@ def on_unit_tangents(ws: Workspace, c: int, friction: Pair) -> Pair:
 def release_sticking_anisotropic(ws: Workspace) -> None:
     """Set sticking anisotropic contacts to sliding, so that their facing follows the slip after an impact.
 
-    To be called before the rates after the impact are evaluated. A contact that sticks would keep its facing.
+    The facing is the sense of slip whose friction ratio applies, and a contact that sticks would keep it. To be called
+    before the rates after the impact are evaluated.
     """
     for contact in ws.contacts:
         if contact.is_anisotropic and contact.mode == Mode.STICK:
@@ -113,11 +124,14 @@ def release_sticking_anisotropic(ws: Workspace) -> None:
 
 @kernel("f8(ws, i8, f8)")
 def force_in_facing(ws: Workspace, c: int, f1: float) -> float:
-    """First tangential force ``f1`` of contact ``c`` [N], scaled to the row of the slip that it opposes.
+    """First tangential force ``f1`` of contact ``c`` [N], scaled to the friction ratio of the slip that it opposes.
 
-    A force along the facing opposes slip in the other direction, which has the other ratio.
+    For the static bound. The row of ``f1`` is stretched by the ratio for slip in the sense of ``facing``, 1 or -1. A
+    force in that sense opposes slip in the other sense, which has the other ratio. The force itself, ratio times
+    ``f1``, is the same along both rows.
     """
     contact = ws.contacts[c]
+    # a force against the facing opposes the slip that the row is made for
     if not contact.is_anisotropic or f1 * contact.facing <= 0.0:
         return f1
     law = at(ws.floats, contact.anisotropy)
@@ -127,11 +141,13 @@ def force_in_facing(ws: Workspace, c: int, f1: float) -> float:
 
 @kernel("b1(ws, i8, f8)")
 def turn_facing(ws: Workspace, c: int, f1: float) -> bool:
-    """Set the facing of contact ``c`` to the slip that its first tangential force ``f1`` [N] opposes.
+    """Set the facing of contact ``c`` to the sense of slip that its first tangential force ``f1`` [N] opposes.
 
-    True if this changes the friction ratio, so that the force must be found again.
+    1 is slip along the axis of the anisotropic law, -1 slip against it. True if this changes the friction ratio, so
+    that the force must be found again.
     """
     contact = ws.contacts[c]
+    # a force against the facing opposes slip in the sense of the facing already
     if not contact.is_anisotropic or f1 * contact.facing <= 0.0:
         return False
     law = at(ws.floats, contact.anisotropy)

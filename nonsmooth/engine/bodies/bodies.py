@@ -37,17 +37,26 @@ def _call_body(ws: Workspace, t: float, y: int, body: Body) -> None:
 
 @kernel("void(ws, f8, i8, i8)")
 def evaluate_body(ws: Workspace, t: float, y: int, number: int) -> None:
-    """Evaluate body ``number`` at time ``t`` [s] and the state at offset ``y``. Its output block gets a new version."""
+    """Evaluate body ``number`` at time ``t`` [s] and the state at offset ``y``.
+
+    Its output block gets a new version, by which contacts see that they must be evaluated again. ``free_time``, the
+    time at which all bodies with coordinates were evaluated, becomes unknown.
+    """
     body = ws.bodies[number]
     _call_body(ws, t, y, body)
     body.version += 1
+    # a driven body has no velocities, and keeps a time of its own
     if body.n_u > 0:
         ws.island.free_time = math.nan
 
 
 @kernel("b1(ws, f8, i8, Body)")
 def _is_evaluated_at(ws: Workspace, t: float, y: int, body: Body) -> bool:
-    """True if the last evaluation of a body was at time ``t`` [s] and the state at ``y``."""
+    """True if the last evaluation of a body was at time ``t`` [s] and the state at ``y``.
+
+    ``y_evaluated`` holds q and u of the evaluation ``evaluated_version``. It is not the last one if the body was then
+    evaluated at a state that is not stored, such as a stage of a step. Version 0: the body was never evaluated.
+    """
     if body.version == 0 or body.evaluated_version != body.version or body.evaluated_time != t:
         return False
     for i in range(body.q, body.q + body.n_q):
@@ -61,10 +70,11 @@ def _is_evaluated_at(ws: Workspace, t: float, y: int, body: Body) -> bool:
 
 @kernel("void(ws, f8, i8, i8)")
 def evaluate_if_changed(ws: Workspace, t: float, y: int, number: int) -> None:
-    """Evaluate body ``number`` at time ``t`` [s] and state ``y``. At those of its last evaluation it keeps its version.
+    """Evaluate body ``number`` at time ``t`` [s] and state ``y``, and store these for later comparison.
 
-    Loads and joints add to the output block of a body. So the block is written again at the same state too, except for
-    a ballistic body, which has neither loads nor joints.
+    At the time and state of its last evaluation it keeps its version, so that its contacts are not evaluated again.
+    Loads add to the forces in its output block. So the block is written again even then, except for a body with a
+    ballistic motion in closed form, which has neither loads nor joints.
     """
     body = ws.bodies[number]
     if _is_evaluated_at(ws, t, y, body):
@@ -83,7 +93,7 @@ def evaluate_if_changed(ws: Workspace, t: float, y: int, number: int) -> None:
 def _are_all_evaluated_at(ws: Workspace, t: float, y: int) -> bool:
     """True if all bodies with coordinates were evaluated last at time ``t`` [s] and state ``y``.
 
-    It is never true with loads or joints, which add to the output blocks of the bodies.
+    Then none needs to be evaluated. It is never true with loads or joints: they must be evaluated again in any case.
     """
     if ws.island.free_time != t or ws.model.n_loads + ws.model.n_joints > 0:
         return False
@@ -96,7 +106,10 @@ def _are_all_evaluated_at(ws: Workspace, t: float, y: int) -> bool:
 
 @kernel("void(ws, f8, i8)")
 def evaluate_driven_bodies(ws: Workspace, t: float, y: int) -> None:
-    """Evaluate the driven bodies at time ``t`` [s], unless that was their last evaluation. ``y`` is any state."""
+    """Evaluate the driven bodies at time ``t`` [s], unless that was their last evaluation.
+
+    They have no velocities (n_u = 0), and depend on time only. ``y`` is the offset of any state.
+    """
     if t == ws.island.driven_time:
         return
     ws.island.driven_time = t
@@ -107,7 +120,10 @@ def evaluate_driven_bodies(ws: Workspace, t: float, y: int) -> None:
 
 @kernel("void(ws, f8, i8)")
 def evaluate_integrated_bodies(ws: Workspace, t: float, y: int) -> None:
-    """Evaluate the bodies that the integrator steps, of a system without loads and joints."""
+    """Evaluate the bodies that the integrator steps at time ``t`` [s] and state ``y``, without loads and joints.
+
+    The other bodies are driven, or move in closed form.
+    """
     _start_evaluation(ws, y)
     for i in range(ws.island.n_integrated):
         evaluate_body(ws, t, y, ws.island.integrated[i])
@@ -116,6 +132,7 @@ def evaluate_integrated_bodies(ws: Workspace, t: float, y: int) -> None:
 @kernel("void(ws, i8)")
 def _start_evaluation(ws: Workspace, y: int) -> None:
     """Set the powers of driven bodies and loads to zero, and let kinematics use the velocities of the state ``y``."""
+    # counts the work until the next interrupt check; the loop over steps handles the interruption
     interrupted(ws, ws.island.n_contacts + ws.model.n_bodies)
     ws.island.velocities = y + ws.model.n_q
     ws.step.driven_power = 0.0
@@ -126,21 +143,26 @@ def _start_evaluation(ws: Workspace, y: int) -> None:
 def evaluate_free_bodies(ws: Workspace, t: float, y: int, of_all_bodies: bool) -> None:
     """Evaluate the bodies with coordinates at time ``t`` [s] and state ``y``, then the loads and joints on them.
 
-    These are all bodies with coordinates, or only those that the integrator steps.
+    These are all bodies with coordinates, or only those that the integrator steps. The powers of driven bodies and
+    loads begin at zero, and get the parts of loads and joints.
     """
+    # the frequent case, without the tests of the loop below
     if not of_all_bodies and ws.model.n_loads + ws.model.n_joints == 0:
         evaluate_integrated_bodies(ws, t, y)
         return
     _start_evaluation(ws, y)
+    # loads and joints may act on driven bodies
     if ws.model.n_loads + ws.model.n_joints > 0:
         evaluate_driven_bodies(ws, t, y)
     if of_all_bodies and _are_all_evaluated_at(ws, t, y):
         return
     for i in range(ws.model.n_bodies if of_all_bodies else ws.island.n_integrated):
         number = i if of_all_bodies else ws.island.integrated[i]
+        # a driven body
         if ws.bodies[number].n_u == 0:
             continue
         _clear_forces(ws, ws.bodies[number])
+        # an event evaluates all bodies repeatedly at one state; the states of stages of a step differ
         if of_all_bodies:
             evaluate_if_changed(ws, t, y, number)
         else:
@@ -155,7 +177,11 @@ def evaluate_free_bodies(ws: Workspace, t: float, y: int, of_all_bodies: bool) -
 
 @kernel("void(ws, Body)")
 def _clear_forces(ws: Workspace, body: Body) -> None:
-    """Set the generalised forces of a body to zero, as loads add to them, and a body may not write them."""
+    """Set the generalised forces of a body to zero before it is evaluated.
+
+    Loads have added to them, and the function of a body need not write zeros. A body with a ballistic motion in closed
+    form has no loads.
+    """
     if ws.model.n_loads > 0 and body.ballistic_function == 0:
         force = force_without_contacts(ws, body)
         for j in range(body.n_u):
@@ -164,9 +190,10 @@ def _clear_forces(ws: Workspace, body: Body) -> None:
 
 @kernel("void(ws, i8)")
 def _evaluate_articulations(ws: Workspace, y: int) -> None:
-    """Evaluate the articulations with joints at the state ``y``.
+    """Evaluate the articulations (groups of bodies tied by joints) that have joints, at the state ``y``.
 
-    Kinematics then uses ``u_free``, the velocities on which driven bodies prescribe nothing through joints.
+    The velocities are copied to ``u_free``, which loses the part that driven bodies prescribe through joints. Contacts
+    then take their velocities from there, and count the rest as prescribed.
     """
     for i in range(ws.model.n_u):
         ws.island.u_free[i] = ws.floats[y + ws.model.n_q + i]
@@ -187,7 +214,8 @@ def evaluate_bodies(ws: Workspace, t: float, y: int) -> None:
 def _apply_load(ws: Workspace, number: int, t: float, y: int) -> None:
     """Add the generalised forces of a load at time ``t`` [s] to those of its bodies, and its power to ``load_power``.
 
-    The wrench acts on the second body, and the opposite wrench on the first one. The state ``y`` has the velocities.
+    The wrench acts on the second body, and the opposite wrench on the first one. A driven body gets no forces. The
+    velocities for the power are those of the state ``y``.
     """
     load = ws.loads[number]
     frame_a, frame_b = at(ws.floats, load.frame_a), at(ws.floats, load.frame_b)
@@ -206,6 +234,7 @@ def _apply_load(ws: Workspace, number: int, t: float, y: int) -> None:
         my = moment[1] + rz * fx - rx * fz
         mz = moment[2] + rx * fy - ry * fx
         for j in range(n_u):
+            # column j of the Jacobian of the frame, which is stored behind its motion
             added = entry_of_column(ws.floats, frame + FRAME + j, n_u, force, (mx, my, mz))
             generalised[j] += added
             ws.step.load_power += added * ws.floats[y + ws.model.n_q + body.u + j]
@@ -213,7 +242,7 @@ def _apply_load(ws: Workspace, number: int, t: float, y: int) -> None:
 
 @entry_point()
 def evaluate_at(ws: Workspace) -> None:
-    """Evaluate all bodies and contacts at the present time and state."""
+    """Evaluate all bodies and all contacts on the neighbour list at the present time and state, for Python."""
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     for contact in ws.contacts:
-        evaluate_contact(ws, contact.index, 3)
+        evaluate_contact(ws, contact.index, rows=3)

@@ -5,7 +5,7 @@ which holds one pair of features, or none. When the neighbour list is made, the 
 the pairs that are nearer than the margin of the list. A pair that has a contact keeps it, with mode and slip. An open
 contact whose pair was not found is emptied. The other pairs that were found fill empty contacts.
 
-Behind its features each contact stores by how much their distance may shrink while the list holds.
+Behind its features each contact stores the largest distance that they may have while the list holds.
 """
 
 from __future__ import annotations
@@ -21,7 +21,10 @@ _NOT_A_NUMBER = -1
 
 @kernel("b1(ws, i8)")
 def has_no_features(ws: Workspace, declared: int) -> bool:
-    """True if a declared contact is one of those that candidate features share, and holds no pair of features."""
+    """True if a declared contact may hold any pair of features of two shapes, and holds none at present.
+
+    A contact with fixed features has offset 0 here. The first number of a pair is never 0.
+    """
     candidate = ws.declared_contacts[declared].features
     return candidate > 0 and ws.floats[candidate] == 0.0
 
@@ -37,9 +40,10 @@ def are_near(ws: Workspace, a: int, b: int) -> bool:
 
 @kernel("void(ws, DeclaredContact, i8, i8)")
 def _match(ws: Workspace, contact: DeclaredContact, found: int, n_found: int) -> None:
-    """Mark the pair of features of a contact as taken among the ``n_found`` pairs at ``found``.
+    """Mark the pair of features of a contact as taken among the ``n_found`` pairs at offset ``found``.
 
-    A taken pair has a zero in place of its first number. If the pair was not found, an open contact is emptied.
+    A taken pair has a zero in place of its first number. If the pair was not found, an open contact is emptied, so that
+    another pair may take it. A closed contact keeps its pair.
     """
     for i in range(n_found):
         is_same = True
@@ -51,14 +55,17 @@ def _match(ws: Workspace, contact: DeclaredContact, found: int, n_found: int) ->
             return
     if contact.mode == Mode.OPEN:
         ws.floats[contact.features] = 0.0
+        # the history of the old pair must not go to the next one: values as at the start of a run
         contact.direction, contact.closing_rate = (1.0, 0.0), 0.0
 
 
 @kernel("Status(ws)")
 def find_candidates(ws: Workspace) -> Status:
-    """Assign the pairs of features that are nearer than the margin of the list to contacts.
+    """Assign the pairs of features that are nearer than the margin of the neighbour list to declared contacts.
 
-    ``RUNNING``, ``NO_SLOT`` if there are more pairs than contacts, ``NOT_FINITE`` if a search fails.
+    A search has as many contacts as two shapes may need at once; their pairs of features change. Status: ``RUNNING``,
+    ``NO_SLOT`` if there are more pairs than contacts, so that the margin must be reduced, ``NOT_FINITE`` if a search
+    fails.
     """
     for search in ws.searches:
         n_found = _find(ws, search)
@@ -67,33 +74,42 @@ def find_candidates(ws: Workspace) -> Status:
         if n_found > search.n_contacts:
             return Status.NO_SLOT
         end = search.first_contact + search.n_contacts
+        # the pairs follow the number of pairs in the output of the search
         for declared in range(search.first_contact, end):
             if not has_no_features(ws, declared):
                 _match(ws, ws.declared_contacts[declared], search.out + 1, n_found)
+        # closed contacts keep pairs that were not found, so that the others may be too few
         if not _fill_empty(ws, search, n_found):
             return Status.NO_SLOT
         for declared in range(search.first_contact, end):
+            # largest distance of a pair while the list holds: the margin, and a margin by which the bodies may move
             ws.floats[ws.declared_contacts[declared].features + CANDIDATE] = 2.0 * ws.island.list_margin
     return Status.RUNNING
 
 
 @kernel("i8(ws, Search)")
 def _find(ws: Workspace, search: Search) -> int:
-    """Call a search if its shapes are near each other. Number of pairs that it found, or ``_NOT_A_NUMBER``.
+    """Call a search for pairs of features if its shapes are near each other.
 
-    The function reads the margin [m] at ``search.out``, where it writes the number of pairs. The pairs follow.
+    Number of pairs that it found, or ``_NOT_A_NUMBER`` if the function gave a negative or undefined number. The
+    function reads the margin [m] at ``search.out``, where it writes the number of pairs. The pairs follow.
     """
     if not are_near(ws, search.sphere_a, search.sphere_b):
         return 0
     ws.floats[search.out] = ws.island.list_margin
     a, b = at(ws.floats, ws.spheres[search.sphere_a].frame), at(ws.floats, ws.spheres[search.sphere_b].frame)
     call_pair(search.function, a, b, at(ws.floats, search.parameters), at(ws.floats, search.out))
+    # NaN fails the comparison, too
     return int(ws.floats[search.out]) if ws.floats[search.out] >= 0.0 else _NOT_A_NUMBER
 
 
 @kernel("b1(ws, Search, i8)")
 def _fill_empty(ws: Workspace, search: Search, n_found: int) -> bool:
-    """Fill empty contacts with the pairs of features that have no contact yet. False if there are too few contacts."""
+    """Fill empty contacts with the pairs of features that have no contact yet. False if there are too few contacts.
+
+    The ``n_found`` pairs are in the output of the search, behind their number. A pair that has a contact is marked by a
+    zero in place of its first number.
+    """
     declared, end = search.first_contact, search.first_contact + search.n_contacts
     for i in range(n_found):
         found = search.out + 1 + CANDIDATE * i

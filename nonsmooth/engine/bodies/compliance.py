@@ -29,15 +29,19 @@ from nonsmooth.engine.numerics.vectors import Vector, dot, length, minus
 
 @kernel("void(ws, i8)")
 def evaluate_compliant_force(ws: Workspace, c: int) -> None:
-    """Write the normal force of the compliant contact ``c`` [N]. Its geometry and rates must be evaluated."""
+    """Write the normal force of the compliant contact ``c`` [N], by its law. Geometry and rates must be evaluated."""
     contact = ws.contacts[c]
+    # laws take indentation and its rate: the gap and its rate with the opposite sign
     depth, rate, parameters = -contact.gap, -contact.rate[0], at(ws.floats, contact.normal_parameters)
     contact.compliant_force = call_compliance(contact.normal_function, depth, rate, contact.closing_rate, parameters)
 
 
 @kernel("void(ws, Contact)")
 def _evaluate_motion(ws: Workspace, contact: Contact) -> None:
-    """Write the slip velocity [m/s] and the relative angular velocity [1/s] along t1, t2 and n for a traction law."""
+    """Write the slip velocity [m/s] and the relative angular velocity [1/s] along t1, t2 and n for a traction law.
+
+    They go to ``problem.motion``, in the order of the law's argument.
+    """
     motion = at(ws.floats, ws.problem.motion.start)
     turning = minus(frame_at(ws.floats, contact.frame_b).spin, frame_at(ws.floats, contact.frame_a).spin)
     motion[0], motion[1] = contact.slip
@@ -48,9 +52,10 @@ def _evaluate_motion(ws: Workspace, contact: Contact) -> None:
 
 @kernel("void(ws, i8, i8)")
 def evaluate_traction(ws: Workspace, c: int, y: int) -> None:
-    """Evaluate the traction law of contact ``c`` at the state ``y``, and the power that its moment dissipates [W].
+    """Evaluate the traction law of contact ``c`` at the state ``y``, and write the power of its moment [W].
 
-    The law writes force [N], moment [N m], and the rates of its inner states.
+    The law gives friction force [N], moment [N m] and rates of its inner states from the slip, and writes them to
+    ``traction_out``. The power is negative if the moment dissipates energy.
     """
     contact = ws.contacts[c]
     _evaluate_motion(ws, contact)
@@ -71,10 +76,14 @@ def inner_states_at(ws: Workspace, c: int, y: int) -> int:
 
 @kernel("void(ws, i8)")
 def copy_inner_states(ws: Workspace, y: int) -> None:
-    """Copy the inner states of friction laws from the state at ``y`` to where the laws read them."""
+    """Copy the inner states of friction laws from the state at ``y`` to their parameters, where the laws read them.
+
+    To be called before the laws are evaluated at another state.
+    """
     if ws.model.n_states == 0:
         return
     for contact in ws.contacts:
+        # 0: no inner states, or a traction law, which reads them in the state itself
         if contact.inner_states_copy > 0:
             for i in range(contact.n_inner_states):
                 ws.floats[contact.inner_states_copy + i] = ws.floats[inner_states_at(ws, contact.index, y) + i]
@@ -95,9 +104,10 @@ def start_inner_states(ws: Workspace, c: int) -> None:
 
 @kernel("void(ws, i8, i8)")
 def write_inner_rates(ws: Workspace, y: int, out: int) -> None:
-    """Write the rates of the inner states of all contacts, at the state ``y``, to the slope ``out``.
+    """Write the rates of the inner states of all friction laws, at the state ``y``, to the slope at ``out``.
 
-    Those of open contacts are zero.
+    The inner states of open contacts do not change: they start anew when the contact closes. The forces of the contacts
+    must be evaluated, because traction laws write the rates with them.
     """
     if ws.model.n_states == 0:
         return
@@ -110,6 +120,7 @@ def write_inner_rates(ws: Workspace, y: int, out: int) -> None:
         source = contact.traction_out + FORCE_AND_MOMENT
         if contact.inner_states_copy > 0:
             source = contact.rates_out
+            # the slip of a contact that sticks is round-off
             speed = 0.0 if contact.mode == Mode.STICK else length(contact.slip)
             states = at(ws.floats, inner_states_at(ws, contact.index, y))
             parameters = at(ws.floats, contact.rates_parameters)
@@ -131,14 +142,15 @@ def _in_world(contact: Contact, along_n: float, along_1: float, along_2: float) 
 
 @kernel("void(ws, i8, F)")
 def write_wrench(ws: Workspace, c: int, f: Floats) -> None:
-    """Write the generalised forces of contact ``c`` to ``FIRST_ROW`` of its Jacobians, and their response.
+    """Write the generalised forces of contact ``c`` by its known force ``f`` along n, t1, t2 [N], and their response.
 
-    ``f`` is the contact force along n, t1, t2 [N]; a traction law adds its moment. The response, in ``NORMAL_ROW``, is
-    the acceleration that they give.
+    A traction law adds its moment. The forces overwrite ``FIRST_ROW`` of the Jacobians. The response, the acceleration
+    that they give, overwrites response ``NORMAL_ROW``, the one of contacts with a single column.
     """
     contact = ws.contacts[c]
     force, moment = _in_world(contact, f[0], f[1], f[2]), (0.0, 0.0, 0.0)
     if contact.has_traction_law:
+        # the law writes its moment along t1, t2, n
         m = at(ws.floats, contact.traction_out + TRACTION_MOMENT)
         moment = _in_world(contact, m[2], m[0], m[1])
     wrench_row(ws, c, FIRST_ROW, force, moment)
@@ -147,7 +159,11 @@ def write_wrench(ws: Workspace, c: int, f: Floats) -> None:
 
 @kernel("void(ws, i8, F, i8)")
 def apply_traction_law(ws: Workspace, c: int, f: Floats, y: int) -> None:
-    """Write the force of contact ``c``, which has a traction law, at the state ``y`` to ``f``: along n, t1, t2 [N]."""
+    """Write the force of contact ``c``, which has a traction law, at the state ``y`` to ``f``: along n, t1, t2 [N].
+
+    Its normal part is the compliant force, which must be evaluated. The moment, inner rates and power of the law are
+    written, too, to fields of the contact.
+    """
     evaluate_traction(ws, c, y)
     contact = ws.contacts[c]
     traction = at(ws.floats, contact.traction_out + TRACTION)
@@ -156,9 +172,10 @@ def apply_traction_law(ws: Workspace, c: int, f: Floats, y: int) -> None:
 
 @kernel()
 def accelerate_by_compliance(ws: Workspace) -> None:
-    """Add the accelerations by the known forces of touching compliant contacts to ``du``.
+    """Add the accelerations by the known forces of touching compliant contacts to ``du``, before friction is found.
 
-    Known are all forces of contacts with a traction law, and else the normal forces: Coulomb friction is unknown yet.
+    Known are all forces of contacts with a traction law, and else the normal forces: Coulomb friction is part of the
+    contact problem. The responses of the contacts must be evaluated.
     """
     for contact in ws.contacts:
         if not contact.is_compliant or not contact.is_touching:
@@ -166,6 +183,7 @@ def accelerate_by_compliance(ws: Workspace) -> None:
         if contact.has_traction_law:
             apply_traction_law(ws, contact.index, contact.force, ws.island.y.start)
             write_wrench(ws, contact.index, contact.force)
+            # the response of the wrench is that to the whole force
             push_response(ws, contact.index, NORMAL_ROW, 1.0, ws.island.du.start)
         else:
             push_response(ws, contact.index, NORMAL_ROW, contact.compliant_force, ws.island.du.start)
@@ -173,7 +191,10 @@ def accelerate_by_compliance(ws: Workspace) -> None:
 
 @kernel("b1(ws, i8)")
 def has_known_friction(ws: Workspace, c: int) -> bool:
-    """True if the friction of the compliant contact ``c`` is known: by a traction law, or 0 without a normal force."""
+    """True if the friction of the compliant contact ``c`` is known, so that the contact problem has no part of it.
+
+    A traction law gives it. Without a normal force that pushes it is zero.
+    """
     contact = ws.contacts[c]
     return contact.has_traction_law or contact.compliant_force <= 0.0
 
@@ -190,13 +211,14 @@ def decouple_normals(ws: Workspace) -> None:
         for block in range(active.first_block, active.end_block):
             g, d = at(ws.floats, ws.island.delassus.start + DELASSUS * block), ws.island.block_column[block]
             if d == active.index and contact.is_compliant:
-                # the block on the diagonal keeps its own entry g_nn
+                # a contact of driven bodies has g_nn = 0, and any positive number gives the known force
                 g_nn = g[0] if g[0] > 0.0 else 1.0
                 active.free[0] = -g_nn * contact.compliant_force
                 for i in range(1, 3):
                     g[i] = g[3 * i] = 0.0
                 g[0] = g_nn
                 continue
+            # zero the normal row of this contact, and the normal column of the contact that the block couples with
             is_column_known = ws.contacts[ws.actives[d].contact].is_compliant
             for i in range(3):
                 if contact.is_compliant:

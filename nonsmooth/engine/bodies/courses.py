@@ -13,7 +13,11 @@ from nonsmooth.engine.native.kernel import Workspace, kernel
 
 @kernel("b1(ws, i8)")
 def has_own_step(ws: Workspace, c: int) -> bool:
-    """True if contact ``c`` is the one closed contact of a body with an own step (multirate)."""
+    """True if contact ``c`` is closed and one of its bodies has an own step (multirate).
+
+    Such a body moves along the interpolant of a step of its own. It has no other closed contact, so ``c`` needs no part
+    in the steps and events of the rest.
+    """
     contact = ws.contacts[c]
     if contact.mode == Mode.OPEN:
         return False
@@ -22,7 +26,10 @@ def has_own_step(ws: Workspace, c: int) -> bool:
 
 @kernel("i8(ws, i8)")
 def end_own_steps_of(ws: Workspace, c: int) -> int:
-    """End the own steps of the two bodies of contact ``c`` at the present time. Number of steps that ended."""
+    """End the own steps (multirate) of the two bodies of contact ``c`` at the present time. Number that ended, 0 to 2.
+
+    The bodies are then integrated with the rest of the system.
+    """
     contact = ws.contacts[c]
     body_a, body_b = ws.bodies[contact.body_a], ws.bodies[contact.body_b]
     n_ended = body_a.has_own_step + body_b.has_own_step

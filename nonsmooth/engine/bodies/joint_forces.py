@@ -16,14 +16,17 @@ from nonsmooth.engine.numerics.linear import product
 
 @kernel("void(ws, i8)")
 def _add_contact_forces(ws: Workspace, forces: int) -> None:
-    """Add the forces of the closed contacts to the generalised forces at ``forces``."""
+    """Add the forces of the closed contacts to the generalised forces of all bodies at offset ``forces``.
+
+    ``FIRST_ROW`` of the Jacobians of the contacts is overwritten.
+    """
     for i in range(ws.island.n_grouped):
         c = ws.island.grouped[i]
         contact = ws.contacts[c]
         write_wrench(ws, c, contact.force)
         for side in range(2):
             articulation = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b]
-            # the generalised forces are in the row t1
+            # write_wrench has put the generalised forces there
             row = (contact.jacobian_a if side == 0 else contact.jacobian_b) + FIRST_ROW * articulation.n_u
             for j in range(articulation.n_u):
                 ws.floats[forces + articulation.u + j] += ws.floats[row + j]
@@ -31,21 +34,25 @@ def _add_contact_forces(ws: Workspace, forces: int) -> None:
 
 @kernel("void(ws, Articulation, i8)")
 def _solve_rows(ws: Workspace, articulation: Articulation, forces: int) -> None:
-    """Write the multipliers of an articulation's rows [N or N m], from the generalised forces at ``forces``."""
+    """Write the multipliers mu of the joint rows of an articulation [N or N m], from the generalised forces F.
+
+    mu = -(A M^-1 A^T)^-1 (A M^-1 F + b), with the Jacobian A and the biases b of the rows. F of all bodies is at offset
+    ``forces``. The factor of the matrix and A M^-1, the response, must be evaluated.
+    """
     n, m = articulation.n_u, articulation.n_rows
     for line in range(m):
         row, bias = articulation.response + line * n, ws.floats[articulation.bias + line]
         ws.floats[articulation.forces + line] = -product(ws.floats, bias, row, forces + articulation.u, n)
-    solve_factorised(ws.floats, articulation.factor, m, articulation.forces, 1)
+    solve_factorised(ws.floats, articulation.factor, m, articulation.forces, stride=1)
 
 
 @kernel()
 def evaluate_joint_forces(ws: Workspace) -> None:
-    """Write the multiplier of every row of the joints [N or N m]. The contact forces must be evaluated.
+    """Write the force of every row of the joints [N or N m], for the output. The contact forces must be evaluated.
 
-    A row that others imply has no force. The rows t1 of the contacts are overwritten.
+    A row that others imply gets no force. ``FIRST_ROW`` of the Jacobians of the contacts is overwritten.
     """
-    # y_stage is free at an instant: here it holds the generalised forces of all bodies
+    # no step is in progress, so its work array y_stage can hold the generalised forces of all bodies
     forces = ws.step.y_stage.start
     for body in ws.bodies:
         without_contacts = force_without_contacts(ws, body)

@@ -58,12 +58,14 @@ class WitnessMotion(NamedTuple):
 def evaluate_geometry(ws: Workspace, c: int) -> None:
     """Write gap [m], witness points, curvature and the axes n, t1, t2 of contact ``c``.
 
-    If compliant bodies overlap past the end of the features, the gap is replaced by the distance to that end, and the
-    overlap is stored. Such an overlap is allowed as long as another contact of the two bodies is closed.
+    Past the end of its features (``past_feature`` > 0), as of a face or an edge, compliant bodies may overlap while
+    another contact of theirs is closed. Then ``overlap`` keeps the negative gap, and the gap becomes a positive
+    substitute: the distance to that end.
     """
     contact = ws.contacts[c]
     a, b, parameters = contact.frame_a, contact.frame_b, at(ws.floats, contact.geometry_parameters)
     call_pair(contact.geometry_function, at(ws.floats, a), at(ws.floats, b), parameters, contact.geometry)
+    # the rates replace t1 and t2 by stretched ones if friction is anisotropic
     contact.axis_n, contact.axis_1 = contact.normal, contact.tangent
     contact.axis_2 = cross(contact.normal, contact.tangent)
     if contact.is_compliant:
@@ -75,7 +77,7 @@ def evaluate_geometry(ws: Workspace, c: int) -> None:
 
 @kernel("v3(F, i8, v3)")
 def velocity_of_point(floats: Floats, place: int, point: Vector) -> Vector:
-    """Velocity of a point that is fixed to the frame at ``place`` [m/s]."""
+    """Velocity of a point that is fixed to the frame at offset ``place`` [m/s]: v + omega x (point - origin)."""
     frame = frame_at(floats, place)
     x, y, z = minus(point, frame.origin)
     ox, oy, oz = frame.spin
@@ -85,7 +87,11 @@ def velocity_of_point(floats: Floats, place: int, point: Vector) -> Vector:
 
 @kernel("void(ws, i8)")
 def evaluate_rates(ws: Workspace, c: int) -> None:
-    """Write the gap rate and the slip velocity of contact ``c`` [m/s], Eqs. (11) and (12)."""
+    """Write the gap rate and the slip velocity of contact ``c`` [m/s] along its axes n, t1 and t2.
+
+    They are the velocity of the second body at its witness point less that of the first. Anisotropic friction first
+    stretches t1 and t2, which may depend on the slip along the unit tangents.
+    """
     contact = ws.contacts[c]
     velocity_b = velocity_of_point(ws.floats, contact.frame_b, contact.point_b)
     v = minus(velocity_b, velocity_of_point(ws.floats, contact.frame_a, contact.point_a))
@@ -100,7 +106,8 @@ def evaluate_rates(ws: Workspace, c: int) -> None:
 def evaluate_kinematics(ws: Workspace, c: int) -> None:
     """Write geometry and rates of contact ``c``. Nothing is written if its bodies were not evaluated in the meantime.
 
-    The facing of an anisotropic contact depends on its mode too, so such a contact is always evaluated.
+    Each evaluation of a body has a version number. The stretched tangents of an anisotropic contact depend on its mode
+    too, so such a contact is always evaluated: ``NOT_EVALUATED`` differs from every version.
     """
     contact = ws.contacts[c]
     version_a, version_b = ws.bodies[contact.body_a].version, ws.bodies[contact.body_b].version
@@ -116,7 +123,8 @@ def evaluate_kinematics(ws: Workspace, c: int) -> None:
 def entry_of_column(floats: Floats, column: int, n_u: int, axis: Vector, moment: Vector) -> float:
     """Product of a force (``axis``) and a ``moment`` with one column of a frame's Jacobian, with ``n_u`` columns.
 
-    It is an entry of a contact row, or a generalised force.
+    ``column`` is the offset of the first entry of the column. The product is a generalised force, or for a unit
+    vector ``axis`` an entry of a contact row.
     """
     # three rows of the velocity, then three of the angular velocity
     v, o = column, column + 3 * n_u
@@ -126,7 +134,11 @@ def entry_of_column(floats: Floats, column: int, n_u: int, axis: Vector, moment:
 
 @kernel("v3(F, i8, i8, v3, v3)")
 def side_entries(floats: Floats, frame: int, first: int, axis: Vector, moment: Vector) -> Vector:
-    """Three entries, from entry ``first`` on, of the row of a body with six velocities: (axis, moment) . J."""
+    """Three entries, from entry ``first`` (0 or 3) on, of the row of a body with six velocities: (axis, moment) . J.
+
+    J is the Jacobian of the frame at offset ``frame``. A force in closed form uses the entries without a row in the
+    workspace.
+    """
     column = frame + FRAME + first
     return (
         entry_of_column(floats, column, 6, axis, moment),
@@ -141,9 +153,11 @@ def side_row(floats: Floats, frame: int, point: Vector, axis: Vector, n_u: int, 
 
     rho leads from the origin of the body's frame to the point. J is the Jacobian of the frame, with ``n_u`` columns.
     """
+    # a driven body has no velocities, so its row is empty
     if n_u == 0:
         return
     moment, first = cross(minus(point, frame_at(floats, frame).origin), axis), frame + FRAME
+    # free bodies are most frequent, and a loop of known length is faster
     if n_u == 6:
         for j in range(6):
             floats[out + j] = entry_of_column(floats, first + j, 6, axis, moment)
@@ -154,35 +168,43 @@ def side_row(floats: Floats, frame: int, point: Vector, axis: Vector, n_u: int, 
 
 @kernel("void(F, i8, v3, v3, v3, i8, i8)")
 def side_wrench(floats: Floats, frame: int, point: Vector, force: Vector, moment: Vector, n_u: int, out: int) -> None:
-    """Write the row of one body to ``out``: the generalised force of a force at a point and a moment.
+    """Write the generalised forces of a ``force`` at a ``point`` and a ``moment`` on one body to ``out``.
 
-    Force, moment and point are in world components.
+    Force, moment and point are in world components. ``frame`` is the offset of the body's frame, ``n_u`` the number of
+    its velocities.
     """
     side_row(floats, frame, point, force, n_u, out)
     for j in range(n_u):
+        # the angular part of column j of the Jacobian, behind three rows of the velocity
         o = frame + FRAME + j + 3 * n_u
         floats[out + j] += moment[0] * floats[o] + moment[1] * floats[o + n_u] + moment[2] * floats[o + 2 * n_u]
 
 
 @kernel("i8(ws, i8, i8)")
 def _row_a(ws: Workspace, c: int, r: int) -> int:
-    """Offset of the entries of the first body in row ``r`` (n, t1, t2) of the first Jacobian of contact ``c``."""
+    """Offset of the entries of the first body in row ``r`` (n, t1, t2) of the first Jacobian of contact ``c``.
+
+    The row has a column for each velocity of the articulation, the bodies that joints tie together.
+    """
     contact = ws.contacts[c]
     return int(contact.jacobian_a + r * ws.articulations[contact.articulation_a].n_u + contact.column_a)
 
 
 @kernel("i8(ws, i8, i8)")
 def _row_b(ws: Workspace, c: int, r: int) -> int:
-    """Offset of the entries of the second body in row ``r`` (n, t1, t2) of the second Jacobian of contact ``c``."""
+    """Offset of the entries of the second body in row ``r`` (n, t1, t2) of the second Jacobian of contact ``c``.
+
+    The row has a column for each velocity of the articulation, the bodies that joints tie together.
+    """
     contact = ws.contacts[c]
     return int(contact.jacobian_b + r * ws.articulations[contact.articulation_b].n_u + contact.column_b)
 
 
 @kernel("void(ws, i8, i8, v3, v3)")
 def wrench_row(ws: Workspace, c: int, r: int, force: Vector, moment: Vector) -> None:
-    """Write row ``r`` of contact ``c``: the generalised forces of a force and a moment on the second body.
+    """Write row ``r`` of the Jacobians of contact ``c``: the generalised forces of a force and a moment.
 
-    They act on the first body with the opposite sign. Force and moment are in world components.
+    They act on the second body, and on the first one with the opposite sign. Both are in world components.
     """
     contact, row_a, row_b = ws.contacts[c], _row_a(ws, c, r), _row_b(ws, c, r)
     side_wrench(ws.floats, contact.frame_a, contact.point_a, opposite(force), opposite(moment), contact.n_u_a, row_a)
@@ -191,7 +213,10 @@ def wrench_row(ws: Workspace, c: int, r: int, force: Vector, moment: Vector) -> 
 
 @kernel("void(ws, i8, i8, v3)")
 def evaluate_row(ws: Workspace, c: int, r: int, axis: Vector) -> None:
-    """Write row ``r`` of the Jacobians of contact ``c``, of the relative velocity along ``axis``."""
+    """Write row ``r`` of the Jacobians of contact ``c``, of the relative velocity along ``axis``.
+
+    The relative velocity is that of the second body at its witness point less that of the first.
+    """
     contact = ws.contacts[c]
     side_row(ws.floats, contact.frame_a, contact.point_a, opposite(axis), contact.n_u_a, _row_a(ws, c, r))
     side_row(ws.floats, contact.frame_b, contact.point_b, axis, contact.n_u_b, _row_b(ws, c, r))
@@ -199,9 +224,10 @@ def evaluate_row(ws: Workspace, c: int, r: int, axis: Vector) -> None:
 
 @kernel("void(ws, i8, i8, i8)")
 def evaluate_row_response(ws: Workspace, c: int, r: int, s: int) -> None:
-    """Write response ``s`` of contact ``c``: K times row ``r`` of its Jacobians.
+    """Write response ``s`` of contact ``c``: K times row ``r`` of its Jacobians, the acceleration by a unit force.
 
-    K is the inverse mass matrix of the articulation, in which its joints are eliminated.
+    K is the inverse mass matrix of an articulation, a body or several tied by joints, with the joints eliminated. ``s``
+    differs from ``r`` if the solver needs another row in its one response.
     """
     contact = ws.contacts[c]
     for side in range(2):
@@ -216,7 +242,8 @@ def evaluate_row_response(ws: Workspace, c: int, r: int, s: int) -> None:
 def push_response(ws: Workspace, c: int, s: int, force: float, du: int) -> None:
     """Add to the accelerations at ``du`` those of a ``force`` [N] along response ``s`` of contact ``c``.
 
-    An impulse [N s] changes velocities at ``du`` in the same way.
+    An impulse [N s] changes velocities at ``du`` in the same way. The response holds the accelerations of both bodies,
+    or of all bodies tied to them by joints, per unit force.
     """
     contact = ws.contacts[c]
     for side in range(2):
@@ -229,7 +256,10 @@ def push_response(ws: Workspace, c: int, s: int, force: float, du: int) -> None:
 
 @kernel("f8(ws, i8, i8, i8)")
 def row(ws: Workspace, c: int, r: int, du: int) -> float:
-    """Product of row ``r`` (n, t1, t2) of the Jacobians of contact ``c`` with velocities or accelerations at ``du``."""
+    """Product of row ``r`` (n, t1, t2) of the Jacobians of contact ``c`` with velocities or accelerations at ``du``.
+
+    It is the relative velocity or acceleration along the row, without the parts that driven bodies prescribe.
+    """
     contact = ws.contacts[c]
     a, b = ws.articulations[contact.articulation_a], ws.articulations[contact.articulation_b]
     total = product(ws.floats, 0.0, contact.jacobian_a + r * a.n_u, du + a.u, a.n_u)
@@ -238,7 +268,10 @@ def row(ws: Workspace, c: int, r: int, du: int) -> float:
 
 @kernel("void(ws, i8)")
 def evaluate_jacobian(ws: Workspace, c: int) -> None:
-    """Write the rows n, t1, t2 of the Jacobians of contact ``c``, their responses, and the prescribed rates [m/s]."""
+    """Write the rows n, t1, t2 of the Jacobians of contact ``c``, their responses, and the prescribed rates [m/s].
+
+    Axes and rates must be evaluated. Driven bodies prescribe the part of the rates that the coordinates do not cause.
+    """
     contact = ws.contacts[c]
     evaluate_row(ws, c, NORMAL_ROW, contact.axis_n)
     evaluate_row(ws, c, FIRST_ROW, contact.axis_1)
@@ -250,9 +283,11 @@ def evaluate_jacobian(ws: Workspace, c: int) -> None:
 
 @kernel("v3(F, i8, v3, v3, v3)")
 def _acceleration(floats: Floats, place: int, point: Vector, slide_1: Vector, slide_2: Vector) -> Vector:
-    """Acceleration of a witness point at constant velocities of its body [m/s^2].
+    """Derivative of the velocity of the body at its witness point, while the body's velocities are constant [m/s^2].
 
-    The point slides relative to the frame at ``place`` with the velocity ``slide_1`` + ``slide_2`` [m/s].
+    It is c + b x r + omega x (omega x r + slide), with r = point - origin. The point slides relative to the frame at
+    ``place`` with the velocity slide = ``slide_1`` + ``slide_2`` [m/s]. c and b are the accelerations of origin and
+    rotation at constant velocities.
     """
     frame = frame_at(floats, place)
     x, y, z = minus(point, frame.origin)
@@ -271,19 +306,20 @@ def _acceleration(floats: Floats, place: int, point: Vector, slide_1: Vector, sl
 
 @kernel("void(ws, i8, i8)")
 def evaluate_bias(ws: Workspace, c: int, rows: int) -> None:
-    """Write the bias of contact ``c``: the second derivatives g'' and v' while u' = 0 [m/s^2], S of Eq. (13).
+    """Write the bias of contact ``c``: the second derivatives g'' and v' while u' = 0 [m/s^2].
 
-    With ``rows`` = 1 only the normal one is written, with 3 all.
+    With ``rows`` = 1 only that of the gap is written, which is enough for a contact that slides; with 3 all.
 
     The witness points slide over their bodies at u and w, and the normal turns by nu relative to the first body. In the
     tangent plane, with d the relative velocity of the bodies there and rho their relative turning,
 
         slide_a u = turn_a nu,    slide_b w = -turn_b (nu - rho),    w = u + g nu - d.
 
-    ``slide`` and ``turn`` describe each surface. For a plane and a sphere this gives the S terms of Eq. (13).
+    ``slide`` and ``turn`` describe the curvature of each surface.
     """
     contact = ws.contacts[c]
     n, t1, t2, slip = contact.axis_n, contact.axis_1, contact.axis_2, contact.slip
+    # on unit tangents first: the axes of anisotropic friction are stretched
     if contact.is_anisotropic:
         t1, t2, slip = contact.tangent, cross(contact.normal, contact.tangent), contact.slip_of_tangents
     a = frame_at(ws.floats, contact.frame_a)
@@ -311,17 +347,24 @@ def evaluate_bias(ws: Workspace, c: int, rows: int) -> None:
 def _witness_motion(ws: Workspace, contact: Contact, t1: Vector, t2: Vector, slip: Pair) -> WitnessMotion:
     """Sliding of the witness points and turning of the normal of a contact, in components along its unit tangents.
 
-    ``slide`` and ``turn`` of one surface commute. So u = turn_a x and nu = slide_a x solve the first equation of
-    :func:`evaluate_bias` for every x. The other two give M x = r.
+    The witness points slide over their bodies at u and w, the normal turns by nu relative to the first body, and
+
+        slide_a u = turn_a nu,    slide_b w = -turn_b (nu - rho),    w = u + g nu - d.
+
+    ``slide`` and ``turn`` of one surface, 2 x 2 matrices row by row, commute. So u = turn_a x and nu = slide_a x solve
+    the first equation for every x. The other two give M x = r, with M = slide_b (turn_a + g slide_a) + turn_b slide_a.
     """
     a, b = frame_at(ws.floats, contact.frame_a), frame_at(ws.floats, contact.frame_b)
     gap = contact.gap
+    # omega x n in the tangent plane: of the first body, and of the second relative to it
     turn_a1, turn_a2 = dot(a.spin, t2), -dot(a.spin, t1)
     rho1, rho2 = dot(b.spin, t2) - turn_a1, -dot(b.spin, t1) - turn_a2
+    # relative velocity of the bodies, less the part that the turning of the first causes across the gap
     d1, d2 = slip[0] - gap * turn_a1, slip[1] - gap * turn_a2
     slide_a, turn_a, slide_b, turn_b = contact.slide_a, contact.turn_a, contact.slide_b, contact.turn_b
     r1 = slide_b[0] * d1 + slide_b[1] * d2 + turn_b[0] * rho1 + turn_b[1] * rho2
     r2 = slide_b[2] * d1 + slide_b[3] * d2 + turn_b[2] * rho1 + turn_b[3] * rho2
+    # reach is turn_a + gap slide_a
     (s11, s12, s21, s22), (g11, g12, g21, g22), (h11, h12, h21, h22) = slide_a, slide_b, turn_b
     reach_11, reach_12 = turn_a[0] + gap * s11, turn_a[1] + gap * s12
     reach_21, reach_22 = turn_a[2] + gap * s21, turn_a[3] + gap * s22
@@ -331,7 +374,7 @@ def _witness_motion(ws: Workspace, contact: Contact, t1: Vector, t2: Vector, sli
     m22 = (g21 * reach_12 + h21 * s12) + (g22 * reach_22 + h22 * s22)
     determinant = m11 * m22 - m12 * m21
     if determinant == 0.0:
-        # a trial step that is far too long: NaN rejects it, where plain Python would raise
+        # after a trial step that is far too long: NaN rejects the step, while a division by zero raises in plain Python
         determinant = math.nan
     x1, x2 = (m22 * r1 - m12 * r2) / determinant, (m11 * r2 - m21 * r1) / determinant
     u1, u2 = turn_a[0] * x1 + turn_a[1] * x2, turn_a[2] * x1 + turn_a[3] * x2
@@ -341,9 +384,9 @@ def _witness_motion(ws: Workspace, contact: Contact, t1: Vector, t2: Vector, sli
 
 @entry_point("void(ws, i8, i8)")
 def evaluate_contact(ws: Workspace, c: int, rows: int) -> None:
-    """Write geometry, rates, Jacobians and bias of contact ``c``, whose bodies were evaluated.
+    """Write geometry, rates, Jacobians and bias of contact ``c``, whose bodies must be evaluated.
 
-    Of the bias ``rows`` are written: 1, the normal one, or 3.
+    Of the bias, the acceleration while the velocities are constant, ``rows`` are written: 1 (along n) or 3.
     """
     evaluate_geometry(ws, c)
     evaluate_rates(ws, c)

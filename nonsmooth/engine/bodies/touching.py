@@ -16,10 +16,11 @@ from nonsmooth.engine.native.kernel import Contact, Workspace, entry_point, kern
 
 @entry_point("b1(ws)")
 def touch(ws: Workspace) -> bool:
-    """Find and evaluate the touching contacts. True if one of them approaches.
+    """Evaluate all bodies, and find and evaluate the contacts that touch. True if one of them approaches.
 
-    Closed contacts of bodies with an own step (multirate) take no part. If anything else touches such a body, its own
-    step ends, and the search begins anew.
+    Touching contacts take part in an event: ``is_touching``, Jacobians, bias and compliant force are written. Closed
+    contacts of bodies with an own step (multirate) take no part. If anything else touches such a body, its own step
+    ends, and all contacts are tested again.
     """
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     copy_inner_states(ws, ws.island.y.start)
@@ -27,6 +28,7 @@ def touch(ws: Workspace) -> bool:
     while has_ended:
         is_approaching, has_ended = False, False
         for contact in ws.contacts:
+            # the call comes first: it must evaluate every contact
             is_approaching = _touches_and_approaches(ws, contact) or is_approaching
             if contact.is_touching:
                 has_ended = end_own_steps_of(ws, contact.index) > 0 or has_ended
@@ -35,7 +37,10 @@ def touch(ws: Workspace) -> bool:
 
 @kernel("b1(ws, Contact)")
 def _touches_and_approaches(ws: Workspace, contact: Contact) -> bool:
-    """Write whether a contact touches, and evaluate it in that case. True if it touches, is rigid and approaches."""
+    """Write whether a contact touches, and evaluate it in that case. True if it touches, is rigid and approaches.
+
+    A compliant contact has no impact, so its approach does not count.
+    """
     c = contact.index
     evaluate_kinematics(ws, c)
     contact.is_touching = _does_touch(ws, contact)
@@ -52,14 +57,18 @@ def _touches_and_approaches(ws: Workspace, contact: Contact) -> bool:
 def _does_touch(ws: Workspace, contact: Contact) -> bool:
     """True if a contact touches, by its gap and gap rate.
 
-    A compliant contact touches up to its reach if it is closed, and up to a gap of zero if it is open. At that gap it
-    must not separate. It has no impacts. Past the end of its features an open gap is only a distance.
+    A closed rigid contact touches. An open one touches if its gap is within the gap tolerance, or within the
+    distance that it changes in the time tolerance. A compliant contact touches up to its reach, the gap up to which its
+    law acts, if it is closed, and up to a gap of zero if it is open. Within the gap tolerance of this end it must not
+    separate.
     """
     gap, rate = contact.gap, contact.normal_rate
+    # past the end of its features (a face, an edge) a positive gap is a distance to them, no gap that can close
     if has_own_step(ws, contact.index) or (contact.past_feature > ws.tolerance.gap and gap > 0.0):
         return False
     if contact.is_compliant:
         end = 0.0 if contact.mode == Mode.OPEN else contact.reach
+        # a rate that is not a number counts as separating
         separates = not rate <= ws.tolerance.velocity
         return not (gap > end + ws.tolerance.gap or (gap > end - ws.tolerance.gap and separates))
     near = max(ws.tolerance.gap, ws.tolerance.time * abs(rate))
