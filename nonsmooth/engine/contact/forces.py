@@ -77,7 +77,7 @@ def resolve(ws: Workspace) -> None:
 
 @kernel("void(ws, ActiveContact)")
 def _set_known_forces(ws: Workspace, active: ActiveContact) -> None:
-    """Set the forces of a contact to the known ones [N]: the normal force to 0 unless it is given, and sliding friction.
+    """Set the forces of a contact to the known ones [N]: normal force 0 unless given, and friction if it slides.
 
     So the accelerations under these forces give the right-hand side for the unknowns.
     """
@@ -275,10 +275,10 @@ def evaluate_margins(ws: Workspace) -> None:
 
 @kernel("f8(ws, ActiveContact)")
 def _margin_of_redundant_friction(ws: Workspace, active: ActiveContact) -> float:
-    """Distance of friction that is not unique to its bounds [N], the smaller of two.
+    """Smaller of two distances of friction that is not unique to its bounds [N].
 
-    The sum of the friction of all contacts that are redundant together obeys the sum of their bounds, Eq. (38). The
-    unique part of the contact's own friction obeys its own bound.
+    The friction of all contacts that are redundant together obeys the sum of their bounds, Eq. (38). The unique part of
+    the contact's own friction obeys its own bound.
     """
     # the unknown of its friction along t1 comes after that of its normal force, if there is one (a boolean is 0 or 1)
     first = active.first_unknown + active.is_normal_force_unknown
