@@ -21,7 +21,7 @@ from nonsmooth.engine.numerics.vectors import Vector, cross, dot, length, minus
 
 @kernel("i8(ws, i8)")
 def lone_sliding_contact(ws: Workspace, group: int) -> int:
-    """Contact of an island if :func:`add_lone_slip_force` can find its force, or -1.
+    """Contact of an island if :func:`add_lone_slip_force` can find its force in closed form, or -1.
 
     It must be alone, rigid, and slide between a free body in space (six velocities, no joint) and one without
     coordinates. In an implicit stage none qualifies, because the slip is part of the problem.
@@ -54,14 +54,14 @@ def _three_rows_times(floats: Floats, row: int, x: Vector, y: Vector) -> Vector:
 
 @kernel("f8(F, i8, v3, v3)")
 def _dot_at(floats: Floats, first: int, x: Vector, y: Vector) -> float:
-    """Scalar product of six numbers in the workspace and (x, y)."""
+    """Scalar product of six numbers in the workspace, from ``first`` on, and (x, y)."""
     upper = floats[first], floats[first + 1], floats[first + 2]
     return dot(x, upper) + dot(y, (floats[first + 3], floats[first + 4], floats[first + 5]))
 
 
 @kernel("void(F, i8, f8, v3)")
 def _add_multiple(floats: Floats, first: int, factor: float, x: Vector) -> None:
-    """Add ``factor`` times ``x`` to a vector of three numbers in the workspace."""
+    """Add ``factor`` times ``x`` to the vector of three numbers in the workspace that begins at ``first``."""
     floats[first] += x[0] * factor
     floats[first + 1] += x[1] * factor
     floats[first + 2] += x[2] * factor
@@ -69,10 +69,10 @@ def _add_multiple(floats: Floats, first: int, factor: float, x: Vector) -> None:
 
 @kernel("b1(ws, i8)")
 def add_lone_slip_force(ws: Workspace, c: int) -> bool:
-    """Find the force of contact ``c`` [N], and add its response to ``du`` and its power to that of driven bodies.
+    """Find the force of contact ``c``, which slides alone [N]. Add its response to ``du``, and its power.
 
-    Before: ``du`` holds the acceleration without contact forces. Evaluates geometry, rates and bias of the contact.
-    False, with no force, if it could not accelerate the contact.
+    Before: ``du`` holds the acceleration without contact forces. Evaluates geometry, rates and bias of the contact. The
+    power is added to that of driven bodies. False, with no force, if it could not accelerate the contact.
     """
     contact = ws.contacts[c]
     evaluate_geometry(ws, c)
@@ -95,6 +95,7 @@ def add_lone_slip_force(ws: Workspace, c: int) -> bool:
     moment_n, moment_p = cross(offset, n), cross(offset, p)
     n_1, n_2 = side_entries(ws.floats, frame, 0, n, moment_n), side_entries(ws.floats, frame, 3, n, moment_n)
     p_1, p_2 = side_entries(ws.floats, frame, 0, p, moment_p), side_entries(ws.floats, frame, 3, p, moment_p)
+    # acceleration of the body per unit of normal force; row 3 of the inverse mass matrix is 18 numbers on
     response_1 = _three_rows_times(ws.floats, inverse, p_1, p_2)
     response_2 = _three_rows_times(ws.floats, inverse + 18, p_1, p_2)
     inverse_mass = dot(n_1, response_1) + dot(n_2, response_2)

@@ -128,8 +128,8 @@ def _choose_farthest(ws: Workspace, largest: float) -> bool:
 
 @kernel("b1(ws, f8, i8)")
 def _choose_at_distance(ws: Workspace, largest: float, n_quarterings: int) -> bool:
-    """Move the forces of least norm into their cones, at least ``largest`` / 4^n_quarterings [N] from the bounds."""
-    # the motion stays the same; no such forces may exist
+    """Find forces at least ``largest`` / 4^n_quarterings [N] inside their cones. True if there are any."""
+    # from the forces of least norm, along the null space: the motion stays the same
     _set_least_norm(ws)
     return distribute(ws, 0.25**n_quarterings * largest, _DISTRIBUTED * largest)
 
@@ -138,7 +138,7 @@ def _choose_at_distance(ws: Workspace, largest: float, n_quarterings: int) -> bo
 def add_null_space_force(ws: Workspace) -> None:
     """Add the null-space force of the contacts to the unknowns ``x`` [N], projected on the present null space.
 
-    The projection keeps the motion unchanged: the null space has turned since the force was chosen.
+    The null space may have turned since the force was chosen. The projection keeps the motion unchanged.
     """
     n = ws.problem.n_unknown
     for i in range(n):

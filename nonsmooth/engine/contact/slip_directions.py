@@ -111,7 +111,7 @@ def _write_row(ws: Workspace, i: int, n: int) -> None:
     for block in range(active.first_block, active.end_block):
         other = ws.actives[ws.island.block_column[block]]
         out, end = line + other.first_unknown, line + other.end_unknown
-        # the other contact is open or its force is given
+        # the other contact has no unknowns
         if out == end:
             continue
         g = at(ws.floats, ws.island.delassus.start + DELASSUS * block)
@@ -144,7 +144,7 @@ def _add_turn(ws: Workspace, active: ActiveContact, i: int, n: int) -> None:
     """
     own = diagonal_block(ws, active.index)
     force, (d1, d2) = active.friction_coefficient * active.normal_force, active.direction
-    # without a load the direction has no effect on the forces; `_turn` sets it
+    # without a load the change is infinite; `_turn` then takes the direction from the acceleration
     if not abs(force) > 0.0:
         return
     line = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band)

@@ -113,7 +113,7 @@ def small_force(ws: Workspace, a: int) -> float:
 
 @entry_point("b1(ws, b1)")
 def verify(ws: Workspace, is_lenient: bool) -> bool:
-    """Find the forces of the modes under trial. True if modes and forces fulfil the contact laws (:func:`check_laws`)."""
+    """Find the forces of the modes under trial. True if both fulfil the contact laws, see :func:`check_laws`."""
     # redundant forces are those of least norm; if lenient, tensile ones of them may be replaced
     find_tried_forces(ws)
     return check_laws(ws, is_lenient)
