@@ -88,7 +88,7 @@ def averaging_span(ws: Workspace, follows: bool) -> float:
     span = _LONGEST * least
     for active in ws.actives:
         contact = ws.contacts[active.contact]
-        # 0: forces of this contact have not been averaged before
+        # a span of 0 means that its averaging has just begun
         if contact.is_averaged:
             span = min(span, contact.mean_span if contact.mean_span > 0.0 else least)
     return float(span)
@@ -131,9 +131,9 @@ def _store_span(ws: Workspace, span: float) -> None:
 def find_mean_impulses(ws: Workspace, time: float) -> float:
     """Find the impulses of the active contacts over a ``time`` [N s]. Returns the time over which they were found [s].
 
-    If a step longer than a contact time has no solution, one of a contact time is tried. Before: the rates of the
-    contacts, and in ``du`` the accelerations without contact forces.
+    Before: the rates of the contacts, and in ``du`` the accelerations without contact forces.
     """
+    # a step longer than a contact time may have no solution
     if not _solve(ws, time) and time > averaging_time(ws):
         time = averaging_time(ws)
         _solve(ws, time)
@@ -154,8 +154,7 @@ def _solve(ws: Workspace, time: float) -> bool:
             active.free[r] = contact.bias[r] + row(ws, active.contact, r, ws.island.du.start)
             # the impulses of the last step are the first guess
             active.force[r] = time * contact.mean_force[r] if contact.is_averaged else 0.0
-        # a gap that is still open may close within the step
-        # the rate at the end may close this gap: this is the needed rate per time
+        # an open gap may close within the step: its rate at the end must be at least -gap / time
         active.free[NORMAL_ROW] += max(0.0, contact.gap) / (time * time)
     # the normal forces of compliant contacts are known
     decouple_normals(ws)
@@ -166,9 +165,9 @@ def _solve(ws: Workspace, time: float) -> bool:
 def gap_after(ws: Workspace, a: int, time: float) -> float:
     """Gap of active contact ``a`` after its impulses in a ``time`` [m], with constant Jacobians and accelerations."""
     contact = ws.contacts[ws.actives[a].contact]
-    # gap rate at the end, plus the closing of an open gap per time (see `_solve`)
+    # gap rate at the end plus the open gap / time, which `_solve` has added
     rate = acceleration(ws, ws.actives[a], NORMAL_ROW)
-    # half of this closing is subtracted again, because the mean of both rates counts
+    # subtracted again: of both rates, each counts half
     closing = max(0.0, contact.gap)
     return float(contact.gap - 0.5 * closing + 0.5 * time * (contact.normal_rate + rate))
 
