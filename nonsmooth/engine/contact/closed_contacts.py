@@ -69,7 +69,8 @@ def write_rows(ws: Workspace, a: int) -> None:
     """Write the rows of active contact ``a`` (directions of its accelerations), and the responses to its forces.
 
     If the contact sticks, these are Jacobian rows n, t1, t2 and their responses. If it slides, row 0 is n, row 1 is
-    n - mu d, and response 0 that of row 1. If it is compliant and slides, row 1 is the wrench of its given force.
+    n - mu d, and response 0 that of row 1. If its whole force is given, as of a compliant contact that slides, row 1 is
+    the wrench of this force.
     """
     active = ws.actives[a]
     c = active.contact
@@ -83,6 +84,7 @@ def write_rows(ws: Workspace, a: int) -> None:
             evaluate_row_response(ws, c, r, r)
         return
     if not active.is_normal_force_unknown:
+        # row 1, and its response in place of response 0
         write_wrench(ws, c, active.force)
         return
     # direction of the whole force, per unit of normal force
@@ -116,7 +118,10 @@ def coupling(ws: Workspace, c: int, r: int, d: int, s: int) -> float:
 
 @kernel()
 def _add_given_forces(ws: Workspace) -> None:
-    """Add the responses and powers of given forces: of compliant contacts, and of the time-stepping fallback."""
+    """Add the responses of given forces to ``du``, and their powers: power of driven bodies, and power of loads.
+
+    Given are the normal forces of compliant contacts, and the forces of the time-stepping fallback.
+    """
     for active in ws.actives:
         if active.is_normal_force_unknown:
             continue
@@ -127,6 +132,7 @@ def _add_given_forces(ws: Workspace) -> None:
         power = force * row(ws, active.contact, r, ws.island.velocities)
         # power on all coordinates; that on the relative motion is subtracted, for the force in `_add_unknown_forces`
         ws.step.driven_power += power - contact.dissipated_by_spin
+        # the work of a compliant normal force counts as that of a load
         if contact.is_compliant:
             ws.step.load_power += active.normal_force * contact.rate[0]
 
@@ -139,7 +145,7 @@ def _solve_forces(ws: Workspace) -> bool:
         return False
     for i in range(n):
         _write_row(ws, i, n)
-    # the matrix is ill-conditioned: its rank is found without friction
+    # False: the matrix is ill-conditioned, and its rank is found without friction
     if not solve_unknowns(ws, n):
         for active in ws.actives:
             if not active.sticks and active.is_normal_force_unknown:
@@ -260,7 +266,7 @@ def _add_lone_sticking_force(ws: Workspace) -> bool:
     y0, y1 = -bias[0] - row(ws, c, NORMAL_ROW, du), -bias[1] - row(ws, c, FIRST_ROW, du)
     y2 = -bias[2] - row(ws, c, SECOND_ROW, du)
     forces = solve_three(row_0, row_1, row_2, (y0, y1, y2), ILL_CONDITIONED)
-    # a pivot is small
+    # not a number: a pivot is small
     if math.isnan(forces[0]):
         return False
     count_as_unique(ws, n=3)

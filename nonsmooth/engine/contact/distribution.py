@@ -67,7 +67,7 @@ def distribute(ws: Workspace, inset: float, allowed: float) -> bool:
         if not slope < 0.0:
             return False
         phi = _search_along_step(ws, n, inset, phi, slope)
-        # no length of the step decreases phi
+        # negative: no length of the step decreases phi
         if phi < 0.0:
             return False
     return False

@@ -57,12 +57,12 @@ def resolve(ws: Workspace) -> None:
     # an island of one contact needs no matrix
     if ws.problem.n_active == 1 and n == 3 and _solve_lone_sticking(ws):
         return
-    # the band has too many entries: the run stops
+    # False: the band has too many entries, and the run stops
     if not open_band(ws, n, ws.problem.reduced.start):
         return
     for i in range(n):
         _write_row(ws, i, n)
-    # the matrix is ill-conditioned: its rank is found without friction
+    # False: the matrix is ill-conditioned, and its rank is found without friction
     if not solve_unknowns(ws, n):
         for i in range(n):
             _write_frictionless_row(ws, i, n)
@@ -97,7 +97,7 @@ def _solve_lone_sticking(ws: Workspace) -> bool:
     rows = (own[0], own[1], own[2]), (own[3], own[4], own[5]), (own[6], own[7], own[8])
     right = -active.free[0], -active.free[1], -active.free[2]
     forces = solve_three(rows[0], rows[1], rows[2], right, ILL_CONDITIONED)
-    # a pivot is small
+    # not a number: a pivot is small
     if math.isnan(forces[0]):
         return False
     count_as_unique(ws, n=3)
@@ -275,14 +275,12 @@ def evaluate_margins(ws: Workspace) -> None:
 
 @kernel("f8(ws, ActiveContact)")
 def _margin_of_redundant_friction(ws: Workspace, active: ActiveContact) -> float:
-    """Smaller of two distances of friction that is not unique to its bounds [N].
-
-    The friction of all contacts that are redundant together obeys the sum of their bounds, Eq. (38). The unique part of
-    the contact's own friction obeys its own bound.
-    """
+    """Smaller of two distances of friction that is not unique to its bounds [N], Eq. (38)."""
     # the unknown of its friction along t1 comes after that of its normal force, if there is one (a boolean is 0 or 1)
     first = active.first_unknown + active.is_normal_force_unknown
+    # the unique part of its own friction obeys its own bound
     margin = active.static_coefficient * active.normal_force - _unique_friction(ws, active, first)
+    # the friction of all contacts that are redundant together obeys the sum of their bounds
     return float(min(_margin_of_group(ws, active, first), margin))
 
 
@@ -303,7 +301,7 @@ def _margin_of_group(ws: Workspace, active: ActiveContact, first: int) -> float:
         other = ws.actives[unknown.contact]
         if unknown.direction != FIRST_ROW or not other.has_redundant_force:
             continue
-        # their two components of friction change together in the null space
+        # contacts are redundant together if their friction changes together in the null space
         coupling = abs(null_entry(ws, first, i)) + abs(null_entry(ws, first, i + 1))
         coupling = coupling + abs(null_entry(ws, first + 1, i)) + abs(null_entry(ws, first + 1, i + 1))
         if coupling > _COUPLED or unknown.contact == active.index:
@@ -319,9 +317,10 @@ def _unique_friction(ws: Workspace, active: ActiveContact, first: int) -> float:
 
     It is zero if these rows span the tangent plane. ``first`` is the unknown of its friction along t1.
     """
-    # the block of the projector for t1 and t2; without a determinant (relative to its trace) it has rank one
+    # the block of the projector for t1 and t2; it has rank one if the determinant is small
     p11, p12 = null_entry(ws, first, first), null_entry(ws, first, first + 1)
     p22 = null_entry(ws, first + 1, first + 1)
+    # rows that vanish count as spanning, too: `_margin_of_group` then has this contact alone
     if not p11 * p22 - p12 * p12 < _COUPLED * (p11 + p22) * (p11 + p22):
         return 0.0
     t1, t2 = active.friction

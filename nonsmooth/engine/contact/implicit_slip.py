@@ -243,9 +243,9 @@ def _solve_lone_slip(ws: Workspace) -> bool:
 
 @kernel("b1(ws)")
 def _turn_facings(ws: Workspace) -> bool:
-    """Let anisotropic friction that stops a slip face against its own force: the side sets the ratio of its bound.
+    """Set the facing (side from which slip is opposed) of anisotropic friction that stops a slip, by its own force.
 
-    True if the bound of a friction changes by it, so that the forces must be found again.
+    The facing sets its bound. True if a bound changes by this, so that the forces must be found again.
     """
     has_turned = False
     for active in ws.actives:

@@ -73,7 +73,7 @@ def step_by_newton(ws: Workspace, max_steps: int) -> bool:
         if not _find_step(ws):
             return False
         square = _search_along_step(ws, mean)
-        # no length of the step decreases the natural map
+        # negative: no length of the step decreases the natural map
         if square < 0.0:
             return False
         mean = (_MEMORY * weight * mean + square) / (_MEMORY * weight + 1.0)

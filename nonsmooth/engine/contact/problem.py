@@ -184,7 +184,7 @@ def solve_contact(ws: Workspace) -> bool:
         return True
     if ws.options.solver != solvers.AUTO:
         return find_modes(ws, ws.options.solver)
-    # the cheapest solver first; the later ones are for few contacts
+    # the fastest solver first; the last two are for few contacts only
     if find_modes(ws, solvers.NEWTON) or find_modes(ws, solvers.GAUSS_SEIDEL):
         return True
     if ws.problem.n_active <= solvers.MOST_PIVOTED and find_modes(ws, solvers.LEMKE):

@@ -62,7 +62,8 @@ def find_modes(ws: Workspace, solver: int) -> bool:
 def _find_by_solver(ws: Workspace, solver: int) -> bool:
     """Search with the contacts that have just started to slide kept from sticking, and if that fails, without this.
 
-    True if a solution is found. ``was_freed`` marks the contacts that must not stick.
+    They are at rest, and their past mode is sliding. ``was_freed`` marks the contacts that must not stick. True if a
+    solution is found.
     """
     has_sliding = False
     for active in ws.actives:
@@ -94,8 +95,8 @@ def _search(ws: Workspace, solver: int) -> bool:
 @kernel("b1(ws, i8)")
 def _search_round(ws: Workspace, solver: int) -> bool:
     """Search by the stages of a solver. True if a solution is found. Interrupts and too much effort end the search."""
-    # the forces of the first stage start at zero
     n_stages = _n_stages(solver)
+    # the forces of the first stage start at zero
     clear(ws.floats, ws.problem.forces_at_start.start, 3 * ws.problem.n_active)
     for stage in range(n_stages):
         if ws.problem.effort >= _MOST_EFFORT or interrupted(ws, ws.problem.n_active):
@@ -107,7 +108,7 @@ def _search_round(ws: Workspace, solver: int) -> bool:
         _store_modes(ws)
         if _verify_guess(ws):
             return True
-        # the verification has tried other modes
+        # the verification has changed modes and directions
         _restore_modes(ws)
         # further stages would lead to the same guess
         if has_settled:
@@ -242,7 +243,7 @@ def _guess_modes_from_accelerations(ws: Workspace) -> bool:
     has_changed = False
     small = EQUAL * ws.problem.small_acceleration
     for active in ws.actives:
-        # a mode of the past is kept, and so is the mode of a contact that separates
+        # modes of the past are kept, to continue it; the mode of a contact that separates is, too
         if active.mode_tried == active.mode_past or active.normal_acceleration > small:
             continue
         is_still = active.is_at_rest and length(active.slip_acceleration) <= small
@@ -264,6 +265,7 @@ def _verify_or_open(ws: Workspace) -> bool:
     """
     find_slip_directions(ws)
     for active in ws.actives:
+        # stored for the last, lenient attempt
         active.mode_closed, active.direction_closed = active.mode_tried, active.direction
     if verify(ws, is_lenient=False):
         return True
@@ -354,16 +356,17 @@ def _restore_guess(ws: Workspace) -> None:
 
 @kernel()
 def _store_solution(ws: Workspace) -> None:
-    """Store modes, directions and forces of the solution."""
+    """Store modes, slip directions and forces of the solution, for :func:`_restore_guess`."""
     _store_modes(ws)
     copy_numbers(ws.floats, ws.problem.forces.start, 3 * ws.problem.n_active, ws.problem.forces_at_start.start)
 
 
 @kernel()
 def _keep_if_lawful(ws: Workspace) -> None:
-    """Keep the modes under trial if they fulfil the laws. Otherwise restore the stored solution, with accelerations."""
+    """Keep the modes under trial if they fulfil the laws. Otherwise restore the solution of :func:`_store_solution`."""
     if not _verify_or_open(ws):
         _restore_guess(ws)
+        # the trial has overwritten them
         evaluate_accelerations(ws)
 
 

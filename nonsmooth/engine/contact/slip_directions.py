@@ -65,7 +65,7 @@ def find_slip_directions(ws: Workspace) -> bool:
         if worst <= EXACT or (worst <= _NEARLY_EXACT and worst >= best):
             return True
         best = min(best, worst)
-        # the band has too many entries: the run stops
+        # False: the band has too many entries, and the run stops
         if not open_band(ws, n, ws.problem.reduced.start):
             return False
         for i in range(n):

@@ -113,7 +113,7 @@ def small_force(ws: Workspace, a: int) -> float:
 
 @entry_point("b1(ws, b1)")
 def verify(ws: Workspace, is_lenient: bool) -> bool:
-    """Find the forces of the modes under trial. True if both fulfil the contact laws, see :func:`check_laws`."""
+    """Find the forces of the modes under trial. True if modes and forces fulfil the laws, see :func:`check_laws`."""
     # redundant forces are those of least norm; if lenient, tensile ones of them may be replaced
     find_tried_forces(ws)
     return check_laws(ws, is_lenient)
@@ -170,7 +170,7 @@ def _check_contact(ws: Workspace, active: ActiveContact, is_lenient: bool) -> Ve
     if slips and reduced_coefficient(ws, active.index) <= 0.0:
         return Verdict.VIOLATED
     is_tensile = not active.normal_force >= -small_force(ws, active.index)
-    # others of the same motion may push
+    # tensile forces that are not unique may be replaced by others of the same motion
     if is_tensile and not (is_lenient and ws.problem.is_deficient):
         return Verdict.VIOLATED
     of_friction = _check_friction(ws, active)
@@ -247,7 +247,8 @@ def guess_modes_from_forces(ws: Workspace) -> None:
 def tangential_inverse_mass(ws: Workspace, active: ActiveContact) -> float:
     """Largest slip acceleration of a contact per unit of its own friction along t1 or t2 [1/kg].
 
-    It is a scale only. The normal inverse mass is returned for a contact that cannot slip.
+    It is a scale only. A contact that cannot slip gets its normal inverse mass, because forces are divided by the
+    result.
     """
     # TODO: the larger diagonal entry depends on the choice of the tangents; the larger eigenvalue would not
     own = diagonal_block(ws, active.index)
