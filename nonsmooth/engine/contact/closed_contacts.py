@@ -98,7 +98,10 @@ def write_rows(ws: Workspace, a: int) -> None:
 
 @kernel("f8(ws, i8, i8, i8, i8)")
 def coupling(ws: Workspace, c: int, r: int, d: int, s: int) -> float:
-    """Acceleration along row ``r`` of contact ``c`` per unit force in column ``s`` of contact ``d`` [1/kg]."""
+    """Acceleration along row ``r`` of contact ``c`` per unit force in column ``s`` of contact ``d`` [1/kg].
+
+    A column is the direction of an unknown force, to which the bodies' response is stored.
+    """
     contact, other = ws.contacts[c], ws.contacts[d]
     total = 0.0
     for side in range(2):

@@ -129,7 +129,7 @@ def _solve_from_guess(ws: Workspace) -> bool:
     # without impulses to start from there is no scale for the compliance
     if largest == 0.0:
         return False
-    # half of a negligible compliance, because the impulses to be found may be larger than the given ones
+    # at most 1, and half of a negligible one, because the impulses to be found may exceed the given ones
     compliance = min(1.0, 0.5 * _NEGLIGIBLE * ws.tolerance.velocity / largest)
     _set_compliance(ws, compliance)
     has_settled = _step_or_restore(ws, STEPS)

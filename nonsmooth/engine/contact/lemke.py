@@ -147,9 +147,9 @@ def _write_tableau(ws: Workspace, n: int, inverse_mass: float, size: float) -> N
         row = _row(ws, n, i)
         # factors of the covering variable that all differ, because equal ones would lead to ties
         ws.floats[row + n] = 1.0 + _COVER_SPREAD * ((_GOLDEN_RATIO * (i + 1)) % 1.0)
-        # the constant: accelerations without contact forces
+        # the constant: an acceleration without contact forces; a friction bound has none
         ws.floats[row + n + 1] = 0.0
-        # at first all unknowns are zero, and the quantities follow from them
+        # at first all unknowns are zero, and the quantities are the variables of the rows
         ws.problem.lemke_row[i], ws.problem.lemke_column[i] = i, n + i
         for j in range(n):
             ws.floats[row + j] = _tableau_entry(ws, i, j, inverse_mass)
@@ -201,6 +201,7 @@ def _follow_path(ws: Workspace, n: int) -> bool:
     row, column = _first_row(ws, n), n
     # round-off may cause a cycle, which ends here
     for _ in range(_PIVOTS * n):
+        # no row: the tableau is solved already; the search notices an interrupt itself
         if row == _NO_ROW or interrupted(ws, ws.problem.n_active):
             return False
         leaving = ws.problem.lemke_row[row]
@@ -214,6 +215,7 @@ def _follow_path(ws: Workspace, n: int) -> bool:
                 column = j
         row = _leaving_row(ws, n, column)
         if row == _NO_ROW:
+            # no variable reaches zero: a ray
             return True
     return False
 

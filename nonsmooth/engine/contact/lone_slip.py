@@ -35,6 +35,7 @@ def lone_sliding_contact(ws: Workspace, group: int) -> int:
     n_u_a, n_u_b = contact.n_u_a, contact.n_u_b
     if is_special or n_u_a + n_u_b != 6 or min(n_u_a, n_u_b) != 0:
         return NO_CONTACT
+    # the moving body is an articulation of its own, without rows of joints
     one, two = ws.articulations[contact.articulation_a], ws.articulations[contact.articulation_b]
     return int(c if one.n_u + two.n_u == 6 and one.n_rows + two.n_rows == 0 else NO_CONTACT)
 
@@ -104,11 +105,13 @@ def add_lone_slip_force(ws: Workspace, c: int) -> bool:
     if inverse_mass < 0.0:
         # more force means more approach (Painleve's paradox)
         ws.island.singular_contact = c
+    # along the normal: acceleration of the contact without its force
     free = sign * _dot_at(ws.floats, du, n_1, n_2)
     rate_along_p = sign * _dot_at(ws.floats, u, p_1, p_2)
     force = (-contact.bias[0] - free) / inverse_mass
     _add_multiple(ws.floats, du, sign * force, response_1)
     _add_multiple(ws.floats, du + 3, sign * force, response_2)
+    # without a friction moment, unique, and not sticking
     contact.dissipated_by_spin, contact.has_redundant_force, contact.is_held_by_friction = 0.0, False, False
     contact.force[0], contact.force[1], contact.force[2] = force, -m1 * force, -m2 * force
     # power of the force on the free body, less the power on the relative motion: that of the driven body

@@ -136,6 +136,7 @@ def find_mean_impulses(ws: Workspace, time: float) -> float:
     # a step longer than a contact time may have no solution
     if not _solve(ws, time) and time > averaging_time(ws):
         time = averaging_time(ws)
+        # impulses that have not settled are taken as they are
         _solve(ws, time)
     return time
 
@@ -192,7 +193,7 @@ def set_mean_forces(ws: Workspace, time: float) -> None:
     _store_span(ws, time)
     for active in ws.actives:
         contact = ws.contacts[active.contact]
-        # a gap that opens comes to rest at the end
+        # a gap that opens comes to rest at the end; without averaging before, the old change is out of date
         opening = time * max(0.0, contact.normal_rate)
         contact.mean_gap_change = opening + (contact.mean_gap_change if contact.is_averaged else 0.0)
         contact.mode_after_averaging = active.mode_tried

@@ -52,7 +52,7 @@ def choose_null_space_force(ws: Workspace) -> bool:
         for r in range(3):
             contact.null_space_force[r] = 0.0
     _set_least_norm(ws)
-    # forces of least norm that are far inside need no other ones
+    # forces of least norm that are far inside are kept, without a null-space force
     if _least_distance(ws) >= _LARGE_DISTANCE * largest:
         return True
     has_found = _choose_farthest(ws, largest)

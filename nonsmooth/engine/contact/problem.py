@@ -194,7 +194,10 @@ def solve_contact(ws: Workspace) -> bool:
 
 @entry_point("b1(ws)")
 def solve_from_rates(ws: Workspace) -> bool:
-    """Find modes and forces of a contact problem that the user gives by matrices, G and b. True if they are found."""
+    """Find modes and forces of a contact problem that the user gives by matrices. True if they are found.
+
+    Before: the Delassus matrix G and the free accelerations b are written.
+    """
     # the user gives the slip velocities, which `rate` holds
     for active in ws.actives:
         write_friction(ws, active)

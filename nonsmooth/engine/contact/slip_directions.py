@@ -114,6 +114,7 @@ def _write_row(ws: Workspace, i: int, n: int) -> None:
         # the other contact has no unknowns
         if out == end:
             continue
+        # a block of the Delassus matrix, row by row
         g = at(ws.floats, ws.island.delassus.start + DELASSUS * block)
         if unknown.is_turn:
             # a cross product with the two tangential rows of the block
@@ -151,6 +152,7 @@ def _add_turn(ws: Workspace, active: ActiveContact, i: int, n: int) -> None:
     a1, a2 = slip_acceleration(ws, active)
     change = (a1 * d1 + a2 * d2) / force
     ws.floats[line + i] += change
+    # size of the other entries of the row
     inverse_mass = max(own.nn, own.t11, own.t22)
     weight = inverse_mass / (inverse_mass + abs(change))
     ws.problem.right[i] *= weight
