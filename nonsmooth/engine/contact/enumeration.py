@@ -95,7 +95,7 @@ def _verify_by_sweeps(ws: Workspace) -> bool:
         active.static_kept = active.static_coefficient
         # the bound fixes the mode: friction always sticks, or never
         active.static_coefficient = _NO_BOUND if active.mode_tried == Mode.STICK else 0.0
-    # sweeps start without forces, because those of the last trial belong to other directions
+    # the sweeps start without forces
     clear(ws.floats, ws.problem.forces.start, 3 * ws.problem.n_active)
     gauss_seidel(ws, _SWEEPS)
     for active in ws.actives:

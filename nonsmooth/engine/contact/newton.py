@@ -240,6 +240,7 @@ def _subtract_projection(ws: Workspace, active: ActiveContact, factor: float, c1
     is the derivative of y_t by one force. Its part across the unit vector turns the projection. The growth of mu y_n
     moves it along the vector.
     """
+    # inverse masses along the normal and the tangents
     own, g_t = diagonal_block(ws, active.index).nn, tangential_inverse_mass(ws, active)
     n, a = 3 * ws.problem.n_active, active.index
     first = band_row(ws.problem.matrix.start, 3 * a + 1, n, ws.problem.half_band)

@@ -245,12 +245,9 @@ def guess_modes_from_forces(ws: Workspace) -> None:
 
 @kernel("f8(ws, ActiveContact)")
 def tangential_inverse_mass(ws: Workspace, active: ActiveContact) -> float:
-    """Largest slip acceleration of a contact per unit of its own friction along t1 or t2 [1/kg].
-
-    It is a scale only. A contact that cannot slip gets its normal inverse mass, because forces are divided by the
-    result.
-    """
+    """Larger slip acceleration of a contact per unit of its own friction along t1 or t2 [1/kg]. It is a scale only."""
     # TODO: the larger diagonal entry depends on the choice of the tangents; the larger eigenvalue would not
     own = diagonal_block(ws, active.index)
     largest = max(own.t11, own.t22)
+    # a contact that cannot slip gets its normal inverse mass, because callers divide by the result
     return float(largest if largest > 0.0 else own.nn)

@@ -37,7 +37,7 @@ def list_unknowns(ws: Workspace, with_turns: bool) -> int:
             # a turn is no component of a force: its direction is not read
             unknown.contact, unknown.direction, unknown.is_turn = active.index, NORMAL_ROW, True
             n += 1
-    # the end of the last contact
+    # one more entry: the end of the last contact's unknowns
     ws.problem.first_unknown[ws.problem.n_active] = n
     return n
 

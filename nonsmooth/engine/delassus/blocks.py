@@ -86,11 +86,13 @@ def link_active(ws: Workspace) -> None:
     They follow the blocks of the islands before. If the workspace has too few, each row gets one block only, and
     ``has_too_many_blocks`` is set: the run stops.
     """
+    # the first island: its blocks begin at 0
     if ws.problem.first_grouped == 0:
         ws.island.block_start[0] = 0
     _link_contacts(ws)
     # the first pass counts the blocks of each row, so that the second knows where a row begins
     _add_blocks(ws, are_written=False)
+    # blocks of the islands before and of this one
     total = ws.island.block_start[ws.problem.first_grouped]
     for active in ws.actives:
         total += active.n_blocks

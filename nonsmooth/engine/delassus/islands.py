@@ -116,6 +116,7 @@ def _list_islands(ws: Workspace) -> None:
     This is a counting sort. Before, ``group_start`` holds the sizes of the islands. ``group_next`` is the next free
     entry of each.
     """
+    # the starts follow from the sizes, from the last island backwards
     end = ws.island.n_grouped
     for i in range(ws.island.n_groups):
         group = ws.island.n_groups - 1 - i
