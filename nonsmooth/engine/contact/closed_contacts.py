@@ -40,14 +40,16 @@ from nonsmooth.engine.numerics.linear import band_row, product, solve_three
 def add_contact_forces(ws: Workspace, may_choose: bool) -> bool:
     """Find the forces of the active contacts [N], add their responses to ``du``, and add the power of driven bodies.
 
-    Before: rows, columns and given forces are written, and ``du`` holds the accelerations without contact forces. If it
-    ``may_choose``, the null-space force of redundant contacts is chosen anew. False if it is, and no choice keeps all
-    forces within their bounds.
+    Before: rows, columns and given forces are written, and ``du`` holds the accelerations without contact forces. If
+    ``may_choose``, the null-space force of redundant contacts, which moves no body, is chosen anew. False if it is, and
+    no choice keeps all forces within their bounds.
     """
+    # an island of one contact needs no matrix
     if ws.problem.n_active == 1 and ws.actives[0].is_normal_force_unknown and _add_lone_force(ws):
         return True
     _add_given_forces(ws)
     if not _solve_forces(ws):
+        # the matrix has too many entries, so the run stops
         return True
     keeps_bounds = True
     if ws.problem.is_deficient:
@@ -64,10 +66,11 @@ def add_contact_forces(ws: Workspace, may_choose: bool) -> bool:
 
 @kernel("void(ws, i8)")
 def write_rows(ws: Workspace, a: int) -> None:
-    """Write the rows of active contact ``a``, and the responses to its columns.
+    """Write the rows of active contact ``a`` (directions of its accelerations), and the responses to its forces.
 
     If the contact sticks, these are Jacobian rows n, t1, t2 and their responses. If it slides, row 0 is n, row 1 is
-    n - mu d, and response 0 that of row 1. If it is compliant and slides, row 1 is the wrench of its given force.
+    n - mu d, and response 0 that of row 1. If its whole force is given, as of a compliant contact that slides, row 1 is
+    the wrench of this force.
     """
     active = ws.actives[a]
     c = active.contact
@@ -81,24 +84,31 @@ def write_rows(ws: Workspace, a: int) -> None:
             evaluate_row_response(ws, c, r, r)
         return
     if not active.is_normal_force_unknown:
+        # row 1, and its response in place of response 0
         write_wrench(ws, c, active.force)
         return
+    # direction of the whole force, per unit of normal force
     m1, m2 = active.friction_coefficient * active.direction[0], active.friction_coefficient * active.direction[1]
     force_direction = (n[0] - m1 * t1[0] - m2 * t2[0], n[1] - m1 * t1[1] - m2 * t2[1], n[2] - m1 * t1[2] - m2 * t2[2])
     evaluate_row(ws, c, NORMAL_ROW, n)
     evaluate_row(ws, c, FIRST_ROW, force_direction)
+    # the one unknown, the normal force, acts along row 1 with its friction
     evaluate_row_response(ws, c, FIRST_ROW, NORMAL_ROW)
 
 
 @kernel("f8(ws, i8, i8, i8, i8)")
 def coupling(ws: Workspace, c: int, r: int, d: int, s: int) -> float:
-    """Acceleration along row ``r`` of contact ``c`` per unit force in column ``s`` of contact ``d`` [1/kg]."""
+    """Acceleration along row ``r`` of contact ``c`` per unit force in column ``s`` of contact ``d`` [1/kg].
+
+    A column is the direction of an unknown force, to which the bodies' response is stored.
+    """
     contact, other = ws.contacts[c], ws.contacts[d]
     total = 0.0
     for side in range(2):
         articulation = contact.articulation_a if side == 0 else contact.articulation_b
         n_u = ws.articulations[articulation].n_u
         jacobian = (contact.jacobian_a if side == 0 else contact.jacobian_b) + r * n_u
+        # a force acts through each movable articulation that both contacts share
         if n_u > 0 and other.articulation_a == articulation:
             total = product(ws.floats, total, jacobian, other.response_a + s * n_u, n_u)
         if n_u > 0 and other.articulation_b == articulation:
@@ -111,7 +121,10 @@ def coupling(ws: Workspace, c: int, r: int, d: int, s: int) -> float:
 
 @kernel()
 def _add_given_forces(ws: Workspace) -> None:
-    """Add the responses and powers of given forces: of compliant contacts, and of the time-stepping fallback."""
+    """Add the responses of given forces to ``du``, and their powers: power of driven bodies, and power of loads.
+
+    Given are the normal forces of compliant contacts, and the forces of the time-stepping fallback.
+    """
     for active in ws.actives:
         if active.is_normal_force_unknown:
             continue
@@ -120,19 +133,22 @@ def _add_given_forces(ws: Workspace) -> None:
         force, r = (active.normal_force, NORMAL_ROW) if active.sticks else (1.0, FIRST_ROW)
         push_response(ws, active.contact, NORMAL_ROW, force, ws.island.du.start)
         power = force * row(ws, active.contact, r, ws.island.velocities)
+        # power on all coordinates; that on the relative motion is subtracted, for the force in `_add_unknown_forces`
         ws.step.driven_power += power - contact.dissipated_by_spin
+        # the work of a compliant normal force counts as that of a load
         if contact.is_compliant:
             ws.step.load_power += active.normal_force * contact.rate[0]
 
 
 @kernel("b1(ws)")
 def _solve_forces(ws: Workspace) -> bool:
-    """Write the unknown forces to ``x`` [N]. False if the matrix has too many entries."""
+    """Write the unknown forces to ``x`` [N]. False if the matrix has too many entries: the run then stops."""
     n = list_unknowns(ws, with_turns=False)
     if not open_band(ws, n, ws.problem.reduced.start):
         return False
     for i in range(n):
         _write_row(ws, i, n)
+    # False: the matrix is ill-conditioned, and its rank is found without friction
     if not solve_unknowns(ws, n):
         for active in ws.actives:
             if not active.sticks and active.is_normal_force_unknown:
@@ -148,7 +164,8 @@ def _solve_forces(ws: Workspace) -> bool:
 def _write_row(ws: Workspace, i: int, n: int) -> None:
     """Write row ``i`` of ``n`` of the matrix W^T K V to ``reduced`` [1/kg], and its right-hand side [m/s^2].
 
-    A contact that slides with a negative diagonal entry is marked as singular.
+    V are the directions of the unknown forces, and W^T is the row of a Jacobian. A contact that slides with a diagonal
+    entry that is not positive is marked as singular, for the control of the step.
     """
     active, r = ws.actives[ws.unknowns[i].contact], ws.unknowns[i].direction
     c, contact = active.contact, ws.contacts[active.contact]
@@ -165,9 +182,10 @@ def _write_row(ws: Workspace, i: int, n: int) -> None:
 
 @kernel("void(ws, i8, i8)")
 def _write_frictionless_row(ws: Workspace, i: int, n: int) -> None:
-    """Write row ``i`` of ``n`` to ``matrix``, as if sliding contacts had no friction.
+    """Write row ``i`` of ``n`` to ``matrix``, as if sliding contacts had no friction: this matrix shows the rank.
 
-    Response 1 of a sliding contact must be that of its normal.
+    A sliding contact has one unknown, its normal force. The response to it alone must be in ``FIRST_ROW``, because the
+    response in ``NORMAL_ROW`` contains friction.
     """
     active, r = ws.actives[ws.unknowns[i].contact], ws.unknowns[i].direction
     line = band_row(ws.problem.matrix.start, i, n, ws.problem.half_band)
@@ -183,6 +201,7 @@ def _add_unknown_forces(ws: Workspace, active: ActiveContact) -> None:
     """Write the forces of a contact that were unknown, in ``x`` [N], and add their responses and powers."""
     c = active.contact
     contact = ws.contacts[c]
+    # of a contact that slides, row 1 is the direction of the whole force
     first_row = NORMAL_ROW if active.sticks else FIRST_ROW
     for i in range(active.first_unknown, active.end_unknown):
         r, force = ws.unknowns[i].direction, ws.problem.x[i]
@@ -190,6 +209,7 @@ def _add_unknown_forces(ws: Workspace, active: ActiveContact) -> None:
         push_response(ws, c, r, force, ws.island.du.start)
         # power of driven bodies: power of the force on all coordinates, less its power on the relative motion
         ws.step.driven_power += force * row(ws, c, r + first_row, ws.island.velocities)
+    # the response included this friction already
     if not active.sticks and active.is_normal_force_unknown:
         friction_of_slip(ws, active.index)
     for r in range(3):
@@ -211,6 +231,7 @@ def _add_lone_force(ws: Workspace) -> bool:
         return _add_lone_sticking_force(ws)
     c = active.contact
     contact = ws.contacts[c]
+    # row 0 is n, and response 0 that of the whole force, friction included
     inverse_mass = coupling(ws, c, NORMAL_ROW, c, NORMAL_ROW)
     if inverse_mass == 0.0:
         return False
@@ -221,6 +242,7 @@ def _add_lone_force(ws: Workspace) -> bool:
     active.normal_force = force
     push_response(ws, c, NORMAL_ROW, force, ws.island.du.start)
     friction_of_slip(ws, active.index)
+    # power of driven bodies: power of the force on all coordinates, less its power on the relative motion
     (t1, t2), (v1, v2) = active.friction, contact.slip
     on_coordinates = force * row(ws, c, FIRST_ROW, ws.island.velocities)
     ws.step.driven_power += on_coordinates - force * contact.rate[0] - t1 * v1 - t2 * v2
@@ -247,11 +269,13 @@ def _add_lone_sticking_force(ws: Workspace) -> bool:
     y0, y1 = -bias[0] - row(ws, c, NORMAL_ROW, du), -bias[1] - row(ws, c, FIRST_ROW, du)
     y2 = -bias[2] - row(ws, c, SECOND_ROW, du)
     forces = solve_three(row_0, row_1, row_2, (y0, y1, y2), ILL_CONDITIONED)
+    # not a number: a pivot is small
     if math.isnan(forces[0]):
         return False
     count_as_unique(ws, n=3)
     active.normal_force, active.friction = forces[0], (forces[1], forces[2])
     for r in range(3):
         push_response(ws, c, r, active.force[r], du)
+        # of driven bodies: power on all coordinates, less power on the relative motion
         ws.step.driven_power += active.force[r] * (row(ws, c, r, ws.island.velocities) - contact.rate[r])
     return True

@@ -43,10 +43,11 @@ _WEIGHT = 1e-7
 
 @entry_point("b1(ws, f8, f8)")
 def distribute(ws: Workspace, inset: float, allowed: float) -> bool:
-    """Move the forces along the null space into the cones. True if none is outside by more than ``allowed`` [N].
+    """Move the forces along the null space into Coulomb's cones. True if none is outside by more than ``allowed`` [N].
 
-    Before: the forces are those of least norm, and ``null`` holds the null space. The cones of redundant forces are
-    moved inwards by ``inset`` [N].
+    Before: the forces are those of least norm, and ``null`` holds the null space (forces that cause no motion). The
+    cones of redundant forces are moved inwards by ``inset`` [N]. Newton's method minimises phi, the half squared
+    distance.
     """
     n = ws.problem.n_unknown
     phi = _write_excess(ws, n, inset)
@@ -58,6 +59,7 @@ def distribute(ws: Workspace, inset: float, allowed: float) -> bool:
         elif not _find_step(ws, n, inset):
             return False
         slope = 0.0
+        # slope of phi along the step; the forces before the step are stored for the line search
         for i in range(n):
             slope += ws.problem.right[i] * ws.problem.x[i]
             ws.problem.sigma[i] = force_of(ws, i)
@@ -65,6 +67,7 @@ def distribute(ws: Workspace, inset: float, allowed: float) -> bool:
         if not slope < 0.0:
             return False
         phi = _search_along_step(ws, n, inset, phi, slope)
+        # negative: no length of the step decreases phi
         if phi < 0.0:
             return False
     return False
@@ -74,16 +77,17 @@ def distribute(ws: Workspace, inset: float, allowed: float) -> bool:
 def _search_along_step(ws: Workspace, n: int, inset: float, phi: float, slope: float) -> float:
     """Make the longest step along ``x`` that decreases phi sufficiently. Returns the new phi [N^2], or -1 if none does.
 
-    ``sigma`` holds the forces before the step, ``slope`` the derivative of phi along it [N^2].
+    phi is the half squared distance of the forces to the cones. ``sigma`` holds the forces before the step, ``slope``
+    the derivative of phi along it [N^2].
     """
-    part = 1.0
+    step_length = 1.0
     for _ in range(_HALVINGS):
         for i in range(n):
-            set_force(ws, i, ws.problem.sigma[i] + part * ws.problem.x[i])
+            set_force(ws, i, ws.problem.sigma[i] + step_length * ws.problem.x[i])
         new = _write_excess(ws, n, inset)
-        if new <= phi + _DECREASE * part * slope:
+        if new <= phi + _DECREASE * step_length * slope:
             return new
-        part *= 0.5
+        step_length *= 0.5
     return -1.0
 
 
@@ -92,19 +96,23 @@ def _search_along_step(ws: Workspace, n: int, inset: float, phi: float, slope: f
 
 @kernel("f8(ws, i8, f8)")
 def _write_excess(ws: Workspace, n: int, inset: float) -> float:
-    """Write the difference between the ``n`` forces and their projections on the cones to ``right`` [N].
+    """Write the difference between the ``n`` forces and their projections on Coulomb's cones to ``right`` [N].
 
-    Returns phi [N^2]. The cones of redundant forces are moved inwards by ``inset`` [N].
+    Returns phi, half its square [N^2]. The cones of redundant forces are moved inwards by ``inset`` [N]. The unknowns
+    of a contact follow each other: i is its normal force, i + 1 and i + 2 are its friction.
     """
     square = 0.0
     for i in range(n):
         unknown = ws.unknowns[i]
         active = ws.actives[unknown.contact]
+        # with a given normal force, the friction alone is unknown
         if unknown.direction == FIRST_ROW and not active.is_normal_force_unknown:
             square += _write_excess_over_disc(ws, active, i)
+        # friction is written along with its normal force
         if unknown.direction != NORMAL_ROW:
             continue
         normal = active.normal_force - inset * active.has_redundant_force
+        # for a contact that slides, or whose force is projected on the apex: the tensile part
         ws.problem.right[i] = min(0.0, normal)
         if active.sticks:
             t1, t2 = active.friction
@@ -128,7 +136,7 @@ def _write_excess(ws: Workspace, n: int, inset: float) -> float:
 def _write_excess_over_disc(ws: Workspace, active: ActiveContact, i: int) -> float:
     """Write the excess of friction over Coulomb's disc, if the normal force is given. Returns its square [N^2].
 
-    ``i`` is the unknown of the friction along t1.
+    ``i`` is the unknown of the friction along t1, and i + 1 that along t2.
     """
     t1, t2 = active.friction
     bound, size = active.static_coefficient * active.normal_force, length(active.friction)
@@ -141,13 +149,19 @@ def _write_excess_over_disc(ws: Workspace, active: ActiveContact, i: int) -> flo
 
 @kernel("void(ws, i8, i8, i8, f8, f8)")
 def _add_hessian(ws: Workspace, n: int, matrix: int, half: int, weight: float, inset: float) -> None:
-    """Add ``weight`` times the Hessian of phi to the band of ``n`` rows and half band ``half`` at ``matrix``."""
+    """Add ``weight`` times the Hessian of phi to the band of ``n`` rows and half band ``half`` at ``matrix``.
+
+    phi is the half squared distance of the forces to Coulomb's cones. Those of redundant forces are moved inwards by
+    ``inset`` [N].
+    """
     for i in range(n):
         unknown = ws.unknowns[i]
         active = ws.actives[unknown.contact]
+        # with a given normal force, the friction alone is unknown
         if unknown.direction == FIRST_ROW and not active.is_normal_force_unknown:
             line_1, line_2 = band_row(matrix, i, n, half), band_row(matrix, i + 1, n, half)
             _add_hessian_of_disc(ws, active, i, line_1, line_2, weight)
+        # rows of friction are written along with that of the normal force
         if unknown.direction != NORMAL_ROW:
             continue
         normal = active.normal_force - inset * active.has_redundant_force
@@ -156,6 +170,7 @@ def _add_hessian(ws: Workspace, n: int, matrix: int, half: int, weight: float, i
             row_1, row_2 = band_row(matrix, i + 1, n, half) + i, band_row(matrix, i + 2, n, half) + i
             _add_hessian_of_cone(ws, active, normal, row_n, row_1, row_2, weight)
         else:
+            # the distance of a sliding contact is that of a tensile force to zero
             ws.floats[row_n] += weight if normal < 0.0 else 0.0
 
 
@@ -168,6 +183,7 @@ def _add_hessian_of_disc(ws: Workspace, active: ActiveContact, i: int, line_1: i
     t1, t2 = active.friction
     bound, size = active.static_coefficient * active.normal_force, length(active.friction)
     if size > bound:
+        # curvature 1 along the friction; across it between 0, as for a line, and 1, as for a point
         c1, c2, curvature = t1 / size, t2 / size, 1.0 - bound / size
         ws.floats[line_1 + i] += weight * (c1 * c1 + curvature * c2 * c2)
         ws.floats[line_2 + i + 1] += weight * (c2 * c2 + curvature * c1 * c1)
@@ -186,12 +202,13 @@ def _add_hessian_of_cone(
     """
     t1, t2 = active.friction
     mu, size = active.static_coefficient, length(active.friction)
-    # projected on the apex, or on the surface
+    # projected on the apex, the distance is that to a point; on the surface, that to a cone
     if mu * size <= -normal:
         ws.floats[row_n] += weight
         ws.floats[row_1 + 1] += weight
         ws.floats[row_2 + 2] += weight
     elif size > mu * normal:
+        # the gradient of the distance is (-mu, c) / sqrt(1 + mu^2), and the cone curves across the friction only
         s = (1.0 + mu * mu) / weight
         c1, c2 = t1 / size, t2 / size
         curvature = (size - mu * normal) / (s * size)
@@ -211,7 +228,11 @@ def _add_hessian_of_cone(
 
 @kernel("b1(ws, i8, f8)")
 def _find_step(ws: Workspace, n: int, inset: float) -> bool:
-    """Write Newton's step to ``x`` [N], by the basis of the null space. False if its system is singular."""
+    """Write Newton's step to ``x`` [N], by the basis of the null space. False if its system is singular.
+
+    The step is a sum of the basis vectors, so it causes no motion. ``matrix`` gets the Hessian, ``reduced`` its
+    projection on the basis, and ``sigma`` is overwritten.
+    """
     # the last n_free rows of the basis span the null space
     n_free, basis = n - ws.problem.rank, ws.problem.basis.start + ws.problem.rank * n
     clear(ws.floats, ws.problem.matrix.start, n * n)
@@ -226,6 +247,7 @@ def _find_step(ws: Workspace, n: int, inset: float) -> bool:
             ws.problem.sigma[i] = total
         for j in range(n_free):
             ws.problem.reduced[k * n_free + j] = product(ws.floats, 0.0, ws.problem.sigma.start, basis + j * n, n)
+        # of many equal steps, the shortest
         ws.problem.reduced[k * n_free + k] += _SHIFT
         ws.problem.x[k] = -product(ws.floats, 0.0, vector, ws.problem.right.start, n)
     if not eliminate(ws.floats, ws.problem.reduced.start, n_free, n_free, ws.problem.x.start, SINGULAR):
@@ -233,6 +255,7 @@ def _find_step(ws: Workspace, n: int, inset: float) -> bool:
     copy_numbers(ws.floats, ws.problem.x.start, n_free, ws.problem.sigma.start)
     clear(ws.floats, ws.problem.x.start, n)
     for k in range(n_free):
+        # a negative part is added
         subtract_part(ws.floats, ws.problem.x.start, -ws.problem.sigma[k], basis + k * n, n)
     return True
 
@@ -248,6 +271,7 @@ def _write_step_in_band(ws: Workspace, n: int, inset: float) -> None:
     shift = weight * _SHIFT_IN_BAND
     copy_shifted(ws.floats, ws.problem.basis.start, n, half, ws.problem.matrix.start, shift)
     _add_hessian(ws, n, ws.problem.matrix.start, half, weight, inset)
+    # round-off may make a pivot too small; each is at least a part of the shift
     factorise_band(ws.floats, ws.problem.matrix.start, n, half, 0.1 * weight * _SHIFT_IN_BAND)
     for i in range(n):
         ws.problem.x[i] = -weight * ws.problem.right[i]

@@ -35,9 +35,11 @@ def enumerate_modes(ws: Workspace, first: int) -> int:
     """
     if ws.problem.n_active > MOST_ENUMERATED:
         return 0
+    # stick, slide or open for each contact
     for number in range(first, 3**ws.problem.n_active):
         if interrupted(ws, ws.problem.n_active):
             return 0
+        # a contact that slips cannot stick
         if not _write_modes(ws, number):
             continue
         has_slip = has_slip_that_begins(ws)
@@ -66,7 +68,10 @@ def _write_modes(ws: Workspace, number: int) -> bool:
 
 @kernel()
 def _guess_directions(ws: Workspace) -> None:
-    """Guess the directions of slips that begin: those of the slip accelerations if contacts at rest had no friction."""
+    """Guess the directions of slips that begin: those of the slip accelerations if contacts at rest had no friction.
+
+    The friction coefficients are restored.
+    """
     for active in ws.actives:
         active.coefficient_kept = active.friction_coefficient
         if active.is_at_rest:
@@ -88,7 +93,9 @@ def _verify_by_sweeps(ws: Workspace) -> bool:
     for active in ws.actives:
         active.is_normal_force_unknown = active.mode_tried != Mode.OPEN
         active.static_kept = active.static_coefficient
+        # the bound fixes the mode: friction always sticks, or never
         active.static_coefficient = _NO_BOUND if active.mode_tried == Mode.STICK else 0.0
+    # the sweeps start without forces
     clear(ws.floats, ws.problem.forces.start, 3 * ws.problem.n_active)
     gauss_seidel(ws, _SWEEPS)
     for active in ws.actives:

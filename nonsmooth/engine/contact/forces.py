@@ -47,19 +47,22 @@ round-off."""
 def resolve(ws: Workspace) -> None:
     """Find the unknown forces of the active contacts [N]. ``sticks`` and ``is_normal_force_unknown`` give the modes.
 
-    Where forces are redundant, those of least norm are found and the contacts get ``has_redundant_force``.
+    If forces are redundant, those of least norm are found, and the contacts get ``has_redundant_force``.
     """
     n = list_unknowns(ws, with_turns=False)
     for active in ws.actives:
         _set_known_forces(ws, active)
     # an interrupt is counted here and noticed by the callers, because forces are needed in any case
     interrupted(ws, n * ws.problem.n_active)
+    # an island of one contact needs no matrix
     if ws.problem.n_active == 1 and n == 3 and _solve_lone_sticking(ws):
         return
+    # False: the band has too many entries, and the run stops
     if not open_band(ws, n, ws.problem.reduced.start):
         return
     for i in range(n):
         _write_row(ws, i, n)
+    # False: the matrix is ill-conditioned, and its rank is found without friction
     if not solve_unknowns(ws, n):
         for i in range(n):
             _write_frictionless_row(ws, i, n)
@@ -68,14 +71,19 @@ def resolve(ws: Workspace) -> None:
         set_force(ws, i, ws.problem.x[i])
     for active in ws.actives:
         if active.is_normal_force_unknown and not active.sticks:
+            # friction follows from the normal force found
             friction_of_slip(ws, active.index)
 
 
 @kernel("void(ws, ActiveContact)")
 def _set_known_forces(ws: Workspace, active: ActiveContact) -> None:
-    """Set the unknown forces of a contact to zero, and its friction to -mu f_n d [N] if it slides."""
+    """Set the forces of a contact to the known ones [N]: normal force 0 unless given, and friction if it slides.
+
+    So the accelerations under these forces give the right-hand side for the unknowns.
+    """
     if active.is_normal_force_unknown:
         active.normal_force = 0.0
+    # friction that sticks is unknown
     active.friction = 0.0, 0.0
     if not active.sticks:
         friction_of_slip(ws, active.index)
@@ -89,6 +97,7 @@ def _solve_lone_sticking(ws: Workspace) -> bool:
     rows = (own[0], own[1], own[2]), (own[3], own[4], own[5]), (own[6], own[7], own[8])
     right = -active.free[0], -active.free[1], -active.free[2]
     forces = solve_three(rows[0], rows[1], rows[2], right, ILL_CONDITIONED)
+    # not a number: a pivot is small
     if math.isnan(forces[0]):
         return False
     count_as_unique(ws, n=3)
@@ -100,7 +109,8 @@ def _solve_lone_sticking(ws: Workspace) -> bool:
 def _write_row(ws: Workspace, i: int, n: int) -> None:
     """Write row ``i`` of ``n`` to ``reduced``: acceleration in the direction of unknown ``i`` per unit of each unknown.
 
-    The right-hand side is minus the acceleration under the known forces.
+    The right-hand side is minus the acceleration under the known forces. The unknowns of a contact are its normal
+    force, if it has no given one, and its friction, if it sticks.
     """
     active, r = ws.actives[ws.unknowns[i].contact], ws.unknowns[i].direction
     ws.problem.right[i] = -acceleration(ws, active, r)
@@ -121,12 +131,13 @@ def _write_row(ws: Workspace, i: int, n: int) -> None:
 
 @kernel("void(ws, i8, i8)")
 def _write_frictionless_row(ws: Workspace, i: int, n: int) -> None:
-    """Write row ``i`` of ``n`` to ``matrix``, as if sliding contacts had no friction."""
+    """Write row ``i`` of ``n`` to ``matrix``, as if sliding contacts had no friction: this matrix shows the rank."""
     active, r = ws.actives[ws.unknowns[i].contact], ws.unknowns[i].direction
     line = band_row(ws.problem.matrix.start, i, n, ws.problem.half_band)
     for block in range(active.first_block, active.end_block):
         other = ws.actives[ws.island.block_column[block]]
         for j in range(other.first_unknown, other.end_unknown):
+            # without friction these are entries of the Delassus matrix
             ws.floats[line + j] = ws.island.delassus[DELASSUS * block + 3 * r + ws.unknowns[j].direction]
 
 
@@ -140,6 +151,7 @@ def solve_unknowns(ws: Workspace, n: int) -> bool:
     If so, ``matrix`` is cleared, so that its rows without friction can be written for :func:`solve_ill_conditioned`.
     """
     count_as_unique(ws, n)
+    # one equation is never ill-conditioned
     if n == 1 and ws.problem.reduced[0] != 0.0:
         ws.problem.x[0] = ws.problem.right[0] / ws.problem.reduced[0]
         return True
@@ -158,6 +170,7 @@ def solve_ill_conditioned(ws: Workspace, n: int) -> None:
     stored in full is solved within its band.
     """
     is_full = band_width(n, ws.problem.half_band) == n
+    # within a band the rank is not known, and elimination decides
     rank = rank_of_semidefinite(ws.floats, ws.problem.matrix.start, n) if is_full else n
     if rank == n and eliminate_reduced(ws, n, SINGULAR):
         return
@@ -168,6 +181,7 @@ def solve_ill_conditioned(ws: Workspace, n: int) -> None:
         ws.problem.is_null_space_banded = True
         least_norm_in_band(ws, n)
     for i in range(n):
+        # a force that a null-space force changes is not unique
         if null_entry(ws, i, i) > _COUPLED:
             ws.actives[ws.unknowns[i].contact].has_redundant_force = True
 
@@ -176,13 +190,15 @@ def solve_ill_conditioned(ws: Workspace, n: int) -> None:
 def _solve_for_least_norm(ws: Workspace, n: int, max_rank: int) -> None:
     """Solve the singular system of ``n`` unknowns, stored in full, for least norm.
 
-    A basis of the null space is written to the last rows of ``basis``, the projector on it to ``null``.
+    A basis of the null space (forces that cause no motion) is written to the last rows of ``basis``, the projector on
+    it to ``null``. The rank is at most ``max_rank``.
     """
     ws.problem.rank = solve_reduced_for_least_norm(ws, n, max_rank)
     complete(ws.floats, ws.problem.basis.start, n, ws.problem.rank)
     clear(ws.floats, ws.problem.null.start, n * n)
     for i in range(n):
         for k in range(ws.problem.rank, n):
+            # the projector is the sum of v v^T over the basis vectors v
             vector = ws.problem.basis.start + k * n
             subtract_part(ws.floats, ws.problem.null.start + i * n, -ws.problem.basis[k * n + i], vector, n)
 
@@ -194,6 +210,7 @@ def solve_reduced_for_least_norm(ws: Workspace, n: int, max_rank: int) -> int:
     The first rows of ``basis`` become a basis of the row space. ``matrix``, ``right`` and ``sigma`` are overwritten.
     """
     matrix, right, x = ws.problem.matrix.start, ws.problem.right.start, ws.problem.x.start
+    # the matrix is read by columns
     transpose(ws.floats, ws.problem.reduced.start, n, matrix)
     basis, work = ws.problem.basis.start, ws.problem.sigma.start
     return minimum_norm(ws.floats, matrix, n, right, x, basis, work, max_rank)
@@ -201,7 +218,10 @@ def solve_reduced_for_least_norm(ws: Workspace, n: int, max_rank: int) -> int:
 
 @kernel("b1(ws, i8, f8)")
 def eliminate_reduced(ws: Workspace, n: int, least: float) -> bool:
-    """Solve ``reduced . x = right`` by elimination. False if a pivot is below ``least`` times the largest entry."""
+    """Solve ``reduced . x = right`` by elimination. False if a pivot is below ``least`` times the largest entry.
+
+    The elimination works on copies. So ``reduced`` and ``right`` stay, for another attempt.
+    """
     matrix, x, half = ws.problem.matrix.start, ws.problem.x.start, ws.problem.half_band
     copy_numbers(ws.floats, ws.problem.right.start, n, x)
     copy_numbers(ws.floats, ws.problem.reduced.start, n * band_width(n, half), matrix)
@@ -215,6 +235,7 @@ def null_entry(ws: Workspace, i: int, j: int) -> float:
         return ws.problem.null[i * ws.problem.n_unknown + j]
     if abs(i - j) > ws.problem.null_half_band:
         return 0.0
+    # the banded projector takes the place of the matrix
     return float(ws.floats[band_row(ws.problem.reduced.start, i, ws.problem.n_unknown, ws.problem.null_half_band) + j])
 
 
@@ -231,17 +252,15 @@ def friction_of_slip(ws: Workspace, a: int) -> None:
 
 @kernel("f8(ws, i8)")
 def reduced_coefficient(ws: Workspace, a: int) -> float:
-    """Gap acceleration of sliding active contact ``a`` per unit of its normal force, friction included [1/kg].
-
-    If it is not positive, more force means more approach (Painleve's paradox).
-    """
+    """Gap acceleration of sliding active contact ``a`` per unit of its normal force, friction included [1/kg]."""
+    # not positive: more force means more approach (Painleve's paradox)
     active, own = ws.actives[a], diagonal_block(ws, a)
     return float(own.nn - active.friction_coefficient * (active.direction[0] * own.n1 + active.direction[1] * own.n2))
 
 
 @kernel()
 def evaluate_margins(ws: Workspace) -> None:
-    """Write ``static_margin`` of the active contacts [N].
+    """Write ``static_margin`` of the active contacts [N]: at 0, a contact that sticks starts to slide.
 
     It is the distance of the friction to the static bound if the contact sticks, and 0 if not.
     """
@@ -256,14 +275,12 @@ def evaluate_margins(ws: Workspace) -> None:
 
 @kernel("f8(ws, ActiveContact)")
 def _margin_of_redundant_friction(ws: Workspace, active: ActiveContact) -> float:
-    """Distance of friction that is not unique to its bounds [N], the smaller of two.
-
-    The sum of the friction of all contacts that are redundant together obeys the sum of their bounds, Eq. (38). The
-    part of the contact's own friction that is unique obeys its own bound.
-    """
-    # the unknown of its friction along t1 comes after that of its normal force, if there is one
+    """Smaller of two distances of friction that is not unique to its bounds [N], Eq. (38)."""
+    # the unknown of its friction along t1 comes after that of its normal force, if there is one (a boolean is 0 or 1)
     first = active.first_unknown + active.is_normal_force_unknown
+    # the unique part of its own friction obeys its own bound
     margin = active.static_coefficient * active.normal_force - _unique_friction(ws, active, first)
+    # the friction of all contacts that are redundant together obeys the sum of their bounds
     return float(min(_margin_of_group(ws, active, first), margin))
 
 
@@ -273,6 +290,7 @@ def _margin_of_group(ws: Workspace, active: ActiveContact, first: int) -> float:
 
     ``first`` is the unknown of its friction along t1.
     """
+    # a pair t1, t2 begins before the last unknown
     begin, end = 0, ws.problem.n_unknown - 1
     if ws.problem.is_null_space_banded:
         begin, end = max(0, first - ws.problem.null_half_band), min(end, first + ws.problem.null_half_band)
@@ -283,6 +301,7 @@ def _margin_of_group(ws: Workspace, active: ActiveContact, first: int) -> float:
         other = ws.actives[unknown.contact]
         if unknown.direction != FIRST_ROW or not other.has_redundant_force:
             continue
+        # contacts are redundant together if their friction changes together in the null space
         coupling = abs(null_entry(ws, first, i)) + abs(null_entry(ws, first, i + 1))
         coupling = coupling + abs(null_entry(ws, first + 1, i)) + abs(null_entry(ws, first + 1, i + 1))
         if coupling > _COUPLED or unknown.contact == active.index:
@@ -298,8 +317,10 @@ def _unique_friction(ws: Workspace, active: ActiveContact, first: int) -> float:
 
     It is zero if these rows span the tangent plane. ``first`` is the unknown of its friction along t1.
     """
+    # the block of the projector for t1 and t2; it has rank one if the determinant is small
     p11, p12 = null_entry(ws, first, first), null_entry(ws, first, first + 1)
     p22 = null_entry(ws, first + 1, first + 1)
+    # rows that vanish count as spanning, too: `_margin_of_group` then has this contact alone
     if not p11 * p22 - p12 * p12 < _COUPLED * (p11 + p22) * (p11 + p22):
         return 0.0
     t1, t2 = active.friction

@@ -23,6 +23,7 @@ def sweep(ws: Workspace, max_sweeps: int) -> bool:
     All normal forces count as unknown. ``sticks`` and ``direction`` become those of the forces found.
     """
     for active in ws.actives:
+        # those of compliant contacts, too: G and b make their forces the known ones
         active.is_normal_force_unknown = True
         active.sticks = False
     return gauss_seidel(ws, max_sweeps)
@@ -30,5 +31,6 @@ def sweep(ws: Workspace, max_sweeps: int) -> bool:
 
 @kernel("b1(ws, i8)")
 def search_by_sweeps(ws: Workspace, stage: int) -> bool:
-    """Improve the forces by the sweeps of a stage, counted from 0. True if they have settled."""
+    """Improve the forces of the contact problem by the sweeps of a stage, counted from 0. True if they have settled."""
+    # each stage has ten times as many sweeps as the one before
     return sweep(ws, SWEEPS * 10**stage)

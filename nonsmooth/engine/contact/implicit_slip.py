@@ -44,22 +44,26 @@ def add_forces_at_stage_end(ws: Workspace) -> None:
     and the caller rejects the step.
     """
     is_unsettled = True
+    # each round but the last turns the facing of anisotropic friction, which changes its bound
     for _ in range(1 + ws.problem.n_active):
         if not _find_forces(ws):
             break
         is_unsettled = _turn_facings(ws)
         if not is_unsettled:
             break
+    # another island of this stage may have set it
     ws.problem.is_unsettled = ws.problem.is_unsettled or is_unsettled
     _add_forces(ws)
 
 
 @kernel("b1(ws)")
 def _find_forces(ws: Workspace) -> bool:
-    """Find the forces at the end of a stage [N], for the present facing of anisotropic friction.
+    """Find the forces at the end of a stage [N], for the present facing of anisotropic friction. True if found.
 
-    True if they are found. Evaluates the contacts at the state of the end.
+    The facing is the side from which friction is opposed, which sets its bound. Evaluates the contacts at the state of
+    the end.
     """
+    # `_write_contact` makes it the largest acceleration
     ws.problem.acceleration_scale = 0.0
     for active in ws.actives:
         evaluate_contact(ws, active.contact, rows=3)
@@ -76,18 +80,22 @@ def _find_forces(ws: Workspace) -> bool:
 def _write_contact(ws: Workspace, active: ActiveContact) -> None:
     """Write the free acceleration b of a contact [m/s^2], its friction coefficient, mode and slip direction.
 
-    If the contact slides, the tangential parts of b include v0 / tau.
+    If the contact slides, the tangential parts of b include v0 / tau: v0 is the slip at the end of the stage without
+    its slip acceleration, tau the time of the stage. So b + G f is the slip at the end over tau.
     """
     c = active.contact
     contact = ws.contacts[c]
+    # without a friction moment
     contact.dissipated_by_spin = 0.0
     if contact.mode == Mode.SLIDE:
         active.friction_coefficient = slip_coefficient(ws, c, length(contact.slip))
     else:
         active.friction_coefficient = friction_coefficient(ws, c, 0.0)
+    # friction may stop a slip within its kinetic bound; a contact that sticks has the static one
     active.static_coefficient = active.friction_coefficient
     active.mode_tried = active.mode_past = contact.mode
     active.has_given_force = False
+    # friction may stop the slip, so its direction is found as that of a slip that begins
     active.is_at_rest = active.friction_coefficient > 0.0
     active.direction = contact.direction
     for r in range(3):
@@ -104,12 +112,14 @@ def _write_contact(ws: Workspace, active: ActiveContact) -> None:
 
 @kernel("b1(ws)")
 def oppose_slips(ws: Workspace) -> bool:
-    """Find forces whose friction opposes the slips at the end, or stops them [N]. True if they are found.
+    """Find forces whose friction opposes the slips at the end of a stage, or stops them [N]. True if they are found.
 
-    Before: b holds v0 / tau. A slip has ``mode_past`` SLIDE and ``is_at_rest``. If Newton's method finds no directions,
-    all contacts stick at first, and slip directions follow from the friction that exceeds its bound.
+    Before: the free accelerations b hold the slips v0 / tau without contact forces. A slip has ``mode_past`` SLIDE and
+    ``is_at_rest``. If Newton's method finds no directions, all contacts stick at first, and slip directions follow from
+    the friction that exceeds its bound.
     """
     has_restarted = False
+    # enough for each contact to stop and be released; exchanges that cycle end here
     for _ in range(2 * (2 + ws.problem.n_active)):
         is_exact = find_slip_directions(ws)
         if not is_exact:
@@ -118,6 +128,7 @@ def oppose_slips(ws: Workspace) -> bool:
             has_restarted = True
             for active in ws.actives:
                 active.mode_tried = Mode.STICK if active.is_at_rest else active.mode_past
+        # without slips no forces were found; redundant ones need a list of unknowns without turns
         if not is_exact or not has_slip_that_begins(ws) or ws.problem.is_deficient:
             find_tried_forces(ws)
         if not _exchange_modes(ws):
@@ -134,9 +145,11 @@ def _exchange_modes(ws: Workspace) -> bool:
     largest = largest_size(ws.floats, ws.problem.forces.start, 3 * ws.problem.n_active)
     excess = _ROUND_OFF * largest
     if ws.problem.is_deficient:
+        # the null-space forces chosen for the motion; in an impact they are zero
         shift_forces(ws)
     if ws.problem.is_deficient and _has_stopped_slip(ws):
         # redundant friction may exceed one bound although other contacts could take the load
+        # forces that count as distributed may exceed their bound by half of this
         excess = 2.0 * _DISTRIBUTED * largest
         distribute(ws, 0.0, _DISTRIBUTED * largest)
         for active in ws.actives:
@@ -144,6 +157,7 @@ def _exchange_modes(ws: Workspace) -> bool:
                 friction_of_slip(ws, active.index)
     has_changed = False
     for active in ws.actives:
+        # contacts that stuck before stay so: events release them
         if active.mode_past == Mode.SLIDE and active.is_at_rest:
             has_changed = _exchange_mode(ws, active, excess) or has_changed
     return has_changed
@@ -168,9 +182,11 @@ def _exchange_mode(ws: Workspace, active: ActiveContact, allowed_excess: float) 
         t1, t2 = active.friction
         if not length(active.friction) > active.friction_coefficient * active.normal_force + allowed_excess:
             return False
+        # the slip begins against the friction
         active.mode_tried, active.direction = Mode.SLIDE, unit((-t1, -t2))
         return True
     a1, a2 = slip_acceleration(ws, active)
+    # the slip at the end points along its direction: friction does not reverse it
     if not a1 * active.direction[0] + a2 * active.direction[1] < 0.0:
         return False
     active.mode_tried = Mode.STICK
@@ -182,7 +198,7 @@ def _exchange_mode(ws: Workspace, active: ActiveContact, allowed_excess: float) 
 
 @kernel("b1(ws)")
 def _solve_lone_slip(ws: Workspace) -> bool:
-    """Find the force of an island of one contact that continues to slide [N].
+    """Find the force of an island of one contact that continues to slide to the end of a stage [N].
 
     False if the island is another one, or if no force is found. The only unknown is the direction d. Newton's method is
     applied to the acceleration across d, without matrices.
@@ -193,6 +209,7 @@ def _solve_lone_slip(ws: Workspace) -> bool:
         return False
     mu, (d1, d2) = active.friction_coefficient, active.direction
     for _ in range(_NEWTON_STEPS):
+        # normal acceleration per unit of normal force, friction included
         reduced = g.nn - mu * (g.n1 * d1 + g.n2 * d2)
         if not reduced > 0.0:
             return False
@@ -202,6 +219,7 @@ def _solve_lone_slip(ws: Workspace) -> bool:
         a1, a2 = active.free[1] + force * p1, active.free[2] + force * p2
         across, along = a1 * d2 - a2 * d1, a1 * d1 + a2 * d2
         if abs(across) <= EXACT * max(ws.problem.acceleration_scale, abs(a1), abs(a2)):
+            # the slip would reverse, or the contact separate: other methods decide
             if not along > 0.0 or not force > 0.0:
                 return False
             active.normal_force, active.direction = force, (d1, d2)
@@ -213,6 +231,7 @@ def _solve_lone_slip(ws: Workspace) -> bool:
         c1 = change * p1 - mu * force * (g.t12 * d1 - g.t11 * d2)
         c2 = change * p2 - mu * force * (g.t22 * d1 - g.t12 * d2)
         turn = -across / (c1 * d2 - c2 * d1 + along)
+        # a rotation to first order; the length is restored
         d1, d2 = d1 - turn * d2, d2 + turn * d1
         size = length((d1, d2))
         d1, d2 = d1 / size, d2 / size
@@ -224,9 +243,9 @@ def _solve_lone_slip(ws: Workspace) -> bool:
 
 @kernel("b1(ws)")
 def _turn_facings(ws: Workspace) -> bool:
-    """Let anisotropic friction that stops a slip face against its own force.
+    """Set the facing (side from which slip is opposed) of anisotropic friction that stops a slip, by its own force.
 
-    True if the bound of a friction changes by it, so that the forces must be found again.
+    The facing sets its bound. True if a bound changes by this, so that the forces must be found again.
     """
     has_turned = False
     for active in ws.actives:
@@ -239,7 +258,8 @@ def _turn_facings(ws: Workspace) -> bool:
 def _add_forces(ws: Workspace) -> None:
     """Add the responses to the forces to ``du``, and the power of driven bodies. Write which contacts stick.
 
-    Slips that friction has stopped are set to zero. Contacts at Painleve's paradox are marked as singular.
+    Slips that friction has stopped are set to zero. Contacts at Painleve's paradox (more force means more approach) are
+    marked as singular.
     """
     add_response(ws, ws.problem.forces.start, ws.island.du.start)
     for active in ws.actives:
@@ -248,8 +268,10 @@ def _add_forces(ws: Workspace) -> None:
         slides = contact.mode == Mode.SLIDE
         if slides and reduced_coefficient(ws, active.index) <= 0.0:
             ws.island.singular_contact = c
+        # by the mode at the start of the step: a slip that stops within it is no event
         active.sticks = not slides
         for r in range(3):
+            # of driven bodies: power on all coordinates, less power on the relative motion
             ws.step.driven_power += active.force[r] * (row(ws, c, r, ws.island.velocities) - contact.rate[r])
         if slides and active.mode_tried == Mode.STICK:
             # a stopped slip is exactly zero, and not what the guessed accelerations leave of it

@@ -41,26 +41,32 @@ _LARGEST_RATIO = 0.5
 def inelastic_impulses(ws: Workspace, time: float) -> bool:
     """Find the impulses of the inelastic impact of the active contacts [N s]. True if they are found.
 
-    Before: ``rate`` holds velocities, ``free`` accelerations without contact forces, and ``force`` the impulses to
-    start from. The impact comes after the accelerations have acted for a ``time`` [s]. After: ``force`` holds the
-    impulses, and ``free`` the velocities without them.
+    They leave no approach, and their friction opposes the slip after the impact. Before: ``rate`` holds velocities,
+    ``free`` accelerations without contact forces, and ``force`` the impulses to start from. The impact comes after the
+    accelerations have acted for a ``time`` [s]. After: ``force`` holds the impulses, and ``free`` the velocities
+    without them.
     """
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         write_friction(ws, active)
+        # the solvers know one coefficient; a contact at rest has the static one
         mu = active.static_coefficient if active.is_at_rest else active.friction_coefficient
         active.static_coefficient = active.friction_coefficient = mu
+        # slips may stop, so all contacts count as at rest
         active.is_at_rest = active.is_normal_force_unknown = active.sticks = True
         for r in range(3):
             # row n of a compliant contact is its given impulse, not a velocity
             is_given = r == NORMAL_ROW and contact.is_compliant
             active.free[r] = time * active.free[r] + (0.0 if is_given else contact.rate[r])
+            # entries 0, 4 and 8 are the diagonal, which a compliance will change
             active.rigid[r] = diagonal_block(ws, active.index).entries[4 * r]
     has_found = _solve_from_guess(ws)
     if not has_found:
+        # second attempt: rigid contacts, from sweeps
         sweep(ws, SWEEPS)
         if step_by_newton(ws, STEPS):
             return True
+        # third attempt: compliant contacts, from no impulses
         clear(ws.floats, ws.problem.forces.start, 3 * ws.problem.n_active)
         has_found = _reduce_compliance(ws)
     if has_found:
@@ -73,7 +79,8 @@ def inelastic_impulses(ws: Workspace, time: float) -> bool:
 def _set_compliance(ws: Workspace, compliance: float) -> None:
     """Add ``compliance`` times the diagonal of G to it: 0 restores the rigid contacts, 1 doubles the diagonal.
 
-    Both tangents of a contact get the same compliance. A compliant contact gets none along its normal.
+    Compliance makes a solution unique and the search for it stable. Both tangents of a contact get the same compliance.
+    A compliant contact gets none along its normal.
     """
     for active in ws.actives:
         own = diagonal_block(ws, active.index)
@@ -97,12 +104,13 @@ def _largest_velocity(ws: Workspace) -> float:
 @kernel("b1(ws, f8)")
 def _is_negligible(ws: Workspace, compliance: float) -> bool:
     """True if a ``compliance`` changes the velocities by less than the part ``_NEGLIGIBLE`` of their tolerance."""
+    # a compliance is a part of the diagonal of G, so it changes a velocity by this part
     return compliance * _largest_velocity(ws) <= _NEGLIGIBLE * ws.tolerance.velocity
 
 
 @kernel("b1(ws, i8)")
 def _step_or_restore(ws: Workspace, max_steps: int) -> bool:
-    """Improve the impulses by Newton steps. False, and the impulses restored, if they do not settle."""
+    """Improve the impulses by Newton steps. True if they settle. Otherwise they are restored."""
     n, forces, kept = 3 * ws.problem.n_active, ws.problem.forces.start, ws.problem.forces_at_start.start
     copy_numbers(ws.floats, forces, n, kept)
     if step_by_newton(ws, max_steps):
@@ -118,9 +126,10 @@ def _solve_from_guess(ws: Workspace) -> bool:
     False if this fails, or if the compliance is not negligible for the impulses found.
     """
     largest = _largest_velocity(ws)
+    # without impulses to start from there is no scale for the compliance
     if largest == 0.0:
         return False
-    # half of a negligible compliance, because the impulses to be found may be larger than the given ones
+    # at most 1, and half of a negligible one, because the impulses to be found may exceed the given ones
     compliance = min(1.0, 0.5 * _NEGLIGIBLE * ws.tolerance.velocity / largest)
     _set_compliance(ws, compliance)
     has_settled = _step_or_restore(ws, STEPS)
@@ -132,18 +141,21 @@ def _solve_from_guess(ws: Workspace) -> bool:
 def _reduce_compliance(ws: Workspace) -> bool:
     """Follow the impulses from a large compliance to a negligible one. True if this is reached.
 
-    The contacts are rigid again after it.
+    Each solution starts the search for the next. The contacts are rigid again after it.
     """
+    # 1: the diagonal of G is doubled
     compliance, ratio = 1.0, _REDUCTION
     _set_compliance(ws, compliance)
     sweep(ws, SWEEPS)
     if not step_by_newton(ws, STEPS):
+        # not even the first solution is found: skip the loop
         ratio = 1.0
     while ratio <= _LARGEST_RATIO and not _is_negligible(ws, compliance):
         _set_compliance(ws, ratio * compliance)
         if _step_or_restore(ws, STEPS):
             compliance *= ratio
         else:
+            # a smaller reduction
             ratio **= 0.5
     _set_compliance(ws, 0.0)
     return _is_negligible(ws, compliance)

@@ -50,16 +50,17 @@ _NO_ROW = -1
 
 @entry_point("b1(ws, i8)")
 def search_by_pivots(ws: Workspace, stage: int) -> bool:
-    """Find the forces of the problem with polygons [N]. True if a further stage is useless: the path ends in a ray.
+    """Find the forces of the problem with polygons in place of Coulomb's discs [N], by Lemke's method.
 
-    Too many contacts count as this, too. All stages are equal. Between them, the search turns ``direction``, and with
-    it the corners.
+    True if a further stage is useless: the path ends in a ray, or there are too many contacts. All stages are equal.
+    Between them, the search turns ``direction``, and with it the corners. So ``stage`` is not used.
     """
     n_active = ws.problem.n_active
     if n_active > ws.model.n_pivoted:
         return True
     write_dense(ws)
     clear(ws.floats, ws.problem.forces.start, 3 * n_active)
+    # scales of the tableau: largest free acceleration, and largest diagonal entry of the Delassus matrix
     size, inverse_mass = largest_size(ws.floats, ws.problem.free_accelerations.start, 3 * n_active), 0.0
     for i in range(3 * n_active):
         inverse_mass = max(inverse_mass, ws.problem.matrix[i * 3 * n_active + i])
@@ -73,6 +74,7 @@ def search_by_pivots(ws: Workspace, stage: int) -> bool:
     _read_forces(ws, n, inverse_mass, size)
     for active in ws.actives:
         if not active.is_at_rest:
+            # its friction follows from its normal force, the only unknown
             friction_of_slip(ws, active.index)
     return False
 
@@ -84,10 +86,11 @@ def search_by_pivots(ws: Workspace, stage: int) -> bool:
 def _list_unknowns(ws: Workspace) -> int:
     """List contact and corner of each unknown. Returns the number of unknowns.
 
-    A contact at rest has lambda, f_n and its corners, one that slides f_n only.
+    A contact at rest has lambda (its slip acceleration), f_n and forces along its corners, one that slides f_n only.
     """
     n = 0
     for active in ws.actives:
+        # numbers below 0 take the place of corners: -2 is lambda, -1 is f_n
         first = _SLIP_ACCELERATION if active.is_at_rest else _NORMAL_FORCE
         for corner in range(first, CORNERS if active.is_at_rest else 0):
             ws.problem.lemke_contact[n], ws.problem.lemke_corner[n] = active.index, corner
@@ -97,7 +100,8 @@ def _list_unknowns(ws: Workspace) -> int:
 
 @kernel("v2(ActiveContact, i8)")
 def _corner(active: ActiveContact, number: int) -> Pair:
-    """Unit vector of corner ``number`` of the polygon of a contact. Corner 0 is opposite to its slip direction."""
+    """Unit vector of corner ``number`` of the polygon of a contact, which replaces Coulomb's disc."""
+    # corner 0 is opposite to the slip direction, as friction is
     d1, d2 = active.direction
     angle = 2.0 * math.pi * number / CORNERS
     return -d1 * math.cos(angle) + d2 * math.sin(angle), -d2 * math.cos(angle) - d1 * math.sin(angle)
@@ -105,7 +109,10 @@ def _corner(active: ActiveContact, number: int) -> Pair:
 
 @kernel("f8(ws, i8, i8)")
 def _acceleration_per_unknown(ws: Workspace, line: int, column: int) -> float:
-    """Acceleration along row ``line`` of G per unit of the unknown of a ``column`` [1/kg]."""
+    """Acceleration along row ``line`` of the Delassus matrix G per unit of the unknown of a ``column`` [1/kg].
+
+    The unknown is a force along a corner or the normal, or lambda, a slip acceleration that causes none.
+    """
     a, corner = ws.problem.lemke_contact[column], ws.problem.lemke_corner[column]
     active, g = ws.actives[a], at(ws.floats, ws.problem.matrix.start + line * 3 * ws.problem.n_active + 3 * a)
     if corner >= 0:
@@ -121,10 +128,8 @@ def _acceleration_per_unknown(ws: Workspace, line: int, column: int) -> float:
 
 @kernel("i8(ws, i8, i8)")
 def _row(ws: Workspace, n: int, i: int) -> int:
-    """Offset of row ``i`` of the tableau.
-
-    A row holds the factors of ``n`` unknowns, the factor of the covering variable, and the constant.
-    """
+    """Offset of row ``i`` of the tableau of Lemke's method."""
+    # a row holds the factors of n unknowns, the factor of the covering variable, and the constant
     return int(ws.problem.tableau.start + i * (n + 2))
 
 
@@ -132,14 +137,19 @@ def _row(ws: Workspace, n: int, i: int) -> int:
 def _write_tableau(ws: Workspace, n: int, inverse_mass: float, size: float) -> None:
     """Write the tableau of ``n`` rows. It is scaled by an ``inverse_mass`` [1/kg] and the ``size`` of b [m/s^2].
 
-    Variables 0 to n - 1 are the quantities on the left, n to 2 n - 1 the unknowns, and 2 n is the covering variable.
+    Row i is a quantity that must not be negative, as a function of the unknowns: a_n, d_j . a_t + lambda, or the
+    friction bound. Variables 0 to n - 1 are these quantities, n to 2 n - 1 the unknowns, and 2 n is the covering
+    variable, which is added to each row to make it positive at first.
     """
     for i in range(n):
         corner = ws.problem.lemke_corner[i]
         active = ws.actives[ws.problem.lemke_contact[i]]
         row = _row(ws, n, i)
+        # factors of the covering variable that all differ, because equal ones would lead to ties
         ws.floats[row + n] = 1.0 + _COVER_SPREAD * ((_GOLDEN_RATIO * (i + 1)) % 1.0)
+        # the constant: an acceleration without contact forces; a friction bound has none
         ws.floats[row + n + 1] = 0.0
+        # at first all unknowns are zero, and the quantities are the variables of the rows
         ws.problem.lemke_row[i], ws.problem.lemke_column[i] = i, n + i
         for j in range(n):
             ws.floats[row + j] = _tableau_entry(ws, i, j, inverse_mass)
@@ -156,7 +166,8 @@ def _write_tableau(ws: Workspace, n: int, inverse_mass: float, size: float) -> N
 def _tableau_entry(ws: Workspace, i: int, j: int, inverse_mass: float) -> float:
     """Factor of unknown ``j`` in row ``i`` of the tableau, where G is divided by ``inverse_mass`` [1/kg].
 
-    The row is that of a_n, of d_j . a_t + lambda, or of the friction bound, by the unknown complementary to it.
+    The row is that of a_n, of d_j . a_t + lambda, or of the friction bound mu f_n - sum of beta_j, by the unknown
+    complementary to it: f_n, beta_j (the force along corner j) or lambda.
     """
     a, corner = ws.problem.lemke_contact[i], ws.problem.lemke_corner[i]
     active, is_own = ws.actives[a], ws.problem.lemke_contact[j] == a
@@ -167,6 +178,7 @@ def _tableau_entry(ws: Workspace, i: int, j: int, inverse_mass: float) -> float:
         if is_own and other_corner >= 0:
             return -1.0
         return float(active.friction_coefficient if is_own and other_corner == _NORMAL_FORCE else 0.0)
+    # lambda enters the rows of its corners with factor 1
     if is_own and other_corner == _SLIP_ACCELERATION:
         return 1.0
     c1, c2 = _corner(active, corner)
@@ -181,32 +193,39 @@ def _tableau_entry(ws: Workspace, i: int, j: int, inverse_mass: float) -> float:
 
 @kernel("b1(ws, i8)")
 def _follow_path(ws: Workspace, n: int) -> bool:
-    """Follow the path of pivots. True if it ends in a ray, so that no solution is found.
+    """Follow the path of pivots from no forces to a solution. True if it ends in a ray, so that no solution is found.
 
     The covering variable enters first. After each pivot, the complement of the variable that has left enters. The path
     ends in a solution if the covering variable leaves.
     """
     row, column = _first_row(ws, n), n
+    # round-off may cause a cycle, which ends here
     for _ in range(_PIVOTS * n):
+        # no row: the tableau is solved already; the search notices an interrupt itself
         if row == _NO_ROW or interrupted(ws, ws.problem.n_active):
             return False
         leaving = ws.problem.lemke_row[row]
         _pivot(ws, n, row, column)
         if leaving == 2 * n:
             return False
+        # variables i and n + i: one of them is zero in the solution
         complement = leaving - n if leaving >= n else leaving + n
         for j in range(n + 1):
             if ws.problem.lemke_column[j] == complement:
                 column = j
         row = _leaving_row(ws, n, column)
         if row == _NO_ROW:
+            # no variable reaches zero: a ray
             return True
     return False
 
 
 @kernel("i8(ws, i8)")
 def _first_row(ws: Workspace, n: int) -> int:
-    """Row whose variable leaves when the covering variable enters, or -1 if the tableau is solved already."""
+    """Row whose variable leaves when the covering variable enters, or -1 if the tableau is solved already.
+
+    It is the row that needs the covering variable most: all constants are then not negative.
+    """
     first, worst = _NO_ROW, 0.0
     for i in range(n):
         row = _row(ws, n, i)
@@ -227,12 +246,14 @@ def _leaving_row(ws: Workspace, n: int, s: int) -> int:
         row = _row(ws, n, i)
         entry = ws.floats[row + s]
         if entry < -_ZERO:
+            # a constant below zero is round-off
             least = min(least, max(0.0, ws.floats[row + n + 1]) / -entry)
     pivot = 0.0
     for i in range(n):
         row = _row(ws, n, i)
         entry = ws.floats[row + s]
         if entry < -_ZERO and max(0.0, ws.floats[row + n + 1]) / -entry <= least + _ZERO:
+            # its leaving ends the path in a solution
             if ws.problem.lemke_row[i] == 2 * n:
                 return i
             if -entry > pivot:
@@ -250,6 +271,7 @@ def _pivot(ws: Workspace, n: int, r: int, s: int) -> None:
     pivot = ws.floats[row + s]
     for j in range(n + 2):
         ws.floats[row + j] = -ws.floats[row + j] / pivot
+    # this column now belongs to the variable that has left
     ws.floats[row + s] = 1.0 / pivot
     for i in range(n):
         other = _row(ws, n, i)
@@ -266,14 +288,16 @@ def _read_forces(ws: Workspace, n: int, inverse_mass: float, size: float) -> Non
     """Write the forces of the solved tableau [N]. :func:`_write_tableau` defines the scales."""
     for i in range(n):
         unknown = ws.problem.lemke_row[i] - n
-        # variables on the left, and the covering one, are no unknowns
+        # only variables n to 2 n - 1 are unknowns
         if not 0 <= unknown < n:
             continue
+        # the value of a variable in a row is its constant; all others are zero
         value = ws.floats[_row(ws, n, i) + n + 1] * size / inverse_mass
         active, corner = ws.actives[ws.problem.lemke_contact[unknown]], ws.problem.lemke_corner[unknown]
         if corner == _NORMAL_FORCE:
             active.normal_force = value
         elif corner >= 0:
             c1, c2 = _corner(active, corner)
+            # the friction is the sum of the forces along the corners
             active.force[FIRST_ROW] += value * c1
             active.force[SECOND_ROW] += value * c2

@@ -21,7 +21,7 @@ from nonsmooth.engine.numerics.vectors import Vector, cross, dot, length, minus
 
 @kernel("i8(ws, i8)")
 def lone_sliding_contact(ws: Workspace, group: int) -> int:
-    """Contact of an island if :func:`add_lone_slip_force` can find its force, or -1.
+    """Contact of an island if :func:`add_lone_slip_force` can find its force in closed form, or -1.
 
     It must be alone, rigid, and slide between a free body in space (six velocities, no joint) and one without
     coordinates. In an implicit stage none qualifies, because the slip is part of the problem.
@@ -35,6 +35,7 @@ def lone_sliding_contact(ws: Workspace, group: int) -> int:
     n_u_a, n_u_b = contact.n_u_a, contact.n_u_b
     if is_special or n_u_a + n_u_b != 6 or min(n_u_a, n_u_b) != 0:
         return NO_CONTACT
+    # the moving body is an articulation of its own, without rows of joints
     one, two = ws.articulations[contact.articulation_a], ws.articulations[contact.articulation_b]
     return int(c if one.n_u + two.n_u == 6 and one.n_rows + two.n_rows == 0 else NO_CONTACT)
 
@@ -54,14 +55,14 @@ def _three_rows_times(floats: Floats, row: int, x: Vector, y: Vector) -> Vector:
 
 @kernel("f8(F, i8, v3, v3)")
 def _dot_at(floats: Floats, first: int, x: Vector, y: Vector) -> float:
-    """Scalar product of six numbers in the workspace and (x, y)."""
+    """Scalar product of six numbers in the workspace, from ``first`` on, and (x, y)."""
     upper = floats[first], floats[first + 1], floats[first + 2]
     return dot(x, upper) + dot(y, (floats[first + 3], floats[first + 4], floats[first + 5]))
 
 
 @kernel("void(F, i8, f8, v3)")
 def _add_multiple(floats: Floats, first: int, factor: float, x: Vector) -> None:
-    """Add ``factor`` times ``x`` to a vector of three numbers in the workspace."""
+    """Add ``factor`` times ``x`` to the vector of three numbers in the workspace that begins at ``first``."""
     floats[first] += x[0] * factor
     floats[first + 1] += x[1] * factor
     floats[first + 2] += x[2] * factor
@@ -69,10 +70,10 @@ def _add_multiple(floats: Floats, first: int, factor: float, x: Vector) -> None:
 
 @kernel("b1(ws, i8)")
 def add_lone_slip_force(ws: Workspace, c: int) -> bool:
-    """Find the force of contact ``c`` [N], and add its response to ``du`` and its power to that of driven bodies.
+    """Find the force of contact ``c``, which slides alone [N]. Add its response to ``du``, and its power.
 
-    Before: ``du`` holds the acceleration without contact forces. Evaluates geometry, rates and bias of the contact.
-    False, with no force, if it could not accelerate the contact.
+    Before: ``du`` holds the acceleration without contact forces. Evaluates geometry, rates and bias of the contact. The
+    power is added to that of driven bodies. False, with no force, if it could not accelerate the contact.
     """
     contact = ws.contacts[c]
     evaluate_geometry(ws, c)
@@ -95,6 +96,7 @@ def add_lone_slip_force(ws: Workspace, c: int) -> bool:
     moment_n, moment_p = cross(offset, n), cross(offset, p)
     n_1, n_2 = side_entries(ws.floats, frame, 0, n, moment_n), side_entries(ws.floats, frame, 3, n, moment_n)
     p_1, p_2 = side_entries(ws.floats, frame, 0, p, moment_p), side_entries(ws.floats, frame, 3, p, moment_p)
+    # acceleration of the body per unit of normal force; row 3 of the inverse mass matrix is 18 numbers on
     response_1 = _three_rows_times(ws.floats, inverse, p_1, p_2)
     response_2 = _three_rows_times(ws.floats, inverse + 18, p_1, p_2)
     inverse_mass = dot(n_1, response_1) + dot(n_2, response_2)
@@ -103,11 +105,13 @@ def add_lone_slip_force(ws: Workspace, c: int) -> bool:
     if inverse_mass < 0.0:
         # more force means more approach (Painleve's paradox)
         ws.island.singular_contact = c
+    # along the normal: acceleration of the contact without its force
     free = sign * _dot_at(ws.floats, du, n_1, n_2)
     rate_along_p = sign * _dot_at(ws.floats, u, p_1, p_2)
     force = (-contact.bias[0] - free) / inverse_mass
     _add_multiple(ws.floats, du, sign * force, response_1)
     _add_multiple(ws.floats, du + 3, sign * force, response_2)
+    # without a friction moment, unique, and not sticking
     contact.dissipated_by_spin, contact.has_redundant_force, contact.is_held_by_friction = 0.0, False, False
     contact.force[0], contact.force[1], contact.force[2] = force, -m1 * force, -m2 * force
     # power of the force on the free body, less the power on the relative motion: that of the driven body

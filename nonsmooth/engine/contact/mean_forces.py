@@ -37,7 +37,7 @@ _LEAST_RATE = 0.25
 
 @kernel("b1(ws)")
 def is_averaged(ws: Workspace) -> bool:
-    """True if an active contact has a mean force, over the time of a step of the fallback."""
+    """True if an active contact has a mean force, over the time of a step of the time-stepping fallback."""
     for active in ws.actives:
         if ws.contacts[active.contact].is_averaged:
             return True
@@ -48,7 +48,7 @@ def is_averaged(ws: Workspace) -> bool:
 def averaging_time(ws: Workspace) -> float:
     """Time over which events of the active contacts need not be resolved [s]: their shortest contact time.
 
-    It is 0 if a rigid contact has no contact time, or if all contacts are compliant.
+    It is 0 if a rigid contact has no contact time, or if all contacts are compliant: forces are then not averaged.
     """
     time = math.inf
     for active in ws.actives:
@@ -60,7 +60,7 @@ def averaging_time(ws: Workspace) -> float:
 
 @kernel("b1(ws)")
 def has_no_stopping_slip(ws: Workspace) -> bool:
-    """True if friction stops no slip of an active contact within a contact time.
+    """True if friction stops no slip of an active contact within a contact time, so that averaging may end.
 
     The speed that friction takes in that time is the contact time, times the friction, times the slip acceleration per
     unit of friction.
@@ -70,6 +70,7 @@ def has_no_stopping_slip(ws: Workspace) -> bool:
         speed = length(contact.slip)
         friction = length((contact.force[FIRST_ROW], contact.force[SECOND_ROW]))
         is_slow = speed <= contact.contact_time * contact.slip_per_force * friction
+        # a contact at rest has no slip to stop
         if is_slow and speed > ws.tolerance.velocity and contact.normal_force > 0.0:
             return False
     return True
@@ -87,6 +88,7 @@ def averaging_span(ws: Workspace, follows: bool) -> float:
     span = _LONGEST * least
     for active in ws.actives:
         contact = ws.contacts[active.contact]
+        # a span of 0 means that its averaging has just begun
         if contact.is_averaged:
             span = min(span, contact.mean_span if contact.mean_span > 0.0 else least)
     return float(span)
@@ -102,13 +104,14 @@ def set_spans(ws: Workspace) -> None:
     for contact in ws.contacts:
         if contact.is_averaged:
             rate = max(abs(contact.normal_rate), _LEAST_RATE * ws.tolerance.velocity)
+            # at this time, the gap rate would be the velocity tolerance
             accurate = contact.mean_span * math.sqrt(ws.tolerance.velocity / rate)
             contact.mean_span = max(accurate, min(2.0 * contact.mean_span, contact.contact_time))
 
 
 @kernel("void(ws, f8)")
 def _store_span(ws: Workspace, span: float) -> None:
-    """Store the time of a step [s], halved if a contact ends it in another mode than the last one.
+    """Store the time of a step [s] as ``mean_span``, halved if a contact ends it in another mode than the last one.
 
     A step is not halved below a contact time, within which events need not be resolved.
     """
@@ -117,6 +120,7 @@ def _store_span(ws: Workspace, span: float) -> None:
         if ws.contacts[active.contact].mode_after_averaging != active.mode_tried:
             stored = max(0.5 * span, min(span, averaging_time(ws)))
     for active in ws.actives:
+        # an island has one step
         ws.contacts[active.contact].mean_span = stored
 
 
@@ -127,27 +131,33 @@ def _store_span(ws: Workspace, span: float) -> None:
 def find_mean_impulses(ws: Workspace, time: float) -> float:
     """Find the impulses of the active contacts over a ``time`` [N s]. Returns the time over which they were found [s].
 
-    If a step longer than a contact time has no solution, one of a contact time is tried. Before: the rates of the
-    contacts, and in ``du`` the accelerations without contact forces.
+    Before: the rates of the contacts, and in ``du`` the accelerations without contact forces.
     """
+    # a step longer than a contact time may have no solution
     if not _solve(ws, time) and time > averaging_time(ws):
         time = averaging_time(ws)
+        # impulses that have not settled are taken as they are
         _solve(ws, time)
     return time
 
 
 @kernel("b1(ws, f8)")
 def _solve(ws: Workspace, time: float) -> bool:
-    """Find the impulses of the active contacts over a ``time`` [N s]. True if they are found."""
+    """Find the impulses of the active contacts over a ``time`` [N s]. True if they are found.
+
+    The accelerations in ``du`` are those without contact forces. The impulses leave no approach at the end.
+    """
     assemble_delassus(ws)
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         contact.slip_per_force = tangential_inverse_mass(ws, active)
         for r in range(3):
             active.free[r] = contact.bias[r] + row(ws, active.contact, r, ws.island.du.start)
+            # the impulses of the last step are the first guess
             active.force[r] = time * contact.mean_force[r] if contact.is_averaged else 0.0
-        # a gap that is still open may close within the step
+        # an open gap may close within the step: its rate at the end must be at least -gap / time
         active.free[NORMAL_ROW] += max(0.0, contact.gap) / (time * time)
+    # the normal forces of compliant contacts are known
     decouple_normals(ws)
     return inelastic_impulses(ws, time)
 
@@ -156,8 +166,9 @@ def _solve(ws: Workspace, time: float) -> bool:
 def gap_after(ws: Workspace, a: int, time: float) -> float:
     """Gap of active contact ``a`` after its impulses in a ``time`` [m], with constant Jacobians and accelerations."""
     contact = ws.contacts[ws.actives[a].contact]
+    # gap rate at the end plus the open gap / time, which `_solve` has added
     rate = acceleration(ws, ws.actives[a], NORMAL_ROW)
-    # the rate at the end includes the closing of the open gap
+    # subtracted again: of both rates, each counts half
     closing = max(0.0, contact.gap)
     return float(contact.gap - 0.5 * closing + 0.5 * time * (contact.normal_rate + rate))
 
@@ -168,7 +179,9 @@ def set_mean_forces(ws: Workspace, time: float) -> None:
 
     Modes and slip directions under trial become those at the end of that time.
     """
+    # the first end of a step of any island
     ws.island.averaged_until = min(ws.island.averaged_until, ws.island.time + time)
+    # no deviation from the planned gaps yet
     ws.island.strayed = 0.0
     for active in ws.actives:
         # impulses are the forces here, so that this is the slip at the end
@@ -180,7 +193,7 @@ def set_mean_forces(ws: Workspace, time: float) -> None:
     _store_span(ws, time)
     for active in ws.actives:
         contact = ws.contacts[active.contact]
-        # a gap that opens comes to rest at the end
+        # a gap that opens comes to rest at the end; without averaging before, the old change is out of date
         opening = time * max(0.0, contact.normal_rate)
         contact.mean_gap_change = opening + (contact.mean_gap_change if contact.is_averaged else 0.0)
         contact.mode_after_averaging = active.mode_tried

@@ -49,7 +49,8 @@ _SETTLED = 1e-11
 
 @entry_point("b1(ws, i8)")
 def search_by_newton(ws: Workspace, stage: int) -> bool:
-    """Improve the forces by the sweeps and the Newton steps of a stage. True if they have settled."""
+    """Improve the forces by the sweeps and the Newton steps of a stage, counted from 0. True if they have settled."""
+    # each stage has ten times as many sweeps as the one before, and so a better start
     sweep(ws, _SWEEPS * 10**stage)
     return step_by_newton(ws, STEPS)
 
@@ -59,6 +60,7 @@ def step_by_newton(ws: Workspace, max_steps: int) -> bool:
     """Improve the forces by Newton steps. True if they settle within ``max_steps``, False after an interrupt, too."""
     n = 3 * ws.problem.n_active
     square = write_natural_map(ws)
+    # the line search compares with a weighted mean of the past squares (Zhang and Hager)
     mean, weight = square, 1.0
     for _ in range(max_steps):
         if interrupted(ws, ws.problem.n_active * ws.problem.half_band):
@@ -71,6 +73,7 @@ def step_by_newton(ws: Workspace, max_steps: int) -> bool:
         if not _find_step(ws):
             return False
         square = _search_along_step(ws, mean)
+        # negative: no length of the step decreases the natural map
         if square < 0.0:
             return False
         mean = (_MEMORY * weight * mean + square) / (_MEMORY * weight + 1.0)
@@ -80,7 +83,7 @@ def step_by_newton(ws: Workspace, max_steps: int) -> bool:
 
 @kernel("b1(ws)")
 def _find_step(ws: Workspace) -> bool:
-    """Write Newton's step to ``x`` [N]. False if the matrix is singular or has too many entries."""
+    """Write Newton's step to ``x`` [N]. False if the matrix is singular or has too many entries: the run then stops."""
     n = 3 * ws.problem.n_active
     if not _write_jacobian(ws):
         return False
@@ -93,24 +96,26 @@ def _find_step(ws: Workspace) -> bool:
 def _search_along_step(ws: Workspace, mean: float) -> float:
     """Make the longest step along ``x`` that decreases the squared natural map below its ``mean`` [N^2].
 
-    Returns the squared map there, or -1 if no step does: the forces are then as before.
+    Returns the squared map there, or -1 if no step does: the forces are then as before. The natural map vanishes if the
+    contact laws hold.
     """
-    n, forces, kept, part = 3 * ws.problem.n_active, ws.problem.forces.start, ws.problem.forces_kept.start, 1.0
+    n, forces, kept, step_length = 3 * ws.problem.n_active, ws.problem.forces.start, ws.problem.forces_kept.start, 1.0
     copy_numbers(ws.floats, forces, n, kept)
     for _ in range(_HALVINGS):
         for i in range(n):
-            ws.problem.forces[i] = ws.problem.forces_kept[i] + part * ws.problem.x[i]
+            ws.problem.forces[i] = ws.problem.forces_kept[i] + step_length * ws.problem.x[i]
         square = write_natural_map(ws)
-        if square < (1.0 - _DECREASE * part) * mean:
+        if square < (1.0 - _DECREASE * step_length) * mean:
             return square
-        part *= 0.5
+        step_length *= 0.5
     copy_numbers(ws.floats, kept, n, forces)
     return -1.0
 
 
 @kernel("v2(ws, ActiveContact)")
 def _trial_friction(ws: Workspace, active: ActiveContact) -> Pair:
-    """Friction y_t of a contact before it is projected on Coulomb's disc [N]."""
+    """Friction y_t = f_t - a_t / g of a contact before it is projected on Coulomb's disc [N]."""
+    # a_t: slip acceleration, g: inverse mass
     g = tangential_inverse_mass(ws, active)
     y1 = active.friction[0] - active.slip_acceleration[0] / g
     return y1, active.friction[1] - active.slip_acceleration[1] / g
@@ -118,7 +123,11 @@ def _trial_friction(ws: Workspace, active: ActiveContact) -> Pair:
 
 @kernel("f8(ws)")
 def write_natural_map(ws: Workspace) -> float:
-    """Write the natural map to ``right`` [N], and the accelerations of the contacts. Returns its square [N^2]."""
+    """Write the natural map to ``right`` [N], and the accelerations of the contacts. Returns its square [N^2].
+
+    It vanishes if the contact laws hold: it is f less the projection of y = f - a / g on Coulomb's cone, where g is the
+    inverse mass. Friction that slides is given by its direction, and needs no projection.
+    """
     square = 0.0
     for active in ws.actives:
         right = at(ws.floats, ws.problem.right.start + 3 * active.index)
@@ -129,11 +138,13 @@ def write_natural_map(ws: Workspace) -> float:
         radius = active.friction_coefficient * max(0.0, y)
         t1, t2 = active.friction
         if not active.is_at_rest:
+            # friction that slides is -mu f_n d
             along = active.friction_coefficient * active.normal_force
             right[1], right[2] = t1 + along * active.direction[0], t2 + along * active.direction[1]
         else:
             y1, y2 = _trial_friction(ws, active)
             size = length((y1, y2))
+            # projection on the disc: y_t itself inside, its point on the edge outside
             factor = radius / size if size > radius else 1.0
             right[1], right[2] = t1 - factor * y1, t2 - factor * y2
         for r in range(3):
@@ -146,8 +157,12 @@ def write_natural_map(ws: Workspace) -> float:
 
 @kernel("b1(ws)")
 def _write_jacobian(ws: Workspace) -> bool:
-    """Write the derivative of the natural map to ``matrix`` [1]. False if its band has too many entries."""
+    """Write the derivative of the natural map to ``matrix`` [1]. False if its band has too many entries.
+
+    Each contact has three rows, n, t1 and t2, whatever its mode.
+    """
     n = 3 * ws.problem.n_active
+    # the band is computed from the first unknowns
     for a in range(ws.problem.n_active + 1):
         ws.problem.first_unknown[a] = 3 * a
     if not open_band(ws, n, ws.problem.matrix.start):
@@ -158,6 +173,7 @@ def _write_jacobian(ws: Workspace) -> bool:
         # closed: f_n - y_n = a_n / g; open: f_n
         if y > 0.0:
             _add_row(ws, active, NORMAL_ROW, own)
+            # so that redundant forces do not make the matrix singular
             ws.floats[_entry(ws, active, NORMAL_ROW, NORMAL_ROW)] += _SHIFT
         else:
             ws.floats[_entry(ws, active, NORMAL_ROW, NORMAL_ROW)] = 1.0
@@ -165,6 +181,7 @@ def _write_jacobian(ws: Workspace) -> bool:
             _add_rows_of_rest(ws, active, active.friction_coefficient * max(0.0, y))
         else:
             for r in range(FIRST_ROW, 3):
+                # derivative of f_t + mu f_n d
                 ws.floats[_entry(ws, active, r, r)] = 1.0
                 ws.floats[_entry(ws, active, r, NORMAL_ROW)] = active.friction_coefficient * active.direction[r - 1]
     return True
@@ -180,7 +197,7 @@ def _entry(ws: Workspace, active: ActiveContact, r: int, s: int) -> int:
 
 @kernel("void(ws, ActiveContact, i8, f8)")
 def _add_row(ws: Workspace, active: ActiveContact, r: int, inverse_mass: float) -> None:
-    """Add row ``r`` of a contact of G, divided by its ``inverse_mass`` g [1/kg], to the same row of ``matrix``.
+    """Add row ``r`` of a contact of the Delassus matrix, divided by its ``inverse_mass`` g [1/kg], to ``matrix``.
 
     This is the derivative of a component of f - y = a / g by all forces.
     """
@@ -196,8 +213,8 @@ def _add_row(ws: Workspace, active: ActiveContact, r: int, inverse_mass: float) 
 def _add_rows_of_rest(ws: Workspace, active: ActiveContact, radius: float) -> None:
     """Add the two rows of friction of a contact at rest. ``radius`` is that of Coulomb's disc [N].
 
-    A y_t inside the disc is its own projection, so f_t - y_t = a_t / g is left: the contact sticks. A y_t outside of it
-    is projected on the edge: the contact slides.
+    A y_t = f_t - a_t / g inside the disc is its own projection, so f_t - y_t = a_t / g is left: the contact sticks. A
+    y_t outside of it is projected on the edge: the contact slides.
     """
     y1, y2 = _trial_friction(ws, active)
     size = length((y1, y2))
@@ -205,10 +222,12 @@ def _add_rows_of_rest(ws: Workspace, active: ActiveContact, radius: float) -> No
         g = tangential_inverse_mass(ws, active)
         for r in range(FIRST_ROW, 3):
             _add_row(ws, active, r, g)
+            # so that redundant forces do not make the matrix singular
             ws.floats[_entry(ws, active, r, r)] += _SHIFT
         return
     for r in range(FIRST_ROW, 3):
         ws.floats[_entry(ws, active, r, r)] = 1.0
+    # on a disc of radius 0 the projection is 0, whatever y_t
     if radius > 0.0:
         _subtract_projection(ws, active, radius / size, y1 / size, y2 / size)
 
@@ -221,6 +240,7 @@ def _subtract_projection(ws: Workspace, active: ActiveContact, factor: float, c1
     is the derivative of y_t by one force. Its part across the unit vector turns the projection. The growth of mu y_n
     moves it along the vector.
     """
+    # inverse masses along the normal and the tangents
     own, g_t = diagonal_block(ws, active.index).nn, tangential_inverse_mass(ws, active)
     n, a = 3 * ws.problem.n_active, active.index
     first = band_row(ws.problem.matrix.start, 3 * a + 1, n, ws.problem.half_band)
@@ -228,6 +248,7 @@ def _subtract_projection(ws: Workspace, active: ActiveContact, factor: float, c1
     for block in range(active.first_block, active.end_block):
         for s in range(3):
             g, j = at(ws.floats, ws.island.delassus.start + DELASSUS * block + s), 3 * ws.island.block_column[block] + s
+            # of y = f - a / g: first -a / g by the force of column j, then f if it is an own force
             z1, z2 = -g[3] / g_t, -g[6] / g_t
             z1 += 1.0 if j == 3 * a + 1 else 0.0
             z2 += 1.0 if j == 3 * a + 2 else 0.0

@@ -37,10 +37,11 @@ problem accepts as much."""
 
 @entry_point("b1(ws)")
 def choose_null_space_force(ws: Workspace) -> bool:
-    """Choose the null-space force of each active contact. True if all forces are then inside their cones.
+    """Choose the null-space force of each active contact, so that redundant forces are far inside their cones.
 
-    ``x`` must hold the forces of least norm [N]. If the choice fails, the forces closest to the cones are taken, and
-    ``slack`` is what their bounds may be exceeded by [N].
+    A null-space force causes no motion. True if all forces are then within their bounds. ``x`` must hold the forces of
+    least norm [N]. If the choice fails, the forces closest to the cones are taken, and ``slack`` is what their bounds
+    may be exceeded by [N]. ``x`` is as before in the end, and the forces of the contacts are overwritten.
     """
     n, x, least_norm = ws.problem.n_unknown, ws.problem.x.start, ws.problem.forces_at_start.start
     largest = largest_size(ws.floats, x, n)
@@ -51,6 +52,7 @@ def choose_null_space_force(ws: Workspace) -> bool:
         for r in range(3):
             contact.null_space_force[r] = 0.0
     _set_least_norm(ws)
+    # forces of least norm that are far inside are kept, without a null-space force
     if _least_distance(ws) >= _LARGE_DISTANCE * largest:
         return True
     has_found = _choose_farthest(ws, largest)
@@ -62,14 +64,16 @@ def choose_null_space_force(ws: Workspace) -> bool:
     for i in range(n):
         unknown = ws.unknowns[i]
         contact = ws.contacts[ws.actives[unknown.contact].contact]
+        # `forces_at_start` holds the forces of least norm
         contact.null_space_force[unknown.direction] = force_of(ws, i) - ws.problem.forces_at_start[i]
+    # `distribute` has used x for its steps
     copy_numbers(ws.floats, least_norm, n, x)
     return has_found
 
 
 @kernel()
 def _set_least_norm(ws: Workspace) -> None:
-    """Set the unknown forces to those of least norm, which ``forces_at_start`` holds [N]."""
+    """Set the unknown contact forces to those of least norm, which ``forces_at_start`` holds [N]."""
     for i in range(ws.problem.n_unknown):
         set_force(ws, i, ws.problem.forces_at_start[i])
 
@@ -85,8 +89,10 @@ def _least_distance(ws: Workspace) -> float:
         unknown = ws.unknowns[i]
         active = ws.actives[unknown.contact]
         has_given_normal = unknown.direction == FIRST_ROW and not active.is_normal_force_unknown
+        # with a given normal force, the friction alone is unknown
         if has_given_normal and active.has_redundant_force:
             least = min(least, active.static_coefficient * active.normal_force - length(active.friction))
+        # friction is checked along with its normal force
         if unknown.direction != NORMAL_ROW or not active.has_redundant_force:
             continue
         distance = active.normal_force
@@ -102,12 +108,14 @@ def _choose_farthest(ws: Workspace, largest: float) -> bool:
 
     The distance is ``largest`` / 4^n [N]. The number n of quarterings is doubled until forces exist, then bisected.
     """
+    # with n = 0 the distance would be the largest force itself: no forces
     feasible, infeasible = 1, 0
     while not _choose_at_distance(ws, largest, feasible):
         if feasible == _QUARTERINGS:
             return False
         infeasible, feasible = feasible, min(2 * feasible, _QUARTERINGS)
     last = feasible
+    # the farthest choice has the least n that is feasible
     while feasible - infeasible > 1:
         last = (feasible + infeasible) // 2
         if _choose_at_distance(ws, largest, last):
@@ -120,17 +128,18 @@ def _choose_farthest(ws: Workspace, largest: float) -> bool:
 
 @kernel("b1(ws, f8, i8)")
 def _choose_at_distance(ws: Workspace, largest: float, n_quarterings: int) -> bool:
-    """Move the forces of least norm into their cones, at least ``largest`` / 4^n_quarterings [N] from the bounds.
-
-    The motion stays the same. False if no such forces exist.
-    """
+    """Find forces at least ``largest`` / 4^n_quarterings [N] inside their cones. True if there are any."""
+    # from the forces of least norm, along the null space: the motion stays the same
     _set_least_norm(ws)
     return distribute(ws, 0.25**n_quarterings * largest, _DISTRIBUTED * largest)
 
 
 @kernel()
 def add_null_space_force(ws: Workspace) -> None:
-    """Add the null-space force of the contacts to the unknowns ``x`` [N], projected on the present null space."""
+    """Add the null-space force of the contacts to the unknowns ``x`` [N], projected on the present null space.
+
+    The null space may have turned since the force was chosen. The projection keeps the motion unchanged.
+    """
     n = ws.problem.n_unknown
     for i in range(n):
         unknown = ws.unknowns[i]
@@ -147,7 +156,10 @@ def add_null_space_force(ws: Workspace) -> None:
 
 @kernel()
 def shift_forces(ws: Workspace) -> None:
-    """Add the null-space force to the contact forces [N], which must be those of least norm."""
+    """Add the chosen null-space force to the contact forces [N], which must be those of least norm.
+
+    The motion stays the same. So redundant forces change continuously until a new choice is made.
+    """
     for i in range(ws.problem.n_unknown):
         ws.problem.x[i] = force_of(ws, i)
     add_null_space_force(ws)

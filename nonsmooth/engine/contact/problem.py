@@ -38,14 +38,15 @@ def friction_coefficient(ws: Workspace, c: int, speed: float) -> float:
 @kernel("f8(ws, i8, f8)")
 def slip_coefficient(ws: Workspace, c: int, speed: float) -> float:
     """Friction coefficient of contact ``c`` that slides at ``speed`` [m/s]: at speed 0, of a slip that begins."""
+    # at speed 0 the law would give the static coefficient
     return friction_coefficient(ws, c, max(speed, _LEAST_SLIP_SPEED))
 
 
 @kernel("v2(ws, i8, v2, f8, b1)")
 def slip_direction(ws: Workspace, c: int, slip: Pair, rest_speed: float, may_reverse: bool) -> Pair:
-    """Unit direction of the ``slip`` of contact ``c``, with the sign of the direction at the start of the step.
+    """Unit direction of the ``slip`` [m/s] of contact ``c``, with the sign of the direction at the start of the step.
 
-    So the friction stays smooth if a slip reverses within a step, and the event of the reversal can be located. If it
+    So the friction stays smooth if a slip reverses within a step, and the event of the reversal can be located. If
     ``may_reverse``, as in an implicit step, which stops slips itself, the sign is that of the slip. A slip up to
     ``rest_speed`` [m/s] counts as rest: the direction at the start of the step is returned.
     """
@@ -59,7 +60,7 @@ def slip_direction(ws: Workspace, c: int, slip: Pair, rest_speed: float, may_rev
 
 @kernel("void(ws, i8, v2, f8, b1)")
 def follow_slip(ws: Workspace, a: int, slip: Pair, rest_speed: float, may_reverse: bool) -> None:
-    """Set slip direction (:func:`slip_direction`) and friction coefficient of active contact ``a`` for its ``slip``."""
+    """Set :func:`slip_direction` and friction coefficient of active contact ``a`` for its ``slip`` [m/s]."""
     active = ws.actives[a]
     active.direction = slip_direction(ws, active.contact, slip, rest_speed, may_reverse)
     active.friction_coefficient = slip_coefficient(ws, active.contact, length(slip))
@@ -73,10 +74,12 @@ def write_friction(ws: Workspace, active: ActiveContact) -> None:
     """
     contact = ws.contacts[active.contact]
     speed = length(contact.slip)
+    # only impacts give normal forces; `decouple_normals` makes those of compliant contacts known
     active.has_given_force = False
     active.static_coefficient = friction_coefficient(ws, active.contact, 0.0)
     active.is_at_rest = not speed > ws.tolerance.velocity
     if active.is_at_rest:
+        # the slip may begin: its last direction is the first guess
         active.direction = contact.direction
         active.friction_coefficient = slip_coefficient(ws, active.contact, 0.0)
     else:
@@ -89,7 +92,7 @@ def write_friction(ws: Workspace, active: ActiveContact) -> None:
 
 @kernel("void(ws, i8)")
 def accelerate_freely(ws: Workspace, number: int) -> None:
-    """Write the accelerations M^-1 h of body ``number`` to ``du``.
+    """Write the accelerations M^-1 h of body ``number`` without contact forces to ``du``. h are its other forces.
 
     Those of a body in ballistic motion are stored, and computed again only after its state has changed.
     """
@@ -117,6 +120,7 @@ def free_acceleration(ws: Workspace, of_all_bodies: bool) -> None:
         accelerate_freely(ws, i if of_all_bodies else ws.island.integrated[i])
     if ws.model.n_joints > 0:
         for number in range(ws.model.n_articulations):
+            # only joints have rows; their forces change the accelerations
             if ws.articulations[number].n_rows > 0:
                 constrain(ws, number)
 
@@ -125,7 +129,7 @@ def free_acceleration(ws: Workspace, of_all_bodies: bool) -> None:
 def accelerate_touching(ws: Workspace) -> None:
     """Write the accelerations without contact forces to ``du``, of the bodies of touching contacts at least.
 
-    An event needs no others. With joints, all bodies are evaluated.
+    An event needs no others. With joints, all bodies are evaluated, because joints pass accelerations on.
     """
     if ws.model.n_joints > 0:
         free_acceleration(ws, of_all_bodies=True)
@@ -141,7 +145,7 @@ def accelerate_touching(ws: Workspace) -> None:
 
 @entry_point()
 def write_contact_problem(ws: Workspace) -> None:
-    """Write G and b of Eq. (18) and the friction of the active contacts.
+    """Write Delassus matrix G, free accelerations b of Eq. (18), and friction of the active contacts.
 
     Their kinematics must be evaluated, and ``du`` must hold the accelerations without contact forces.
     """
@@ -152,8 +156,10 @@ def write_contact_problem(ws: Workspace) -> None:
         for r in range(3):
             bias, free = contact.bias[r], row(ws, active.contact, r, ws.island.du.start)
             active.free[r] = bias + free
+            # of the two parts and not of their sum, which may cancel and leave their round-off
             ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, abs(bias), abs(free))
         write_friction(ws, active)
+    # the normal forces of compliant contacts are known
     decouple_normals(ws)
 
 
@@ -167,15 +173,18 @@ def solve_contact(ws: Workspace) -> bool:
     ws.problem.effort = 0.0
     has_past = True
     for active in ws.actives:
+        # a contact that slips cannot stick
         if not active.is_at_rest and active.mode_tried == Mode.STICK:
             active.mode_tried = Mode.SLIDE
         active.mode_past = active.mode_tried
         if active.mode_tried == Mode.UNKNOWN:
             has_past = False
+    # of several solutions, the one that continues the past is taken
     if has_past and verify(ws, is_lenient=False):
         return True
     if ws.options.solver != solvers.AUTO:
         return find_modes(ws, ws.options.solver)
+    # the fastest solver first; the last two are for few contacts only
     if find_modes(ws, solvers.NEWTON) or find_modes(ws, solvers.GAUSS_SEIDEL):
         return True
     if ws.problem.n_active <= solvers.MOST_PIVOTED and find_modes(ws, solvers.LEMKE):
@@ -185,7 +194,11 @@ def solve_contact(ws: Workspace) -> bool:
 
 @entry_point("b1(ws)")
 def solve_from_rates(ws: Workspace) -> bool:
-    """Find modes and forces for given G and b, with the friction of the slip velocities in ``rate``. True if found."""
+    """Find modes and forces of a contact problem that the user gives by matrices. True if they are found.
+
+    Before: the Delassus matrix G and the free accelerations b are written.
+    """
+    # the user gives the slip velocities, which `rate` holds
     for active in ws.actives:
         write_friction(ws, active)
     return solve_contact(ws)
@@ -195,7 +208,7 @@ def solve_from_rates(ws: Workspace) -> bool:
 def accelerate(ws: Workspace) -> None:
     """Add the response of the bodies to the contact forces to ``du``. Normal forces of compliant contacts become zero.
 
-    The response to these forces is in ``du`` already.
+    The response to these forces is in ``du`` already, so it must not be added again.
     """
     for active in ws.actives:
         if ws.contacts[active.contact].is_compliant:

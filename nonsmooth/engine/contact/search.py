@@ -50,6 +50,7 @@ def find_modes(ws: Workspace, solver: int) -> bool:
     coefficient, so the first search excludes this. Of several solutions, one with more sticking and closed contacts is
     preferred.
     """
+    # enumeration needs no exclusions: it tries all modes
     has_found = enumerate_modes(ws, first=0) > 0 if solver == ENUMERATION else _find_by_solver(ws, solver)
     if has_found:
         _prefer_sticking(ws)
@@ -61,7 +62,8 @@ def find_modes(ws: Workspace, solver: int) -> bool:
 def _find_by_solver(ws: Workspace, solver: int) -> bool:
     """Search with the contacts that have just started to slide kept from sticking, and if that fails, without this.
 
-    True if a solution is found.
+    They are at rest, and their past mode is sliding. ``was_freed`` marks the contacts that must not stick. True if a
+    solution is found.
     """
     has_sliding = False
     for active in ws.actives:
@@ -77,7 +79,11 @@ def _find_by_solver(ws: Workspace, solver: int) -> bool:
 
 @kernel("b1(ws, i8)")
 def _search(ws: Workspace, solver: int) -> bool:
-    """Search in rounds. After each, contacts found to slide are kept from sticking. True if a solution is found."""
+    """Search in rounds. After each, contacts found to slide are kept from sticking. True if a solution is found.
+
+    So a contact that exceeds its static bound gets its kinetic coefficient in the next round.
+    """
+    # each round but the last frees a contact
     for _ in range(1 + ws.problem.n_active):
         if _search_round(ws, solver):
             return True
@@ -90,6 +96,7 @@ def _search(ws: Workspace, solver: int) -> bool:
 def _search_round(ws: Workspace, solver: int) -> bool:
     """Search by the stages of a solver. True if a solution is found. Interrupts and too much effort end the search."""
     n_stages = _n_stages(solver)
+    # the forces of the first stage start at zero
     clear(ws.floats, ws.problem.forces_at_start.start, 3 * ws.problem.n_active)
     for stage in range(n_stages):
         if ws.problem.effort >= _MOST_EFFORT or interrupted(ws, ws.problem.n_active):
@@ -101,7 +108,9 @@ def _search_round(ws: Workspace, solver: int) -> bool:
         _store_modes(ws)
         if _verify_guess(ws):
             return True
+        # the verification has changed modes and directions
         _restore_modes(ws)
+        # further stages would lead to the same guess
         if has_settled:
             return False
     return False
@@ -109,7 +118,8 @@ def _search_round(ws: Workspace, solver: int) -> bool:
 
 @kernel("i8(i8)")
 def _n_stages(solver: int) -> int:
-    """Number of stages of a solver."""
+    """Number of stages of a solver. Each starts from the forces and directions that the one before has found."""
+    # enumeration has no stages
     if solver == GAUSS_SEIDEL:
         return gauss_seidel.STAGES
     return lemke.STAGES if solver == LEMKE else newton.STAGES
@@ -123,6 +133,7 @@ def _guess_by_stage(ws: Workspace, solver: int, stage: int) -> bool:
     """
     n, forces, kept = 3 * ws.problem.n_active, ws.problem.forces.start, ws.problem.forces_at_start.start
     copy_numbers(ws.floats, kept, n, forces)
+    # solvers know one coefficient of friction per contact
     _unite_coefficients(ws)
     has_settled = _improve_forces(ws, solver, stage)
     copy_numbers(ws.floats, forces, n, kept)
@@ -134,6 +145,7 @@ def _guess_by_stage(ws: Workspace, solver: int, stage: int) -> bool:
 @kernel("b1(ws, i8, i8)")
 def _improve_forces(ws: Workspace, solver: int, stage: int) -> bool:
     """Run a ``stage`` of a solver. True if a further stage would not change the forces."""
+    # enumeration has no stages: the last solver is Newton's method
     if solver == GAUSS_SEIDEL:
         return search_by_sweeps(ws, stage)
     if solver == LEMKE:
@@ -143,7 +155,10 @@ def _improve_forces(ws: Workspace, solver: int, stage: int) -> bool:
 
 @kernel()
 def _unite_coefficients(ws: Workspace) -> None:
-    """Give each contact at rest one coefficient of friction: the static one, or the kinetic one if it may not stick."""
+    """Give each contact at rest one coefficient of friction: the static one, or the kinetic one if it may not stick.
+
+    Solvers know one coefficient only. :func:`_restore_coefficients` brings both back.
+    """
     for active in ws.actives:
         active.coefficient_kept, active.static_kept = active.friction_coefficient, active.static_coefficient
         if active.is_at_rest:
@@ -170,6 +185,7 @@ def _has_two_bounds(active: ActiveContact) -> bool:
 def _may_still_stick(ws: Workspace) -> bool:
     """True if a contact is guessed to slide at its static bound, where forces that settle may still let it stick."""
     for active in ws.actives:
+        # with one coefficient, sticking and sliding have the same bound
         may_stick = active.is_at_rest and not active.was_freed and _has_two_bounds(active)
         if may_stick and active.mode_tried == Mode.SLIDE:
             return True
@@ -178,7 +194,10 @@ def _may_still_stick(ws: Workspace) -> bool:
 
 @kernel("b1(ws)")
 def _exclude_sticking(ws: Workspace) -> bool:
-    """Keep the contacts at rest that were found to slide from sticking. True if this changes the coefficient of one."""
+    """Keep the contacts at rest that were found to slide from sticking. True if a new search would differ.
+
+    It differs if the kinetic coefficient of such a contact is not the static one.
+    """
     has_changed = False
     for active in ws.actives:
         if active.is_at_rest and active.mode_found == Mode.SLIDE and not active.was_freed:
@@ -192,7 +211,8 @@ def _exclude_sticking(ws: Workspace) -> bool:
 
 @kernel("b1(ws)")
 def _verify_guess(ws: Workspace) -> bool:
-    """Verify the guessed modes, in several forms. True if one fulfils the laws."""
+    """Verify the guessed modes in several forms. True if one fulfils the laws."""
+    # the modes that the accelerations show, then the guess itself, then the guess with the forces of the solver
     if _verify_by_acceleration(ws) or _verify_or_open(ws):
         return True
     return ws.problem.is_deficient and _verify_forces_of_solver(ws)
@@ -202,8 +222,8 @@ def _verify_guess(ws: Workspace) -> bool:
 def _verify_by_acceleration(ws: Workspace) -> bool:
     """Verify the modes that the accelerations show, if they differ from the guess. True if they fulfil the laws.
 
-    A contact with friction on its bound but without slip acceleration sticks. Solvers produce it if forces are
-    redundant. Otherwise the guess is as before.
+    A contact with friction on its bound but without slip acceleration sticks. Solvers produce such contacts if forces
+    are redundant. If the laws are violated, the guess is restored.
     """
     evaluate_accelerations(ws)
     if not _guess_modes_from_accelerations(ws):
@@ -223,6 +243,7 @@ def _guess_modes_from_accelerations(ws: Workspace) -> bool:
     has_changed = False
     small = EQUAL * ws.problem.small_acceleration
     for active in ws.actives:
+        # modes of the past are kept, to continue it; the mode of a contact that separates is, too
         if active.mode_tried == active.mode_past or active.normal_acceleration > small:
             continue
         is_still = active.is_at_rest and length(active.slip_acceleration) <= small
@@ -244,9 +265,11 @@ def _verify_or_open(ws: Workspace) -> bool:
     """
     find_slip_directions(ws)
     for active in ws.actives:
+        # stored for the last, lenient attempt
         active.mode_closed, active.direction_closed = active.mode_tried, active.direction
     if verify(ws, is_lenient=False):
         return True
+    # unique forces that violate a law cannot be replaced
     if not ws.problem.is_deficient:
         return False
     # TODO: a single contact that must open is found only if it is the most tensile one at some step
@@ -269,6 +292,7 @@ def _open_most_tensile(ws: Workspace) -> bool:
             worst = min(worst, active.normal_force)
     has_opened = False
     for active in ws.actives:
+        # tensile forces are negative; equally tensile ones open together, as symmetric contacts differ by round-off
         is_tensile = active.normal_force < -ws.problem.small_force
         if active.mode_tried != Mode.OPEN and is_tensile and active.normal_force <= (1.0 - _EQUALLY_TENSILE) * worst:
             active.mode_tried = Mode.OPEN
@@ -284,6 +308,7 @@ def _verify_forces_of_solver(ws: Workspace) -> bool:
     norm may violate the laws.
     """
     _restore_guess(ws)
+    # with unique forces, the laws are checked without a new distribution
     for active in ws.actives:
         active.has_redundant_force = False
     ws.problem.is_deficient = False
@@ -299,6 +324,7 @@ def _friction_opposes_slip(ws: Workspace) -> bool:
         if active.mode_tried != Mode.SLIDE:
             continue
         (t1, t2), (d1, d2) = active.friction, active.direction
+        # a force that is not finite counts as a violation
         if not (abs(t1 + along * d1) <= small and abs(t2 + along * d2) <= small):
             return False
     return True
@@ -306,21 +332,21 @@ def _friction_opposes_slip(ws: Workspace) -> bool:
 
 @kernel()
 def _store_modes(ws: Workspace) -> None:
-    """Store the modes and slip directions under trial."""
+    """Store the modes and slip directions under trial, so that further trials may change them."""
     for active in ws.actives:
         active.mode_found, active.direction_found = active.mode_tried, active.direction
 
 
 @kernel()
 def _restore_modes(ws: Workspace) -> None:
-    """Restore the modes and slip directions that were stored."""
+    """Restore the modes and slip directions of :func:`_store_modes`."""
     for active in ws.actives:
         active.mode_tried, active.direction = active.mode_found, active.direction_found
 
 
 @kernel()
 def _restore_guess(ws: Workspace) -> None:
-    """Restore the stored modes and directions, and the forces in ``forces_at_start``."""
+    """Restore the modes and slip directions of :func:`_store_modes`, and the forces in ``forces_at_start``."""
     _restore_modes(ws)
     copy_numbers(ws.floats, ws.problem.forces_at_start.start, 3 * ws.problem.n_active, ws.problem.forces.start)
 
@@ -330,22 +356,24 @@ def _restore_guess(ws: Workspace) -> None:
 
 @kernel()
 def _store_solution(ws: Workspace) -> None:
-    """Store modes, directions and forces of the solution."""
+    """Store modes, slip directions and forces of the solution, for :func:`_restore_guess`."""
     _store_modes(ws)
     copy_numbers(ws.floats, ws.problem.forces.start, 3 * ws.problem.n_active, ws.problem.forces_at_start.start)
 
 
 @kernel()
 def _keep_if_lawful(ws: Workspace) -> None:
-    """Keep the modes under trial if they fulfil the laws. Otherwise restore the stored solution, with accelerations."""
+    """Keep the modes under trial if they fulfil the laws. Otherwise restore the solution of :func:`_store_solution`."""
     if not _verify_or_open(ws):
         _restore_guess(ws)
+        # the trial has overwritten them
         evaluate_accelerations(ws)
 
 
 @kernel()
 def _prefer_closed(ws: Workspace) -> None:
     """Replace the solution by one in which all contacts that do not separate are closed, if that fulfils the laws."""
+    # of several solutions, one with more closed contacts is preferred
     _store_solution(ws)
     if _guess_modes_from_accelerations(ws):
         _keep_if_lawful(ws)

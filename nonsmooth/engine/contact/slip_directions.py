@@ -39,7 +39,7 @@ _NEARLY_EXACT = 1e-8
 
 @kernel("b1(ws)")
 def has_slip_that_begins(ws: Workspace) -> bool:
-    """True if an active contact starts to slide in the modes under trial."""
+    """True if an active contact starts to slide in the modes under trial: its slip direction is an unknown."""
     for active in ws.actives:
         if starts_to_slide(active):
             return True
@@ -48,7 +48,7 @@ def has_slip_that_begins(ws: Workspace) -> bool:
 
 @entry_point("b1(ws)")
 def find_slip_directions(ws: Workspace) -> bool:
-    """Turn the directions of slips that begin until the slip accelerations oppose the friction.
+    """Turn the directions of slips that begin until the slip accelerations oppose the friction (Newton's method).
 
     True if they do, or if no slip begins: the forces are then not computed. Else the forces are those of the final
     directions in the modes under trial. Their signs and bounds are not checked. False if the steps do not converge.
@@ -57,12 +57,15 @@ def find_slip_directions(ws: Workspace) -> bool:
         return True
     best = math.inf
     for _ in range(_STEPS):
+        # the forces of the present directions are exact, so only the rows of turns have residuals
         find_tried_forces(ws)
         n = list_unknowns(ws, with_turns=True)
         worst = _write_residuals(ws, n)
+        # near redundant contacts round-off is larger: then it is enough that steps no longer improve
         if worst <= EXACT or (worst <= _NEARLY_EXACT and worst >= best):
             return True
         best = min(best, worst)
+        # False: the band has too many entries, and the run stops
         if not open_band(ws, n, ws.problem.reduced.start):
             return False
         for i in range(n):
@@ -78,7 +81,8 @@ def find_slip_directions(ws: Workspace) -> bool:
 def _write_residuals(ws: Workspace, n: int) -> float:
     """Write the right-hand side of Newton's system. Returns the largest residual over the largest acceleration [1].
 
-    Only the rows of turns have residuals, because the forces are exact for the present directions.
+    The residual of a turn is the slip acceleration across the slip direction d. The forces are exact for the present
+    directions, so the other rows have none.
     """
     worst = 0.0
     for i in range(n):
@@ -87,6 +91,7 @@ def _write_residuals(ws: Workspace, n: int) -> float:
         if unknown.is_turn:
             active = ws.actives[unknown.contact]
             (d1, d2), (a1, a2) = active.direction, slip_acceleration(ws, active)
+            # minus a_t x d, a cross product in the plane
             ws.problem.right[i] = -(a1 * d2 - a2 * d1)
             residual = abs(ws.problem.right[i]) / max(ws.problem.acceleration_scale, abs(a1), abs(a2))
             worst = max(worst, residual)
@@ -106,14 +111,18 @@ def _write_row(ws: Workspace, i: int, n: int) -> None:
     for block in range(active.first_block, active.end_block):
         other = ws.actives[ws.island.block_column[block]]
         out, end = line + other.first_unknown, line + other.end_unknown
+        # the other contact has no unknowns
         if out == end:
             continue
+        # a block of the Delassus matrix, row by row
         g = at(ws.floats, ws.island.delassus.start + DELASSUS * block)
         if unknown.is_turn:
+            # a cross product with the two tangential rows of the block
             g0, g1, g2 = d2 * g[3] - d1 * g[6], d2 * g[4] - d1 * g[7], d2 * g[5] - d1 * g[8]
         else:
             g0, g1, g2 = g[3 * r], g[3 * r + 1], g[3 * r + 2]
         e1, e2 = other.direction
+        # the normal force of a contact that slides carries its friction along
         if other.is_normal_force_unknown:
             ws.floats[out] = g0 if other.sticks else g0 - other.friction_coefficient * (e1 * g1 + e2 * g2)
             out += 1
@@ -136,15 +145,18 @@ def _add_turn(ws: Workspace, active: ActiveContact, i: int, n: int) -> None:
     """
     own = diagonal_block(ws, active.index)
     force, (d1, d2) = active.friction_coefficient * active.normal_force, active.direction
+    # without a load the change is infinite; `_turn` then takes the direction from the acceleration
     if not abs(force) > 0.0:
         return
     line = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band)
     a1, a2 = slip_acceleration(ws, active)
     change = (a1 * d1 + a2 * d2) / force
     ws.floats[line + i] += change
+    # size of the other entries of the row
     inverse_mass = max(own.nn, own.t11, own.t22)
     weight = inverse_mass / (inverse_mass + abs(change))
     ws.problem.right[i] *= weight
+    # all entries of the row within the band
     for j in range(max(0, i - ws.problem.half_band), min(n, i + ws.problem.half_band + 1)):
         ws.floats[line + j] *= weight
 
@@ -154,6 +166,7 @@ def _solve(ws: Workspace, n: int) -> None:
     """Solve Newton's system of ``n`` unknowns. A singular one is solved for least norm, or shifted if it is banded."""
     if eliminate_reduced(ws, n, SINGULAR):
         return
+    # orthogonal decompositions would fill a band
     if band_width(n, ws.problem.half_band) < n:
         copy_numbers(ws.floats, ws.problem.right.start, n, ws.problem.x.start)
         solve_shifted(ws, n)

@@ -52,7 +52,10 @@ class Verdict(IntEnum):
 
 @kernel()
 def find_tried_forces(ws: Workspace) -> None:
-    """Find the forces of the active contacts in the modes under trial [N], and count the effort."""
+    """Find the forces of the active contacts in the modes under trial [N], and count the effort, which is limited.
+
+    In these modes the forces follow from linear equations. No inequality is checked.
+    """
     for active in ws.actives:
         is_open = active.mode_tried == Mode.OPEN
         active.is_normal_force_unknown = not (is_open or active.has_given_force)
@@ -60,22 +63,26 @@ def find_tried_forces(ws: Workspace) -> None:
         active.sticks = active.mode_tried == Mode.STICK and active.static_coefficient > 0.0
         if is_open:
             active.normal_force = 0.0
+    # normal forces given by a law stay as they are
     resolve(ws)
     ws.totals.n_evaluations += 1
+    # the cost of an elimination grows with the cube
     ws.problem.effort += float(ws.problem.n_unknown) ** 3
 
 
 @kernel()
 def evaluate_accelerations(ws: Workspace) -> None:
-    """Write the accelerations b + G f of the active contacts [m/s^2], and the thresholds of zero.
+    """Write the accelerations b + G f of the active contacts [m/s^2], and the thresholds of zero for the contact laws.
 
-    These are the acceleration and the force of the island that count as zero.
+    These are the acceleration and the force of the island that count as zero. b is without contact forces, G the
+    Delassus matrix, f the contact forces.
     """
     # round-off of an acceleration is relative to the largest of its terms
     scale = ws.problem.acceleration_scale
     force_scale = largest_size(ws.floats, ws.problem.forces.start, 3 * ws.problem.n_active)
     for active in ws.actives:
         own = diagonal_block(ws, active.index).nn
+        # a force that causes the largest acceleration sets a scale if all present forces are small
         if own > 0.0:
             force_scale = max(force_scale, scale / own)
     for active in ws.actives:
@@ -98,6 +105,7 @@ def small_force(ws: Workspace, a: int) -> float:
     Its own forces set the scale: those of a heavy body in the same island may be many orders larger.
     """
     own, size = diagonal_block(ws, a).nn, largest_size(ws.floats, ws.problem.forces.start + 3 * a, 3)
+    # a force that causes the largest acceleration of the problem is not small, either
     if own > 0.0:
         size = max(size, ws.problem.acceleration_scale / own)
     return float(NO_FORCE * size + _SHARED_ROUND_OFF * ws.problem.small_force)
@@ -105,12 +113,8 @@ def small_force(ws: Workspace, a: int) -> float:
 
 @entry_point("b1(ws, b1)")
 def verify(ws: Workspace, is_lenient: bool) -> bool:
-    """Find the forces of the modes under trial. True if modes and forces fulfil the contact laws.
-
-    Redundant forces are first those of least norm. If these exceed Coulomb's bound, other forces that give the same
-    motion are tried (:func:`nonsmooth.engine.contact.distribution.distribute`). If ``is_lenient``, this is done for
-    tensile normal forces, too.
-    """
+    """Find the forces of the modes under trial. True if modes and forces fulfil the laws, see :func:`check_laws`."""
+    # redundant forces are those of least norm; if lenient, tensile ones of them may be replaced
     find_tried_forces(ws)
     return check_laws(ws, is_lenient)
 
@@ -119,9 +123,11 @@ def verify(ws: Workspace, is_lenient: bool) -> bool:
 def check_laws(ws: Workspace, is_lenient: bool) -> bool:
     """True if the forces fulfil the contact laws in the modes under trial, False if they violate one.
 
-    Redundant forces outside their cones are distributed anew. For ``is_lenient`` see :func:`verify`.
+    Redundant forces that exceed Coulomb's bound, or are tensile if ``is_lenient``, are replaced by others that give the
+    same motion, if there are any within the bounds.
     """
     verdict = _check(ws, is_lenient)
+    # no distance inside the cones (inset 0) is needed
     if verdict == Verdict.REDISTRIBUTABLE and distribute(ws, 0.0, _DISTRIBUTED * ws.problem.small_force):
         # distribution moves normal forces, and with them the friction of sliding contacts
         for active in ws.actives:
@@ -138,6 +144,7 @@ def _check(ws: Workspace, is_lenient: bool) -> Verdict:
     verdict = Verdict.FULFILLED
     for active in ws.actives:
         own = _check_contact(ws, active, is_lenient)
+        # no other contact can mend this
         if own == Verdict.VIOLATED:
             return own
         if own == Verdict.REDISTRIBUTABLE:
@@ -155,6 +162,7 @@ def _check_contact(ws: Workspace, active: ActiveContact, is_lenient: bool) -> Ve
         # a contact that approaches is not open
         separates = active.normal_acceleration >= -ws.problem.small_acceleration
         return Verdict.FULFILLED if separates else Verdict.VIOLATED
+    # a closed contact keeps its gap; a number that is not finite is a violation, too
     if not abs(active.normal_acceleration) <= _allowed_acceleration(ws):
         return Verdict.VIOLATED
     # if more force means more approach (Painleve's paradox), the balance is unstable
@@ -162,6 +170,7 @@ def _check_contact(ws: Workspace, active: ActiveContact, is_lenient: bool) -> Ve
     if slips and reduced_coefficient(ws, active.index) <= 0.0:
         return Verdict.VIOLATED
     is_tensile = not active.normal_force >= -small_force(ws, active.index)
+    # tensile forces that are not unique may be replaced by others of the same motion
     if is_tensile and not (is_lenient and ws.problem.is_deficient):
         return Verdict.VIOLATED
     of_friction = _check_friction(ws, active)
@@ -172,7 +181,8 @@ def _check_contact(ws: Workspace, active: ActiveContact, is_lenient: bool) -> Ve
 
 @kernel("f8(ws)")
 def _allowed_acceleration(ws: Workspace) -> float:
-    """Acceleration of a contact at rest that counts as zero [m/s^2]. Redundant contacts may disagree by more."""
+    """Acceleration of a contact at rest that counts as zero [m/s^2]."""
+    # redundant contacts may disagree by more than round-off
     small = ws.problem.small_acceleration
     return float(EQUAL * small if ws.problem.is_deficient else small)
 
@@ -181,19 +191,22 @@ def _allowed_acceleration(ws: Workspace) -> float:
 def _check_friction(ws: Workspace, active: ActiveContact) -> Verdict:
     """Verdict on the friction of one closed contact in the mode under trial.
 
-    A contact that slips from before has its friction by construction. The bound of one that sticks, or the direction
-    of a slip that begins, is checked.
+    A contact that slips from before has its friction by construction. The bound of one that sticks, or the direction of
+    a slip that begins, is checked.
     """
     a1, a2 = active.slip_acceleration
     if active.mode_tried == Mode.STICK:
+        # a contact that sticks has no slip acceleration
         if not abs(a1) + abs(a2) <= _allowed_acceleration(ws):
             return Verdict.VIOLATED
         if length(active.friction) <= active.static_coefficient * active.normal_force + small_force(ws, active.index):
             return Verdict.FULFILLED
+        # other friction of the same motion may be within its bound
         return Verdict.REDISTRIBUTABLE if active.has_redundant_force else Verdict.VIOLATED
     if not active.is_at_rest:
         return Verdict.FULFILLED
     small = ws.problem.small_acceleration
+    # the slip must begin along the direction d that the friction opposes
     forward = a1 * active.direction[0] + a2 * active.direction[1]
     across = a1 * active.direction[1] - a2 * active.direction[0]
     is_opposed = forward >= -small and abs(across) <= small
@@ -202,7 +215,7 @@ def _check_friction(ws: Workspace, active: ActiveContact) -> Verdict:
 
 @kernel()
 def guess_modes_from_forces(ws: Workspace) -> None:
-    """Guess modes and slip directions from the present forces and their accelerations.
+    """Guess modes and slip directions from the present forces and their accelerations, for a trial of these modes.
 
     A projection decides: f - a / g is projected on Coulomb's cone, where g is the inverse mass of the contact. Forces
     of the solution are their own projections (Alart and Curnier 1991). A projection on the apex means open, on the
@@ -211,16 +224,19 @@ def guess_modes_from_forces(ws: Workspace) -> None:
     for active in ws.actives:
         for r in range(3):
             active.acceleration[r] = acceleration(ws, active, r)
+        # g times the normal component of f - a / g
         compression = active.normal_force * diagonal_block(ws, active.index).nn - active.normal_acceleration
         active.mode_tried = Mode.SLIDE
         if active.is_at_rest:
             g = tangential_inverse_mass(ws, active)
+            # g times the tangential components; a slip that begins opposes them
             y1 = g * active.friction[0] - active.slip_acceleration[0]
             y2 = g * active.friction[1] - active.slip_acceleration[1]
             norm = length((y1, y2))
             if norm > 0.0:
                 active.direction = unit((-y1, -y2))
             # TODO: a projection would have the radius mu y_n of the projected normal force, not mu f_n
+            # a contact that the search has let slide must not stick again
             if not active.was_freed and norm <= g * active.friction_coefficient * active.normal_force:
                 active.mode_tried = Mode.STICK
         if compression <= 0.0:
@@ -229,11 +245,9 @@ def guess_modes_from_forces(ws: Workspace) -> None:
 
 @kernel("f8(ws, ActiveContact)")
 def tangential_inverse_mass(ws: Workspace, active: ActiveContact) -> float:
-    """Largest slip acceleration of a contact per unit of its own friction along t1 or t2 [1/kg].
-
-    It is a scale only. The normal inverse mass is returned for a contact that cannot slip.
-    """
+    """Larger slip acceleration of a contact per unit of its own friction along t1 or t2 [1/kg]. It is a scale only."""
     # TODO: the larger diagonal entry depends on the choice of the tangents; the larger eigenvalue would not
     own = diagonal_block(ws, active.index)
     largest = max(own.t11, own.t22)
+    # a contact that cannot slip gets its normal inverse mass, because callers divide by the result
     return float(largest if largest > 0.0 else own.nn)

@@ -19,9 +19,9 @@ def starts_to_slide(active: ActiveContact) -> bool:
 
 @kernel("i8(ws, b1)")
 def list_unknowns(ws: Workspace, with_turns: bool) -> int:
-    """List the unknown forces of the active contacts. Returns the number of unknowns.
+    """List the unknown forces of the active contacts: the rows of the linear system. Returns the number of unknowns.
 
-    The normal force is one if ``is_normal_force_unknown``, the two components of friction are if the contact
+    Unknown are the normal force if ``is_normal_force_unknown``, and the two components of friction if the contact
     ``sticks``. If ``with_turns``, the turn of the direction of each slip that begins is an unknown, too.
     """
     n = 0
@@ -34,15 +34,17 @@ def list_unknowns(ws: Workspace, with_turns: bool) -> int:
                 n += 1
         if with_turns and starts_to_slide(active):
             unknown = ws.unknowns[n]
+            # a turn is no component of a force: its direction is not read
             unknown.contact, unknown.direction, unknown.is_turn = active.index, NORMAL_ROW, True
             n += 1
+    # one more entry: the end of the last contact's unknowns
     ws.problem.first_unknown[ws.problem.n_active] = n
     return n
 
 
 @kernel("void(ws, i8)")
 def count_as_unique(ws: Workspace, n: int) -> None:
-    """Set the number of unknowns to ``n``, and count all forces as unique."""
+    """Set the number of unknowns to ``n``, and count all forces as unique, unless a singular matrix shows otherwise."""
     ws.problem.n_unknown, ws.problem.is_deficient, ws.problem.is_null_space_banded = n, False, False
     for active in ws.actives:
         active.has_redundant_force = False

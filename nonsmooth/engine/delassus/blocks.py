@@ -18,10 +18,10 @@ from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel
 
 @kernel()
 def _link_contacts(ws: Workspace) -> None:
-    """Link the active contacts to the movable articulations of their two bodies, and clear their counts and marks.
+    """List the active contacts at each movable articulation of their two bodies: these contacts act on each other.
 
-    An entry is one side of a contact: entry a of ``link_next`` is the first side of contact a, entry ``n_active`` + a
-    the second.
+    The lists are linked. Entry a of ``link_next`` is the first side of contact a, entry ``n_active`` + a the second,
+    and -1 ends a list. Counts and marks of the rows of the Delassus matrix are cleared.
     """
     for active in ws.actives:
         active.block_mark = -1
@@ -33,6 +33,7 @@ def _link_contacts(ws: Workspace) -> None:
         contact = ws.contacts[active.contact]
         for side in range(2):
             articulation = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b]
+            # without velocities it is fixed or driven: no force moves it, so it couples no contacts
             if articulation.n_u > 0:
                 entry = side * ws.problem.n_active + active.index
                 ws.problem.link_next[entry] = articulation.first_linked
@@ -41,7 +42,11 @@ def _link_contacts(ws: Workspace) -> None:
 
 @kernel("void(ws, ActiveContact, i8, b1)")
 def _add_block(ws: Workspace, active: ActiveContact, column: int, is_written: bool) -> None:
-    """Count one more block in the row of an active contact, and write its ``column`` if ``is_written``."""
+    """Count one more block in the row of a contact of the Delassus matrix. Write its column only if ``is_written``.
+
+    The ``column`` is the contact that the block couples with. The block on the diagonal is stored apart, for a quick
+    access.
+    """
     if is_written:
         block = active.first_block + active.n_blocks
         ws.island.block_column[block] = column
@@ -52,18 +57,20 @@ def _add_block(ws: Workspace, active: ActiveContact, column: int, is_written: bo
 
 @kernel("void(ws, b1)")
 def _add_blocks(ws: Workspace, are_written: bool) -> None:
-    """Count the blocks of all rows, or write their columns: each pair that shares an articulation has two blocks.
+    """Count the blocks in all rows of the Delassus matrix, or write their columns if ``are_written``.
 
-    The blocks (b, a) of column a are added for one contact a after the other, so the columns of each row ascend.
+    Each pair of contacts that shares a movable articulation has two blocks. The blocks (b, a) of column a are added for
+    one contact a after the other, so the columns of each row ascend.
     """
     for active in ws.actives:
-        # a contact that is in the lists of both articulations is marked, so that it is counted once
+        # each neighbour is marked, as it may be in both lists and counts once; the two passes have different marks
         mark = active.index + (ws.problem.n_active if are_written else 0)
         active.block_mark = mark
         _add_block(ws, active, active.index, are_written)
         contact = ws.contacts[active.contact]
         for side in range(2):
             entry = ws.articulations[contact.articulation_a if side == 0 else contact.articulation_b].first_linked
+            # if the blocks are too many, the block on the diagonal stays the only one of each row
             while entry >= 0 and not ws.run.has_too_many_blocks:
                 neighbour = ws.actives[entry if entry < ws.problem.n_active else entry - ws.problem.n_active]
                 if neighbour.block_mark != mark:
@@ -74,20 +81,26 @@ def _add_blocks(ws: Workspace, are_written: bool) -> None:
 
 @kernel()
 def link_active(ws: Workspace) -> None:
-    """Write the block structure of the active contacts, behind that of the islands before.
+    """Write which blocks of 3 x 3 of the Delassus matrix are stored for the active contacts, those of one island.
 
-    If the workspace has too few blocks, each row gets one block, and ``has_too_many_blocks`` is set: the run stops.
+    They follow the blocks of the islands before. If the workspace has too few, each row gets one block only, and
+    ``has_too_many_blocks`` is set: the run stops.
     """
+    # the first island: its blocks begin at 0
     if ws.problem.first_grouped == 0:
         ws.island.block_start[0] = 0
     _link_contacts(ws)
+    # the first pass counts the blocks of each row, so that the second knows where a row begins
     _add_blocks(ws, are_written=False)
+    # blocks of the islands before and of this one
     total = ws.island.block_start[ws.problem.first_grouped]
     for active in ws.actives:
         total += active.n_blocks
+    # the number of blocks that the workspace has
     if total > min(ws.model.n_slots * ws.model.n_slots, MOST_BLOCKS):
         ws.run.has_too_many_blocks = True
     for active in ws.actives:
         active.end_block = active.first_block + (active.n_blocks if not ws.run.has_too_many_blocks else 1)
+        # the second pass counts again
         active.n_blocks = 0
     _add_blocks(ws, are_written=True)

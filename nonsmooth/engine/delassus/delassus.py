@@ -22,7 +22,10 @@ from nonsmooth.engine.numerics.vectors import Pair
 
 @entry_point()
 def assemble_delassus(ws: Workspace) -> None:
-    """Write the blocks of G of the active contacts [1/kg]. Before: their Jacobians and responses are written."""
+    """Write the blocks of the Delassus matrix G of the active contacts: accelerations per unit of contact force [1/kg].
+
+    Before: their Jacobians, and the responses of the bodies to unit forces, are written.
+    """
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         for block in range(active.first_block, active.end_block):
@@ -32,12 +35,16 @@ def assemble_delassus(ws: Workspace) -> None:
 
 @kernel("void(ws, Contact, Contact, i8)")
 def _write_block(ws: Workspace, contact: Contact, other: Contact, out: int) -> None:
-    """Write a block of G at ``out``: accelerations of ``contact`` per unit force of the ``other`` contact [1/kg]."""
+    """Write a block of the Delassus matrix at ``out``: accelerations of ``contact`` per unit force of ``other`` [1/kg].
+
+    Rows and columns are n, t1, t2.
+    """
     clear(ws.floats, out, DELASSUS)
     for side in range(2):
         articulation = contact.articulation_a if side == 0 else contact.articulation_b
         jacobian = contact.jacobian_a if side == 0 else contact.jacobian_b
         n_u = ws.articulations[articulation].n_u
+        # the other force acts through each movable articulation that both contacts share
         if n_u > 0 and other.articulation_a == articulation:
             _add_products(ws, jacobian, other.response_a, n_u, out)
         if n_u > 0 and other.articulation_b == articulation:
@@ -60,7 +67,10 @@ def diagonal_block(ws: Workspace, a: int) -> Any:
 
 @kernel("f8(ws, f8, i8, i8, i8)")
 def add_product(ws: Workspace, total: float, a: int, r: int, x: int) -> float:
-    """``total`` plus the product of row ``r`` (n, t1, t2) of active contact ``a`` of G and the vector at ``x``."""
+    """``total`` plus a row of the Delassus matrix G, times the vector at ``x`` of three numbers per active contact.
+
+    The row is ``r`` (n, t1, t2) of active contact ``a``. Only its blocks that are not zero are stored.
+    """
     active = ws.actives[a]
     for block in range(active.first_block, active.end_block):
         g = ws.island.delassus.start + DELASSUS * block + 3 * r
@@ -72,22 +82,23 @@ def add_product(ws: Workspace, total: float, a: int, r: int, x: int) -> float:
 
 @kernel("f8(ws, ActiveContact, i8)")
 def acceleration(ws: Workspace, active: ActiveContact, r: int) -> float:
-    """Row ``r`` (n, t1, t2) of a contact of b + G f: its acceleration under the present forces [m/s^2].
-
-    In problems of impulses b holds velocities, and so this is a velocity [m/s].
-    """
+    """Row ``r`` (n, t1, t2) of a contact of b + G f: its acceleration under the present contact forces f [m/s^2]."""
+    # b: without contact forces. In problems of impulses it is a velocity, and so is the result [m/s].
     return add_product(ws, active.free[r], active.index, r, ws.problem.forces.start)
 
 
 @kernel("v2(ws, ActiveContact)")
 def slip_acceleration(ws: Workspace, active: ActiveContact) -> Pair:
-    """Tangential :func:`acceleration` of a contact under the present forces [m/s^2]."""
+    """Tangential :func:`acceleration` of a contact, along t1 and t2, under the present contact forces [m/s^2]."""
     return acceleration(ws, active, FIRST_ROW), acceleration(ws, active, SECOND_ROW)
 
 
 @kernel()
 def write_dense(ws: Workspace) -> None:
-    """Write G in full to ``matrix``, row by row [1/kg], with zeros between contacts that do not act on each other."""
+    """Write the Delassus matrix G in full to ``matrix``, row by row [1/kg], for methods that need a full matrix.
+
+    Blocks that are not stored belong to contacts that do not act on each other. They become zeros.
+    """
     width = 3 * ws.problem.n_active
     clear(ws.floats, ws.problem.matrix.start, width * width)
     for active in ws.actives:
@@ -102,7 +113,8 @@ def write_dense(ws: Workspace) -> None:
 def add_response(ws: Workspace, f: int, du: int) -> None:
     """Add the accelerations of the bodies under the contact forces at ``f`` to ``du``: K (W f_n + N f_t).
 
-    With impulses at ``f``, these are changes of the velocities.
+    K is the inverse mass matrix, W and N are the directions of normals and tangents. With impulses at ``f``, these are
+    changes of the velocities.
     """
     for active in ws.actives:
         contact = ws.contacts[active.contact]

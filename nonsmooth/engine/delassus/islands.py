@@ -21,9 +21,9 @@ _NO_GROUP = -1
 
 @kernel("i8(ws, i8)")
 def _find_root(ws: Workspace, number: int) -> int:
-    """Representative of the set of articulation ``number``.
+    """Representative of the set of articulations that contains articulation ``number``: the end of its chain ``root``.
 
-    Links the articulations on the path directly to it, so that the next query is short.
+    Links the articulations of the chain directly to it, so that the next query is short.
     """
     root = number
     while ws.articulations[root].root != root:
@@ -44,7 +44,7 @@ def _movable_articulation(ws: Workspace, contact: Contact) -> int:
 
 @kernel("void(ws, i8)")
 def activate_group(ws: Workspace, group: int) -> None:
-    """Make the contacts of island ``group`` the active contacts."""
+    """Make the contacts of island ``group`` the active contacts ``ws.actives``, with which the solvers work."""
     first = ws.island.group_start[group]
     ws.problem.first_grouped = first
     ws.problem.n_active = ws.island.group_start[group + 1] - first
@@ -54,18 +54,25 @@ def activate_group(ws: Workspace, group: int) -> None:
 
 @entry_point()
 def group_members(ws: Workspace) -> None:
-    """Sort the contacts marked by ``is_in_problem`` into islands, and write the block structure of each island."""
+    """Sort the contacts marked by ``is_in_problem`` into islands, sets of contacts that do not act on each other.
+
+    Each island gets an order of its contacts and the block structure of its Delassus matrix.
+    """
     _join_articulations(ws)
     _number_islands(ws)
     _list_islands(ws)
     for group in range(ws.island.n_groups):
+        # in ascending order: the blocks of an island follow those of the island before
         activate_group(ws, group)
         order_active(ws)
 
 
 @kernel()
 def _join_articulations(ws: Workspace) -> None:
-    """Begin with a set for each articulation of the marked contacts. Join the two of a contact if both are movable."""
+    """Join the movable articulations that a marked contact connects into sets: contacts of one set form an island.
+
+    Marked are the contacts with ``is_in_problem``. Each articulation starts as a set of its own.
+    """
     for contact in ws.contacts:
         if contact.is_in_problem:
             for side in range(2):
@@ -74,20 +81,24 @@ def _join_articulations(ws: Workspace) -> None:
                 articulation.root, articulation.group = number, _NO_GROUP
     for contact in ws.contacts:
         a, b = contact.articulation_a, contact.articulation_b
+        # a fixed or driven body passes no force on, so it joins nothing
         if contact.is_in_problem and ws.articulations[a].n_u > 0 and ws.articulations[b].n_u > 0:
             ws.articulations[_find_root(ws, b)].root = _find_root(ws, a)
 
 
 @kernel()
 def _number_islands(ws: Workspace) -> None:
-    """Give each marked contact the number of its island, and write the sizes of the islands to ``group_start``."""
+    """Give each marked contact (``is_in_problem``) the number of its island, and write the islands' sizes.
+
+    The sizes are in ``group_start``, which :func:`_list_islands` replaces by the starts.
+    """
     n_groups = n_grouped = 0
     for contact in ws.contacts:
         if not contact.is_in_problem:
             continue
         number = _movable_articulation(ws, contact)
         root = ws.articulations[_find_root(ws, number)]
-        # a contact between two driven bodies is an island of its own
+        # the first contact of a set begins an island; one between two driven bodies is an island of its own
         if ws.articulations[number].n_u == 0 or root.group == _NO_GROUP:
             root.group = n_groups
             ws.island.group_start[n_groups] = 0
@@ -102,8 +113,10 @@ def _number_islands(ws: Workspace) -> None:
 def _list_islands(ws: Workspace) -> None:
     """Write the marked contacts to ``grouped``, island after island, and the starts of the islands to ``group_start``.
 
-    This is a counting sort. Before, ``group_start`` holds the sizes of the islands.
+    This is a counting sort. Before, ``group_start`` holds the sizes of the islands. ``group_next`` is the next free
+    entry of each.
     """
+    # the starts follow from the sizes, from the last island backwards
     end = ws.island.n_grouped
     for i in range(ws.island.n_groups):
         group = ws.island.n_groups - 1 - i
@@ -119,8 +132,9 @@ def _list_islands(ws: Workspace) -> None:
 
 @kernel()
 def group_closed(ws: Workspace) -> None:
-    """Sort the closed contacts into islands. Contacts of bodies with a step of their own belong to none."""
+    """Sort the closed contacts into islands. Contacts of bodies with a step of their own (multirate) belong to none."""
     for contact in ws.contacts:
+        # a body with an own step moves along a step that is known already
         contact.is_in_problem = contact.mode != Mode.OPEN and not has_own_step(ws, contact.index)
     group_members(ws)
 

@@ -26,9 +26,9 @@ def _n_neighbours(active: ActiveContact) -> int:
 
 @kernel("void(ws, i8)")
 def _write_breadth_first_order(ws: Workspace, start: int) -> None:
-    """Write the numbers of the active contacts to ``order``, breadth first from ``start``, few neighbours first.
+    """Write the numbers of the active contacts to ``order``: breadth first from contact ``start``, for a narrow band.
 
-    The rank of a contact becomes the position in ``order`` from which the search has met it.
+    Of the new neighbours of a contact, those with few neighbours come first. ``rank`` only marks contacts that are met.
     """
     for active in ws.actives:
         active.rank = _UNRANKED
@@ -36,6 +36,7 @@ def _write_breadth_first_order(ws: Workspace, start: int) -> None:
     ws.actives[start].rank = 0
     n_ordered = 1
     for i in range(ws.problem.n_active):
+        # only if the contacts met so far act on no others
         if i >= n_ordered:
             return
         active = ws.actives[ws.problem.order[i]]
@@ -60,19 +61,21 @@ def _insert(ws: Workspace, active: ActiveContact, first: int, end: int) -> None:
 
 @kernel("i8(ws)")
 def _bandwidth(ws: Workspace) -> int:
-    """Largest difference of rank between contacts that act on each other."""
+    """Largest difference of rank (position in an order) between contacts that act on each other."""
     bandwidth = 0
     for active in ws.actives:
         for block in range(active.first_block, active.end_block):
+            # each pair comes twice, with both signs
             bandwidth = max(bandwidth, active.rank - ws.actives[ws.island.block_column[block]].rank)
     return bandwidth
 
 
 @kernel()
 def order_active(ws: Workspace) -> None:
-    """Sort the contacts of the active island for a narrow band, and write their block structure.
+    """Sort the active contacts (an island) for a narrow band of the matrix of forces, and write their block structure.
 
-    They keep their order if the new one gives no narrower band, or if its band would fill the matrix.
+    The order is that of Cuthill and McKee, reversed. The contacts keep their order if the new one gives no narrower
+    band, or if its band would fill the matrix.
     """
     n_active = ws.problem.n_active
     link_active(ws)
@@ -80,15 +83,19 @@ def order_active(ws: Workspace) -> None:
     # a matrix that is full has no better order
     if ws.run.has_too_many_blocks or n_blocks == n_active * n_active:
         return
+    # a contact with few neighbours is near an end of the island
     first = 0
     for active in ws.actives:
         active.rank = active.index
         if _n_neighbours(active) < _n_neighbours(ws.actives[first]):
             first = active.index
+    # band of the present order
     listed = _bandwidth(ws)
     _write_breadth_first_order(ws, first)
+    # the contact found last is an end, and the start of the final search
     _write_breadth_first_order(ws, ws.problem.order[n_active - 1])
     for i in range(n_active):
+        # the order is reversed
         ws.actives[ws.problem.order[i]].rank = n_active - 1 - i
     bandwidth = _bandwidth(ws)
     # of n = 3 n_active unknowns, a half band of 3 bandwidth + 2 is stored in rows of three times that length plus one
