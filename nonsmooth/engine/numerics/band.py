@@ -17,7 +17,7 @@ from nonsmooth.engine.numerics.linear import band_width
 def _half_band(ws: Workspace) -> int:
     """Half width of the band of the matrix of the unknown forces: largest distance between rows that are coupled.
 
-    A row is an unknown. Forces are coupled if their contacts share a movable body, so that one accelerates the other.
+    A row is an unknown. Forces are coupled if their contacts share a movable body, or bodies that joints connect.
     """
     half = 0
     for active in ws.actives:

@@ -31,10 +31,8 @@ def product(floats: Floats, total: float, a: int, b: int, n: int) -> float:
 
 @kernel("i8(i8, i8)")
 def band_width(n: int, half: int) -> int:
-    """Length of a stored row of a band matrix of ``n`` columns: ``half`` left of the diagonal, twice that right of it.
-
-    The right side is wider because exchanges of rows fill it. If this is more than ``n``, the matrix is full.
-    """
+    """Number of stored entries in each row of a band matrix of ``n`` columns and half width ``half``."""
+    # ``half`` left of the diagonal and twice as many right of it, where exchanges of rows fill in; at most all columns
     return min(n, 3 * half + 1)
 
 

@@ -66,8 +66,7 @@ def stage_part(
 def dense_state(ws: Workspace, start: int, slopes: int, n: int, h: float, theta: float, out: int) -> None:
     """Write the ``n`` numbers of the interpolated state at the fraction ``theta`` of a step of length ``h``.
 
-    ``start`` is the offset of the state at the start, ``slopes`` that of the slopes of all stages, one stage after
-    another, and ``out`` that of the result.
+    ``start``, ``slopes`` and ``out`` are offsets of the state at the start, the slopes of all stages and the result.
     """
     early, late = dense_weights(ws, h, theta, is_late=False), dense_weights(ws, h, theta, is_late=True)
     dense_part(ws.floats, start, slopes, n, n, early, late, out)
@@ -173,8 +172,8 @@ def trend(error: float, error_before: float, growth: float) -> float:
     """Ratio of the length of the next step to that of this one, from the last two errors relative to the tolerance.
 
     This step is ``growth`` times as long as the one before it. Towards a singularity each step must be shorter than the
-    last one, and :func:`step_factor`, which knows the last error only, always allows too long a step. The error is
-    C h^5, and C is assumed to grow by the same ratio again. The controller is that of K. Gustafsson, ACM Trans. Math.
-    Softw. 20 (1994) 496-517. Errors must be positive.
+    last one, and :func:`step_factor`, which knows the last error only, always allows too long a step.
     """
+    # the error is C h^5, and C is assumed to grow by the same ratio again (K. Gustafsson, ACM Trans. Math. Softw. 20
+    # (1994) 496-517). An error of zero is not allowed
     return float(max(SHRINK, SAFETY * growth * (error_before / (error * error)) ** -_EXPONENT))
