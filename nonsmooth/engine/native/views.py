@@ -215,7 +215,7 @@ class Workspace(View):
     """The numbers of one trajectory, by owner. ``own`` are parts that an engine adds."""
 
     def __init__(self, own: Mapping[str, type[Owner]]) -> None:
-        """Make the types of all parts. Numba compares types by name, so that this lists the scalars that ``own`` adds."""
+        """Make the types of all parts. Numba compares types by name: it lists the scalars that ``own`` adds."""
         names = record_with(own.values()).names or ()
         self.parts = {name: Part(name, owner, names) for name, owner in {**PARTS, **own}.items()}
         super().__init__(name=f"Workspace({', '.join(names[N_SCALARS:])})")
