@@ -177,14 +177,19 @@ def _helper(names: tuple[str, ...]) -> subprocess.Popen[bytes] | None:
 
 
 def compile_entries(names: tuple[str, ...]) -> None:
-    """Compile entry points one after another, except those on disk: another process may have compiled them by then."""
+    """Compile entry points into files, one after another, in a process of :func:`_compile_apart`.
+
+    Those on disk are left out: the other process, which takes them in the opposite order, may have compiled them.
+    """
     for name in names:
         if not is_stored(name):
             _address(name)
 
 
 def call_entry(name: str, memory: Memory, *arguments: float) -> Any:
-    """Call an entry point, or a step, on the memory of one trajectory. The interpreter's lock is released.
+    """Call an entry point, or the step of an engine, on the memory of one trajectory, which it changes. Its result.
+
+    Other threads of Python run meanwhile, as C functions do not hold the interpreter's lock.
 
     Raises
     ------

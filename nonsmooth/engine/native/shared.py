@@ -40,7 +40,7 @@ class Shared:
         return jit(self._compiled)
 
     def __call__(self, *arguments: Any) -> Any:
-        """Call the Python function."""
+        """Call the Python function, when Python calls this object."""
         return self.function(*arguments)
 
 
