@@ -98,7 +98,7 @@ class _RolledLibrary(private.JITCodeLibrary):
     """
 
     def _builder(self) -> Any:
-        """LLVM's passes of the third and highest level of optimisation, but for those of loops that take too long."""
+        """LLVM's passes of the third, highest level of optimisation, without those that unroll or interleave loops."""
         options = private.create_pipeline_tuning_options(speed_level=3)
         options.loop_vectorization, options.loop_unrolling, options.loop_interleaving = True, False, False
         return private.create_pass_builder(self._codegen._tm, options)

@@ -7,7 +7,7 @@ from nonsmooth.engine.native.kernel import Floats, kernel
 
 @kernel("void(F, i8, i8, i8)")
 def copy_numbers(floats: Floats, a: int, n: int, out: int) -> None:
-    """Copy ``n`` floats of the workspace from the offset ``a`` to the offset ``out``, which must not overlap them."""
+    """Copy ``n`` floats of the workspace from the offset ``a`` to the offset ``out``."""
     for i in range(n):
         floats[out + i] = floats[a + i]
 
