@@ -22,10 +22,17 @@ from nonsmooth.engine.native.types import FLOATS, WORD, call_at, moved
 
 
 def by_address(signature: Any) -> Any:
-    """Intrinsic ``call(address, *values)``, which calls a C function of a signature at an address."""
+    """Make a function ``call(address, *values)`` for kernels, which calls a C function of a signature at an address.
+
+    It is an intrinsic: numba calls it with types where a call is compiled, and gets the signature of the call and the
+    function that writes its code.
+    """
 
     def call(typingctx: Any, address: Any, *values: Any) -> Any:
+        """Signature of the call, with the address as the first argument, and the function that writes its code."""
+
         def lower(context: Any, builder: Any, _: Any, args: Any) -> Any:
+            """Write the code of the call. Numba wants a value even from a function that returns none."""
             value = call_at(builder, args[0], context.get_value_type(signature.return_type), args[1:])
             return context.get_dummy_value() if signature.return_type is types.void else value
 
@@ -45,10 +52,8 @@ call_watch = by_address(types.float64(types.float64))
 
 
 def address_of(shim: Callable[..., Any], form: str, key: str) -> int:
-    """Address of a shim as a C function of a form. The shim is compiled, or loaded from disk by its key.
-
-    Equal keys must mean equal functions. With an empty key nothing is kept on disk.
-    """
+    """Address of a shim, which calls a plug-in's function, as a C function with the arguments of a form."""
+    # compiled, or loaded from disk. Equal keys must mean equal functions; with an empty key nothing is kept on disk
     return shim_address(shim, signature_of(FORMS[form].signature), key)
 
 
@@ -57,23 +62,31 @@ watches: dict[int, Any] = {}
 
 
 def watch_address(function: Callable[[float], float]) -> int:
-    """Address of a C function that calls a Python function of time [s]."""
+    """Address of a C function that calls an interrupt check, a Python function of time [s] that returns a float.
+
+    It is valid until :func:`forget_watch`.
+    """
     callback = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double)(function)
+    # an object of ctypes stores the address as its content
     address = int(ctypes.c_void_p.from_buffer(callback).value or 0)
     watches[address] = callback
     return address
 
 
 def forget_watch(address: int) -> None:
-    """Release the C function of an interrupt check."""
+    """Release the C function of an interrupt check, whose address must not be called any more."""
     del watches[address]
 
 
 @intrinsic
 def at(typingctx: Any, floats: Any, offset: Any) -> Any:
-    """Pointer to the number at an offset from a pointer."""
+    """Pointer to the number at an offset from a pointer to floats or integers, for compiled functions.
+
+    An intrinsic: numba calls it with types, and gets the signature of the call and the function that writes its code.
+    """
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        """Write the code: the pointer, moved by the offset."""
         return moved(builder, floats.kind, *args)
 
     return floats(floats, types.int64), codegen
@@ -81,18 +94,24 @@ def at(typingctx: Any, floats: Any, offset: Any) -> Any:
 
 @intrinsic
 def _compiled_support_at(typingctx: Any, floats: Any, place: Any, x: Any, y: Any, z: Any) -> Any:
-    """The support point as a tuple; (0, 0, 0) for a tuple of floats, which holds no function.
+    """The farthest point of a body in a direction, for compiled functions, as a tuple [m].
 
-    A shape's own kernel is compiled for tuples too, and calls a function only if it has one.
+    The numbers of a shape are ``floats``: the address of its support function at ``place``, then the parameters of the
+    function. They may also be a tuple, which holds no function: the code is then compiled, too, but never run.
+
+    An intrinsic: numba calls it with types, and gets the signature of the call and the function that writes its code.
     """
     point = types.UniTuple(types.float64, 3)
 
     def lower(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        """Write the code: store the direction, call the C function at the address, load the point that it wrote."""
         direction, found = (cgutils.alloca_once(builder, ir.DoubleType(), 3) for _ in range(2))
         for i, value in enumerate(args[2:]):
             builder.store(value, moved(builder, float, direction, WORD(i)))
+            # zero for a tuple, which has no function to call
             builder.store(ir.DoubleType()(0.0), moved(builder, float, found, WORD(i)))
         if floats == FLOATS:
+            # an address is stored as a float, which holds it exactly
             address = builder.load(moved(builder, float, *args[:2]), typ=ir.DoubleType())
             parameters = moved(builder, float, args[0], builder.add(args[1], WORD(1)))
             call_at(builder, builder.fptosi(address, WORD), ir.VoidType(), [direction, parameters, found])
@@ -103,14 +122,16 @@ def _compiled_support_at(typingctx: Any, floats: Any, place: Any, x: Any, y: Any
 
 
 def _compiled_support(floats: Any, place: int, x: float, y: float, z: float) -> Any:
+    """Compiled half of :func:`call_support`. `Shared` compiles a function; an intrinsic alone is none."""
     return _compiled_support_at(floats, place, x, y, z)
 
 
 def _support(floats: Any, place: int, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Farthest point of a body in the direction (x, y, z), by a function whose address is ``floats[place]``.
+    """Farthest point of a body in the direction (x, y, z) [m], by a C function whose address is ``floats[place]``.
 
-    The parameters of the function follow its address.
+    The parameters of the function follow its address. This is the half of :func:`call_support` that Python calls.
     """
+    # copies as C arrays, since floats may be any sequence. The function writes the point to its last argument
     parameters = (ctypes.c_double * (len(floats) - place))(*floats[place + 1 :])
     direction, found = (ctypes.c_double * 3)(x, y, z), (ctypes.c_double * 3)()
     FORMS["support"].prototype()(int(floats[place]))(direction, parameters, found)
@@ -121,11 +142,12 @@ call_support = Shared(_support, _compiled_support)
 
 
 def _compiled_block(block: Any, place: int) -> Any:
+    """Compiled half of :func:`block_at`: pointer to the numbers of a block from a position on."""
     return at(block, place)
 
 
 def _block(block: Any, place: int) -> Any:
-    """The numbers of a block from a position on."""
+    """Python half of :func:`block_at`: the numbers of a block from a position on."""
     return block[place:]
 
 

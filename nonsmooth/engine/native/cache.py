@@ -27,11 +27,12 @@ _CHECKSUM = hashlib.sha256().digest_size
 
 
 def _to_call(compiled: Any) -> tuple[Any, ...]:
-    """Pickled form of compiled code in which a declaration of its symbol replaces the intermediate code.
+    """Compiled code as numba pickles it, but without the intermediate code, whose reading takes most of a start.
 
     Only callers that include the code would need the intermediate code.
     """
     (name, kind, (code, _)), *others = compiled._reduce()
+    # an empty function takes its place: numba reads there which symbol the machine code defines
     symbol = compiled.fndesc.llvm_cfunc_wrapper_name
     return (name, kind, (code, parse_assembly(f'define void @"{symbol}"() {{ ret void }}').as_bitcode())), *others
 
@@ -47,6 +48,7 @@ class Store:
     """
 
     def __init__(self, name: str) -> None:
+        """Name the file. Nothing is read before it is asked for."""
         self._name = f"{name}.code"
         self._content: bytes | None = None
 
@@ -57,28 +59,39 @@ class Store:
         return self._content is not None
 
     def load_overload(self, signature: Any, context: Any) -> Any:
-        """Compiled code as numba represents it. None if there is no valid file, or only one of another processor."""
+        """Compiled code as numba represents it. None if there is no valid file, or only one of another processor.
+
+        Numba calls this before it compiles, with the ``signature`` of the function, which the name of the file covers.
+        """
         content = self._content or self._sound()
+        # it is loaded once: free the memory
         self._content = None
         if content is None:
             return None
         if _ALLOCATING in content:
+            # code that allocates memory needs numba's functions for it in this process;
             # numba's `context.refresh` would do this too, but it imports all of numpy and scipy: a third of a start
             rtsys.initialize(context)
         processor, reduced = pickle.loads(content)
         return None if processor != context.codegen().magic_tuple() else CompileResult._rebuild(context, *reduced)
 
     def save_overload(self, signature: Any, compiled: Any) -> None:
-        """Write the code to disk, unless it has addresses of this process or no folder can be written to."""
+        """Write the code to disk, unless it has addresses of this process or no folder can be written to.
+
+        Numba calls this after it has compiled the function. A file that is already there is replaced.
+        """
         folder = folders()[1]
         if folder is None:
             say("no folder of yours to keep the compiled engine in: name one in XDG_CACHE_HOME")
             return
         if compiled.library.has_dynamic_globals:
             return
+        # the tuple describes the processor
         content = dumps((compiled.codegen.magic_tuple(), _to_call(compiled)))
+        # written under another name, then renamed: no other process reads a file that is not complete
         part = folder / f"{self._name}.{uuid.uuid4().hex[:16]}"
         try:
+            # 0o644: others may read it, but not write to it, whatever the user's settings
             with open(part, "xb", opener=lambda path, flags: os.open(path, flags, 0o644)) as file:
                 file.write(self._checksum(content) + content)
             part.replace(folder / self._name)
@@ -93,11 +106,13 @@ class Store:
             path = folder / self._name
             try:
                 with path.open("rb") as file:
+                    # the status of the opened file: one of a path could be that of another file by now
                     if not is_safe(os.fstat(file.fileno())):
                         say(f"{path} is not loaded: another user can have written it")
                         continue
                     text = file.read()
             except OSError:
+                # no such file: it may be in the next folder
                 continue
             checksum, content = text[:_CHECKSUM], text[_CHECKSUM:]
             if checksum == self._checksum(content):
@@ -106,5 +121,5 @@ class Store:
         return None
 
     def _checksum(self, content: bytes) -> bytes:
-        """Checksum of the name and the content of a file."""
+        """Checksum of the name and the content of a file, so that neither damage nor an exchange goes unnoticed."""
         return hashlib.sha256(self._name.encode() + content).digest()

@@ -33,6 +33,7 @@ class Kernel:
         """
         if not self.is_compiled:
             self.dispatcher.compile(self.signature)
+            # from now on a call with other types does not compile
             self.dispatcher.disable_compile()
             self.is_compiled = True
 
@@ -42,13 +43,14 @@ KERNELS: list[Kernel] = []
 
 
 def callees_of(function: Callable[..., Any]) -> list[Kernel]:
-    """The kernels that a function calls, and those that these call, each before its callers.
+    """The kernels that a function calls, and those that these call, each before its callers, so as to be compiled.
 
     A kernel is found by the global name under which it is called: ``module.kernel(ws)`` would not be found.
     """
     by_dispatcher = {id(kernel.dispatcher): kernel for kernel in KERNELS}
 
     def visit(caller: Callable[..., Any]) -> Iterator[Kernel]:
+        """Kernels that ``caller`` calls and that were not visited yet. A visited kernel is removed from the mapping."""
         for name in caller.__code__.co_names:
             kernel = by_dispatcher.pop(id(caller.__globals__.get(name)), None)
             if kernel is not None:

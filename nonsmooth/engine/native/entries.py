@@ -13,12 +13,13 @@ _Entry = TypeVar("_Entry")
 
 
 def own_name(function: Callable[..., Any]) -> str:
-    """Name of the step of an engine, ``module.qualname``. Its dots tell it from the names of entry points."""
+    """Name by which Python calls the step function of a plug-in's engine: ``module.qualname``."""
+    # its dots tell it from the names of entry points
     return f"{function.__module__}.{function.__qualname__}"
 
 
 def known(entries: Mapping[str, _Entry], name: str) -> _Entry:
-    """The entry of a name.
+    """The entry of a function that Python calls by ``name``: an entry point, or the step of an engine.
 
     Raises
     ------

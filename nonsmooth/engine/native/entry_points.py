@@ -60,17 +60,20 @@ _callables: dict[str, Callable[..., Any]] = {}
 
 
 def kernel(signature: str = "void(ws)") -> Callable[[Callable[..., Any]], Any]:
-    """Make a kernel with the given signature."""
+    """Decorator of a kernel: a function of the engine that is compiled into its callers, with these types."""
     return _kernel(signature_of(signature))
 
 
 def own_kernel(own: type[Part], signature: str) -> Callable[[Callable[..., Any]], Any]:
-    """Make a kernel of an engine that adds a part of its own to the workspace."""
+    """Decorator of a kernel of an engine that adds numbers of its own, the part ``own``, to the workspace."""
     return _kernel(signature_of(signature, workspace_with(own)))
 
 
 def _kernel(signature: Any) -> Callable[[Callable[..., Any]], Any]:
+    """Decorator of a kernel of a numba signature."""
+
     def decorate(function: Callable[..., Any]) -> Any:
+        """Register the kernel, to be compiled with an entry point that calls it. Numba's object takes its place."""
         dispatcher = kernel_dispatcher(function)
         KERNELS.append(Kernel(dispatcher, signature))
         return dispatcher
@@ -79,11 +82,16 @@ def _kernel(signature: Any) -> Callable[[Callable[..., Any]], Any]:
 
 
 def entry_point(signature: str = "void(ws)") -> Callable[[Callable[..., Any]], Any]:
-    """Make a function an entry point. In kernels its name is a stub, which reads its address from the workspace."""
+    """Decorator of an entry point: a function that is compiled apart, and that kernels call by its address.
+
+    For kernels its name becomes that of a stub, a kernel that reads the address from the workspace and calls it.
+    """
 
     def decorate(function: Callable[..., Any]) -> Any:
+        """Register the function, to be compiled at the first use of the engine. The stub takes its place."""
         name = function.__name__
         ENTRIES[name] = Entry(function, signature, functools.partial(_address, name))
+        # the stub has the same parameters, as kernels cannot pass on any number of them. The first is ws
         names = ", ".join(inspect.signature(function).parameters)
         scope: dict[str, Any] = {"call": by_address(signature_of(signature)), "__name__": __name__}
         exec(_STUB.format(name=name, names=names, index=ENTRY_POINTS.index(name)), scope)
@@ -93,9 +101,10 @@ def entry_point(signature: str = "void(ws)") -> Callable[[Callable[..., Any]], A
 
 
 def add_step(function: Callable[..., Any], own: type[Part], signature: str, fingerprint: Fingerprint) -> str:
-    """Register the step of an engine. The name for :func:`call_entry`, whose first call compiles the step.
+    """Register the step function of a plug-in's engine. Its name for :func:`call_entry`, whose first call compiles it.
 
-    Its machine code is kept on disk if ``fingerprint`` gives a digest.
+    ``own`` is the part of the workspace that the engine adds. The machine code is kept on disk if ``fingerprint`` gives
+    a digest.
     """
     name, typed = own_name(function), signature_of(signature, workspace_with(own))
     ENTRIES[name] = Entry(function, signature, lambda: _step_address(function, typed, fingerprint))
@@ -105,6 +114,10 @@ def add_step(function: Callable[..., Any], own: type[Part], signature: str, fing
 
 
 def _step_address(function: Callable[..., Any], signature: Any, fingerprint: Fingerprint) -> int:
+    """Address of the C function of a step, compiled or loaded from the file that ``fingerprint`` finds.
+
+    The step includes the kernels that it calls. So their names and types are part of the key, with those of the step.
+    """
     callees = [(one.dispatcher.py_func.__qualname__, str(one.signature)) for one in callees_of(function)]
     digest = fingerprint(function, repr((str(signature), callees)))
     return entry_address(function, signature, f"step-{digest}" if digest else "")
@@ -112,6 +125,7 @@ def _step_address(function: Callable[..., Any], signature: Any, fingerprint: Fin
 
 @functools.cache
 def _address(name: str) -> int:
+    """Address of the C function of an entry point, compiled or loaded once in a process, from the file of its name."""
     entry = ENTRIES[name]
     return entry_address(entry.function, signature_of(entry.signature), name)
 
@@ -119,6 +133,7 @@ def _address(name: str) -> int:
 @functools.cache
 def entry_addresses() -> tuple[int, ...]:
     """Addresses of all entry points, in the order of ``ENTRY_POINTS``. The first call compiles those not on disk."""
+    # this module imports all those that define entry points
     importlib.import_module("nonsmooth.engine.events.event_loop")
     if missing := tuple(name for name in ENTRY_POINTS if not is_stored(name)):
         say("compiling the engine once for this machine (some 20 s, longer where it is busy) ...")
@@ -131,9 +146,11 @@ def _compile_apart(names: tuple[str, ...]) -> None:
 
     The compiler would leave half a gigabyte in this process. If the others fail, this process compiles what is missing.
     """
+    # without a folder for the files nothing could be handed over: this process compiles
     if folders()[1] is None:
         return
     n = min(2, numba.config.NUMBA_DEFAULT_NUM_THREADS)
+    # the end of the block waits for both processes
     with contextlib.ExitStack() as stack:
         for ordered in (names, names[::-1])[:n]:
             if (helper := _helper(ordered)) is not None:
@@ -141,6 +158,10 @@ def _compile_apart(names: tuple[str, ...]) -> None:
 
 
 def _helper(names: tuple[str, ...]) -> subprocess.Popen[bytes] | None:
+    """Start a process that compiles entry points into files, in this order. None if it cannot be started.
+
+    It finds modules in the same places as this process, and prints nothing.
+    """
     # no multiprocessing, which would run the user's script again. A frozen program has no interpreter
     if "python" not in Path(sys.executable or "").name:
         return None
@@ -156,14 +177,19 @@ def _helper(names: tuple[str, ...]) -> subprocess.Popen[bytes] | None:
 
 
 def compile_entries(names: tuple[str, ...]) -> None:
-    """Compile entry points one after another, except those on disk: another process may have compiled them by then."""
+    """Compile entry points into files, one after another, in a process of :func:`_compile_apart`.
+
+    Those on disk are left out: the other process, which takes them in the opposite order, may have compiled them.
+    """
     for name in names:
         if not is_stored(name):
             _address(name)
 
 
 def call_entry(name: str, memory: Memory, *arguments: float) -> Any:
-    """Call an entry point, or a step, on the memory of one trajectory. The interpreter's lock is released.
+    """Call an entry point, or the step of an engine, on the memory of one trajectory, which it changes. Its result.
+
+    Other threads of Python run meanwhile, as C functions do not hold the interpreter's lock.
 
     Raises
     ------
@@ -174,15 +200,22 @@ def call_entry(name: str, memory: Memory, *arguments: float) -> Any:
 
 
 def _callable(name: str) -> Callable[..., Any]:
-    """An entry point, or a step, as a C function of the addresses of scalars, floats and integers, and of numbers."""
+    """An entry point, or the step of an engine, as a function that Python can call. It is made at the first call.
+
+    Its arguments are the addresses of scalars, floats and integers, then numbers.
+    """
     if name not in _callables:
+        # all entry points are compiled first, in processes of their own, as each may call others
         entry_addresses()
         _callables[name] = prototype_of(name)(known(ENTRIES, name).address())
     return _callables[name]
 
 
 def prototype_of(name: str) -> Any:
-    """Type of the C function of an entry point or a step, for :mod:`ctypes`."""
+    """Type of the C function of an entry point or a step, for :mod:`ctypes`.
+
+    The workspace ``ws``, the first argument, is passed as three pointers: to scalars, floats and integers.
+    """
     result, _, names = known(ENTRIES, name).signature.partition("(")
     # a member of an enumeration is an integer
     returned, *extra = [C_TYPES.get(n.strip(), ctypes.c_int64) for n in [result, *names.rstrip(")").split(",")[1:]]]

@@ -31,7 +31,8 @@ _WRITABLE_BY_OTHERS = stat.S_IWGRP | stat.S_IWOTH
 def build_name() -> str:
     """Name of what is compiled from the engine's sources: a hash of all of them.
 
-    The versions of numba, numpy and Python and the kind of processor are part of it. So an old file is never found.
+    The versions of numba, numpy and Python and the kind of processor are part of it. It is the name of a folder, so
+    that code which does not fit is never found.
     """
     # NUMBA_CPU_NAME lets a cluster of different processors use the same code
     processor = f"{numba.config.CPU_NAME or get_host_cpu_name()}{numba.config.CPU_FEATURES or ''}"
@@ -44,11 +45,13 @@ def build_name() -> str:
 def folders() -> tuple[list[Path], Path | None]:
     """Folders from which compiled code is read, in this order, and the folder to which it is written, or None.
 
-    The first is in the user's cache. A temporary one follows if the first cannot be written to.
+    The first is in the user's cache. A temporary one follows if the first cannot be written to. Folders are created if
+    necessary. One that another user could write to is left out, with a notice.
     """
     readable: list[Path] = []
     for home, permissions in _homes():
         folder = home / build_name()
+        # a place that cannot be written to may still have the folder, written by the administrator
         with contextlib.suppress(OSError):
             home.parent.mkdir(parents=True, exist_ok=True)
             for one in (home, folder):
@@ -69,10 +72,15 @@ def folders() -> tuple[list[Path], Path | None]:
 
 
 def _homes() -> Iterator[tuple[Path, int]]:
-    """Folders that may hold compiled code of all versions, and the permissions that they are created with."""
+    """Folders that may hold compiled code of all versions, and the permissions that they are created with.
+
+    Nobody else may write to either of them. The folder for temporary files is shared by all users, so that its name has
+    the user's number, and nobody else may read it.
+    """
     cache = user_cache()
     if cache is not None:
         yield cache / "nonsmooth", 0o755
+    # there may be no folder for temporary files at all
     with contextlib.suppress(OSError):
         user = "" if sys.platform == "win32" else f"-{os.geteuid()}"
         yield Path(tempfile.gettempdir()) / f"nonsmooth{user}", 0o700
@@ -81,6 +89,7 @@ def _homes() -> Iterator[tuple[Path, int]]:
 def _close(folder: Path) -> None:
     """Withdraw write permission from all other users, if the folder belongs to this user. Say so if any had it."""
     status = folder.lstat()
+    # Windows has no such permissions. Others' folders and links stay as they are: _is_safe_folder then refuses them
     if sys.platform == "win32" or not stat.S_ISDIR(status.st_mode) or status.st_uid != os.geteuid():
         return
     if status.st_mode & _WRITABLE_BY_OTHERS:
@@ -89,13 +98,18 @@ def _close(folder: Path) -> None:
 
 
 def is_safe(status: os.stat_result) -> bool:
-    """True if only this user and the administrator can have written a file of this status."""
+    """True if only this user and the administrator can have written a file or folder, by its ``status``.
+
+    Only its code is loaded then, because to load machine code is to run it.
+    """
     if sys.platform == "win32":
         return True  # a user's folders are closed to others there, and a status does not name the owner
+    # user 0 is the administrator
     return status.st_uid in (os.geteuid(), 0) and not status.st_mode & _WRITABLE_BY_OTHERS
 
 
 def _is_safe_folder(folder: Path) -> bool:
     """True if a folder is no link, and only this user and the administrator can have written to it."""
+    # lstat: the status of a link itself, not of the folder to which it leads
     status = folder.lstat()
     return stat.S_ISDIR(status.st_mode) and is_safe(status)

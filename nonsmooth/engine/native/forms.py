@@ -45,30 +45,34 @@ class Form:
 
     @cached_property
     def roles(self) -> tuple[str, ...]:
-        """Names of the arguments but for the parameters of the function."""
+        """Names of the arguments with which a plug-in's function begins. Its own parameters follow, one by one."""
         return (*self.given, *(() if self.returns else ("out",)))
 
     @cached_property
     def arguments(self) -> Mapping[str, str]:
-        """Names and types of the arguments of the C function, in order. ``p`` are the parameters of the function."""
+        """Names and types of the arguments of the C function, in order. ``p`` points to the function's parameters."""
         return {**self.given, "p": "F", **({} if self.returns else {"out": "F"})}
 
     @cached_property
     def signature(self) -> str:
-        """The signature, written like that of a kernel."""
+        """Types of the C function, written like those of a kernel: ``"f8(f8, F)"``."""
         return f"{self._result}({', '.join(self.arguments.values())})"
 
     @cached_property
     def n_recorded(self) -> int:
-        """How many numbers are recorded in all."""
+        """Total number of floats that are recorded for a message. They come before the parameters of the function."""
         return sum(self.recorded.values())
 
     @property
     def _result(self) -> str:
+        """Type of the result, as signatures write it."""
         return "f8" if self.returns else "void"
 
     def prototype(self, pointer: Any = ctypes.c_void_p) -> Any:
-        """Type of the C function for :mod:`ctypes`, with floats passed as a type of pointer."""
+        """Type of the C function for :mod:`ctypes`. ``pointer`` is that of the arguments F, which point to floats.
+
+        By default it is an address. With a pointer to doubles Python functions can read the floats.
+        """
         types = {**C_TYPES, "F": pointer}
         return ctypes.CFUNCTYPE(types[self._result], *[types[kind] for kind in self.arguments.values()])
 

@@ -44,11 +44,14 @@ _Class = TypeVar("_Class", bound=type[Any])
 
 
 class _Decorator(Protocol):
-    def __call__(self, signature: str = "void(ws)", /) -> Callable[[_Function], _Function]: ...
+    """Type of :data:`kernel` and :data:`entry_point`."""
+
+    def __call__(self, signature: str = "void(ws)", /) -> Callable[[_Function], _Function]:
+        """Decorator of a function with the types of a signature."""
 
 
 def _half(compiled: str) -> ModuleType:
-    """The module of compiled functions of that name, or that of plain ones, which has the same names."""
+    """The module ``compiled`` of compiled functions, or in plain mode the module of plain ones with the same names."""
     return importlib.import_module(f"nonsmooth.engine.native.{'plain' if PLAIN else compiled}")
 
 

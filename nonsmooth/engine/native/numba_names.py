@@ -26,17 +26,22 @@ SUPPORTED = ">=0.61,<0.70"
 
 
 def _first_missing(attributes: Mapping[Any, Iterable[str]]) -> str:
-    """Full name of the first attribute that a class or an instance lacks in this version; empty if there is none."""
+    """Full name of the first attribute that numba lacks in this version; empty if it has all.
+
+    ``attributes`` are the names that a class, or an instance of it, must have. The name is that of the class, such as
+    ``numba.core.dispatcher.Dispatcher.compile``, for a message.
+    """
     for owner, names in attributes.items():
         kind = owner if isinstance(owner, type) else type(owner)
         for name in names:
+            # static: a property must not be evaluated
             if inspect.getattr_static(owner, name, None) is None:
                 return f"{kind.__module__}.{kind.__qualname__}.{name}"
     return ""
 
 
 def _refusal(missing: object) -> ImportError:
-    """Error for a version of numba without a name of the first group."""
+    """Error for a version of numba with which the engine cannot be compiled at all. ``missing`` says what it lacks."""
     return ImportError(
         f"The compiled engine does not work with numba {numba.__version__}: {missing}. "
         f"Install numba{SUPPORTED}, or set NONSMOOTH_PLAIN=1 to run the engine as plain Python, which is slow."
@@ -113,10 +118,11 @@ except (ImportError, AttributeError) as error:
 
 
 def _known(options: Mapping[str, bool]) -> Mapping[str, bool]:
-    """Those of some options of ``numba.jit`` that this version knows: it raises an error for others."""
+    """Select the ``options`` of ``numba.jit`` that this version knows: with any other it raises an error."""
     try:
         from numba.core.cpu import CPUTargetOptions
     except ImportError:
+        # a version without the list of its options. Kernels compile without these options, too
         return {}
     return {name: value for name, value in options.items() if hasattr(CPUTargetOptions, name)}
 

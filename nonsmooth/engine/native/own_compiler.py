@@ -24,31 +24,35 @@ _alive: list[CFunction] = []
 
 
 def kernel_dispatcher(function: Callable[..., Any]) -> Any:
-    """Numba's dispatcher of a kernel, which does not compile if it allocates memory."""
+    """Numba's object for a kernel, which its callers call: it compiles the kernel by the engine's passes."""
+    # with NO_ALLOCATION a kernel that allocates memory does not compile
     return numba.jit(pipeline_class=KernelPasses, **_OPTIONS, **NO_ALLOCATION)(function)
 
 
 def law_dispatcher(function: Callable[..., Any]) -> Any:
-    """Numba's dispatcher of a plug-in's function, whose code is kept with that of the shim that calls it.
-
-    It may allocate memory: impact laws need arrays whose length is the number of contacts.
-    """
+    """Numba's object for a plug-in's function. Its code is kept with that of the shim, the C function that calls it."""
+    # it may allocate memory, unlike a kernel: impact laws need arrays whose length is the number of contacts
     return numba.jit(pipeline_class=LawPasses, **_OPTIONS)(function)
 
 
 @functools.cache
 def _store(key: str) -> Store:
+    """File of an entry point's machine code. There is one object for each key, so that the file is read only once."""
     return Store(key)
 
 
 def is_stored(key: str) -> bool:
-    """True if there is valid machine code on disk under a key."""
+    """True if there is valid machine code of an entry point on disk under a key. It is read, and kept until loaded."""
     return _store(key).is_filled()
 
 
 def entry_address(function: Callable[..., Any], signature: Any, key: str) -> int:
-    """Address of the C function of an entry point, which is loaded from disk, or compiled after its kernels."""
+    """Address of the C function of an entry point, which is loaded from disk, or compiled after its kernels.
+
+    ``key`` names its file. With an empty key nothing is kept on disk.
+    """
     with uncollected():
+        # each kernel is compiled with the types that it declares, before a caller asks for other ones
         if not key or not is_stored(key):
             for kernel in callees_of(function):
                 kernel.compile()
@@ -56,13 +60,16 @@ def entry_address(function: Callable[..., Any], signature: Any, key: str) -> int
 
 
 def shim_address(function: Callable[..., Any], signature: Any, key: str) -> int:
-    """Address of the C function of a shim, which is compiled or loaded from disk."""
+    """Address of the C function of a shim, which passes the engine's arguments to a plug-in's function.
+
+    It is compiled, or loaded from the file of its ``key``. With an empty key nothing is kept on disk.
+    """
     with uncollected():
         return _address(CFunction(function, signature, Store(f"shim-{key}") if key else None, ShimPasses))
 
 
 def _address(function: CFunction) -> int:
-    """Compile or load a C function. Its address, valid until the process ends."""
+    """Compile or load a C function. Its address, valid until the process ends, as a list keeps the function alive."""
     function.compile()
     _alive.append(function)
     return int(function.address or 0)
@@ -72,7 +79,7 @@ def _address(function: CFunction) -> int:
 def uncollected() -> Iterator[None]:
     """Switch the garbage collector off within a ``with`` block, which saves a tenth of the time of compiling.
 
-    The compiler makes millions of small objects, all of which are needed.
+    The compiler makes millions of small objects, all of which are needed. A collector that was off stays off.
     """
     is_enabled = gc.isenabled()
     gc.disable()

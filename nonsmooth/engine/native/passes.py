@@ -33,10 +33,11 @@ class Number(private.FunctionPass):
     _name = "number"
 
     def __init__(self) -> None:
-        """The base class keeps its argument; this pass has none."""
+        """Do nothing. The base class requires this method of each pass, and numba makes a pass without arguments."""
 
     def run_pass(self, state: Any) -> bool:
-        """Set the random number. True: the function has changed."""
+        """Set the random number of the function that numba compiles. True tells numba that it has changed."""
+        # 48 bits: the same number twice is next to impossible
         state.func_id.unique_id = secrets.randbits(48)
         return True
 
@@ -45,12 +46,19 @@ class _Typing:
     """A typing context that finds the types of an operation once. Numba tries all candidates at every place."""
 
     def __init__(self, context: Any) -> None:
+        """Keep numba's own context, which does the work."""
         self._context = context
 
     def __getattr__(self, name: str) -> Any:
+        """Attributes of numba's context, for all that is not defined here."""
         return getattr(self._context, name)
 
     def resolve_function_type(self, function: Any, arguments: Any, keywords: Any) -> Any:
+        """Signature of a call of ``function`` with the given types of arguments. Numba asks for it at every call.
+
+        Signatures of built-in functions and operators are kept for all kernels.
+        """
+        # a call of a kernel may compile it, and is left to numba
         if not isinstance(function, types.Function):
             return self._context.resolve_function_type(function, arguments, keywords)
         key = function, tuple(arguments), tuple(sorted(keywords.items()))
@@ -71,7 +79,10 @@ class TypeOnce(private.NopythonTypeInference):
     _name = "remembering_type_inference"
 
     def run_pass(self, state: Any) -> bool:
-        """Infer the types of all variables, with a context that keeps the types of operations."""
+        """Infer the types of all variables, with a context that keeps the types of operations.
+
+        Numba's own context is put back even after an error: other passes and functions use it.
+        """
         context = state.typingctx
         state.typingctx = _Typing(context)
         try:
@@ -87,17 +98,24 @@ class _RolledLibrary(private.JITCodeLibrary):
     """
 
     def _builder(self) -> Any:
+        """LLVM's passes of the third, highest level of optimisation, without those that unroll or interleave loops."""
         options = private.create_pipeline_tuning_options(speed_level=3)
         options.loop_vectorization, options.loop_unrolling, options.loop_interleaving = True, False, False
         return private.create_pass_builder(self._codegen._tm, options)
 
     def _optimize_functions(self, module: Any) -> None:
+        """Optimise each function of a module alone. Numba calls this when the module joins the library."""
+        # sizes and alignments of this processor, which the passes need to know
         module.data_layout = self._codegen._data_layout
         builder = self._builder()
         for function in module.functions:
             builder.getFunctionPassManager().run(function, builder)
 
     def _optimize_final_module(self) -> None:
+        """Optimise the library as a whole, with all that is linked. Numba calls this before it makes machine code.
+
+        Numba's own two rounds, with the counting of references in between, are not needed: kernels have no references.
+        """
         builder = self._builder()
         builder.getModulePassManager().run(self._final_module, builder)
 
@@ -106,18 +124,19 @@ class _RawLibrary(_RolledLibrary):
     """Intermediate code as it was lowered. It is never run: an entry point includes it and is optimised as a whole."""
 
     def _optimize_final_module(self) -> None:
-        pass
+        """Do nothing: the code is optimised in the entry point that includes it."""
 
     def _finalize_final_module(self) -> None:
+        """Tell numba that the library is complete, without making machine code of it."""
         self._finalized = True
 
     @property
     def codegen(self) -> Any:
-        """The receiver of the code's environment, see :meth:`set_env`."""
+        """The library itself, on which numba then calls :meth:`set_env` in place of its code generator."""
         return self
 
     def set_env(self, name: str, environment: Any) -> None:
-        """Do nothing: without machine code there is no environment of Python objects."""
+        """Do nothing. Numba would write the environment of Python objects into machine code, of which there is none."""
 
 
 class _OneFunction:
@@ -126,7 +145,11 @@ class _OneFunction:
     _final_module: Any
 
     def add_ir_module(self, module: Any) -> None:
-        """Link a module. A C wrapper may inline the function that it calls, which numba forbids."""
+        """Add a module of intermediate code to the library. Numba calls this for a function, then for its wrapper.
+
+        The C wrapper calls the function, and converts arguments and result. Numba forbids to inline this call: here the
+        mark "noinline" is removed from it.
+        """
         for function in module.functions if module.name == "cfunc_wrapper" else ():
             for block in function.blocks:
                 for instruction in block.instructions:
@@ -135,7 +158,10 @@ class _OneFunction:
         super().add_ir_module(module)  # type: ignore[misc]
 
     def _optimize_final_module(self) -> None:
-        """Optimise the module, of which only the wrapper can be called from outside."""
+        """Optimise the module, of which only the C wrapper can be called from outside.
+
+        All functions that it defines but the wrapper become internal. So those that are inlined everywhere are dropped.
+        """
         for function in self._final_module.functions:
             if not function.is_declaration and not function.name.startswith("cfunc."):
                 function.linkage = "internal"
@@ -151,9 +177,9 @@ class _ShimLibrary(_OneFunction, private.JITCodeLibrary):
 
 
 def _lowering(name: str, library: type[private.JITCodeLibrary]) -> type[private.NativeLowering]:
-    """Pass that lowers a function to intermediate code, in a library of one of the classes above.
+    """Make the pass that lowers a function to LLVM's intermediate code, in a library of a class of this module.
 
-    The library makes machine code of it, or leaves that to the callers of the function.
+    The library makes machine code of it, or leaves that to the callers of the function. Each pass needs a ``name``.
     """
 
     @private.register_pass(mutates_CFG=True, analysis_only=False)
@@ -162,8 +188,9 @@ def _lowering(name: str, library: type[private.JITCodeLibrary]) -> type[private.
         _name = f"{name}_native_lowering"
 
         def run_pass(self, state: Any) -> bool:
-            """Lower the function."""
+            """Lower the function into a new library of the given class, in place of one of numba's."""
             state.library = library(state.targetctx.codegen(), state.func_id.func_qualname)
+            # keep the machine code, so that it can be written to a file
             state.library.enable_object_caching()
             return bool(super().run_pass(state))
 
@@ -175,8 +202,13 @@ _LOWER_RAW = _lowering("raw", _RawLibrary)
 
 
 def _engine_passes(state: Any) -> private.PassManager:
-    """The passes of numba that the engine's loops over numbers need."""
+    """The passes of numba that the engine's loops over numbers need, in the order in which numba runs them.
+
+    Numba wants a function of the ``state`` of the compiler. These passes do not depend on it.
+    """
     passes = private.PassManager("engine")
+    # from the byte code of Python to types, then to intermediate code. Those for closures, literals, overloads and
+    # array expressions are left out
     for kind in (
         private.TranslateByteCode,
         private.FixupArgs,
@@ -193,15 +225,19 @@ def _engine_passes(state: Any) -> private.PassManager:
 
 
 def _compiler(numba_passes: Callable[[Any], private.PassManager], lowering: type) -> type[private.CompilerBase]:
-    """Compiler class with numba's passes, in which the engine's own replace two and the numbering is added."""
+    """Make a class of compilers for ``numba.jit``, from passes of numba, in which the engine's own replace two.
+
+    Those are the inference of types and the ``lowering``. The pass that numbers functions is added.
+    """
     own = {private.NopythonTypeInference: TypeOnce, private.NativeLowering: lowering}
 
     @final
     class Passes(private.CompilerBase):
         def define_pipelines(self) -> list[private.PassManager]:
-            """Numba's passes, with those of ``own`` in their places and the numbering of functions after the first."""
+            """Numba's passes, with those of ``own`` in their places. Numba asks for a list of pipelines to be tried."""
             passes = numba_passes(self.state)
             passes.passes = [(own.get(kind, kind), name) for kind, name in passes.passes]
+            # after the first pass: all later ones use the number
             passes.add_pass_after(Number, private.TranslateByteCode)
             passes.finalize()
             return [passes]
@@ -238,7 +274,10 @@ class CFunction(private.CFunc):
     """
 
     def __init__(self, function: Any, signature: Any, store: Store | None, passes: type, **options: bool) -> None:
+        """Set the function up for :meth:`compile`. Its file takes the place of numba's cache, by default none."""
+        # division by zero gives infinity or nan, as in numpy, and no error
         all_options = {"nopython": True, "error_model": "numpy", **options}
+        # the types of arguments and the type of the result
         typed = private.normalize_signature(signature)
         super().__init__(function, typed, locals={}, options=all_options, pipeline_class=passes)
         if store is not None:

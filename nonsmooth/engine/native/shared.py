@@ -29,22 +29,24 @@ class Shared:
     """
 
     def __init__(self, function: Callable[..., Any], inner: Callable[..., Any] | None = None) -> None:
+        """Keep both functions, and take over the name and the docstring."""
         self.function = function
         self._compiled = inner or function
         functools.update_wrapper(self, function)
 
     @functools.cached_property
     def dispatcher(self) -> Any:
-        """Numba's dispatcher. It is made at the first use, because a run uses few of them."""
+        """Numba's object for the compiled function. It is made at the first use, because a run uses few of them."""
         return jit(self._compiled)
 
     def __call__(self, *arguments: Any) -> Any:
-        """Call the Python function."""
+        """Call the Python function, when Python calls this object."""
         return self.function(*arguments)
 
 
 @typeof_impl.register(Shared)
 def _type_of_shared(value: Shared, context: Any) -> Any:
+    """Numba type of a `Shared` that compiled code names: that of its dispatcher, so that a call of it is compiled."""
     return types.Dispatcher(value.dispatcher)
 
 
@@ -53,7 +55,11 @@ shared = Shared
 
 
 def unshared(value: Any) -> Any:
-    """The Python function of a kernel or of a function made by :func:`shared`; any other value as it is."""
+    """The Python function of a kernel or of a function made by :func:`shared`; any other value as it is.
+
+    It serves to read the source of a function and to run it in Python.
+    """
+    # a kernel is numba's object for the function
     if isinstance(value, Dispatcher):
         return value.py_func
     return value.function if isinstance(value, Shared) else value

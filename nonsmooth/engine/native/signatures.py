@@ -23,7 +23,10 @@ from nonsmooth.engine.native.views import WORKSPACE, Workspace, types_of
 
 
 def type_of_result(kind: Any) -> Any:
-    """Numba type of a member of an enumeration, or of a named tuple of numbers."""
+    """Numba type of what a kernel may return: a member of the enumeration ``kind``, or a named tuple of that class.
+
+    The fields of a named tuple are numbers, whose types are those of its type hints.
+    """
     if issubclass(kind, IntEnum):
         return type_of_number(kind)
     return types.BaseTuple.from_types([type_of_number(hint) for hint in get_type_hints(kind).values()], kind)
@@ -45,30 +48,42 @@ _TYPES: dict[str, Any] = {
 
 
 def result(kind: Any) -> Any:
-    """Let signatures of kernels use the name of a class: a named tuple of numbers, or an enumeration."""
+    """Let signatures of kernels use the name of a class: a named tuple of numbers, or an enumeration.
+
+    It decorates the class, which stays as it is.
+    """
     _TYPES[kind.__name__] = type_of_result(kind)
     return kind
 
 
 def signature_of(text: str, workspace: Any = WORKSPACE) -> Any:
-    """Numba signature of a text as ``"f8(ws, Contact)"``. ``workspace`` is the type of ``ws``."""
+    """Numba signature of a kernel from a text as ``"f8(ws, Contact)"``: result, then arguments in parentheses.
+
+    ``workspace`` is the type of ``ws``, which an engine with numbers of its own replaces (:func:`workspace_with`).
+    """
     returned, _, arguments = text.partition("(")
+    # a kernel without arguments has an empty text between the parentheses
     names = [name.strip() for name in arguments.rstrip(")").split(",") if name.strip()]
     known = {**_TYPES, "ws": workspace}
     return known[returned.strip()](*[known[name] for name in names])
 
 
 def workspace_with(own: type[Part]) -> Any:
-    """Type of the workspace of an engine that adds a part of its own."""
+    """Numba type of the workspace of an engine that adds a part ``own``: numbers that the other engines do not have."""
     return Workspace({own.key: own})
 
 
 class _Replace(AbstractTemplate):
-    """Typing of ``_replace``: all fields are parameters, and those that are not passed are omitted."""
+    """Typing of ``_replace`` of a named tuple: all fields are parameters, and those that are not passed are omitted."""
 
     key = "result._replace"
 
     def generic(self, args: Any, keywords: Any) -> Any:
+        """Signature of a call, by the names in ``keywords``. Numba asks for it wherever a kernel calls ``_replace``.
+
+        ``this`` is the type of the named tuple: that of the result, and of the receiver of the call. Each value that is
+        passed is converted to the type of its field. ``pysig`` lets numba put keywords in the order of the fields.
+        """
         fields = self.this.fields
         numbers = zip(fields, self.this, strict=True)
         given = [kind if name in keywords else types.Omitted(None) for name, kind in numbers]
@@ -79,15 +94,22 @@ class _Replace(AbstractTemplate):
 
 @infer_getattr
 class _Methods(AttributeTemplate):
+    """Methods of named tuples in kernels, beyond those of numba."""
+
     key = types.BaseNamedTuple
 
     def resolve__replace(self, result: Any) -> Any:
+        """Type of the attribute ``_replace``. Numba finds this method by its name, ``resolve_`` and the attribute."""
         return types.BoundFunction(_Replace, result)
 
 
 @lower_builtin("result._replace", types.BaseTuple, types.VarArg(types.Any))
 def _replace(context: Any, builder: Any, called: Any, args: Any) -> Any:
-    """A copy of a named tuple with the values that are passed."""
+    """Code of ``old._replace(...)``: the old tuple with the values that are passed in their places.
+
+    Numba calls this where the call is compiled. ``called`` is its signature: the tuple, then all fields in order, with
+    the type `Omitted` for those that keep their value.
+    """
     old, *new = args
     for i, kind in enumerate(called.args[1:]):
         if not isinstance(kind, types.Omitted):

@@ -26,25 +26,28 @@ _alive: list[Any] = []
 
 
 def kernel_dispatcher(function: Callable[..., Any]) -> Any:
-    """Numba's dispatcher of a kernel, which does not compile if it allocates memory."""
+    """Numba's object for a kernel, its dispatcher, which callers call and by which the kernel is compiled."""
+    # with NO_ALLOCATION a kernel that allocates memory does not compile
     return numba.njit(nogil=True, **_OPTIONS, **NO_WRAPPERS, **NO_ALLOCATION)(function)
 
 
 def law_dispatcher(function: Callable[..., Any]) -> Any:
-    """Numba's dispatcher of a plug-in's function, which may allocate memory."""
+    """Numba's object for a plug-in's function, which is compiled when compiled code calls it."""
+    # it may allocate memory, unlike a kernel: impact laws need arrays whose length is the number of contacts
     return numba.njit(nogil=True, **_OPTIONS, **NO_WRAPPERS)(function)
 
 
 def is_stored(key: str) -> bool:
-    """Always True: numba looks for its files itself when an entry point is compiled."""
+    """Always True, so that nobody compiles entry points ahead: numba finds its files itself, when each is compiled."""
     return True
 
 
 def entry_address(function: Callable[..., Any], signature: Any, key: str) -> int:
     """Address of the C function of an entry point, which is compiled or loaded from numba's files.
 
-    Numba does not tell whether it has a file. So the entry point is compiled first while no kernel can be. This
-    succeeds if there is a file, and fails at the first call of a kernel otherwise.
+    ``key`` names the file. Numba does not tell whether it has the file. So the entry point is first compiled while
+    kernels cannot be. This succeeds if there is a file, and fails at the first call of a kernel otherwise. Then its
+    kernels are compiled, each with the types that it declares, and the entry point again.
     """
     kernels = callees_of(function)
     with _uncompilable(kernels), contextlib.suppress(numba.TypingError):
@@ -56,9 +59,14 @@ def entry_address(function: Callable[..., Any], signature: Any, key: str) -> int
 
 @contextlib.contextmanager
 def _uncompilable(kernels: Sequence[Kernel]) -> Iterator[None]:
-    """Within a ``with`` block, let numba raise `TypingError` for each call of a kernel that is not compiled yet."""
+    """Within a ``with`` block, let numba raise `TypingError` for each call of a kernel that is not compiled yet.
+
+    Numba calls the method ``compile`` of a kernel's dispatcher when it compiles a caller. An attribute of the same name
+    hides this method until it is deleted.
+    """
 
     def refuse(signature: Any) -> None:
+        """Fail in place of compiling a kernel, with the error that numba expects of a function that has no type."""
         raise numba.TypingError("to be compiled with the signature that it declares")
 
     pending = [kernel.dispatcher for kernel in kernels if not kernel.is_compiled]
@@ -72,20 +80,23 @@ def _uncompilable(kernels: Sequence[Kernel]) -> Iterator[None]:
 
 
 def shim_address(function: Callable[..., Any], signature: Any, key: str) -> int:
-    """Address of the C function of a shim. It is compiled in each process, as numba keeps only functions of files."""
+    """Address of the C function of a shim, which passes the engine's arguments to a plug-in's function."""
+    # no key, so that each process compiles it: numba keeps on disk only functions that are defined in files
     return _address(function, signature, "")
 
 
 def _address(function: Callable[..., Any], signature: Any, key: str, **options: bool) -> int:
     """Address of a C function, kept in a file of numba's if it has a key and is defined in a file.
 
-    The user is told, once, why compiling takes long.
+    The function is compiled, or loaded from its file. ``options`` are further ones of the compiler. A notice tells the
+    user, once, why compiling takes long.
     """
     say(
         f"numba {numba.__version__} lacks a name that fast compilation needs ({MISSING}): "
         "the engine is compiled by numba.njit(cache=True), which takes some minutes the first time"
     )
     compiler = functools.partial(numba.cfunc, signature, **_OPTIONS, **options)
+    # numba finds the file of a function by that of its source, which one typed at a prompt does not have
     if key and Path(function.__code__.co_filename).is_file():
         compiled = compiler(cache=True)(_renamed(function, key))
     else:
@@ -95,9 +106,10 @@ def _address(function: Callable[..., Any], signature: Any, key: str, **options: 
 
 
 def _renamed(function: Callable[..., Any], key: str) -> Callable[..., Any]:
-    """Copy a function under a name that changes with any source file of the engine.
+    """Copy of a function under a name that changes with any source file of the engine.
 
-    Numba names its files after the function, and would not notice that a kernel in another file has changed.
+    Numba names its files after the function, and would not notice that a kernel in another file has changed. The name
+    is made one of a function, without hyphens.
     """
     renamed = FunctionType(function.__code__, function.__globals__, function.__name__)
     renamed.__qualname__ = f"{key}_{build_name()}".replace("-", "_")

@@ -61,6 +61,7 @@ class Row(types.Type):
     """An array of the workspace: floats or integers, and the offset of its first entry."""
 
     def __init__(self, pointer: Pointer) -> None:
+        """Set the types of the entries, in Python and in numba, and the values that the array consists of."""
         self.kind, self.dtype = pointer.kind, pointer.dtype
         self.members = ("pointer", pointer), ("start", types.int64)
         super().__init__(name=f"Row({pointer.name})")
@@ -73,11 +74,15 @@ class Part(View):
     """The numbers of an owner that exists once. ``names`` are those of all scalars of the workspace."""
 
     def __init__(self, name: str, owner: type[Owner], names: tuple[str, ...]) -> None:
+        """Take the declarations of the owner. Numba compares types by their names.
+
+        So the name of the type has those of the scalars that an engine adds, which come after ``N_SCALARS`` others.
+        """
         self.fields, self.names = declarations(owner), names
         super().__init__(name=f"Part({', '.join((name, *names[N_SCALARS:]))})")
 
     def type_of(self, name: str) -> Any:
-        """Type of a scalar or an array."""
+        """Numba type of a scalar or an array by its name; None if there is none, which is an error where it is used."""
         declared = self.fields.get(name)
         if declared is None:
             return None
@@ -86,28 +91,33 @@ class Part(View):
         return FLOAT_ROW if declared.is_float else INTEGER_ROW
 
     def load(self, context: Any, builder: Any, value: Any, name: str) -> Any:
-        """Load a scalar, or the offset of an array."""
+        """Write the code that reads an attribute of this part: the number of a scalar, or an array as a :class:`Row`.
+
+        ``value`` holds the pointers to scalars, floats and integers.
+        """
         declared, pointers = self.fields[name], _members(context, builder, self, value)
         if declared.size is None:
             return load(builder, declared.kind, self._place(builder, pointers, declared), declared.key)
+        # an array is its pointer and the offset of its first entry, which is a scalar under its name
         row = _members(context, builder, self.type_of(name))
         row.pointer = pointers.floats if declared.is_float else pointers.integers
         row.start = load_offset(builder, pointers, declared.key, self.names)
         return row._getvalue()
 
     def store(self, context: Any, builder: Any, value: Any, name: str, number: Any) -> None:
-        """Store a scalar."""
+        """Write the code that stores ``number`` in a scalar of this part."""
         declared, pointers = self.fields[name], _members(context, builder, self, value)
         store(builder, declared.kind, self._place(builder, pointers, declared), number, declared.key)
 
     def _place(self, builder: Any, pointers: Any, declared: Declaration) -> Any:
-        """Pointer to a scalar."""
+        """Pointer to a scalar, whose position among all follows from its key."""
+        # scalars are integers and floats of the same size: the pointer gets the type of this one
         place = moved(builder, int, pointers.scalars, WORD(self.names.index(declared.key)))
         return builder.bitcast(place, stored_type(declared.kind).as_pointer())
 
 
 def load_offset(builder: Any, pointers: Any, key: str, names: tuple[str, ...] = _NAMES) -> Any:
-    """Load an integer among the scalars: an offset or a count."""
+    """Write the code that loads an integer among the scalars by its key: the offset of an array, or a count."""
     return load(builder, int, moved(builder, int, pointers.scalars, WORD(names.index(key))), key)
 
 
@@ -117,11 +127,12 @@ class Record(View):
     members = (*_POINTERS, ("index", types.int64))
 
     def __init__(self, name: str, fields: Fields) -> None:
+        """Take the fields, which say where each number is. Numba compares types by their names."""
         self.fields = fields
         super().__init__(name=f"Record({name})")
 
     def type_of(self, name: str) -> Any:
-        """Type of a field."""
+        """Numba type of a field by its name: a number, a tuple, or a pointer to several; None if there is none."""
         field = self.fields.get(name)
         if field is None:
             return None
@@ -130,7 +141,7 @@ class Record(View):
         return type_of_number(field.kind) if field.numbers == 1 else pointer_to(field.kind)
 
     def load(self, context: Any, builder: Any, value: Any, name: str) -> Any:
-        """Load a number or a tuple, or find the pointer to several numbers."""
+        """Write the code that reads a field: its number, a tuple, or the pointer to several numbers."""
         field, place = self.fields[name], self.place(context, builder, value, name)
         if field.is_vector:
             numbers = [load(builder, float, one) for one in _each(builder, field, place)]
@@ -138,7 +149,7 @@ class Record(View):
         return place if field.numbers > 1 else load(builder, field.kind, place)
 
     def store(self, context: Any, builder: Any, value: Any, name: str, number: Any) -> None:
-        """Store a number or a tuple."""
+        """Write the code that stores a number, or a tuple number by number, in a field."""
         field, place = self.fields[name], self.place(context, builder, value, name)
         if field.is_vector:
             numbers = private.cgutils.unpack_tuple(builder, number)
@@ -148,8 +159,12 @@ class Record(View):
             store(builder, field.kind, place, number)
 
     def place(self, context: Any, builder: Any, value: Any, name: str) -> Any:
-        """Pointer to the first number of a field."""
+        """Pointer to the first number of a field.
+
+        Its offset is the sum of those of the array, of the first record in it, of this record and of the field.
+        """
         field, members = self.fields[name], _members(context, builder, self, value)
+        # ``index`` is the number of a record in an array, or the offset of a block, which has no array
         offset = builder.mul(members.index, WORD(field.stride)) if field.array else members.index
         for key in (field.array, field.behind):
             if key:
@@ -159,7 +174,7 @@ class Record(View):
 
 
 def _each(builder: Any, field: Field, place: Any) -> list[Any]:
-    """Pointers to all numbers of a field, from that to the first."""
+    """Pointers to all numbers of a field, which follow each other, from the pointer ``place`` to the first."""
     return [moved(builder, field.kind, place, WORD(i)) for i in range(field.numbers)]
 
 
@@ -169,12 +184,13 @@ class Sequence(types.IterableType):
     members = _POINTERS
 
     def __init__(self, record: Record, count: str) -> None:
+        """Set the type of the records and the key of their number. Numba compares types by their names."""
         self.dtype, self.count = record, count
         super().__init__(name=f"Sequence({record.name})")
 
     @property
     def iterator_type(self) -> Any:
-        """Type of the iterator of a loop over the records."""
+        """Type of the iterator of a loop over the records. Numba asks for it where a kernel has such a loop."""
         return Iterator(self)
 
 
@@ -182,7 +198,9 @@ class Iterator(types.SimpleIteratorType):
     """The position of a loop over all records of a kind."""
 
     def __init__(self, sequence: Sequence) -> None:
+        """Set the values of the iterator: the sequence, a pointer to the next number, and the number after the last."""
         self.sequence = sequence
+        # a pointer to a local variable, since the loop changes the number and numba passes values
         self.members = ("sequence", sequence), ("next", types.EphemeralPointer(types.int64)), ("end", types.int64)
         super().__init__(f"Iterator({sequence.name})", sequence.dtype)
 
@@ -197,20 +215,22 @@ class Workspace(View):
     """The numbers of one trajectory, by owner. ``own`` are parts that an engine adds."""
 
     def __init__(self, own: Mapping[str, type[Owner]]) -> None:
+        """Make the types of all parts. Numba compares types by name: it lists the scalars that ``own`` adds."""
         names = record_with(own.values()).names or ()
         self.parts = {name: Part(name, owner, names) for name, owner in {**PARTS, **own}.items()}
         super().__init__(name=f"Workspace({', '.join(names[N_SCALARS:])})")
 
     def can_convert_to(self, context: Any, other: Any) -> Any:
-        """Let kernels of all engines take the workspace of an engine with parts of its own."""
+        """Let kernels of all engines take the workspace of one with parts of its own. Numba asks this at a call."""
+        # the numbers of ``own`` come last: all others have the same positions. None forbids the conversion
         return private.Conversion.safe if other is WORKSPACE else None
 
     def type_of(self, name: str) -> Any:
-        """Type of an owner."""
+        """Numba type of an owner by its name: the records of a kind, or a part; None if there is none."""
         return _SEQUENCES.get(name) or self.parts.get(name)
 
     def load(self, context: Any, builder: Any, value: Any, name: str) -> Any:
-        """The same pointers, for each owner."""
+        """The value of an owner: the three pointers of the workspace, whatever its name."""
         return value
 
 
@@ -220,11 +240,15 @@ WORKSPACE = Workspace({})
 
 @private.lower_cast(Workspace, Workspace)
 def _as_other(context: Any, builder: Any, given: Workspace, other: Workspace, value: Any) -> Any:
+    """Convert a workspace to that of another engine, as `can_convert_to` allows: both are the same three pointers."""
     return value
 
 
 class _Model(models.StructModel):
+    """How values of the types above are stored, which numba asks of each type: as a struct of their members."""
+
     def __init__(self, manager: Any, kind: Any) -> None:
+        """Tell numba the names and types of the members."""
         super().__init__(manager, kind, list(kind.members))
 
 
@@ -235,31 +259,39 @@ for _kind, _name in ((Workspace, "floats"), (Workspace, "integers"), (Row, "star
 
 
 def _members(context: Any, builder: Any, kind: Any, value: Any = None) -> Any:
-    """The members of a value by name, or of one to be filled in."""
+    """Members of a value of the type ``kind``, as attributes to be read; without a value, of a new one, to be set."""
     return private.cgutils.create_struct_proxy(kind)(context, builder, value=value)
 
 
 @private.infer_getattr
 class _Attributes(private.AttributeTemplate):
+    """Types of the attributes of all views."""
+
     key = View
 
     def generic_resolve(self, view: Any, name: str) -> Any:
+        """Type of an attribute, for numba's inference of types. None if there is none."""
         return view.type_of(name)
 
 
 @private.lower_getattr_generic(View)
 def _get_attribute(context: Any, builder: Any, view: Any, value: Any, name: str) -> Any:
+    """Write the code of reading an attribute of a view. Numba calls this for each of them that a kernel reads."""
     return view.load(context, builder, value, name)
 
 
 @private.lower_setattr_generic(View)
 def _set_attribute(context: Any, builder: Any, signature: Any, args: Any, name: str) -> None:
+    """Write the code of setting an attribute: ``args`` are the view and the value, ``signature`` has their types."""
     signature.args[0].store(context, builder, args[0], name, args[1])
 
 
 @type_callable(operator.getitem)
 def _type_getitem(context: Any) -> Any:
+    """Types of ``array[index]`` for the pointers, arrays and sequences of the workspace."""
+
     def typer(array: Any, index: Any) -> Any:
+        """Signature for an array and an index of these types. None tells numba to try other rules than this one."""
         is_known = isinstance(array, (Pointer, Row, Sequence)) and isinstance(index, types.Integer)
         return array.dtype(array, types.int64) if is_known else None
 
@@ -268,7 +300,11 @@ def _type_getitem(context: Any) -> Any:
 
 @type_callable(operator.setitem)
 def _type_setitem(context: Any) -> Any:
+    """Types of ``array[index] = value`` for the pointers and arrays of the workspace. Records are not replaced."""
+
     def typer(array: Any, index: Any, value: Any) -> Any:
+        """Signature for arguments of these types. None tells numba to try other rules than this one."""
+        # numba converts the value to the type of the entries
         is_known = isinstance(array, (Pointer, Row)) and isinstance(index, types.Integer)
         return types.void(array, types.int64, array.dtype) if is_known else None
 
@@ -276,7 +312,7 @@ def _type_setitem(context: Any) -> Any:
 
 
 def _entry(context: Any, builder: Any, array: Any, value: Any, index: Any) -> Any:
-    """Pointer to an entry of an array."""
+    """Pointer to an entry of an array of the workspace. ``array`` is its type: a pointer, or a row, with an offset."""
     if isinstance(array, Row):
         # the offset is added to the index, not to the pointer, so that the optimiser sees one address
         row = _members(context, builder, array, value)
@@ -287,6 +323,7 @@ def _entry(context: Any, builder: Any, array: Any, value: Any, index: Any) -> An
 @lower_builtin(operator.getitem, Pointer, types.Integer)
 @lower_builtin(operator.getitem, Row, types.Integer)
 def _get_item(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+    """Write the code of ``array[index]``. Numba calls this with the types in ``signature`` and the values ``args``."""
     array = signature.args[0]
     return load(builder, array.kind, _entry(context, builder, array, *args))
 
@@ -294,18 +331,21 @@ def _get_item(context: Any, builder: Any, signature: Any, args: Any) -> Any:
 @lower_builtin(operator.setitem, Pointer, types.Integer, types.Any)
 @lower_builtin(operator.setitem, Row, types.Integer, types.Any)
 def _set_item(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+    """Write the code of ``array[index] = value``, whose values are ``args`` and whose types are in ``signature``."""
     array = signature.args[0]
     store(builder, array.kind, _entry(context, builder, array, *args[:2]), args[2])
+    # numba wants a value even from a statement
     return context.get_dummy_value()
 
 
 @lower_builtin(operator.getitem, Sequence, types.Integer)
 def _get_record(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+    """Write the code of ``sequence[index]``: the record of this number."""
     return _record(context, builder, signature.args[0], *args)
 
 
 def _record(context: Any, builder: Any, sequence: Sequence, value: Any, index: Any) -> Any:
-    """The record of a number."""
+    """Code of the record of a number in a sequence: the pointers of the workspace and the number."""
     pointers, record = _members(context, builder, sequence, value), _members(context, builder, sequence.dtype)
     record.scalars, record.floats, record.integers = pointers.scalars, pointers.floats, pointers.integers
     record.index = index
@@ -314,20 +354,23 @@ def _record(context: Any, builder: Any, sequence: Sequence, value: Any, index: A
 
 @type_callable(len)
 def _type_len(context: Any) -> Any:
+    """Type of ``len(sequence)``: an integer. None tells numba to try other rules than this one."""
     return lambda sequence: types.int64 if isinstance(sequence, Sequence) else None
 
 
 @lower_builtin(len, Sequence)
 def _len(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+    """Write the code of ``len(sequence)``: the scalar that is the present number of records."""
     sequence = signature.args[0]
     return load_offset(builder, _members(context, builder, sequence, args[0]), sequence.count)
 
 
 @lower_builtin("getiter", Sequence)
 def _iterate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-    """Iterator over the records that exist when the loop begins."""
+    """Write the code of ``iter(sequence)``, which begins a loop: over the records that exist when it begins."""
     iterator = _members(context, builder, signature.return_type)
     iterator.sequence = args[0]
+    # a local variable, 0 at first: the number of the next record
     iterator.next = private.cgutils.alloca_once_value(builder, WORD(0))
     iterator.end = _len(context, builder, signature, args)
     return iterator._getvalue()
@@ -336,7 +379,10 @@ def _iterate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
 @lower_builtin("iternext", Iterator)
 @private.iternext_impl(private.RefType.UNTRACKED)
 def _next(context: Any, builder: Any, signature: Any, args: Any, found: Any) -> None:
-    """Set ``found`` to the next record, or to invalid after the last."""
+    """Write the code of one pass of a loop: set ``found`` to the next record, or to invalid after the last.
+
+    Numba ends the loop when ``found`` is invalid. Records are not counted by references, as `UNTRACKED` says.
+    """
     (kind,) = signature.args
     iterator = _members(context, builder, kind, args[0])
     number = builder.load(iterator.next, typ=WORD)
@@ -349,14 +395,18 @@ def _next(context: Any, builder: Any, signature: Any, args: Any, found: Any) -> 
 
 @intrinsic
 def copy_fields(typingctx: Any, source: Any, target: Any) -> Any:
-    """Copy the numbers that two records of different owners have in common."""
+    """Copy the fields of the same name from a record to one of another owner, as from a declared contact to a slot.
+
+    An intrinsic: numba calls it with types, and gets the signature of the call and the function that writes its code.
+    """
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        """Write the code: a load and a store for each number."""
         for name, field in source.fields.items():
             # a field that begins within the storage of another one is copied with that one
             if field.first == 0 and name in target.fields:
                 places = (record.place(context, builder, args[i], name) for i, record in enumerate((source, target)))
-                # as integers, since a question may be asked of an address
+                # a boolean is copied as an integer: it may be a view of an address, of which it says if it is not 0
                 kind = pointer_to(field.kind).kind
                 for one, other in zip(*(_each(builder, field, place) for place in places), strict=True):
                     store(builder, kind, other, load(builder, kind, one))
@@ -366,10 +416,16 @@ def copy_fields(typingctx: Any, source: Any, target: Any) -> Any:
 
 
 def _packed(kind: str) -> Any:
-    """Intrinsic ``record(floats, start)``, or ``record(floats, start, index)`` for blocks that follow each other."""
+    """Make the function ``record(floats, start)`` of kernels, which gives names to the numbers of a block of floats.
+
+    For blocks that follow each other it is ``record(floats, start, index)``. It is an intrinsic: numba calls it with
+    types, and gets the signature of the call and the function that writes its code.
+    """
+    # all fields of a kind have the same stride, the length of a block; it is 0 if there is only one
     record, stride = types_of[kind], next(iter(PACKED[kind].values())).stride
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        """Write the code of the record: the pointer to the floats, and the offset of the block as its index."""
         members = _members(context, builder, record)
         members.floats, members.index = args[0], args[1]
         if stride > 0:
@@ -377,9 +433,11 @@ def _packed(kind: str) -> Any:
         return members._getvalue()
 
     def single(typingctx: Any, floats: Any, start: Any) -> Any:
+        """Types of a call for the only block of its kind."""
         return record(FLOATS, types.int64), codegen
 
     def one_of_many(typingctx: Any, floats: Any, start: Any, index: Any) -> Any:
+        """Types of a call for block ``index`` of several that follow each other."""
         return record(FLOATS, types.int64, types.int64), codegen
 
     return intrinsic(one_of_many if stride > 0 else single)

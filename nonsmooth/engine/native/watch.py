@@ -13,9 +13,11 @@ def interrupted(ws: Workspace, work: int) -> bool:
     zero to stop the run. Long loops then end as if they had failed, so that no unfinished result is used.
     """
     ws.request.n_work += work
+    # an address of zero: there is no check
     if ws.request.n_work >= ws.request.work_budget and ws.request.interrupt_check != 0:
         ws.request.n_work = 0
         ws.request.work_budget = int(call_watch(ws.request.interrupt_check, ws.island.time))
         if ws.request.work_budget == 0:
             ws.request.is_interrupted = True
+    # once set it stays, so that all callers up to Python end
     return ws.request.is_interrupted

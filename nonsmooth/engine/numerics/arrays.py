@@ -7,21 +7,21 @@ from nonsmooth.engine.native.kernel import Floats, kernel
 
 @kernel("void(F, i8, i8, i8)")
 def copy_numbers(floats: Floats, a: int, n: int, out: int) -> None:
-    """Copy ``n`` numbers from ``a`` to ``out``."""
+    """Copy ``n`` floats of the workspace from the offset ``a`` to the offset ``out``."""
     for i in range(n):
         floats[out + i] = floats[a + i]
 
 
 @kernel("void(F, i8, i8)")
 def clear(floats: Floats, a: int, n: int) -> None:
-    """Set ``n`` numbers at ``a`` to zero."""
+    """Set the ``n`` floats of the workspace at the offset ``a`` to zero."""
     for i in range(n):
         floats[a + i] = 0.0
 
 
 @kernel("f8(F, i8, i8)")
 def largest_size(floats: Floats, a: int, n: int) -> float:
-    """Largest absolute value of ``n`` numbers at ``a``; 0 if there are none."""
+    """Largest absolute value of the ``n`` floats of the workspace at the offset ``a``; 0 if there are none."""
     largest = 0.0
     for i in range(n):
         largest = max(largest, abs(floats[a + i]))
@@ -30,6 +30,6 @@ def largest_size(floats: Floats, a: int, n: int) -> float:
 
 @kernel("void(F, i8, f8, i8, i8)")
 def subtract_part(floats: Floats, out: int, part: float, a: int, n: int) -> None:
-    """Subtract ``part`` times the vector at ``a`` from that at ``out``, both of ``n`` numbers."""
+    """Subtract ``part`` times the vector of ``n`` floats at the offset ``a`` from that at ``out``, in place."""
     for i in range(n):
         floats[out + i] -= part * floats[a + i]

@@ -15,13 +15,15 @@ from nonsmooth.engine.numerics.linear import band_width
 
 @kernel("i8(ws)")
 def _half_band(ws: Workspace) -> int:
-    """Largest distance between the numbers of unknowns that act on one another.
+    """Half width of the band of the matrix of the unknown forces: largest distance between rows that are coupled.
 
-    Coupled contacts are listed in ascending order, so the first of them has the lowest unknowns.
+    A row is an unknown. Forces are coupled if their contacts share a movable body, or bodies that joints connect.
     """
     half = 0
     for active in ws.actives:
+        # a contact without unknown forces has no rows
         if active.end_unknown > active.first_unknown:
+            # coupled contacts are listed in ascending order: the first one has the lowest unknowns
             first_coupled = ws.actives[ws.island.block_column[active.first_block]]
             half = max(half, active.end_unknown - 1 - first_coupled.first_unknown)
     return half
@@ -29,9 +31,10 @@ def _half_band(ws: Workspace) -> int:
 
 @kernel("b1(ws, i8, i8)")
 def open_band(ws: Workspace, n: int, matrix: int) -> bool:
-    """Write the half band of ``n`` unknowns, and clear the band at ``matrix``.
+    """Find the half width of the band of ``n`` unknown forces, and set the matrix at ``matrix`` to zero.
 
-    False if the band has too many entries. The run then stops.
+    The half width is written to ``half_band``. False if the band has too many entries for the memory. The run then
+    stops.
     """
     ws.problem.half_band = _half_band(ws)
     size = n * band_width(n, ws.problem.half_band)

@@ -14,7 +14,11 @@ from nonsmooth.engine.numerics.linear import band_row
 
 @kernel("void(F, i8, i8, i8, f8)")
 def factorise_band(floats: Floats, a: int, n: int, half: int, least: float) -> None:
-    """Overwrite the lower triangle of the band at ``a`` by its Cholesky factor. Pivots are at least ``least``."""
+    """Overwrite the lower triangle of the band at ``a`` by its Cholesky factor L, with A = L L^T.
+
+    A pivot, the square of a diagonal entry of L, is raised to ``least`` if it is smaller: round-off may make that of a
+    nearly singular matrix negative.
+    """
     for i in range(n):
         row = band_row(a, i, n, half)
         for j in range(max(0, i - half), i + 1):
@@ -27,12 +31,14 @@ def factorise_band(floats: Floats, a: int, n: int, half: int, least: float) -> N
 
 @kernel("void(F, i8, i8, i8, i8)")
 def substitute_band(floats: Floats, a: int, n: int, half: int, x: int) -> None:
-    """Overwrite the right-hand side at ``x`` by the solution, with the Cholesky factor at ``a``."""
+    """Overwrite the right-hand side at ``x`` by the solution of L L^T x = b, with the Cholesky factor L at ``a``."""
+    # L y = b, downwards
     for i in range(n):
         row = band_row(a, i, n, half)
         for c in range(max(0, i - half), i):
             floats[x + i] -= floats[row + c] * floats[x + c]
         floats[x + i] /= floats[row + i]
+    # L^T x = y, upwards. Row i of L is column i of L^T: as soon as x_i is known, its part is taken from those above
     for i in range(n - 1, -1, -1):
         row = band_row(a, i, n, half)
         floats[x + i] /= floats[row + i]
@@ -42,20 +48,22 @@ def substitute_band(floats: Floats, a: int, n: int, half: int, x: int) -> None:
 
 @kernel("void(F, i8, i8, i8, i8)")
 def invert_in_band(floats: Floats, a: int, n: int, half: int, out: int) -> None:
-    """Write the entries of the inverse that lie in the band to ``out``, from the Cholesky factor at ``a``.
+    """Write the entries of the inverse Z of A that lie in the band to ``out``, from the Cholesky factor L at ``a``.
 
-    The entries outside of it are not needed for those inside, so that the cost is that of the band.
+    From the last row up, Z_ij = (delta_ij / L_ii - sum over c > i of L_ci Z_cj) / L_ii. The entries outside the band
+    are not needed for those inside, so that the cost is that of the band.
 
     K. Takahashi, J. Fagan, M.-S. Chin, "Formation of a sparse bus impedance matrix and its application to short circuit
     study", Proc. 8th PICA Conf. (1973) 63-69.
     """
     for i in range(n - 1, -1, -1):
         end = min(n, i + half + 1)
-        own = band_row(out, i, n, half)
+        row_i = band_row(out, i, n, half)
         root = floats[band_row(a, i, n, half) + i]
         for j in range(end - 1, i - 1, -1):
             total = 1.0 / root if j == i else 0.0
-            line = band_row(out, j, n, half)
+            row_j = band_row(out, j, n, half)
             for c in range(i + 1, end):
-                total -= floats[band_row(a, c, n, half) + i] * floats[line + c]
-            floats[own + j] = floats[line + i] = total / root
+                total -= floats[band_row(a, c, n, half) + i] * floats[row_j + c]
+            # the inverse is symmetric: rows above read it from row j
+            floats[row_i + j] = floats[row_j + i] = total / root

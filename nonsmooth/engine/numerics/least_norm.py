@@ -15,9 +15,10 @@ from nonsmooth.engine.numerics.linear import SINGULAR, product
 
 @kernel("i8(F, i8, i8)")
 def rank_of_semidefinite(floats: Floats, a: int, n: int) -> int:
-    """Rank of the positive semidefinite matrix at ``a``, which is overwritten: the number of nonzero pivots.
+    """Rank of the positive semidefinite matrix of ``n`` rows at ``a``, which is overwritten: number of nonzero pivots.
 
-    Each pivot is the largest entry left on the diagonal. It counts as zero below ``SINGULAR`` times the largest pivot.
+    It is found by elimination. Each pivot is the largest entry left on the diagonal, as in such a matrix no other entry
+    is larger. It counts as zero below ``SINGULAR`` times the largest pivot.
     """
     largest = 0.0
     for rank in range(n):
@@ -29,6 +30,7 @@ def rank_of_semidefinite(floats: Floats, a: int, n: int) -> int:
         largest = max(largest, pivot)
         if not pivot > SINGULAR * largest:
             return rank
+        # bring the pivot to its place: exchange rows, then columns, so that the matrix stays symmetric
         for c in range(n):
             floats[a + rank * n + c], floats[a + best * n + c] = floats[a + best * n + c], floats[a + rank * n + c]
         for i in range(n):
@@ -43,7 +45,7 @@ def rank_of_semidefinite(floats: Floats, a: int, n: int) -> int:
 
 @kernel("void(F, i8, i8, i8)")
 def transpose(floats: Floats, a: int, n: int, out: int) -> None:
-    """Write the transpose of the matrix at ``a`` to ``out``."""
+    """Write the transpose of the matrix of ``n`` rows and columns at ``a`` to ``out``, which must not overlap it."""
     for i in range(n):
         for j in range(n):
             floats[out + j * n + i] = floats[a + i * n + j]
@@ -53,16 +55,18 @@ def transpose(floats: Floats, a: int, n: int, out: int) -> None:
 def complete(floats: Floats, v: int, n: int, rank: int) -> None:
     """Complete the ``rank`` orthonormal rows of ``n`` numbers at ``v`` to a basis of all vectors.
 
-    Each new row starts from the unit vector that the rows so far represent least.
+    Each new row starts from the unit vector that is farthest from the span of the rows so far, and loses its components
+    along them.
     """
     for done in range(rank, n):
         best, most = 0, -math.inf
         for i in range(n):
-            left = 1.0
+            # squared distance of unit vector i from the span of the rows
+            outside = 1.0
             for c in range(done):
-                left -= floats[v + c * n + i] ** 2
-            if left > most:
-                best, most = i, left
+                outside -= floats[v + c * n + i] ** 2
+            if outside > most:
+                best, most = i, outside
         row = v + done * n
         for i in range(n):
             floats[row + i] = 1.0 if i == best else 0.0
@@ -77,11 +81,11 @@ def complete(floats: Floats, v: int, n: int, rank: int) -> None:
 
 @kernel("i8(F, i8, i8, i8, i8, i8, i8)")
 def _triangulate(floats: Floats, a: int, n: int, b: int, r: int, marks: int, most: int) -> int:
-    """Factorise A = Q R with the largest remaining column first. Returns the rank, at most ``most``.
+    """Factorise A = Q R with the largest remaining column first. Returns the rank of A, at most ``most``.
 
-    The matrix at ``a`` is stored by columns, ``n`` by n. The columns and the vector ``b`` lose their components along
-    the columns chosen so far. Rows of R are written to ``r``. The first n numbers at ``marks`` become 1 for the chosen
-    columns, 0 for the others; Q^T b follows them.
+    The matrix at ``a`` is stored by columns, ``n`` by n. Its columns and the vector ``b`` lose their components along
+    the columns chosen so far; a chosen column becomes one of Q. Rows of R are written to ``r``. The first n numbers at
+    ``marks`` become 1 for the chosen columns, 0 for the others. Q^T b, one number for each chosen column, follows them.
     """
     for j in range(n):
         floats[marks + j] = 0.0
@@ -95,6 +99,7 @@ def _triangulate(floats: Floats, a: int, n: int, b: int, r: int, marks: int, mos
                     best, size = j, square
         norm = math.sqrt(size)
         largest = max(largest, norm)
+        # all columns left are zero, up to round-off. "not >", so that nan counts as zero
         if best < 0 or not norm > SINGULAR * largest:
             return rank
         floats[marks + best] = 1.0
@@ -121,24 +126,27 @@ def minimum_norm(floats: Floats, a: int, n: int, b: int, x: int, v: int, work: i
     """Write the least-squares solution of A x = b of least norm to ``x``. Returns the rank of A, at most ``most``.
 
     A = Q R gives the components Q^T b, and R = L V the solution V^T L^-1 Q^T b. Both are orthogonal decompositions, so
-    that the condition of A is not squared. The matrix at ``a`` is stored by columns; it and ``b`` are overwritten. The
-    first rows at ``v`` become an orthonormal basis of the row space. ``work`` has 2 n numbers.
+    that the condition of A is not squared. The matrix at ``a`` has ``n`` rows and is stored by columns; it and ``b``
+    are overwritten. The first rows at ``v`` become an orthonormal basis of the row space. ``work`` has 2 n numbers.
     """
     rank = _triangulate(floats, a, n, b, v, work, most)
     clear(floats, x, n)
-    # R = L V: the rows are orthogonalised, and the forward substitution is done along with it
+    # Q^T b, whose numbers become those of L^-1 Q^T b one by one
+    components = work + n
+    # R = L V: the rows of R are orthogonalised, and the forward substitution with L is done along with it
     for j in range(rank):
         row = v + j * n
-        rest = floats[work + n + j]
+        rest = floats[components + j]
+        # a second pass of Gram-Schmidt removes the round-off that the first leaves. The entry of L is the sum of both
         for _ in range(2):
             for c in range(j):
                 part = product(floats, 0.0, v + c * n, row, n)
-                rest -= part * floats[work + n + c]
+                rest -= part * floats[components + c]
                 subtract_part(floats, row, part, v + c * n, n)
         norm = math.sqrt(product(floats, 0.0, row, row, n))
         for i in range(n):
             floats[row + i] /= norm
-        floats[work + n + j] = rest / norm
+        floats[components + j] = rest / norm
         for i in range(n):
-            floats[x + i] += floats[work + n + j] * floats[row + i]
+            floats[x + i] += floats[components + j] * floats[row + i]
     return rank

@@ -18,7 +18,8 @@ SINGULAR = 1e-10
 
 @kernel("f8(F, f8, i8, i8, i8)")
 def product(floats: Floats, total: float, a: int, b: int, n: int) -> float:
-    """Scalar product of two vectors of ``n`` numbers, added to ``total``. The six of a free body need no loop."""
+    """Scalar product of the vectors of ``n`` numbers at ``a`` and ``b``, added to ``total``."""
+    # the six velocities of a free body, the commonest case, are written out: the compiler unrolls no loops
     if n == 6:
         total += floats[a] * floats[b]
         total = total + floats[a + 1] * floats[b + 1] + floats[a + 2] * floats[b + 2]
@@ -30,7 +31,8 @@ def product(floats: Floats, total: float, a: int, b: int, n: int) -> float:
 
 @kernel("i8(i8, i8)")
 def band_width(n: int, half: int) -> int:
-    """Length of a stored row of ``n`` columns: ``half`` left of the diagonal, twice that right of it, at most n."""
+    """Number of stored entries in each row of a band matrix of ``n`` columns and half width ``half``."""
+    # ``half`` left of the diagonal and twice as many right of it, where exchanges of rows fill in; at most all columns
     return min(n, 3 * half + 1)
 
 
@@ -41,12 +43,17 @@ def band_row(a: int, i: int, n: int, half: int) -> int:
     The entry of column j, which must lie within the band, is at this offset plus j.
     """
     width = band_width(n, half)
+    # the first stored column is ``half`` left of the diagonal, but the last rows end with the last column
     return a + i * width - min(max(0, i - half), n - width)
 
 
 @kernel("void(F, i8, i8, i8, i8)")
 def multiply(floats: Floats, a: int, n: int, x: int, out: int) -> None:
-    """Write the symmetric matrix at ``a`` times the vector at ``x`` to ``out``, which must overlap neither of them."""
+    """Write the symmetric matrix at ``a`` times the vector at ``x`` to ``out``, which must overlap neither of them.
+
+    The matrix has ``n`` rows and is stored in full.
+    """
+    # the six velocities of a free body. By symmetry the sums run down the columns, six neighbouring ones at once
     if n == 6:
         x0, x1, x2, x3, x4, x5 = floats[x], floats[x + 1], floats[x + 2], floats[x + 3], floats[x + 4], floats[x + 5]
         for i in range(a, a + 6):
@@ -63,17 +70,19 @@ def eliminate(floats: Floats, a: int, n: int, half: int, x: int, least: float) -
 
     Gaussian elimination with exchange of rows. Entries more than ``half`` from the diagonal are zero, and exchanges
     fill some of them. A pivot below ``least``, relative to the largest entry, counts as zero. The matrix is
-    overwritten, and ``x`` becomes the solution.
+    overwritten, and ``x`` becomes the solution. If singular, both are left half done.
     """
     largest = largest_size(floats, a, n * band_width(n, half))
     for j in range(n):
         own = band_row(a, j, n, half)
+        # rows that have an entry in column j, and columns that row j has after exchanges
         below, right = min(n, j + half + 1), min(n, j + 2 * half + 1)
         pivot, best = j, own
         for i in range(j + 1, below):
             row = band_row(a, i, n, half)
             if abs(floats[row + j]) > abs(floats[best + j]):
                 pivot, best = i, row
+        # "not >", so that nan counts as singular
         if not abs(floats[best + j]) > least * largest:
             return False
         if pivot != j:
@@ -87,6 +96,7 @@ def eliminate(floats: Floats, a: int, n: int, half: int, x: int, least: float) -
                 for c in range(j + 1, right):
                     floats[row + c] -= factor * floats[own + c]
                 floats[x + i] -= factor * floats[x + j]
+    # the upper triangle is left: solve from the last row up
     for j in range(n - 1, -1, -1):
         own = band_row(a, j, n, half)
         for c in range(j + 1, min(n, j + 2 * half + 1)):
@@ -104,6 +114,7 @@ def solve_three(row_0: Vector, row_1: Vector, row_2: Vector, right: Vector, leas
     g00, g10, g11 = row_0[0], row_1[0], row_1[1]
     g20, g21, g22 = row_2
     smallest = least * max(g00, max(g11, g22))
+    # the pivots, the entries of D, are g00, d1 and d2. "not >", so that nan counts as too small
     if not g00 > smallest:
         return math.nan, math.nan, math.nan
     l10, l20 = g10 / g00, g20 / g00
@@ -114,6 +125,7 @@ def solve_three(row_0: Vector, row_1: Vector, row_2: Vector, right: Vector, leas
     d2 = g22 - l20 * g20 - l21 * e
     if not d2 > smallest:
         return math.nan, math.nan, math.nan
+    # L y = right, whose first number is right[0], then D L^T x = y from the last row up
     y1 = right[1] - l10 * right[0]
     x2 = (right[2] - l20 * right[0] - l21 * y1) / d2
     x1 = y1 / d1 - l21 * x2

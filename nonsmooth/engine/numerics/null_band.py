@@ -32,7 +32,7 @@ _SETTLED = 1e-15
 
 @kernel("f8(F, i8, i8, i8)")
 def largest_diagonal(floats: Floats, a: int, n: int, half: int) -> float:
-    """Largest absolute entry of the diagonal of the band at ``a``."""
+    """Largest absolute entry on the diagonal of the band matrix of ``n`` rows at ``a``, the scale of its entries."""
     largest = 0.0
     for i in range(n):
         largest = max(largest, abs(floats[band_row(a, i, n, half) + i]))
@@ -41,7 +41,7 @@ def largest_diagonal(floats: Floats, a: int, n: int, half: int) -> float:
 
 @kernel("void(F, i8, i8, i8, i8, f8)")
 def copy_shifted(floats: Floats, a: int, n: int, half: int, out: int, shift: float) -> None:
-    """Write the band at ``a`` to ``out``, with ``shift`` added to its diagonal."""
+    """Write the band matrix of ``n`` rows at ``a`` to ``out``, with ``shift`` added to its diagonal."""
     copy_numbers(floats, a, n * band_width(n, half), out)
     for i in range(n):
         floats[band_row(out, i, n, half) + i] += shift
@@ -49,9 +49,10 @@ def copy_shifted(floats: Floats, a: int, n: int, half: int, out: int, shift: flo
 
 @kernel("b1(ws, i8)")
 def solve_shifted(ws: Workspace, n: int) -> bool:
-    """Replace the right-hand side ``x`` by the solution of ``reduced`` with a shifted diagonal.
+    """Replace the right-hand side in ``x`` by the solution of the system of ``reduced`` with a shifted diagonal.
 
-    False if the shifted matrix is singular, too.
+    The shift, a small part of the largest entry, makes a singular matrix regular. ``matrix`` is overwritten. False if
+    the shifted matrix is singular, too: ``x`` is then undefined.
     """
     shift = _SHIFT * largest_diagonal(ws.floats, ws.problem.reduced.start, n, ws.problem.half_band)
     copy_shifted(ws.floats, ws.problem.reduced.start, n, ws.problem.half_band, ws.problem.matrix.start, shift)
@@ -60,11 +61,12 @@ def solve_shifted(ws: Workspace, n: int) -> bool:
 
 @kernel("void(ws, i8, i8)")
 def project_on_null(ws: Workspace, n: int, v: int) -> None:
-    """Replace the n numbers at ``v`` by their part in the null space of the factorised matrix A + s I.
+    """Replace the ``n`` numbers at ``v`` by their part in the null space of A. ``null`` holds the factor of A + s I.
 
-    Each of the two solves multiplies the part along an eigenvector of eigenvalue l by s / (l + s), which is 1 in the
-    null space and next to zero elsewhere.
+    Each solve multiplies the part along an eigenvector of eigenvalue l by s / (l + s), which is 1 in the null space and
+    next to zero elsewhere.
     """
+    # the second solve makes the rest of the other parts the square of that small factor
     for _ in range(2):
         substitute_band(ws.floats, ws.problem.null.start, n, ws.problem.null_half_band, v)
         for i in range(n):
@@ -73,7 +75,10 @@ def project_on_null(ws: Workspace, n: int, v: int) -> None:
 
 @kernel("void(ws, i8, i8)")
 def _remove_null(ws: Workspace, n: int, v: int) -> None:
-    """Subtract from the ``n`` numbers at ``v`` their part in the null space. ``matrix`` is overwritten."""
+    """Subtract from the ``n`` numbers at ``v`` their part in the null space of the matrix of the unknown forces.
+
+    Each pass leaves a small part, by round-off, so that several passes are made. ``matrix`` is a work array.
+    """
     part = ws.problem.matrix.start
     for _ in range(_REMOVALS):
         copy_numbers(ws.floats, v, n, part)
@@ -83,43 +88,54 @@ def _remove_null(ws: Workspace, n: int, v: int) -> None:
 
 @kernel("f8(ws, i8, i8, i8)")
 def _write_residual(ws: Workspace, n: int, x: int, out: int) -> float:
-    """Write the residual right - reduced . x of the vector at ``x`` to ``out``. Returns its largest absolute entry."""
+    """Write the residual right - reduced . x of the ``n`` numbers at ``x`` to ``out``. Its largest absolute entry.
+
+    ``right`` and ``reduced`` are the right-hand side and the band matrix of the unknown forces.
+    """
     worst = 0.0
     for i in range(n):
-        line = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band)
+        row = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band)
         ws.floats[out + i] = ws.problem.right[i]
         for j in range(max(0, i - ws.problem.half_band), min(n, i + ws.problem.half_band + 1)):
-            ws.floats[out + i] -= ws.floats[line + j] * ws.floats[x + j]
+            ws.floats[out + i] -= ws.floats[row + j] * ws.floats[x + j]
         worst = max(worst, abs(ws.floats[out + i]))
     return worst
 
 
 @kernel("b1(ws, i8)")
 def _is_symmetric(ws: Workspace, n: int) -> bool:
-    """True if ``reduced``, of ``n`` rows, is symmetric up to round-off."""
+    """True if the matrix of the unknown forces, ``reduced`` of ``n`` rows, is symmetric up to round-off.
+
+    Friction of sliding contacts makes it unsymmetric.
+    """
     small = _SYMMETRIC * largest_diagonal(ws.floats, ws.problem.reduced.start, n, ws.problem.half_band)
     for i in range(n):
-        line = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band)
+        row = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band)
         for j in range(max(0, i - ws.problem.half_band), i):
             mirrored = band_row(ws.problem.reduced.start, j, n, ws.problem.half_band) + i
-            if abs(ws.floats[line + j] - ws.floats[mirrored]) > small:
+            if abs(ws.floats[row + j] - ws.floats[mirrored]) > small:
                 return False
     return True
 
 
 @kernel("void(ws, i8)")
 def _write_square(ws: Workspace, n: int) -> None:
-    """Write H, which is G or G^T G, to ``basis``, and its half band to ``null_half_band``. G is in ``reduced``."""
+    """Write H, a symmetric matrix with the null space of G, to ``basis``, and its half band to ``null_half_band``.
+
+    G is the matrix of ``n`` rows in ``reduced``. H is G itself if G is symmetric, and G^T G otherwise.
+    """
     half = ws.problem.half_band
     if _is_symmetric(ws, n):
         ws.problem.null_half_band = half
         copy_shifted(ws.floats, ws.problem.reduced.start, n, half, ws.problem.basis.start, 0.0)
         return
+    # the product of two matrices of a band has a band twice as wide
     ws.problem.null_half_band = min(2 * half, n - 1)
     clear(ws.floats, ws.problem.basis.start, n * band_width(n, ws.problem.null_half_band))
-    for line in range(n):
-        row = band_row(ws.problem.reduced.start, line, n, half)
-        first, end = max(0, line - half), min(n, line + half + 1)
+    # G^T G is the sum, over the rows g of G, of the outer products g g^T
+    for k in range(n):
+        row = band_row(ws.problem.reduced.start, k, n, half)
+        first, end = max(0, k - half), min(n, k + half + 1)
         for i in range(first, end):
             out = band_row(ws.problem.basis.start, i, n, ws.problem.null_half_band)
             if ws.floats[row + i] != 0.0:
@@ -129,17 +145,20 @@ def _write_square(ws: Workspace, n: int) -> None:
 
 @kernel("void(ws, i8)")
 def least_norm_in_band(ws: Workspace, n: int) -> None:
-    """Solve G x = r for least norm. ``reduced`` holds G, and ``right`` the ``n`` numbers of r.
+    """Solve the singular G x = r for least norm. ``reduced`` holds the band of G, and ``right`` the ``n`` numbers of r.
 
-    Writes x to ``x``, H to ``basis``, its factor to ``null``, and the band of the projector on the null space to
-    ``reduced``. If H has too many entries, the run stops.
+    H is a symmetric matrix with the null space of G, and e a small shift. Writes x to ``x``, H to ``basis``, the
+    Cholesky factor of H + e to ``null``, and the band of the projector on the null space, e (H + e)^-1, to ``reduced``.
+    If H may have too many entries for the memory, nothing is solved and the run stops.
     """
+    # H has at most twice the half band of G
     if n * band_width(n, 2 * ws.problem.half_band) > MOST_ENTRIES:
         ws.run.has_too_many_blocks = True
         return
     _write_square(ws, n)
     half, null = ws.problem.null_half_band, ws.problem.null.start
     largest = largest_diagonal(ws.floats, ws.problem.basis.start, n, half)
+    # the shift must not be zero: a zero matrix gets one, too
     ws.problem.null_shift = _FAINT * (largest if largest > 0.0 else 1.0)
     copy_shifted(ws.floats, ws.problem.basis.start, n, half, null, ws.problem.null_shift)
     # round-off may make a pivot of a singular matrix negative; each is at least a part of the shift
@@ -152,16 +171,20 @@ def least_norm_in_band(ws: Workspace, n: int) -> None:
 
 @kernel("void(ws, i8)")
 def _refine_solution(ws: Workspace, n: int) -> None:
-    """Write the solution of least norm to ``x``: the sum of corrections, each from the residual that is left.
+    """Write the solution of least norm of G x = r, with ``n`` unknowns, to ``x``, by iterative refinement.
 
-    It ends when the residual is round-off, or when a correction does not halve it. One that enlarges it is undone.
+    The solution is the sum of corrections. Each solves the shifted system for the residual that is left, and loses its
+    part in the null space, so that the norm is least. The sum ends when the residual is round-off, or when a correction
+    does not halve it. A correction that enlarges the residual is undone. ``sigma`` and ``matrix`` are work arrays.
     """
+    # x holds the last correction until the end
     x, total, residual = ws.problem.x.start, ws.problem.sigma.start, ws.problem.sigma.start + n
     clear(ws.floats, x, n)
     clear(ws.floats, total, n)
     size, before = largest_size(ws.floats, ws.problem.right.start, n), math.inf
     while True:
         left = _write_residual(ws, n, total, residual)
+        # "not <=" and "not <", so that a residual of nan is undone and ends the loop, too
         if not left <= before:
             subtract_part(ws.floats, total, 1.0, x, n)
         if not left > _SETTLED * size or not left < 0.5 * before:
@@ -171,5 +194,6 @@ def _refine_solution(ws: Workspace, n: int) -> None:
         if not solve_shifted(ws, n):
             break
         _remove_null(ws, n, x)
+        # minus -1: add the correction
         subtract_part(ws.floats, total, -1.0, x, n)
     copy_numbers(ws.floats, total, n, x)

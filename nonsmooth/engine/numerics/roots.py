@@ -16,9 +16,11 @@ SHORT = 1e-7
 
 @kernel("f8(f8, f8, f8)")
 def weakened(kept: float, new: float, old: float) -> float:
-    """Reduced function value at the bound of a bracket that a secant step keeps.
+    """Reduced function value at the bound of a bracket that a secant step keeps, so that it is not kept for ever.
 
-    ``kept`` is its value. At the other bound the value ``new`` replaces ``old``.
+    ``kept`` is its value now. At the other bound the value ``new``, of the same sign, replaces ``old``, which must not
+    be zero.
     """
     ratio = 1.0 - new / old
+    # half, if the new value is not smaller than the old one
     return kept * (ratio if ratio > 0.0 else 0.5)

@@ -25,13 +25,15 @@ _TINY = (SAFETY / GROW) ** 5
 def stage_part(
     ws: Workspace, stages: int, start: int, slopes: int, n: int, stride: int, stage: int, h: float, out: int
 ) -> None:
-    """Write ``n`` numbers of the state at which the slope of ``stage`` is evaluated, by the weights at ``stages``.
+    """Write ``n`` numbers of the state at which the slope of ``stage`` is evaluated: start + h sum_j a_j slope_j.
 
-    ``start`` is the offset of the numbers at the start of the step of length ``h``, ``slopes`` that of their first
-    slopes. The slopes of two stages are ``stride`` apart.
+    ``start`` is the offset of the numbers at the start of the step of length ``h``, ``slopes`` that of their slopes
+    of stage 0, ``out`` that of the result. The slopes of two stages are ``stride`` apart. The weights a_j are in the
+    table at ``stages``, six in each row.
     """
     row = stages + 6 * stage
-    # one pass per stage: vectors are so short that a pass per slope would spend its time on loads and stores
+    # one loop over all slopes: vectors are so short that a loop per slope would spend its time on loads and stores.
+    # Slopes of later stages are not read, as they are not evaluated yet
     k0, k1, k2 = slopes, slopes + stride, slopes + 2 * stride
     k3, k4, k5 = k2 + stride, k2 + 2 * stride, k2 + 3 * stride
     a, b, c = h * ws.floats[row], h * ws.floats[row + 1], h * ws.floats[row + 2]
@@ -64,7 +66,7 @@ def stage_part(
 def dense_state(ws: Workspace, start: int, slopes: int, n: int, h: float, theta: float, out: int) -> None:
     """Write the ``n`` numbers of the interpolated state at the fraction ``theta`` of a step of length ``h``.
 
-    ``start`` is the offset of the state at the start, ``slopes`` that of the slopes of all stages.
+    ``start``, ``slopes`` and ``out`` are offsets of the state at the start, the slopes of all stages and the result.
     """
     early, late = dense_weights(ws, h, theta, is_late=False), dense_weights(ws, h, theta, is_late=True)
     dense_part(ws.floats, start, slopes, n, n, early, late, out)
@@ -72,16 +74,20 @@ def dense_state(ws: Workspace, start: int, slopes: int, n: int, h: float, theta:
 
 @kernel("f8(ws, i8, f8)")
 def _dense_weight(ws: Workspace, stage: int, theta: float) -> float:
-    """Weight of the slope of a stage in the state at the fraction ``theta`` of a step, over ``theta``: a cubic [1]."""
+    """Weight w of the slope k of a stage in the interpolant y(theta) = y_0 + h theta sum w(theta) k [1].
+
+    It is a cubic of ``theta``, the fraction of the step.
+    """
     d = ws.coefficients.dense.start + 4 * stage
     return float(ws.floats[d] + theta * (ws.floats[d + 1] + theta * (ws.floats[d + 2] + theta * ws.floats[d + 3])))
 
 
 @kernel("v3(ws, f8, f8, b1)")
 def dense_weights(ws: Workspace, h: float, theta: float, is_late: bool) -> Vector:
-    """Weights of three slopes in the state at the fraction ``theta`` of a step: stages 4 to 6, or 0, 2 and 3 [s].
+    """Weights of three slopes in the interpolated state at the fraction ``theta`` of a step of length ``h`` [s].
 
-    The slope of stage 1 has no weight.
+    They belong to stages 4, 5 and 6 if ``is_late``, to 0, 2 and 3 otherwise. The slope of stage 1 has no weight. Two
+    calls give all six, for :func:`dense_part`.
     """
     one, two, three = (4, 5, 6) if is_late else (0, 2, 3)
     part = h * theta
@@ -96,9 +102,10 @@ def dense_weights(ws: Workspace, h: float, theta: float, is_late: bool) -> Vecto
 def dense_part(
     floats: Floats, start: int, slopes: int, n: int, stride: int, early: Vector, late: Vector, out: int
 ) -> None:
-    """Write ``n`` numbers of the interpolated state. The slopes of two stages are ``stride`` apart.
+    """Write ``n`` numbers of the interpolated state to ``out``: start plus the weighted sum of the slopes.
 
-    ``early`` and ``late`` are the weights of :func:`dense_weights` [s].
+    ``start`` is the offset of the numbers at the start of the step, ``slopes`` that of their slopes of stage 0. The
+    slopes of two stages are ``stride`` apart. ``early`` and ``late`` are the weights of :func:`dense_weights` [s].
     """
     a, b, c = early
     d, e, f = late
@@ -111,9 +118,10 @@ def dense_part(
 
 @kernel("void(ws, i8, i8, i8, i8, f8, i8)")
 def weigh_part(ws: Workspace, weights: int, slopes: int, n: int, stride: int, h: float, out: int) -> None:
-    """Write ``n`` numbers of ``h`` times the weighted sum of the seven slopes, which estimates the error of a step.
+    """Write ``n`` numbers of ``h`` times the weighted sum of the seven slopes to ``out``, as for the error of a step.
 
-    The slopes of two stages are ``stride`` apart.
+    The seven numbers from the offset ``weights`` are those of the stages. ``slopes`` is the offset of the slopes of
+    stage 0. The slopes of two stages are ``stride`` apart.
     """
     a, b = h * ws.floats[weights], h * ws.floats[weights + 1]
     c, d = h * ws.floats[weights + 2], h * ws.floats[weights + 3]
@@ -129,13 +137,16 @@ def weigh_part(ws: Workspace, weights: int, slopes: int, n: int, stride: int, h:
 def write_implicit_interpolant(ws: Workspace, start: int, end: int, slopes: int, n: int, h: float, bend: int) -> None:
     """Write slopes with which the dense output of the explicit pair gives the interpolant of an implicit step of ``h``.
 
-    The first and the last slope belong to the states at ``start`` and ``end``, and are kept. The ``n`` numbers at
-    ``bend`` are overwritten.
+    The interpolant is the cubic Hermite one plus h theta^2 (1 - theta)^2 b, where b is a weighted sum of the slopes.
+    The slopes of stages 1 to 5 are replaced by its derivative at the nodes of the explicit pair. The first and the last
+    slope belong to the states at ``start`` and ``end``, and are kept. ``bend`` is a work array of ``n`` numbers.
     """
+    # twice b: the derivative of theta^2 (1 - theta)^2 is 2 theta (1 - theta) (1 - 2 theta)
     weigh_part(ws, ws.coefficients.implicit_bend.start, slopes, n, n, 2.0, bend)
     for stage in range(1, LAST_STAGE):
         c = tableau.NODES[stage]
         for i in range(n):
+            # derivative of the Hermite cubic, from the end values and both end slopes, then that of the added term
             ws.floats[slopes + stage * n + i] = (
                 6.0 * c * (1.0 - c) * (ws.floats[end + i] - ws.floats[start + i]) / h
                 + (1.0 - c) * (1.0 - 3.0 * c) * ws.floats[slopes + i]
@@ -146,7 +157,11 @@ def write_implicit_interpolant(ws: Workspace, start: int, end: int, slopes: int,
 
 @kernel("f8(f8)")
 def step_factor(error: float) -> float:
-    """Ratio of the length of the next step to that of this one, from its ``error`` relative to the tolerance."""
+    """Ratio of the length of the next step to that of this one, from its ``error`` relative to the tolerance.
+
+    The error grows with the fifth power of the length. The next one should be ``SAFETY`` to this power.
+    """
+    # also for an error of zero, which has no negative power
     if error <= _TINY:
         return GROW
     return float(min(GROW, max(SHRINK, SAFETY * error**_EXPONENT)))
@@ -156,8 +171,9 @@ def step_factor(error: float) -> float:
 def trend(error: float, error_before: float, growth: float) -> float:
     """Ratio of the length of the next step to that of this one, from the last two errors relative to the tolerance.
 
-    This step is ``growth`` times the one before it. Towards a singularity each step must be shorter than the last one.
-    The last error alone always allows too long a step. The controller is that of K. Gustafsson, ACM Trans. Math. Softw.
-    20 (1994) 496-517.
+    This step is ``growth`` times as long as the one before it. Towards a singularity each step must be shorter than the
+    last one, and :func:`step_factor`, which knows the last error only, always allows too long a step.
     """
+    # the error is C h^5, and C is assumed to grow by the same ratio again (K. Gustafsson, ACM Trans. Math. Softw. 20
+    # (1994) 496-517). An error of zero is not allowed
     return float(max(SHRINK, SAFETY * growth * (error_before / (error * error)) ** -_EXPONENT))

@@ -21,7 +21,7 @@ def length(v: Pair) -> float:
 
 @kernel("v2(v2)")
 def unit(v: Pair) -> Pair:
-    """Unit vector along a vector of the plane. A zero vector has no direction: (1, 0) is returned."""
+    """Unit vector along a vector of the plane. A zero vector has no direction: the first tangent, (1, 0), serves."""
     size = length(v)
     return (v[0] / size, v[1] / size) if size > 0.0 else (1.0, 0.0)
 
