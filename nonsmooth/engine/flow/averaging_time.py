@@ -31,8 +31,9 @@ _SMALLEST_FACTOR = 0.1
 
 @kernel()
 def _normalise(ws: Workspace) -> None:
-    """Bring the quaternions in ``y_stage`` to unit length."""
+    """Bring the quaternions in ``y_stage`` to unit length, which a straight extrapolation of the state has changed."""
     for body in ws.bodies:
+        # a body without quaternion has -1
         if body.quaternion < 0:
             continue
         q = ws.step.y_stage.start + body.q + body.quaternion
@@ -43,9 +44,10 @@ def _normalise(ws: Workspace) -> None:
 
 @kernel("void(ws, f8)")
 def _extrapolate(ws: Workspace, time: float) -> None:
-    """Evaluate the bodies and the gaps of the active contacts after a ``time`` [s] under their impulses.
+    """Evaluate the bodies and the gaps of the active contacts after a ``time`` [s] under their impulses in ``forces``.
 
-    The positions are of second order: they follow from the velocities in the middle of that time.
+    The positions are of second order: they follow from the mean of the velocities at both ends of that time.
+    ``y_guess`` and ``y_stage`` are overwritten.
     """
     # the change of the velocities is in y_guess, the extrapolated state in y_stage
     change, velocities = ws.step.y_guess.start + ws.model.n_q, ws.step.y_stage.start + ws.model.n_q
@@ -55,7 +57,7 @@ def _extrapolate(ws: Workspace, time: float) -> None:
     for i in range(ws.model.n_y):
         ws.step.y_stage[i] = ws.island.y[i]
     for i in range(ws.model.n_u):
-        # the mean velocity over that time, for second order
+        # the mean velocity over that time
         ws.floats[velocities + i] += 0.5 * ws.floats[change + i]
     evaluate_free_bodies(ws, ws.island.time, ws.step.y_stage.start, of_all_bodies=True)
     for body in ws.bodies:
@@ -70,16 +72,19 @@ def _extrapolate(ws: Workspace, time: float) -> None:
 
 @kernel("f8(ws)")
 def _allowed_work(ws: Workspace) -> float:
-    """Work that a contact force may do by the deviation of its gap [J]: a part of the allowed error of the energy."""
+    """Work that a contact force may do by the deviation of its gap [J]: a part of the allowed error of the energy.
+
+    The energy is the kinetic one, plus that of the velocity scales, so that it does not vanish at rest.
+    """
     return float(_ALLOWED_PART * ALLOWED * ws.tolerance.relative * (energies_of_bodies(ws)[0] + scale_energy(ws)))
 
 
 @kernel("f8(ws, Contact, f8, f8, f8)")
 def _relative_deviation(ws: Workspace, contact: Contact, deviation: float, force: float, work: float) -> float:
-    """Deviation of a gap [m] from the linear model, relative to the allowed deviation.
+    """Absolute ``deviation`` of a gap [m] from the linear model, relative to the allowed deviation.
 
-    By the allowed one the ``force`` [N] does no more than ``work`` [J]. A deviation by the gap tolerance is always
-    allowed.
+    Allowed is a part of the gap that the tolerances allow, but not more than lets the ``force`` [N] do the ``work``
+    [J]. A deviation by the gap tolerance is always allowed.
     """
     allowed = _ALLOWED_PART * tolerated_gap(ws, contact.index)
     if force * allowed > work:
@@ -91,8 +96,9 @@ def _relative_deviation(ws: Workspace, contact: Contact, deviation: float, force
 def _largest_deviation(ws: Workspace, time: float) -> float:
     """Largest deviation of a gap from the linear model after a ``time`` [s] of impulses, relative to the allowed one.
 
-    Only contacts with a normal force count, as the others may open. The deviation of a gap that is not a number is
-    infinite. Bodies and contacts are evaluated at the present state again.
+    Only contacts with a normal force count, as the others may open. Past the end of its features a contact has no true
+    gap. The deviation of a gap that is not a number is infinite. Afterwards bodies and contacts are evaluated at the
+    present state again.
     """
     work = _allowed_work(ws)
     for active in ws.actives:
@@ -102,8 +108,10 @@ def _largest_deviation(ws: Workspace, time: float) -> float:
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         if not contact.is_compliant and active.normal_force > 0.0 and contact.past_feature <= 0.0:
+            # the normal force is an impulse here
             deviation, force = contact.gap - active.gap_after, active.normal_force / time
             relative = _relative_deviation(ws, contact, deviation, force, work)
+            # a number that is not equal to itself is not a number
             worst = max(worst, relative) if relative == relative else math.inf
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     copy_inner_states(ws, ws.island.y.start)
@@ -114,14 +122,15 @@ def _largest_deviation(ws: Workspace, time: float) -> float:
 
 @kernel("void(ws, b1)")
 def find_mean_forces(ws: Workspace, follows: bool) -> None:
-    """Write the mean forces of the active contacts over an averaging span, and the modes at the end of the span.
+    """Write the mean forces of the active contacts over an averaging span [N], and the modes at the end of the span.
 
-    Rates and accelerations without contact forces must be written. A span that ``follows`` another one may be longer.
+    The span is shortened until the gaps at its end agree with the linear model by which the forces are found. Rates and
+    accelerations without contact forces must be written. A span that ``follows`` another one may be longer.
     """
     time = find_mean_impulses(ws, averaging_span(ws, follows))
     deviation = _largest_deviation(ws, time)
     while deviation > _LARGEST_DEVIATION and time > ws.tolerance.time:
-        # the deviation grows with the third power of time if a Jacobian turns, else with the second
+        # the deviation grows with the third power of time if a Jacobian turns, else with the second; 0.8 is a margin
         is_finite = deviation < math.inf
         part = max(_SMALLEST_FACTOR, 0.8 * math.sqrt(_LARGEST_DEVIATION / deviation)) if is_finite else _SMALLEST_FACTOR
         time = find_mean_impulses(ws, max(ws.tolerance.time, part * time))
@@ -131,9 +140,10 @@ def find_mean_forces(ws: Workspace, follows: bool) -> None:
 
 @kernel("f8(ws)")
 def deviation_of_gaps(ws: Workspace) -> float:
-    """Largest present deviation of a gap under averaged forces from that planned, relative to the allowed one.
+    """Largest deviation of a gap under averaged forces from the linear model, relative to the allowed one.
 
-    Writes it to ``strayed``, and its contact to ``stray_contact``: the next step starts by ending a span that is wrong.
+    Writes it to ``strayed``, and its contact to ``stray_contact``. If it is above 1, the next step begins by ending the
+    averaging span. The contacts must be evaluated at the end of a step.
     """
     work = _allowed_work(ws)
     ws.island.strayed = 0.0

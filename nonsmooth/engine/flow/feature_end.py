@@ -23,8 +23,9 @@ _DOUBLINGS = 3
 def find_feature_end(ws: Workspace) -> int:
     """Closed contact whose features end or change within eight time tolerances, or ``NO_CONTACT``.
 
-    The time to that end is written to ``step.h`` [s], the state there to ``y_new``. ``slopes`` must hold the slope at
-    ``y``, and the closed contacts must be grouped.
+    It is the cause if no step meets the tolerance. The motion is followed along a straight line. The time at which the
+    end is found is written to ``step.h`` [s], the state there to ``y_new``. ``slopes`` must hold the slope at ``y``,
+    and the closed contacts must be grouped.
     """
     ws.step.h = ws.tolerance.time
     for _doubling in range(_DOUBLINGS + 1):
