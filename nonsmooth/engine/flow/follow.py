@@ -168,8 +168,8 @@ def follow(ws: Workspace, t: float) -> Status:
 def _start_step(ws: Workspace) -> None:
     """Evaluate the slope at the start of a step, the slips there and the relaxation rate of their directions.
 
-    The rate decides between explicit and implicit steps. The step begins as explicit, from a slope of its own. Gap
-    rates and slips are copied to ``velocity_at_end``, from which a step starts.
+    The rate decides between explicit and implicit steps. The step begins as explicit, from a slope of its own. Slips
+    are copied to ``velocity_at_end``, from which the relaxation rate is found.
     """
     ws.island.stage_time, ws.step.uses_last_slope, ws.step.has_replaced_slope = 0.0, False, False
     slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=False, of_all_bodies=True)

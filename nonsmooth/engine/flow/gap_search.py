@@ -176,10 +176,10 @@ def _stays_open(ws: Workspace, n: int, h: float, bounds: GapBounds) -> bool:
         return False
     acceleration, turning = bounds.acceleration, bounds.turning
     if turning > 0.0:
-        # speed of the witness point beyond that of the turning, once for each of the two rates that differ
+        # speed of the witness point over its body, of which what exceeds the turning of the body counts
         moved = distance(two.offset, one.offset) / span
         acceleration += 2.0 * turning * max(0.0, moved - turning * bounds.support_radius)
-    # the parabolas cross at s = ahead / closing; ahead and back are their heights above each other at end and start
+    # at the start the gap is `ahead` above the parabola from the end, at the end it is `back` above that from the start
     closing = acceleration * span + r1 - r0
     ahead = g0 - g1 + r1 * span + 0.5 * acceleration * span * span
     back = g1 - g0 - r0 * span + 0.5 * acceleration * span * span
@@ -189,6 +189,7 @@ def _stays_open(ws: Workspace, n: int, h: float, bounds: GapBounds) -> bool:
     # the parabolas do not cross within the part: the gap is lowest at one of its ends
     if closing <= 0.0 or min(ahead, back) <= 0.0:
         return True
+    # the time at which they cross
     s = min(ahead / closing, span)
     return bool(g0 + s * (r0 - 0.5 * acceleration * s) >= -ws.tolerance.gap)
 

@@ -41,7 +41,7 @@ def first_user_guard(ws: Workspace) -> int:
 
 @kernel("i8(ws)")
 def first_end_guard(ws: Workspace) -> int:
-    """Number of the end guard (distance to the end of the features) of the first contact. Those of the others follow."""
+    """Number of the end guard (distance to the end of its features) of the first contact. The others follow."""
     return int(first_user_guard(ws) + ws.model.n_own_guards)
 
 

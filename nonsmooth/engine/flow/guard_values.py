@@ -22,11 +22,12 @@ gap tolerance past the end, and must not end at once."""
 def feature_guard(ws: Workspace, contact: Contact) -> float:
     """End guard of a closed contact [m]: the distance to the end of its features, negative past it.
 
-    Features are the faces, edges or corners in contact, known by a number. Features without an end (distance past it 0)
-    have the guard 1, which is positive. If the features are others than at the start of the step, the sign of a
-    positive distance is turned, so that the guard fires. ``NO_FEATURE`` means that a change is no event.
+    Features are the faces, edges or corners in contact. If they are others than at the start of the step, the sign of a
+    positive distance is turned, so that the guard fires.
     """
+    # features without an end are past it by exactly 0: the guard is 1, which is positive
     distance = _END_DISTANCE * ws.tolerance.gap - contact.past_feature if contact.past_feature != 0.0 else 1.0
+    # NO_FEATURE: a change is no event in this step
     is_unchanged = contact.feature == NO_FEATURE or int(contact.feature_now) == contact.feature
     return distance if distance < 0.0 or is_unchanged else -distance
 
