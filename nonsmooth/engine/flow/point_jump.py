@@ -91,7 +91,7 @@ def _moved(point: Vector, part: float, displacement: Vector) -> Vector:
 
 @kernel("i8(ws)")
 def _release(ws: Workspace) -> int:
-    """Open the active contacts whose impulses pull, and let those past their static bound slide. Number of these contacts.
+    """Open the active contacts that pull, and let those past their static bound slide. Number of these contacts.
 
     The cause of each is written to ``release``, by which they stay released in later stretches of the jump.
     """
