@@ -49,7 +49,7 @@ def store_start(ws: Workspace) -> None:
     """Take gaps, and bounds of their speed and acceleration, at the end of the last step as those at the start of this.
 
     After an event the bounds of the gap's acceleration are not evaluated yet: that is done only for gaps that may
-    close.
+    close. ``follows_a_step`` is true if no event has come since the last step.
     """
     for contact in ws.contacts:
         contact.gap_at_start, contact.gap_rate_at_start = contact.gap_at_end, contact.gap_rate_at_end
@@ -104,7 +104,7 @@ def _deflate_normal(ws: Workspace, contact: Contact) -> None:
 
     The guard is the gap of an open contact, or the distance of a closed compliant one to its reach, the gap up to which
     it acts. A gap that does not separate gets a slack: while other contacts hold the bodies, it may drift within
-    round-off.
+    round-off. The force of a closed rigid contact is not deflated.
     """
     normal, round_off = normal_of(ws, contact), NEGLIGIBLE * ws.tolerance.gap
     starts_about_zero = normal.initial <= ws.tolerance.gap
@@ -115,7 +115,7 @@ def _deflate_normal(ws: Workspace, contact: Contact) -> None:
         separates = not contact.gap_rate_at_end <= ws.tolerance.velocity
         start_from_zero(normal, 0.0 if separates else round_off, contact.gap_rate_at_end)
     elif contact.is_compliant:
-        # it has just closed, and opens when it returns to this gap; its distance to it grows as the gap closes
+        # it has just closed, and opens when it returns to this gap; its distance to the reach grows as the gap closes
         start_from_zero(normal, round_off, -contact.gap_rate_at_end)
 
 
@@ -158,9 +158,10 @@ def _arming_threshold(ws: Workspace, i: int) -> float:
 
 @kernel("void(ws, b1)")
 def arm_further(ws: Workspace, forces_are_known: bool) -> None:
-    """Arm, within a step, the guards that were positive at the last evaluation.
+    """Arm, within a step, the guards that were positive at the last evaluation, so that they fire at their next zero.
 
-    Without known forces the guards of closed contacts are skipped, because they were not evaluated there.
+    A force must be above its round-off. Without known forces the guards of closed contacts are skipped, because they
+    were not evaluated.
     """
     for i in range(number_of_guards(ws)):
         guard, is_of_contact = ws.guards[i], i < first_user_guard(ws)

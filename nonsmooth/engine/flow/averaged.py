@@ -53,7 +53,7 @@ def start_averaging_span(ws: Workspace, follows: bool) -> None:
     copy_inner_states(ws, ws.island.y.start)
     for i in range(ws.island.n_grouped):
         c = ws.island.grouped[i]
-        evaluate_contact(ws, c, 3)
+        evaluate_contact(ws, c, rows=3)
         # closed contacts touch, and the accelerations by compliance are those of touching contacts
         ws.contacts[c].is_touching = True
     account_for_mean_forces(ws)

@@ -116,7 +116,7 @@ def _largest_deviation(ws: Workspace, time: float) -> float:
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     copy_inner_states(ws, ws.island.y.start)
     for active in ws.actives:
-        evaluate_contact(ws, active.contact, 3)
+        evaluate_contact(ws, active.contact, rows=3)
     return worst
 
 
@@ -150,7 +150,7 @@ def deviation_of_gaps(ws: Workspace) -> float:
     for contact in ws.contacts:
         if not contact.is_averaged or contact.is_compliant or contact.past_feature > 0.0:
             continue
-        # a gap that was open at the start of the span may close, and one that opens comes to rest
+        # mean_gap is the gap at the start of the span: an open one may close, and one that opens comes to rest
         deviation = abs(contact.gap - contact.mean_gap) - abs(contact.mean_gap) - contact.mean_gap_change
         relative = _relative_deviation(ws, contact, max(0.0, deviation), contact.mean_force[0], work)
         if relative > ws.island.strayed:

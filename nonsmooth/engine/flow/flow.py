@@ -50,11 +50,11 @@ def right_hand_side(ws: Workspace, t: float, y: int, may_choose: bool, of_all_bo
     """Evaluate bodies, closed contacts, their forces and the accelerations ``du``, at time ``t`` [s] and state ``y``.
 
     The bodies are all, or only those that the integrator steps. The closed contacts must be grouped into islands. If it
-    ``may_choose``, redundant forces are chosen anew. False if no choice keeps all bounds of some island; else True,
-    also if forces were not chosen.
+    ``may_choose``, redundant forces, which are not unique, are chosen anew. False if no choice keeps all bounds of some
+    island; else True, also if forces were not chosen.
     """
     keeps_bounds = True
-    # the search for forces writes a contact near the Painleve singularity
+    # -1 for none; the search for forces writes a contact near the Painleve singularity
     ws.island.singular_contact = -1
     if not of_all_bodies and ws.model.n_loads + ws.model.n_joints == 0:
         # this call is inlined, and most right-hand sides are of this kind
@@ -66,6 +66,7 @@ def right_hand_side(ws: Workspace, t: float, y: int, may_choose: bool, of_all_bo
     if ws.island.n_grouped == 0:
         return keeps_bounds
     evaluate_driven_bodies(ws, t, y)
+    # friction laws read their inner states from a copy
     copy_inner_states(ws, y)
     for group in range(ws.island.n_groups):
         c = lone_sliding_contact(ws, group)
@@ -97,7 +98,7 @@ def _evaluate_active(ws: Workspace, y: int) -> None:
         if contact.is_compliant:
             evaluate_compliant_force(ws, active.contact)
         _set_unknowns(ws, active, y)
-        evaluate_bias(ws, active.contact, 3 if active.sticks else 1)
+        evaluate_bias(ws, active.contact, rows=3 if active.sticks else 1)
         write_rows(ws, active.index)
 
 
@@ -144,7 +145,7 @@ def _static_margin(ws: Workspace, active: ActiveContact) -> float:
         return 1.0
     if not active.sticks:
         return float(ws.tolerance.velocity - length(contact.slip))
-    # the first component of anisotropic friction depends on the direction from which it is opposed
+    # anisotropic friction along t1 is scaled to the bound of the slip that it opposes, forward or backward
     friction = force_in_facing(ws, active.contact, active.force[1]), active.force[2]
     # a choice of redundant forces may exceed its bound by the slack
     slack = contact.slack * active.has_redundant_force
@@ -155,8 +156,9 @@ def _static_margin(ws: Workspace, active: ActiveContact) -> float:
 def _set_unknowns(ws: Workspace, active: ActiveContact, y: int) -> None:
     """Write which forces of an active contact are unknown, the values of the known ones, and its slip direction.
 
-    Known are a compliant normal force, the friction of a traction law (a law of slip and spin that gives friction and
-    moment), and averaged forces. Also unknown is whether friction holds it: it ``sticks``. ``y`` is the state.
+    Known are a compliant normal force, friction and moment of a traction law, and averaged forces. A contact that
+    ``sticks`` has unknown friction, which holds it. A contact in mode stick without a coefficient of friction is
+    treated as one that slides. ``y`` is the state, with the inner states of traction laws.
     """
     c = active.contact
     contact = ws.contacts[c]
@@ -257,7 +259,7 @@ def slope(ws: Workspace, t: float, y: int, out: int, may_choose: bool, of_all_bo
     powers = out + ws.model.n_q + ws.model.n_u
     ws.floats[powers + DRIVEN], ws.floats[powers + LOADS] = ws.step.driven_power, ws.step.load_power
     ws.floats[powers + FRICTION_LOSS] = lost
-    # round-off of the energy is relative to all that was exchanged
+    # round-off of the energy is relative to all that was exchanged; the forces of bodies include the loads
     ws.floats[powers + EXCHANGED] = abs(of_bodies) + abs(ws.step.driven_power) + abs(lost)
     write_inner_rates(ws, y, out)
 
@@ -293,6 +295,7 @@ def _power_of_friction(ws: Workspace) -> float:
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]
         if contact.mode != Mode.STICK or contact.is_averaged:
+            # the two tangential rows
             for r in range(1, 3):
                 lost -= contact.force[r] * contact.rate[r]
         # power of the friction moment on the relative spin, negative if it dissipates

@@ -112,6 +112,7 @@ def _find_step(ws: Workspace, h: float) -> float:
         elif part == 1.0:
             # the error was too large
             part = step_factor(error) if error < math.inf else SHRINK
+        # the step becomes shorter in any case
         h *= min(part, SAFETY)
 
 
@@ -119,13 +120,13 @@ def _find_step(ws: Workspace, h: float) -> float:
 def _evaluate_slip_per_force(ws: Workspace) -> None:
     """Write the slip acceleration per unit of friction of each closed contact [1/kg], for the relaxation rate of slips.
 
-    In a run, events write it. A replay has none.
+    In a run, events write it, which a replay does not repeat.
     """
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
         for active in ws.actives:
-            evaluate_contact(ws, active.contact, 1)
+            evaluate_contact(ws, active.contact, rows=1)
         assemble_delassus(ws)
         for active in ws.actives:
             ws.contacts[active.contact].slip_per_force = tangential_inverse_mass(ws, active)

@@ -217,6 +217,7 @@ def _first_closing_of(ws: Workspace, h: float, contact: Contact, high: float, is
             n_evaluations += 1
             if n_evaluations > _MOST_EVALUATIONS:
                 ws.totals.n_gap_evaluations += 1
+                # this ends the run, so the result does not matter
                 fail_check(ws, Status.GAP_UNDECIDED, contact.index, left.gap, ws.tolerance.gap)
                 return 0.0
             middle = left.theta + 0.5 * (right.theta - left.theta)
@@ -301,6 +302,7 @@ def first_closing(ws: Workspace, h: float, high: float, needed: int) -> float:
     closes, the contacts that the search evaluated within the step are evaluated at ``high`` again: all of them if that
     is the end of the step, else the contact ``needed`` only.
     """
+    # the search among features that do not face each other has evaluated the contacts at other times
     found, is_evaluated = 0.0, ws.step.n_not_facing == 0
     for i in range(ws.step.n_may_close):
         contact = ws.contacts[ws.step.may_close[i]]
