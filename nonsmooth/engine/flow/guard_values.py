@@ -25,9 +25,9 @@ def feature_guard(ws: Workspace, contact: Contact) -> float:
     Features are the faces, edges or corners in contact. If they are others than at the start of the step, the sign of a
     positive distance is turned, so that the guard fires.
     """
-    # features without an end are past it by exactly 0: the guard is 1, which is positive
+    # a contact may close a gap tolerance past the end, so the guard ends two of them past it; without an end it is 1
     distance = _END_DISTANCE * ws.tolerance.gap - contact.past_feature if contact.past_feature != 0.0 else 1.0
-    # NO_FEATURE: a change is no event in this step
+    # features are numbered; with NO_FEATURE a change is no event in this step
     is_unchanged = contact.feature == NO_FEATURE or int(contact.feature_now) == contact.feature
     return distance if distance < 0.0 or is_unchanged else -distance
 
@@ -89,7 +89,7 @@ def _write_guards_without_gaps(ws: Workspace, t: float, y: int, forces_are_known
     End guards are 1 for open contacts, without known forces, and for bodies with an own step: none of these may fire.
     Guards of the user are functions of time and state alone.
     """
-    # with closed contacts the right-hand side has evaluated the driven bodies
+    # gaps need the driven bodies, which the right-hand side evaluates only with closed contacts
     if ws.island.n_grouped == 0:
         evaluate_driven_bodies(ws, t, y)
     elif forces_are_known:
@@ -157,7 +157,7 @@ def evaluate_guards(ws: Workspace, t: float, y: int, elapsed: float, needs_force
     """Evaluate motion and guards within the step, ``elapsed`` [s] after its start: at time ``t`` [s] and state ``y``.
 
     Gaps that cannot close in the step keep their values. Guards of closed contacts do so unless it ``needs_forces``.
-    Guards that are zero at the start of the step are deflated: divided by the elapsed time.
+    Of guards that are zero at the start of the step, the growth over the elapsed time takes the place of the value.
     """
     if needs_forces:
         right_hand_side(ws, t, y, may_choose=False, of_all_bodies=False)

@@ -56,8 +56,8 @@ def _independent_body(ws: Workspace, contact: Contact) -> int:
     """Body that sticks by this contact alone to a body at rest and has no own step yet, or ``_NO_BODY``.
 
     Such a body acts on nothing else, so it may take a step of its own. It must not be the only body with velocities:
-    then an own step would save nothing, as there are no events of others. A spin that may be integrated along axes in
-    space has another interpolant, so such bodies take no own step.
+    then an own step would save nothing, as there are no events of others. A body that declares a spin (not negative)
+    may be integrated with another interpolant, so it takes no own step.
     """
     is_rigid = not contact.is_compliant and not contact.is_averaged and not contact.is_anisotropic
     if contact.mode != Mode.STICK or not is_rigid or contact.past_feature > 0.0:
@@ -178,6 +178,7 @@ def begin_own_steps(ws: Workspace, usual: float, longest: float) -> None:
     if ws.model.n_loads + ws.model.n_joints + ws.model.n_states > 0 or _group_independent_bodies(ws) == 0:
         return
     h = _try_own_step(ws, usual, longest)
+    # no step meets the tolerance
     if h == 0.0:
         return
     for i in range(ws.island.n_grouped):
@@ -189,6 +190,7 @@ def begin_own_steps(ws: Workspace, usual: float, longest: float) -> None:
             # the other body is at rest
             number = contact.body_b if ws.bodies[contact.body_b].n_u > 0 else contact.body_a
             _store_step(ws, ws.bodies[number], h)
+            # all own steps end at one instant: h is at most the time up to the end of those that began before
             ws.island.own_steps_end = min(ws.island.own_steps_end, ws.island.time + h)
 
 
@@ -196,7 +198,8 @@ def begin_own_steps(ws: Workspace, usual: float, longest: float) -> None:
 def _try_own_step(ws: Workspace, usual: float, longest: float) -> float:
     """Step the independent bodies, and sample the ranges of their guards at start, end and middle of the step.
 
-    Length of the step [s], or 0 if none meets the tolerance. The samples show that no guard can fire within it.
+    Length of the step [s], or 0 if none meets the tolerance. From the samples the caller finds which guards cannot fire
+    within it.
     """
     # the explicit step sets it to zero; it decides whether the next common step is implicit
     stage_time = ws.island.stage_time

@@ -78,6 +78,7 @@ def _set_up_problem(ws: Workspace, part: float) -> None:
             active.direction = contact.slip[0] / speed, contact.slip[1] / speed
         for r in range(3):
             active.free[r] = contact.rate[r]
+            # the largest rate: the impulse that counts as zero is relative to that which stops it
             ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, abs(contact.rate[r]))
     assemble_delassus(ws)
 
@@ -136,6 +137,7 @@ def _apply_impulses(ws: Workspace, part: float) -> None:
         contact = ws.contacts[active.contact]
         for r in range(3):
             impulse = active.force[r]
+            # work of driven bodies, which prescribe a part of the rates
             ws.floats[powers + DRIVEN] -= impulse * contact.prescribed_rate[r]
             ws.floats[powers + EXCHANGED] += abs(impulse * contact.prescribed_rate[r])
             if r != NORMAL_ROW and not active.sticks:
@@ -161,8 +163,8 @@ def _jumping_contact(ws: Workspace, h: float, rate: float) -> int:
     """Contact whose point jumps in the time ``h`` [s]: it moves much faster than its bodies, to where they approach.
 
     Their gap rate there must be below ``rate`` [m/s]. The speed of the bodies is that of slip and relative turning.
-    They must be evaluated at the end of that time. The last such contact is returned, or ``NO_CONTACT``. Evaluates
-    geometry and rates of the grouped contacts.
+    They must be evaluated at the end of that time. The point is that on the second body. The last such contact is
+    returned, or ``NO_CONTACT``. Evaluates geometry and rates of the grouped contacts.
     """
     which = NO_CONTACT
     for i in range(ws.island.n_grouped):
