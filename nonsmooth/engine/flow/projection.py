@@ -148,7 +148,7 @@ def _add_gaps(ws: Workspace) -> bool:
         active.direction = contact.direction
         active.free[0] = held_gap(contact)
     if ws.problem.n_active > 1:
-        # the displacement is at most the gap over twice the root of the damping
+        # at most the gap over twice the root of the damping: _LARGEST_CORRECTION times the allowed gap
         _damp(ws, max(_DAMPING, (0.5 * ratio / _LARGEST_CORRECTION) ** 2))
     resolve(ws)
     add_response(ws, ws.problem.forces.start, ws.step.y_stage.start + ws.model.n_q)
@@ -353,6 +353,7 @@ def _project_active(ws: Workspace, at_event: bool) -> Projected:
         return Projected(0.0, False)
     # at an event a slow slip is removed too, which needs the tangential rows
     if not at_event and _is_lone_slip(ws):
+        # without a gap the velocities are zero, and displace nothing
         return Projected(_project_lone_slip(ws), True)
     for active in ws.actives:
         evaluate_jacobian(ws, active.contact)
@@ -376,14 +377,15 @@ def project_joints(ws: Workspace) -> None:
         for articulation in ws.articulations:
             velocities = ws.step.y_stage.start + ws.model.n_q
             worst = max(worst, _subtract(ws, articulation, articulation.residual, velocities))
-        # such joints are not moved
+        # joints that are farther apart than steps can lead are not moved
         if iteration == 0 and worst > _allowed_residual(ws):
             break
         if worst <= NEGLIGIBLE * ws.tolerance.gap or worst > 0.5 * before or iteration == _MOST_ITERATIONS - 1:
             break
+        # the last iteration moves nothing, so that the bodies are evaluated at their end
         before = worst
         _displace(ws)
-    # a residual that is not a number fails, too; _displace may have failed before
+    # a residual that is not a number fails, too; _displace may have failed before; -1: no single joint
     if not worst <= ALLOWED * ws.tolerance.gap and ws.run.failure == Status.RUNNING:
         fail_check(ws, Status.JOINTS_APART, -1, worst, ALLOWED * ws.tolerance.gap)
     for articulation in ws.articulations:

@@ -70,7 +70,7 @@ def tolerated_gap(ws: Workspace, c: int) -> float:
 
 @kernel("f8(ws, i8)")
 def allowed_gap(ws: Workspace, c: int) -> float:
-    """Gap that a closed contact may have [m]: by the tolerances, and until averaged forces have brought it to rest."""
+    """Gap that a closed contact ``c`` may have [m]: by the tolerances, plus its change until averaged forces stop it."""
     contact = ws.contacts[c]
     change = contact.mean_gap_change if contact.is_averaged else 0.0
     return float(tolerated_gap(ws, c) + change)
@@ -122,7 +122,7 @@ def check_gaps(ws: Workspace) -> None:
             if contact.overlap_at_end < 0.0 and not _has_closed_contact(ws, contact):
                 gap = contact.overlap_at_end
         elif contact.is_compliant or contact.past_feature > 0.0:
-            # it may have a gap
+            # a compliant contact has a depth, and past the end of features the gap is only a distance
             continue
         # the first bound is cheap, and decides most cases
         if abs(gap) > ALLOWED * ws.tolerance.gap and abs(gap) > allowed_gap(ws, contact.index):
@@ -192,7 +192,7 @@ def check_new_springs(ws: Workspace) -> None:
 
 @kernel("f8(ws)")
 def _accounted_energy(ws: Workspace) -> float:
-    """Energy that instants have supplied to the bodies so far, by the totals [J]: driven work minus all losses."""
+    """Energy that events and projections have given to the bodies so far, by the totals [J]: driven work minus all losses."""
     return float(ws.totals.driven_work - ws.totals.restitution_loss - ws.totals.friction_loss - ws.totals.closing_loss)
 
 
@@ -237,7 +237,7 @@ def close_energy_account(ws: Workspace) -> None:
     exchanged = abs(ws.island.y[ws.model.n_q + ws.model.n_u + EXCHANGED])
     allowed = ALLOWED * ws.tolerance.impact * (ws.island.kinetic_before + kinetic + abs(accounted))
     allowed += _ROUND_OFF * (exchanged + abs(potential) + abs(ws.island.potential_before))
-    # nothing moves, and nothing was exchanged
+    # nothing is allowed only if nothing moves and nothing was exchanged
     ratio = abs(change - accounted) / allowed if allowed > 0.0 else 0.0
     if ratio > ws.run.worst_energy_ratio:
         ws.run.worst_energy_ratio, ws.run.worst_energy = ratio, change - accounted

@@ -55,7 +55,7 @@ def _relative_error(ws: Workspace) -> float:
     The accounts, which follow the velocities in the state, shorten no step.
     """
     worst = 0.0
-    # a span is a connected part of the state that is integrated
+    # a span is a connected part of the state that is integrated; the last one reaches past the velocities, and is cut
     for span in range(ws.island.n_spans):
         first = ws.island.span_first[span]
         worst = _largest_error(ws, first, min(first + ws.island.span_length[span], ws.model.n_q + ws.model.n_u), worst)
@@ -105,7 +105,7 @@ def relaxation_rate(ws: Workspace) -> float:
             return 0.0
         if contact.mode == Mode.SLIDE and not contact.is_averaged:
             friction, speed = length((contact.force[1], contact.force[2])), length(contact.slip_at_end)
-            # a slip that begins has no speed
+            # the last step ended where this one starts; a slip that begins has no speed
             slip = max(speed, _SMALLEST_SLIP * ws.tolerance.velocity)
             fastest = max(fastest, contact.slip_per_force * friction / slip)
     return fastest
@@ -331,7 +331,7 @@ def try_step(ws: Workspace, h: float) -> float:
     for contact in ws.contacts:
         contact.least_force = math.inf
     error = _step_integrated(ws, h)
-    # a step that is rejected anyway needs no motion of the ballistic bodies
+    # a step that is rejected anyway needs no motion of the ballistic bodies; land gives 0, or NaN for an invalid motion
     return error + land(ws, h) if ws.island.n_ballistic > 0 and error <= TRUSTED else error
 
 
