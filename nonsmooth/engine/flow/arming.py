@@ -90,10 +90,8 @@ def arm_guards(ws: Workspace) -> None:
 
 @kernel("void(Guard)")
 def _start(guard: Guard) -> None:
-    """Set a guard to its value at the end of the last step, not deflated.
-
-    ``initial`` is its value at the start of the step, and ``base`` the value from which its growth would count.
-    """
+    """Set a guard to its value at the end of the last step, not deflated."""
+    # base is the value from which its growth counts if it is deflated afterwards
     guard.is_deflated = False
     guard.base = guard.initial = guard.at_end
 

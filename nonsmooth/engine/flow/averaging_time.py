@@ -72,10 +72,8 @@ def _extrapolate(ws: Workspace, time: float) -> None:
 
 @kernel("f8(ws)")
 def _allowed_work(ws: Workspace) -> float:
-    """Work that a contact force may do by the deviation of its gap [J]: a part of the allowed error of the energy.
-
-    The energy is the kinetic one, plus that of the velocity scales, so that it does not vanish at rest.
-    """
+    """Work that a contact force may do by the deviation of its gap [J]: a part of the allowed error of the energy."""
+    # kinetic energy, plus that of the velocity scales, so that it does not vanish at rest
     return float(_ALLOWED_PART * ALLOWED * ws.tolerance.relative * (energies_of_bodies(ws)[0] + scale_energy(ws)))
 
 

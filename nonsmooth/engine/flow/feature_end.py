@@ -27,7 +27,7 @@ def find_feature_end(ws: Workspace) -> int:
     end is found is written to ``step.h`` [s], the state there to ``y_new``. ``slopes`` must hold the slope at ``y``,
     and the closed contacts must be grouped.
     """
-    # a step of a time tolerance has failed, so 1, 2, 4 and 8 of them are tried
+    # steps of up to five time tolerances have failed, so 1, 2, 4 and 8 of them are tried
     ws.step.h = ws.tolerance.time
     for _doubling in range(_DOUBLINGS + 1):
         for i in range(ws.model.n_y):

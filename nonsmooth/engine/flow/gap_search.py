@@ -99,10 +99,8 @@ def _gap_above_start(ws: Workspace, contact: Contact, gap: float) -> float:
 
 @kernel("void(ws, Contact, f8)")
 def _write_gap_guard(ws: Workspace, contact: Contact, elapsed: float) -> None:
-    """Write the rate and the guard of a gap that was evaluated after ``elapsed`` [s] of the step.
-
-    The rate is copied, because later evaluations of the contact overwrite ``normal_rate``.
-    """
+    """Write the rate and the guard of a gap that was evaluated after ``elapsed`` [s] of the step."""
+    # a copy, because later evaluations of the contact overwrite normal_rate
     contact.gap_rate = contact.normal_rate
     normal_of(ws, contact).value = deflated(ws, normal_guard(contact.index), contact.gap, elapsed)
 

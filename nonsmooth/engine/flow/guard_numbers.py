@@ -53,19 +53,19 @@ def number_of_guards(ws: Workspace) -> int:
 
 @kernel("Guard(ws, Contact)")
 def normal_of(ws: Workspace, contact: Contact) -> Guard:
-    """Normal guard of a contact: a view of its gap, its normal force, or the distance to its reach."""
+    """Record of the normal guard of a contact: its gap, its normal force, or the distance to its reach."""
     return ws.guards[normal_guard(contact.index)]
 
 
 @kernel("Guard(ws, Contact)")
 def friction_of(ws: Workspace, contact: Contact) -> Guard:
-    """Friction guard of a contact: a view of its distance to the static bound, or of its slip."""
+    """Record of the friction guard of a contact: the distance to its static bound, or its slip."""
     return ws.guards[friction_guard(ws, contact.index)]
 
 
 @kernel("Guard(ws, Contact)")
 def end_of(ws: Workspace, contact: Contact) -> Guard:
-    """End guard of a contact: a view of the distance to the end of its features."""
+    """Record of the end guard of a contact: the distance to the end of its features."""
     return ws.guards[first_end_guard(ws) + contact.index]
 
 

@@ -34,11 +34,8 @@ def feature_guard(ws: Workspace, contact: Contact) -> float:
 
 @kernel("b1(ws, Contact)")
 def has_other_features(ws: Workspace, contact: Contact) -> bool:
-    """True if a contact whose end guard fired has passed to other features, False if its features ended.
-
-    After a change the witness points are within the new features, so the distance past their end is not positive, but
-    for the gap tolerance.
-    """
+    """True if a contact whose end guard fired has passed to other features, False if its features ended."""
+    # after a change the witness points are within the new features, so the distance past their end is not positive
     return contact.past_feature <= ws.tolerance.gap
 
 

@@ -97,10 +97,8 @@ def _group_independent_bodies(ws: Workspace) -> int:
 
 @kernel("void(Guard, f8, b1)")
 def _extend_range(guard: Guard, value: float, is_first: bool) -> None:
-    """Extend the range of a guard's values by ``value``, or start it there if it ``is_first``.
-
-    The range is stored from ``base`` to ``at_end``, which are free until the next common step writes the guards.
-    """
+    """Extend the range of a guard's values by ``value``, or start it there if it ``is_first``."""
+    # the range is stored from base to at_end, which are free until the next common step writes the guards
     guard.base = value if is_first else min(guard.base, value)
     guard.at_end = value if is_first else max(guard.at_end, value)
 

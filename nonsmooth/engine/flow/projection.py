@@ -208,10 +208,8 @@ def normalise_quaternions(ws: Workspace) -> None:
 
 @kernel("void(ws, i8)")
 def _copy_coordinates(ws: Workspace, out: int) -> None:
-    """Write the present coordinates q, with all velocities and accounts zero, to the state at ``out``.
-
-    Displacements of a projection are then added in place of the velocities.
-    """
+    """Write the present coordinates q, with all velocities and accounts zero, to the state at ``out``."""
+    # displacements of a projection are then added in place of the velocities
     for i in range(ws.model.n_y):
         ws.floats[out + i] = ws.island.y[i] if i < ws.model.n_q else 0.0
 

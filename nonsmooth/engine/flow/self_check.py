@@ -70,7 +70,7 @@ def tolerated_gap(ws: Workspace, c: int) -> float:
 
 @kernel("f8(ws, i8)")
 def allowed_gap(ws: Workspace, c: int) -> float:
-    """Gap that a closed contact ``c`` may have [m]: by the tolerances, plus its change until averaged forces stop it."""
+    """Gap that a closed contact may have [m]: by the tolerances, plus its change until averaged forces stop it."""
     contact = ws.contacts[c]
     change = contact.mean_gap_change if contact.is_averaged else 0.0
     return float(tolerated_gap(ws, c) + change)
@@ -192,7 +192,7 @@ def check_new_springs(ws: Workspace) -> None:
 
 @kernel("f8(ws)")
 def _accounted_energy(ws: Workspace) -> float:
-    """Energy that events and projections have given to the bodies so far, by the totals [J]: driven work minus all losses."""
+    """Energy that events and projections have given to the bodies so far [J]: driven work minus all losses."""
     return float(ws.totals.driven_work - ws.totals.restitution_loss - ws.totals.friction_loss - ws.totals.closing_loss)
 
 

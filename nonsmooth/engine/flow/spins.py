@@ -62,10 +62,7 @@ def normalise(floats: Floats, q: int) -> float:
 
 @kernel("i8(ws, i8)")
 def _slopes_of(ws: Workspace, number: int) -> int:
-    """Offset of the slopes of the spin (angular velocity) of body ``number``, along axes in space [1/s^2].
-
-    They are three floats for each stage of a step.
-    """
+    """Offset of the slopes of the spin of body ``number`` along axes in space [1/s^2]: three floats for each stage."""
     return int(ws.island.spin_slopes.start + 3 * N_STAGES * number)
 
 
