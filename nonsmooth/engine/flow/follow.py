@@ -231,6 +231,7 @@ def evaluate_forces(ws: Workspace, may_choose: bool) -> None:
         start_averaging_span(ws, follows=False)
     evaluate_driven_bodies(ws, ws.island.time, ws.island.y.start)
     right_hand_side(ws, ws.island.time, ws.island.y.start, may_choose, of_all_bodies=True)
+    # forces against wrong slip directions are wrong, and a new choice may keep bounds that the present one exceeds
     have_turned = _reorient_slips(ws)
     is_past_bounds = not may_choose and _exceed_bounds(ws)
     if have_turned or is_past_bounds:
