@@ -243,7 +243,7 @@ def _write_first_end(ws: Workspace, contact: Contact) -> None:
 
 @kernel("void(ws, f8, Contact, f8, b1)")
 def _write_last_end(ws: Workspace, h: float, contact: Contact, high: float, is_evaluated: bool) -> None:
-    """Write the fraction ``high`` of the step of ``h`` [s], up to which a closing is searched for, as end 1 of its parts.
+    """Write the fraction ``high`` of the step of ``h`` [s] as end 1 of its parts: the end of the search for closings.
 
     Values at the end of the step are known. Elsewhere the contact is evaluated, unless it ``is_evaluated`` there.
     """
