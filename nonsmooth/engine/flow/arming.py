@@ -29,7 +29,11 @@ NO_BOUND = -1.0, 0.0, 0.0
 
 @kernel()
 def store_end(ws: Workspace) -> None:
-    """Store guards and rates at the end of a step. The next step starts from them."""
+    """Copy gaps, rates and guards, as evaluated last, to the fields ``*_at_end``, from which the next step starts.
+
+    The bodies must be evaluated at the end of the step. The search for events within the step overwrites the present
+    values. After an event this is called at the start of the next step.
+    """
     for contact in ws.contacts:
         contact.gap_rate_at_end = contact.gap_rate
         contact.gap_at_end = contact.gap
@@ -42,9 +46,10 @@ def store_end(ws: Workspace) -> None:
 
 @kernel()
 def store_start(ws: Workspace) -> None:
-    """Take gaps and their bounds at the end of the last step as those at the start of the next one.
+    """Take gaps, and bounds of their speed and acceleration, at the end of the last step as those at the start of this.
 
-    Bounds of the gap's acceleration hold only if no event came in between.
+    After an event the bounds of the gap's acceleration are not evaluated yet: that is done only for gaps that may
+    close. ``follows_a_step`` is true if no event has come since the last step.
     """
     for contact in ws.contacts:
         contact.gap_at_start, contact.gap_rate_at_start = contact.gap_at_end, contact.gap_rate_at_end
@@ -56,7 +61,12 @@ def store_start(ws: Workspace) -> None:
 
 @kernel()
 def arm_guards(ws: Workspace) -> None:
-    """Start all guards of a step from the end of the last one: deflate those about zero, arm the positive ones."""
+    """Prepare all guards for the step that begins: those of contacts, of the user, and of the ends of features.
+
+    Each starts from its value at the end of the last step. A guard of a contact that starts about zero is deflated: its
+    root at the start is divided out, so that its next root is the first. A guard that starts positive is armed: it
+    fires at its next root.
+    """
     for contact in ws.contacts:
         _start(normal_of(ws, contact))
         _start(friction_of(ws, contact))
@@ -67,7 +77,7 @@ def arm_guards(ws: Workspace) -> None:
         guard = ws.guards[first_user_guard(ws) + user.index]
         _start(guard)
         if user.has_just_fired:
-            # it starts at zero, with a growth rate that is not known
+            # it starts at zero, with a growth rate that is not known: 0 leaves it disarmed until it has grown
             guard.is_deflated = True
             guard.initial = 0.0
         user.has_just_fired = False
@@ -80,54 +90,60 @@ def arm_guards(ws: Workspace) -> None:
 
 @kernel("void(Guard)")
 def _start(guard: Guard) -> None:
-    """Start a guard from its value at the end of the last step."""
+    """Set a guard to its value at the end of the last step, not deflated."""
+    # base is the value from which its growth counts if it is deflated afterwards
     guard.is_deflated = False
     guard.base = guard.initial = guard.at_end
 
 
 @kernel("void(ws, Contact)")
 def _deflate_normal(ws: Workspace, contact: Contact) -> None:
-    """Deflate the normal guard if it starts about zero: a closed gap, or a compliant contact at its reach.
+    """Deflate the normal guard if it starts about zero, so that its root at the start does not fire again.
 
-    A gap that does not separate gets a slack: while other contacts hold the bodies, it may drift within round-off.
+    The guard is the gap of an open contact, or the distance of a closed compliant one to its reach, the gap up to which
+    it acts. A gap that does not separate gets a slack: while other contacts hold the bodies, it may drift within
+    round-off. The force of a closed rigid contact is not deflated.
     """
     normal, round_off = normal_of(ws, contact), NEGLIGIBLE * ws.tolerance.gap
     starts_about_zero = normal.initial <= ws.tolerance.gap
     if not starts_about_zero:
         return
     if contact.mode == Mode.OPEN:
+        # a rate that is not a number counts as separating
         separates = not contact.gap_rate_at_end <= ws.tolerance.velocity
         start_from_zero(normal, 0.0 if separates else round_off, contact.gap_rate_at_end)
     elif contact.is_compliant:
-        # it has just closed, and opens when it returns to this gap
+        # it has just closed, and opens when it returns to this gap; its distance to the reach grows as the gap closes
         start_from_zero(normal, round_off, -contact.gap_rate_at_end)
 
 
 @kernel("void(ws, Contact)")
 def _deflate_friction(ws: Workspace, contact: Contact) -> None:
-    """Deflate the friction guard of a contact that slides if its slip has just begun: it is about zero."""
+    """Deflate the friction guard of a sliding contact, its slip [m/s], if that has just begun and is about zero."""
     friction = friction_of(ws, contact)
     if contact.mode == Mode.SLIDE and friction.initial <= ws.tolerance.velocity:
+        # the growth rate is not known: 0 leaves the guard disarmed until the slip has grown
         start_from_zero(friction, NEGLIGIBLE * ws.tolerance.velocity, 0.0)
 
 
 @kernel("void(ws, Contact)")
 def _arm(ws: Workspace, contact: Contact) -> None:
-    """Arm the normal and the friction guard of a contact if they start above their thresholds.
+    """Arm the normal and the friction guard of a contact, so that they may fire, if they start above their thresholds.
 
     A gap that starts closed is armed at once: its guard is its growth, which is negative as soon as it closes further.
     """
     c, normal, friction = contact.index, normal_of(ws, contact), friction_of(ws, contact)
-    rests = contact.mode == Mode.OPEN and normal.is_deflated
-    normal.is_armed = rests or normal.initial > _arming_threshold(ws, normal_guard(c))
+    starts_closed = contact.mode == Mode.OPEN and normal.is_deflated
+    normal.is_armed = starts_closed or normal.initial > _arming_threshold(ws, normal_guard(c))
     friction.is_armed = friction.initial > _arming_threshold(ws, friction_guard(ws, c))
 
 
 @kernel("f8(ws, i8)")
 def _arming_threshold(ws: Workspace, i: int) -> float:
-    """Value above which guard ``i`` of a contact is armed. A force within round-off of zero must not arm it.
+    """Value above which guard ``i`` of a contact is armed: the round-off of forces [N] for a force, 0 for gap or slip.
 
-    The distance to a static bound has this threshold only without a normal force, because it is then round-off too.
+    A force within round-off of zero must not arm its guard. The distance of friction to its static bound has this
+    threshold only without a normal force, because it is then round-off too.
     """
     contact = contact_at(ws, i)
     if contact.mode == Mode.OPEN or contact.is_compliant:
@@ -140,7 +156,11 @@ def _arming_threshold(ws: Workspace, i: int) -> float:
 
 @kernel("void(ws, b1)")
 def arm_further(ws: Workspace, forces_are_known: bool) -> None:
-    """Arm the guards that are positive at the present fraction of the step. Without known forces, skip force guards."""
+    """Arm, within a step, the guards that were positive at the last evaluation, so that they fire at their next zero.
+
+    A force must be above its round-off. Without known forces the guards of closed contacts are skipped, because they
+    were not evaluated.
+    """
     for i in range(number_of_guards(ws)):
         guard, is_of_contact = ws.guards[i], i < first_user_guard(ws)
         threshold = _arming_threshold(ws, i) if is_of_contact else 0.0

@@ -26,7 +26,8 @@ from nonsmooth.engine.native.kernel import Workspace, kernel
 def end_averaging_span(ws: Workspace) -> None:
     """Give the contacts with averaged forces the modes after their span, and put them on their constraints.
 
-    The contacts must be evaluated at the end of the span.
+    Averaged forces are constant over the span. The contacts must be evaluated at its end. Also writes how long the next
+    span of each may be, and adds the energy that the projection removes to the closing loss [J].
     """
     set_spans(ws)
     for contact in ws.contacts:
@@ -34,22 +35,26 @@ def end_averaging_span(ws: Workspace) -> None:
             contact.mode = contact.mode_after_averaging
     ws.totals.closing_loss += project_closed(ws, at_event=True, averaged=True)
     for contact in ws.contacts:
+        # the projection has closed the gaps, so none has to come to rest
         contact.mean_gap_change = 0.0
 
 
 @kernel("void(ws, b1)")
 def start_averaging_span(ws: Workspace, follows: bool) -> None:
-    """Find the forces of the islands that are averaged over time, from the present time on.
+    """Find the forces of the islands that are averaged over time, constant over a span from the present time on.
 
-    A span that ``follows`` another one may be longer than a first one. ``averaged_until`` becomes the first end.
+    A span that ``follows`` another one may be longer than a first one. ``averaged_until`` becomes the first end of a
+    span [s], infinite if no island is averaged. Before, the work of the last forces is accounted for.
     """
+    # find_mean_forces lowers it to the end of each span
     ws.island.averaged_until = math.inf
     group_closed(ws)
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     copy_inner_states(ws, ws.island.y.start)
     for i in range(ws.island.n_grouped):
         c = ws.island.grouped[i]
-        evaluate_contact(ws, c, 3)
+        evaluate_contact(ws, c, rows=3)
+        # closed contacts touch, and the accelerations by compliance are those of touching contacts
         ws.contacts[c].is_touching = True
     account_for_mean_forces(ws)
     free_acceleration(ws, of_all_bodies=True)

@@ -31,8 +31,9 @@ _SMALLEST_FACTOR = 0.1
 
 @kernel()
 def _normalise(ws: Workspace) -> None:
-    """Bring the quaternions in ``y_stage`` to unit length."""
+    """Bring the quaternions in ``y_stage`` to unit length, which a straight extrapolation of the state has changed."""
     for body in ws.bodies:
+        # a body without quaternion has -1
         if body.quaternion < 0:
             continue
         q = ws.step.y_stage.start + body.q + body.quaternion
@@ -43,9 +44,10 @@ def _normalise(ws: Workspace) -> None:
 
 @kernel("void(ws, f8)")
 def _extrapolate(ws: Workspace, time: float) -> None:
-    """Evaluate the bodies and the gaps of the active contacts after a ``time`` [s] under their impulses.
+    """Evaluate the bodies and the gaps of the active contacts after a ``time`` [s] under their impulses in ``forces``.
 
-    The positions are of second order: they follow from the velocities in the middle of that time.
+    The positions are of second order: they follow from the mean of the velocities at both ends of that time.
+    ``y_guess`` and ``y_stage`` are overwritten.
     """
     # the change of the velocities is in y_guess, the extrapolated state in y_stage
     change, velocities = ws.step.y_guess.start + ws.model.n_q, ws.step.y_stage.start + ws.model.n_q
@@ -55,7 +57,7 @@ def _extrapolate(ws: Workspace, time: float) -> None:
     for i in range(ws.model.n_y):
         ws.step.y_stage[i] = ws.island.y[i]
     for i in range(ws.model.n_u):
-        # the mean velocity over that time, for second order
+        # the mean velocity over that time
         ws.floats[velocities + i] += 0.5 * ws.floats[change + i]
     evaluate_free_bodies(ws, ws.island.time, ws.step.y_stage.start, of_all_bodies=True)
     for body in ws.bodies:
@@ -71,15 +73,16 @@ def _extrapolate(ws: Workspace, time: float) -> None:
 @kernel("f8(ws)")
 def _allowed_work(ws: Workspace) -> float:
     """Work that a contact force may do by the deviation of its gap [J]: a part of the allowed error of the energy."""
+    # kinetic energy, plus that of the velocity scales, so that it does not vanish at rest
     return float(_ALLOWED_PART * ALLOWED * ws.tolerance.relative * (energies_of_bodies(ws)[0] + scale_energy(ws)))
 
 
 @kernel("f8(ws, Contact, f8, f8, f8)")
 def _relative_deviation(ws: Workspace, contact: Contact, deviation: float, force: float, work: float) -> float:
-    """Deviation of a gap [m] from the linear model, relative to the allowed deviation.
+    """Absolute ``deviation`` of a gap [m] from the linear model, relative to the allowed deviation.
 
-    By the allowed one the ``force`` [N] does no more than ``work`` [J]. A deviation by the gap tolerance is always
-    allowed.
+    Allowed is a part of the gap that the tolerances allow, but not more than lets the ``force`` [N] do the ``work``
+    [J]. A deviation by the gap tolerance is always allowed.
     """
     allowed = _ALLOWED_PART * tolerated_gap(ws, contact.index)
     if force * allowed > work:
@@ -91,8 +94,9 @@ def _relative_deviation(ws: Workspace, contact: Contact, deviation: float, force
 def _largest_deviation(ws: Workspace, time: float) -> float:
     """Largest deviation of a gap from the linear model after a ``time`` [s] of impulses, relative to the allowed one.
 
-    Only contacts with a normal force count, as the others may open. The deviation of a gap that is not a number is
-    infinite. Bodies and contacts are evaluated at the present state again.
+    Only contacts with a normal force count, as the others may open. Past the end of its features a contact has no true
+    gap. The deviation of a gap that is not a number is infinite. Afterwards bodies and contacts are evaluated at the
+    present state again.
     """
     work = _allowed_work(ws)
     for active in ws.actives:
@@ -102,26 +106,29 @@ def _largest_deviation(ws: Workspace, time: float) -> float:
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         if not contact.is_compliant and active.normal_force > 0.0 and contact.past_feature <= 0.0:
+            # the normal force is an impulse here
             deviation, force = contact.gap - active.gap_after, active.normal_force / time
             relative = _relative_deviation(ws, contact, deviation, force, work)
+            # a number that is not equal to itself is not a number
             worst = max(worst, relative) if relative == relative else math.inf
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     copy_inner_states(ws, ws.island.y.start)
     for active in ws.actives:
-        evaluate_contact(ws, active.contact, 3)
+        evaluate_contact(ws, active.contact, rows=3)
     return worst
 
 
 @kernel("void(ws, b1)")
 def find_mean_forces(ws: Workspace, follows: bool) -> None:
-    """Write the mean forces of the active contacts over an averaging span, and the modes at the end of the span.
+    """Write the mean forces of the active contacts over an averaging span [N], and the modes at the end of the span.
 
-    Rates and accelerations without contact forces must be written. A span that ``follows`` another one may be longer.
+    The span is shortened until the gaps at its end agree with the linear model by which the forces are found. Rates and
+    accelerations without contact forces must be written. A span that ``follows`` another one may be longer.
     """
     time = find_mean_impulses(ws, averaging_span(ws, follows))
     deviation = _largest_deviation(ws, time)
     while deviation > _LARGEST_DEVIATION and time > ws.tolerance.time:
-        # the deviation grows with the third power of time if a Jacobian turns, else with the second
+        # the deviation grows with the third power of time if a Jacobian turns, else with the second; 0.8 is a margin
         is_finite = deviation < math.inf
         part = max(_SMALLEST_FACTOR, 0.8 * math.sqrt(_LARGEST_DEVIATION / deviation)) if is_finite else _SMALLEST_FACTOR
         time = find_mean_impulses(ws, max(ws.tolerance.time, part * time))
@@ -131,16 +138,17 @@ def find_mean_forces(ws: Workspace, follows: bool) -> None:
 
 @kernel("f8(ws)")
 def deviation_of_gaps(ws: Workspace) -> float:
-    """Largest present deviation of a gap under averaged forces from that planned, relative to the allowed one.
+    """Largest deviation of a gap under averaged forces from the linear model, relative to the allowed one.
 
-    Writes it to ``strayed``, and its contact to ``stray_contact``: the next step starts by ending a span that is wrong.
+    Writes it to ``strayed``, and its contact to ``stray_contact``. If it is above 1, the next step begins by ending the
+    averaging span. The contacts must be evaluated at the end of a step.
     """
     work = _allowed_work(ws)
     ws.island.strayed = 0.0
     for contact in ws.contacts:
         if not contact.is_averaged or contact.is_compliant or contact.past_feature > 0.0:
             continue
-        # a gap that was open at the start of the span may close, and one that opens comes to rest
+        # mean_gap is the gap at the start of the span: an open one may close, and one that opens comes to rest
         deviation = abs(contact.gap - contact.mean_gap) - abs(contact.mean_gap) - contact.mean_gap_change
         relative = _relative_deviation(ws, contact, max(0.0, deviation), contact.mean_force[0], work)
         if relative > ws.island.strayed:

@@ -17,8 +17,8 @@ from nonsmooth.engine.native.kernel import Guard, Workspace, kernel
 def deflated(ws: Workspace, i: int, value: float, elapsed: float) -> float:
     """Value whose root is searched for: ``value`` of guard ``i``, or its mean growth rate if the guard is deflated.
 
-    The growth rate is over ``elapsed`` [s] since the start. That of a gap which separates is its rate at the start as
-    long as the gap is within round-off.
+    A deflated guard starts about zero. Its growth over ``elapsed`` [s] since the start of the step, divided by that
+    time, has all its other roots. A gap that separates and is still within round-off has its rate at the start instead.
     """
     guard = ws.guards[i]
     if not guard.is_deflated:
@@ -32,7 +32,10 @@ def deflated(ws: Workspace, i: int, value: float, elapsed: float) -> float:
 
 @kernel("void(ws, f8)")
 def deflate(ws: Workspace, elapsed: float) -> None:
-    """Deflate the values of the guards of contacts and of the user, ``elapsed`` [s] after the start of the step."""
+    """Replace the values of deflated guards by their mean growth rates, ``elapsed`` [s] after the start of the step.
+
+    A guard is deflated if it starts about zero. End guards of features, which follow those of the user, never are.
+    """
     for i in range(first_end_guard(ws)):
         guard = ws.guards[i]
         guard.value = deflated(ws, i, guard.value, elapsed)
@@ -40,9 +43,10 @@ def deflate(ws: Workspace, elapsed: float) -> None:
 
 @kernel("void(Guard, f8, f8)")
 def start_from_zero(guard: Guard, slack: float, rate: float) -> None:
-    """Deflate a guard that starts about zero, with the growth ``rate`` in its unit per second.
+    """Deflate a guard that starts about zero: its growth takes the place of its value, so that this root is left out.
 
-    The growth counts from zero, or from the value of the guard if that is negative, lowered by ``slack``.
+    The growth counts from zero, or from the value of the guard if that is negative, lowered by ``slack`` in its unit.
+    ``rate`` is the growth per second at the start, 0 if not known.
     """
     guard.is_deflated = True
     guard.base = min(0.0, guard.base) - slack

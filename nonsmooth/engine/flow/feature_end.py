@@ -23,9 +23,11 @@ _DOUBLINGS = 3
 def find_feature_end(ws: Workspace) -> int:
     """Closed contact whose features end or change within eight time tolerances, or ``NO_CONTACT``.
 
-    The time to that end is written to ``step.h`` [s], the state there to ``y_new``. ``slopes`` must hold the slope at
-    ``y``, and the closed contacts must be grouped.
+    It is the cause if no step meets the tolerance. The motion is followed along a straight line. The time at which the
+    end is found is written to ``step.h`` [s], the state there to ``y_new``. ``slopes`` must hold the slope at ``y``,
+    and the closed contacts must be grouped.
     """
+    # steps of up to five time tolerances have failed, so 1, 2, 4 and 8 of them are tried
     ws.step.h = ws.tolerance.time
     for _doubling in range(_DOUBLINGS + 1):
         for i in range(ws.model.n_y):
@@ -34,6 +36,7 @@ def find_feature_end(ws: Workspace) -> int:
         for i in range(ws.island.n_grouped):
             c = ws.island.grouped[i]
             evaluate_geometry(ws, c)
+            # the end guard is negative past the end of the features, and if they have changed
             if feature_guard(ws, ws.contacts[c]) < 0.0:
                 return c
         ws.step.h *= 2.0

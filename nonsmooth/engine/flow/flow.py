@@ -50,10 +50,11 @@ def right_hand_side(ws: Workspace, t: float, y: int, may_choose: bool, of_all_bo
     """Evaluate bodies, closed contacts, their forces and the accelerations ``du``, at time ``t`` [s] and state ``y``.
 
     The bodies are all, or only those that the integrator steps. The closed contacts must be grouped into islands. If it
-    ``may_choose``, redundant forces are chosen anew. True if in every island the forces keep their bounds, or were not
-    chosen; False if no choice keeps all bounds of some island.
+    ``may_choose``, redundant forces, which are not unique, are chosen anew. False if no choice keeps all bounds of some
+    island; else True, also if forces were not chosen.
     """
     keeps_bounds = True
+    # -1 for none; the search for forces writes a contact near the Painleve singularity
     ws.island.singular_contact = -1
     if not of_all_bodies and ws.model.n_loads + ws.model.n_joints == 0:
         # this call is inlined, and most right-hand sides are of this kind
@@ -61,9 +62,11 @@ def right_hand_side(ws: Workspace, t: float, y: int, may_choose: bool, of_all_bo
     else:
         evaluate_free_bodies(ws, t, y, of_all_bodies)
     free_acceleration(ws, of_all_bodies)
+    # without closed contacts nothing depends on driven bodies
     if ws.island.n_grouped == 0:
         return keeps_bounds
     evaluate_driven_bodies(ws, t, y)
+    # friction laws read their inner states from a copy
     copy_inner_states(ws, y)
     for group in range(ws.island.n_groups):
         c = lone_sliding_contact(ws, group)
@@ -71,6 +74,7 @@ def right_hand_side(ws: Workspace, t: float, y: int, may_choose: bool, of_all_bo
         if c >= 0 and add_lone_slip_force(ws, c):
             continue
         activate_group(ws, group)
+        # the stage time is positive in the stages of implicit steps only
         if ws.problem.stage_time > 0.0 and _is_implicit_slip(ws):
             add_forces_at_stage_end(ws)
         else:
@@ -84,7 +88,8 @@ def right_hand_side(ws: Workspace, t: float, y: int, may_choose: bool, of_all_bo
 def _evaluate_active(ws: Workspace, y: int) -> None:
     """Evaluate the active contacts (those of the island) at the state ``y``, and write their unknowns and equations.
 
-    A contact that slides needs the bias of its normal row only.
+    The bias is the acceleration of a contact at constant velocities. A contact that sticks needs it in all three rows,
+    a sliding one in its normal row only.
     """
     for active in ws.actives:
         contact = ws.contacts[active.contact]
@@ -93,13 +98,16 @@ def _evaluate_active(ws: Workspace, y: int) -> None:
         if contact.is_compliant:
             evaluate_compliant_force(ws, active.contact)
         _set_unknowns(ws, active, y)
-        evaluate_bias(ws, active.contact, 3 if active.sticks else 1)
+        evaluate_bias(ws, active.contact, rows=3 if active.sticks else 1)
         write_rows(ws, active.index)
 
 
 @kernel()
 def _store_forces(ws: Workspace) -> None:
-    """Store what was solved for the active contacts in their contacts: force, whether redundant, and static margin."""
+    """Copy what was solved for the active contacts to their contacts: force [N], whether redundant, and static margin.
+
+    The entries of active contacts are overwritten by the next island.
+    """
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         contact.has_redundant_force = active.has_redundant_force
@@ -112,7 +120,10 @@ def _store_forces(ws: Workspace) -> None:
 
 @kernel("b1(ws)")
 def _is_implicit_slip(ws: Workspace) -> bool:
-    """True if one of the active contacts slides, and none has forces that are averaged over time."""
+    """True if one of the active contacts slides, and none has forces that are averaged over time.
+
+    In an implicit stage the friction of such an island is found together with its slip.
+    """
     has_slip = False
     for active in ws.actives:
         contact = ws.contacts[active.contact]
@@ -127,13 +138,14 @@ def _static_margin(ws: Workspace, active: ActiveContact) -> float:
     """Distance of the friction of an active contact in mode stick to its static bound [N].
 
     Without a coefficient of friction it is the distance of the slip to the velocity tolerance [m/s]. Averaged forces
-    have no bound within their span, so their margin is 1.
+    have no bound within their span. Their margin is 1, which is positive, so that its guard never fires.
     """
     contact = ws.contacts[active.contact]
     if contact.is_averaged:
         return 1.0
     if not active.sticks:
         return float(ws.tolerance.velocity - length(contact.slip))
+    # anisotropic friction along t1 is scaled to the bound of the slip that it opposes, forward or backward
     friction = force_in_facing(ws, active.contact, active.force[1]), active.force[2]
     # a choice of redundant forces may exceed its bound by the slack
     slack = contact.slack * active.has_redundant_force
@@ -144,12 +156,15 @@ def _static_margin(ws: Workspace, active: ActiveContact) -> float:
 def _set_unknowns(ws: Workspace, active: ActiveContact, y: int) -> None:
     """Write which forces of an active contact are unknown, the values of the known ones, and its slip direction.
 
-    Known are a compliant normal force, the friction of a traction law, and averaged forces. ``y`` is the state.
+    Known are a compliant normal force, friction and moment of a traction law, and averaged forces. A contact that
+    ``sticks`` has unknown friction, which holds it. A contact in mode stick without a coefficient of friction is
+    treated as one that slides. ``y`` is the state, with the inner states of traction laws.
     """
     c = active.contact
     contact = ws.contacts[c]
     active.is_normal_force_unknown = True
     active.sticks = False
+    # only a traction law has a friction moment
     contact.dissipated_by_spin = 0.0
     if contact.is_compliant:
         active.is_normal_force_unknown = False
@@ -179,8 +194,9 @@ def _set_unknowns(ws: Workspace, active: ActiveContact, y: int) -> None:
 def value_of_normal_guard(ws: Workspace, c: int) -> float:
     """Normal guard of the closed contact ``c``: normal force [N], or distance of a compliant one to its reach [m].
 
-    Averaged forces end no mode, so their guard is 1. So is that of a compliant contact past the end of its features:
-    its gap is a substitute there, and bodies may still overlap. The end of features is an event of its own.
+    A compliant contact acts up to the gap ``reach``. Averaged forces end no mode, so their guard is 1, which is
+    positive. So is that of a compliant contact past the end of its features: its gap is a substitute there, and bodies
+    may still overlap. The end of features is an event of its own.
     """
     contact = ws.contacts[c]
     if contact.is_averaged or (contact.is_compliant and contact.past_feature > 0.0):
@@ -194,7 +210,7 @@ def value_of_normal_guard(ws: Workspace, c: int) -> float:
 def is_violated(ws: Workspace, c: int) -> bool:
     """True if the force of the closed contact ``c`` violates its mode by more than round-off of its contact problem.
 
-    A normal force that pulls does, and friction beyond the static bound.
+    A normal force violates it if it pulls, friction that holds the contact if it exceeds its static bound.
     """
     contact = ws.contacts[c]
     least = value_of_normal_guard(ws, c)
@@ -207,8 +223,9 @@ def is_violated(ws: Workspace, c: int) -> bool:
 def value_of_slip_guard(ws: Workspace, c: int) -> float:
     """Slip of contact ``c`` along the slip direction at the start of the step [m/s].
 
-    It is 1 if no force depends on its sign: with a traction law, averaged forces, or a compliant contact without
-    friction. In an implicit step, which stops and reverses slips itself, it is the slip speed.
+    If no force depends on its sign, it is 1, and its guard never fires: with a traction law, averaged forces, or a
+    compliant contact without friction. In an implicit step, which stops and reverses slips itself, it is the slip
+    speed.
     """
     contact = ws.contacts[c]
     if contact.has_traction_law or contact.is_averaged:
@@ -225,11 +242,14 @@ def value_of_slip_guard(ws: Workspace, c: int) -> float:
 def slope(ws: Workspace, t: float, y: int, out: int, may_choose: bool, of_all_bodies: bool) -> None:
     """Write dy/dt at time ``t`` [s] and state ``y`` to ``out``: coordinate rates, accelerations, powers, inner rates.
 
-    For ``may_choose`` and ``of_all_bodies`` see :func:`right_hand_side`.
+    The powers are the rates of the energy accounts [W]. ``may_choose`` lets redundant forces be chosen anew. Of the
+    bodies it is all, or only those that the integrator steps. Forces, least guards and ``du`` are left in the
+    workspace.
     """
     ws.totals.n_evaluations += 1
     right_hand_side(ws, t, y, may_choose, of_all_bodies)
     if of_all_bodies:
+        # the contact of a body with an own step is in no island, so its acceleration is that of its interpolant
         for i in range(ws.island.n_ballistic):
             if ws.bodies[ws.island.ballistic[i]].has_own_step:
                 accelerate_in_flight(ws, t, ws.island.ballistic[i])
@@ -239,16 +259,17 @@ def slope(ws: Workspace, t: float, y: int, out: int, may_choose: bool, of_all_bo
     powers = out + ws.model.n_q + ws.model.n_u
     ws.floats[powers + DRIVEN], ws.floats[powers + LOADS] = ws.step.driven_power, ws.step.load_power
     ws.floats[powers + FRICTION_LOSS] = lost
+    # round-off of the energy is relative to all that was exchanged; the forces of bodies include the loads
     ws.floats[powers + EXCHANGED] = abs(of_bodies) + abs(ws.step.driven_power) + abs(lost)
     write_inner_rates(ws, y, out)
 
 
 @kernel("f8(ws, i8, i8, b1)")
 def _write_slope_of_bodies(ws: Workspace, y: int, out: int, of_all_bodies: bool) -> float:
-    """Write coordinate rates and accelerations of the bodies to the slope at ``out``. Power of their forces [W].
+    """Write coordinate rates and accelerations of the bodies to the slope at ``out``. Power of their own forces [W].
 
-    The forces are those without contacts. Bodies in ballistic motion have no part in the power: their energy is
-    accounted for in closed form.
+    ``y`` is the state, and ``du`` holds the accelerations. The forces are those without contacts. Bodies in ballistic
+    motion have no part in the power: their energy is accounted for in closed form.
     """
     power = 0.0
     for i in range(ws.model.n_bodies if of_all_bodies else ws.island.n_integrated):
@@ -266,23 +287,29 @@ def _write_slope_of_bodies(ws: Workspace, y: int, out: int, of_all_bodies: bool)
 
 @kernel("f8(ws)")
 def _power_of_friction(ws: Workspace) -> float:
-    """Power that the closed contacts dissipate by friction [W]. A contact that sticks dissipates nothing."""
+    """Power that the closed contacts dissipate by friction [W].
+
+    A contact that sticks dissipates nothing, unless its averaged forces act while it slips within their span.
+    """
     lost = 0.0
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]
         if contact.mode != Mode.STICK or contact.is_averaged:
+            # the two tangential rows
             for r in range(1, 3):
                 lost -= contact.force[r] * contact.rate[r]
+        # power of the friction moment on the relative spin, negative if it dissipates
         lost -= contact.dissipated_by_spin
     return lost
 
 
 @kernel()
 def _update_least_guards(ws: Workspace) -> None:
-    """Update the least normal guard of each closed contact in the stages of the step.
+    """Update ``least_force``, the least normal guard of each closed contact in the stages of the step [N or m].
 
-    ``has_doubtful_force`` becomes true if a normal guard or a slip guard is negative at this stage, or if a contact
-    sticks, as the distance to its static bound is not evaluated here.
+    It tells the search for events whether to evaluate forces within the step. So does ``has_doubtful_force``: it
+    becomes true if a normal guard or a slip guard is negative at this stage, or if a contact sticks, as the distance to
+    its static bound is not evaluated here.
     """
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]
@@ -297,7 +324,8 @@ def _update_least_guards(ws: Workspace) -> None:
 def most_loaded_contact(ws: Workspace, sliding: bool) -> int:
     """Closed rigid contact with the normal force of largest absolute value, or ``NO_CONTACT`` if there is none.
 
-    If ``sliding``, only contacts that slide and whose force pushes count. Evaluates all forces at the present state.
+    It is taken as the cause if no step is found. If ``sliding``, only contacts that slide and whose force pushes count.
+    Contacts of bodies with an own step (multirate) never do. Evaluates all forces at the present state.
     """
     group_closed(ws)
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)

@@ -35,7 +35,10 @@ _NO_STEP = -1.0
 
 @kernel("void(ws, b1)")
 def orient_slips(ws: Workspace, at_end: bool) -> None:
-    """Set the slip directions of a step to those of the present slips, or of those at the end of the last step."""
+    """Set the slip directions of a step to those of the present slips, or, ``at_end``, of those at the last step's end.
+
+    A slip within the velocity tolerance keeps its direction, because its own is round-off.
+    """
     for contact in ws.contacts:
         if contact.mode == Mode.SLIDE:
             slip = contact.slip_at_end if at_end else contact.slip
@@ -46,22 +49,22 @@ def orient_slips(ws: Workspace, at_end: bool) -> None:
 
 @kernel("b1(ws)")
 def _reorient_slips(ws: Workspace) -> bool:
-    """Set the slip directions by the present slips. True if one was opposite: the forces are then wrong.
+    """Set the slip directions by the present slips. True if one was opposite: the forces must be evaluated again.
 
     A slip may reverse without an event, for example if a belt accelerates past the body.
     """
-    against = False
+    was_opposite = False
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]
         if contact.mode == Mode.SLIDE and value_of_slip_guard(ws, contact.index) < -ws.tolerance.velocity:
-            against = True
+            was_opposite = True
     orient_slips(ws, at_end=False)
-    return against
+    return was_opposite
 
 
 @kernel("f8(ws)")
 def _part_before_reversal(ws: Workspace) -> float:
-    """Part of the step that was tried up to the time at which a slip reverses, 1 if none reverses.
+    """Part of the tried step after which a slip reverses, by linear interpolation. It is 1 if none reverses.
 
     A slip that started from rest and ends against its direction had the wrong direction from the start. Its direction
     is reversed here, and the part is 0: the step must be tried again from a new slope.
@@ -72,6 +75,7 @@ def _part_before_reversal(ws: Workspace) -> float:
         last = value_of_slip_guard(ws, contact.index)
         if contact.mode != Mode.SLIDE or last >= -ws.tolerance.velocity:
             continue
+        # _start_step has stored the slip at the start in the guard
         first = friction_of(ws, contact).initial
         if first > ws.tolerance.velocity:
             part = min(part, max(SHRINK, first / (first - last)))
@@ -84,9 +88,10 @@ def _part_before_reversal(ws: Workspace) -> float:
 
 @kernel("f8(ws, f8)")
 def _find_step(ws: Workspace, h: float) -> float:
-    """Try steps of ``h`` [s] and less until one meets the tolerance and reverses no slip.
+    """Try steps of ``h`` [s] and less until one meets the tolerance and reverses no slip. Its length [s].
 
-    Its length [s], or ``_NO_STEP`` if it would be below the time tolerance, or the run is interrupted.
+    ``_NO_STEP`` if it would be below the time tolerance, or the run is interrupted. A step of the time tolerance may
+    reverse slips. Slip directions that were wrong from the start are reversed, and the slope at the start with them.
     """
     while True:
         error = try_length(ws, h)
@@ -97,25 +102,31 @@ def _find_step(ws: Workspace, h: float) -> float:
             part = _part_before_reversal(ws)
             if part == 1.0 or h <= ws.tolerance.time:
                 return h
+        # a length that is not a number ends the search, too
         elif not h > ws.tolerance.time:
             return _NO_STEP
         if part == 0.0:
-            # a slip direction was reversed
+            # a slip direction was reversed: the new slope is tried over half of the step
             slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=False, of_all_bodies=True)
             part = 0.5
         elif part == 1.0:
+            # the error was too large
             part = step_factor(error) if error < math.inf else SHRINK
+        # the step becomes shorter in any case
         h *= min(part, SAFETY)
 
 
 @kernel()
 def _evaluate_slip_per_force(ws: Workspace) -> None:
-    """Write the slip acceleration per unit of friction of each closed contact [1/kg]. In a run, events write it."""
+    """Write the slip acceleration per unit of friction of each closed contact [1/kg], for the relaxation rate of slips.
+
+    In a run, events write it, which a replay does not repeat.
+    """
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
         for active in ws.actives:
-            evaluate_contact(ws, active.contact, 1)
+            evaluate_contact(ws, active.contact, rows=1)
         assemble_delassus(ws)
         for active in ws.actives:
             ws.contacts[active.contact].slip_per_force = tangential_inverse_mass(ws, active)
@@ -125,7 +136,8 @@ def _evaluate_slip_per_force(ws: Workspace) -> None:
 def follow(ws: Workspace, t: float) -> Status:
     """Integrate the motion up to time ``t`` [s] in the present modes. ``RUNNING``, or why it has not reached ``t``.
 
-    A step that fails may still be a jump of contact points. Later steps may grow by a factor of two each.
+    If no step is found, contact points may jump, which takes one time tolerance. Each step may be twice as long as the
+    one before. Averaged forces that have ended, or were never found, are found first.
     """
     group_closed(ws)
     choose_integrated(ws)
@@ -136,6 +148,7 @@ def follow(ws: Workspace, t: float) -> Status:
     while ws.island.time < t:
         _start_step(ws)
         left = t - ws.island.time
+        # a step must not pass the end of an averaging span
         h = _find_step(ws, min(wanted, left, ws.island.averaged_until - ws.island.time))
         if h < 0.0 and not ws.request.is_interrupted and jump_contact_points(ws, ws.tolerance.time):
             h = ws.tolerance.time
@@ -143,6 +156,7 @@ def follow(ws: Workspace, t: float) -> Status:
             # TODO: an interrupt needs a status of its own: this one says that a law gave a number that is not finite.
             return Status.NOT_FINITE if ws.request.is_interrupted else Status.STEP_TOO_SMALL
         ws.step.h = h
+        # the last step ends at t without round-off
         ws.island.time = t if h == left else ws.island.time + h
         _end_step(ws)
         if ws.run.failure != Status.RUNNING:
@@ -153,7 +167,11 @@ def follow(ws: Workspace, t: float) -> Status:
 
 @kernel()
 def _start_step(ws: Workspace) -> None:
-    """Evaluate the slope at the start of a step, the slips there and the relaxation rate of their directions."""
+    """Evaluate the slope at the start of a step, the slips there and the relaxation rate of their directions.
+
+    The rate decides between explicit and implicit steps. The step begins as explicit, from a slope of its own. Slips
+    are copied to ``velocity_at_end``, from which the relaxation rate is found.
+    """
     ws.island.stage_time, ws.step.uses_last_slope, ws.step.has_replaced_slope = 0.0, False, False
     slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=False, of_all_bodies=True)
     if _reorient_slips(ws):
@@ -183,7 +201,10 @@ def _end_step(ws: Workspace) -> None:
 
 @kernel("b1(ws)")
 def _exceed_bounds(ws: Workspace) -> bool:
-    """True if a redundant force pulls, or exceeds its static bound, by more than round-off."""
+    """True if a force that is not unique pulls, or exceeds its static bound, by more than round-off.
+
+    Round-off is relative to the largest of these normal forces. They must then be chosen anew.
+    """
     least = largest = 0.0
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]
@@ -200,13 +221,17 @@ def evaluate_forces(ws: Workspace, may_choose: bool) -> None:
     """Evaluate bodies, closed contacts and joints with their forces at the present state.
 
     Redundant forces are chosen anew if it ``may_choose``, as at an event, or if the present choice exceeds a bound.
+    Slip directions are set by the present slips. If one was opposite, the forces are evaluated a second time.
     """
     group_closed(ws)
+    # the forces are those of an instant, not of a stage of an implicit step
     ws.island.stage_time = 0.0
+    # averaged forces belong to a span, which begins here
     if may_choose or ws.island.averaged_until <= ws.island.time:
         start_averaging_span(ws, follows=False)
     evaluate_driven_bodies(ws, ws.island.time, ws.island.y.start)
     right_hand_side(ws, ws.island.time, ws.island.y.start, may_choose, of_all_bodies=True)
+    # forces against wrong slip directions are wrong, and a new choice may keep bounds that the present one exceeds
     have_turned = _reorient_slips(ws)
     is_past_bounds = not may_choose and _exceed_bounds(ws)
     if have_turned or is_past_bounds:

@@ -53,10 +53,14 @@ class GapBounds(NamedTuple):
 
 @kernel("void(ws, f8, f8, Contact)")
 def _evaluate_geometry_at(ws: Workspace, h: float, theta: float, contact: Contact) -> None:
-    """Evaluate the two bodies of a contact at the fraction ``theta`` of the step of ``h`` [s], and its geometry."""
+    """Evaluate the two bodies of a contact at the fraction ``theta`` of the step of ``h`` [s], and its geometry.
+
+    Within the step the state is that of the interpolant, at its ends ``y`` and ``y_new``. ``y_stage`` is overwritten.
+    """
     for side in range(2):
         number = contact.body_a if side == 0 else contact.body_b
         body = ws.bodies[number]
+        # a driven body depends on time only
         if body.n_u == 0:
             evaluate_driven_bodies(ws, ws.island.time + theta * h, ws.island.y.start)
             continue
@@ -73,10 +77,12 @@ def _acceleration_bound(ws: Workspace, h: float, contact: Contact) -> float:
     """Bound of the acceleration with which a gap closes within the step of ``h`` [s], from those at its ends [m/s^2].
 
     Each bound grows with the length of the step. The difference of the two is added, as within the step the
-    acceleration may exceed both.
+    acceleration may exceed both. If the bound at the start is not known, the bodies are evaluated there.
     """
+    # NO_BOUND is negative: no step came before this one, or the gap was far from closing in it
     if contact.acceleration_bound_at_start[0] < 0.0:
         _evaluate_geometry_at(ws, h, 0.0, contact)
+        # the slope at the start holds the accelerations behind the n_q coordinate rates
         contact.acceleration_bound_at_start = fall_of(ws, contact.index, ws.island.slopes.start + ws.model.n_q)
     first, grows_first, _ = contact.acceleration_bound_at_start
     last, grows_last, _ = contact.acceleration_bound_at_end
@@ -86,7 +92,7 @@ def _acceleration_bound(ws: Workspace, h: float, contact: Contact) -> float:
 
 @kernel("f8(ws, Contact, f8)")
 def _gap_above_start(ws: Workspace, contact: Contact, gap: float) -> float:
-    """A gap [m], or its growth from the start value if the contact was closed when the step began."""
+    """A gap [m], or its growth from the start value if it was closed when the step began (a deflated guard)."""
     guard = normal_of(ws, contact)
     return float(gap - guard.base) if guard.is_deflated else gap
 
@@ -94,13 +100,17 @@ def _gap_above_start(ws: Workspace, contact: Contact, gap: float) -> float:
 @kernel("void(ws, Contact, f8)")
 def _write_gap_guard(ws: Workspace, contact: Contact, elapsed: float) -> None:
     """Write the rate and the guard of a gap that was evaluated after ``elapsed`` [s] of the step."""
+    # a copy, because later evaluations of the contact overwrite normal_rate
     contact.gap_rate = contact.normal_rate
     normal_of(ws, contact).value = deflated(ws, normal_guard(contact.index), contact.gap, elapsed)
 
 
 @kernel("void(ws, f8, f8, i8)")
 def evaluate_gap_guard(ws: Workspace, h: float, theta: float, c: int) -> None:
-    """Evaluate the gap of contact ``c`` alone at the fraction ``theta`` of the step, and write its guard."""
+    """Evaluate the gap of contact ``c`` alone at the fraction ``theta`` of the step of ``h`` [s], and write its guard.
+
+    A gap needs no forces, so only its two bodies are evaluated.
+    """
     _evaluate_geometry_at(ws, h, theta, ws.contacts[c])
     evaluate_rates(ws, c)
     _write_gap_guard(ws, ws.contacts[c], theta * h)
@@ -108,7 +118,10 @@ def evaluate_gap_guard(ws: Workspace, h: float, theta: float, c: int) -> None:
 
 @kernel("void(ws, f8, f8, i8)")
 def evaluate_slip_guard(ws: Workspace, h: float, theta: float, c: int) -> None:
-    """Evaluate the slip of the rigid contact ``c`` alone at the fraction ``theta`` of the step, and write its guard."""
+    """Evaluate the slip of the rigid contact ``c`` alone at the fraction ``theta`` of the step, and write its guard.
+
+    The slip needs no forces, so only its two bodies are evaluated. The step is one of ``h`` [s].
+    """
     _evaluate_geometry_at(ws, h, theta, ws.contacts[c])
     evaluate_rates(ws, c)
     i = friction_guard(ws, c)
@@ -117,9 +130,10 @@ def evaluate_slip_guard(ws: Workspace, h: float, theta: float, c: int) -> None:
 
 @kernel("void(ws, f8, f8, Contact, i8)")
 def _store_end(ws: Workspace, h: float, theta: float, contact: Contact, n: int) -> None:
-    """Store end ``n`` of the parts: the gap as evaluated last, at the fraction ``theta`` of the step. Writes its guard.
+    """Store end ``n`` of the parts of a step: the gap as evaluated last, at the fraction ``theta``. Writes its guard.
 
-    A gap that is positive there arms its guard.
+    Stored are time, gap, gap rate, distance past the features, and offset of the witness point from the body's origin.
+    A gap that is positive there arms its guard, so that it fires if it closes later in the step.
     """
     guard, end = normal_of(ws, contact), part_end(ws.floats, ws.step.part_ends.start, n)
     _write_gap_guard(ws, contact, theta * h)
@@ -131,17 +145,20 @@ def _store_end(ws: Workspace, h: float, theta: float, contact: Contact, n: int) 
 
 @kernel("void(ws, f8, f8, Contact, i8)")
 def _evaluate_end(ws: Workspace, h: float, theta: float, contact: Contact, n: int) -> None:
-    """Evaluate the gap of a contact at the fraction ``theta`` of the step, and store it as end ``n`` of its parts."""
+    """Evaluate the gap of a contact at the fraction ``theta`` of the step of ``h`` [s], and store it as end ``n``.
+
+    End ``n`` is one of the ends of the parts of the step between which the gap is bounded.
+    """
     evaluate_gap_guard(ws, h, theta, contact.index)
     _store_end(ws, h, theta, contact, n)
 
 
 @kernel("b1(ws, i8, f8, GapBounds)")
 def _stays_open(ws: Workspace, n: int, h: float, bounds: GapBounds) -> bool:
-    """True if the bounds prove that a gap stays above minus the gap tolerance between ends 0 and ``n``, else False.
+    """True if the bounds prove that a gap stays above minus the gap tolerance between ends 0 and ``n`` of the parts.
 
     With the acceleration bound a, the gap is above the parabolas g0 + r0 s - a s^2 / 2 from its start and
-    g1 - r1 (T - s) - a (T - s)^2 / 2 from its end. It is lowest where they cross.
+    g1 - r1 (T - s) - a (T - s)^2 / 2 from its end, after a time s of T. Their maximum is lowest where they cross.
 
     A witness point may move farther on its body than the body turns, as on a rim that is nearly flat. Then the rate
     changes by up to the difference of the rates of two points at that distance.
@@ -149,6 +166,7 @@ def _stays_open(ws: Workspace, n: int, h: float, bounds: GapBounds) -> bool:
     one, two = part_end(ws.floats, ws.step.part_ends.start, 0), part_end(ws.floats, ws.step.part_ends.start, n)
     span = (two.theta - one.theta) * h
     g0, r0, g1, r1 = one.gap, one.rate, two.gap, two.rate
+    # the surfaces cannot move that far in the time
     if too_far(g0, one.past, g1, two.past, span * bounds.speed):
         return True
     # the bounds hold for features that face each other
@@ -156,8 +174,10 @@ def _stays_open(ws: Workspace, n: int, h: float, bounds: GapBounds) -> bool:
         return False
     acceleration, turning = bounds.acceleration, bounds.turning
     if turning > 0.0:
+        # speed of the witness point over its body, of which what exceeds the turning of the body counts
         moved = distance(two.offset, one.offset) / span
         acceleration += 2.0 * turning * max(0.0, moved - turning * bounds.support_radius)
+    # at the start the gap is `ahead` above the parabola from the end, at the end it is `back` above that from the start
     closing = acceleration * span + r1 - r0
     ahead = g0 - g1 + r1 * span + 0.5 * acceleration * span * span
     back = g1 - g0 - r0 * span + 0.5 * acceleration * span * span
@@ -167,6 +187,7 @@ def _stays_open(ws: Workspace, n: int, h: float, bounds: GapBounds) -> bool:
     # the parabolas do not cross within the part: the gap is lowest at one of its ends
     if closing <= 0.0 or min(ahead, back) <= 0.0:
         return True
+    # the time at which they cross
     s = min(ahead / closing, span)
     return bool(g0 + s * (r0 - 0.5 * acceleration * s) >= -ws.tolerance.gap)
 
@@ -175,22 +196,26 @@ def _stays_open(ws: Workspace, n: int, h: float, bounds: GapBounds) -> bool:
 def _first_closing_of(ws: Workspace, h: float, contact: Contact, high: float, is_evaluated: bool) -> float:
     """Fraction of the step, up to ``high``, at which a gap has closed, or 0 if it stays open.
 
-    ``is_evaluated`` is true if the contact was evaluated at ``high``. The parts are searched from the left: the ends to
-    the right of the part are a stack, whose top is end ``n``.
+    ``is_evaluated`` is true if the contact was evaluated at ``high``. The step is cut into parts, searched from the
+    left. End 0 is the left end of the present part, and is overwritten when that is decided. The ends to the right are
+    a stack, whose top, end ``n``, is the right end. A part that is not decided is halved.
     """
     _write_first_end(ws, contact)
     _write_last_end(ws, h, contact, high, is_evaluated)
     left, right = part_end(ws.floats, ws.step.part_ends.start, 0), part_end(ws.floats, ws.step.part_ends.start, 1)
     speed = contact.speed_at_start + contact.speed_at_end
+    # for the whole step this was tested when the gaps that may close were listed
     if high < 1.0 and too_far(left.gap, left.past, right.gap, right.past, high * h * speed):
         return 0.0
     bounds, n, n_evaluations = _bounds_of(ws, h, contact), 1, 0
     while n > 0:
         right = part_end(ws.floats, ws.step.part_ends.start, n)
+        # with a full stack the part is shorter than doubles resolve, and its open ends decide
         if not _stays_open(ws, n, h, bounds) and n < PARTS and _is_undecided(ws, h, contact, n, speed):
             n_evaluations += 1
             if n_evaluations > _MOST_EVALUATIONS:
                 ws.totals.n_gap_evaluations += 1
+                # this ends the run, so the result does not matter
                 fail_check(ws, Status.GAP_UNDECIDED, contact.index, left.gap, ws.tolerance.gap)
                 return 0.0
             middle = left.theta + 0.5 * (right.theta - left.theta)
@@ -209,7 +234,7 @@ def _first_closing_of(ws: Workspace, h: float, contact: Contact, high: float, is
 
 @kernel("void(ws, Contact)")
 def _write_first_end(ws: Workspace, contact: Contact) -> None:
-    """Write the start of the step as end 0 of its parts."""
+    """Write gap, rate and geometry at the start of the step, which are known, as end 0 of its parts."""
     left = part_end(ws.floats, ws.step.part_ends.start, 0)
     left.theta, left.gap = 0.0, _gap_above_start(ws, contact, contact.gap_at_start)
     left.rate, left.past = contact.gap_rate_at_start, contact.past_feature_at_start
@@ -218,7 +243,7 @@ def _write_first_end(ws: Workspace, contact: Contact) -> None:
 
 @kernel("void(ws, f8, Contact, f8, b1)")
 def _write_last_end(ws: Workspace, h: float, contact: Contact, high: float, is_evaluated: bool) -> None:
-    """Write the fraction ``high`` of the step as end 1 of its parts.
+    """Write the fraction ``high`` of the step of ``h`` [s] as end 1 of its parts: the end of the search for closings.
 
     Values at the end of the step are known. Elsewhere the contact is evaluated, unless it ``is_evaluated`` there.
     """
@@ -235,10 +260,13 @@ def _write_last_end(ws: Workspace, h: float, contact: Contact, high: float, is_e
 
 @kernel("GapBounds(ws, f8, Contact)")
 def _bounds_of(ws: Workspace, h: float, contact: Contact) -> GapBounds:
-    """Bounds of the motion of a gap within the step of ``h`` [s]."""
+    """Bounds of the motion of a gap within the step of ``h`` [s], from those at its ends.
+
+    The sum of two bounds is used, because within the step a speed may exceed both.
+    """
     acceleration = _acceleration_bound(ws, h, contact)
     radius = min(contact.support_radius_a, contact.support_radius_b)
-    # the third of the bounds is that of the turning rate
+    # the third of the bounds is that of the turning rate; a smaller shape of radius 0 is a ball about its origin
     bounds_at_start, bounds_at_end = contact.acceleration_bound_at_start, contact.acceleration_bound_at_end
     turning = bounds_at_start[2] + bounds_at_end[2] if radius > 0.0 else 0.0
     return GapBounds(contact.speed_at_start + contact.speed_at_end, acceleration, turning, radius)
@@ -248,8 +276,9 @@ def _bounds_of(ws: Workspace, h: float, contact: Contact) -> GapBounds:
 def _is_undecided(ws: Workspace, h: float, contact: Contact, n: int, speed: float) -> bool:
     """True if the part of the step between ends 0 and ``n``, which the bounds do not decide, must be halved.
 
-    A short part is not halved if the surfaces rest next to each other, or if they do not face each other and move by
-    little. A gap that was closed from the start rests if its rate is round-off, as :func:`has_fired` judges it.
+    Else the gaps at its ends decide. A part of the length of the time tolerance is not halved. Nor is a short part if
+    the surfaces rest next to each other, or if they do not face each other and move by little at ``speed`` [m/s]. A gap
+    that was closed from the start rests if its rate is round-off, as :func:`has_fired` judges it.
     """
     left, right = part_end(ws.floats, ws.step.part_ends.start, 0), part_end(ws.floats, ws.step.part_ends.start, n)
     span = right.theta - left.theta
@@ -266,18 +295,22 @@ def _is_undecided(ws: Workspace, h: float, contact: Contact, n: int, speed: floa
 def first_closing(ws: Workspace, h: float, high: float, needed: int) -> float:
     """Fraction of the step, up to ``high``, by which a gap that may close has closed, or 0 if all stay open.
 
-    Contacts must be evaluated at ``high``, unless the features of some do not face each other. If no gap closes, the
-    contacts that the search evaluated within the step are evaluated at ``high`` again: all of them if that is the end
-    of the step, else the contact ``needed`` only.
+    It need not be the first such time: after each closing, ``high`` becomes its time, and the other gaps are searched
+    up to there. Contacts must be evaluated at ``high``, unless the features of some do not face each other. If no gap
+    closes, the contacts that the search evaluated within the step are evaluated at ``high`` again: all of them if that
+    is the end of the step, else the contact ``needed`` only.
     """
+    # the search among features that do not face each other has evaluated the contacts at other times
     found, is_evaluated = 0.0, ws.step.n_not_facing == 0
     for i in range(ws.step.n_may_close):
         contact = ws.contacts[ws.step.may_close[i]]
         body_a, body_b = ws.bodies[contact.body_a], ws.bodies[contact.body_b]
+        # each evaluation of a body raises its version
         versions = body_a.version + body_b.version
         theta = _first_closing_of(ws, h, contact, high, is_evaluated)
         has_moved = body_a.version + body_b.version != versions
         if theta > 0.0:
+            # the other contacts are not evaluated at this earlier time
             found = high = theta
             is_evaluated = False
         elif has_moved and (high == 1.0 or contact.index == needed):

@@ -23,13 +23,13 @@ def friction_guard(ws: Workspace, c: int) -> int:
 
 @kernel("b1(ws, i8)")
 def is_friction_guard(ws: Workspace, i: int) -> bool:
-    """True if guard ``i`` of a contact is its friction guard."""
+    """True if guard ``i``, a normal or a friction guard, is a friction guard: those follow all normal guards."""
     return i >= ws.island.n_contacts
 
 
 @kernel("i8(ws, i8)")
 def contact_of(ws: Workspace, i: int) -> int:
-    """Number of the contact of the normal or friction guard ``i``."""
+    """Number of the contact of the normal or friction guard ``i``: friction guards follow all normal guards."""
     return int(i - ws.island.n_contacts) if i >= ws.island.n_contacts else i
 
 
@@ -41,7 +41,7 @@ def first_user_guard(ws: Workspace) -> int:
 
 @kernel("i8(ws)")
 def first_end_guard(ws: Workspace) -> int:
-    """Number of the end guard of the first contact. Those of the other contacts follow."""
+    """Number of the end guard (distance to the end of its features) of the first contact. The others follow."""
     return int(first_user_guard(ws) + ws.model.n_own_guards)
 
 
@@ -53,19 +53,19 @@ def number_of_guards(ws: Workspace) -> int:
 
 @kernel("Guard(ws, Contact)")
 def normal_of(ws: Workspace, contact: Contact) -> Guard:
-    """Normal guard of a contact."""
+    """Record of the normal guard of a contact: its gap, its normal force, or the distance to its reach."""
     return ws.guards[normal_guard(contact.index)]
 
 
 @kernel("Guard(ws, Contact)")
 def friction_of(ws: Workspace, contact: Contact) -> Guard:
-    """Friction guard of a contact."""
+    """Record of the friction guard of a contact: the distance to its static bound, or its slip."""
     return ws.guards[friction_guard(ws, contact.index)]
 
 
 @kernel("Guard(ws, Contact)")
 def end_of(ws: Workspace, contact: Contact) -> Guard:
-    """End guard of a contact."""
+    """Record of the end guard of a contact: the distance to the end of its features."""
     return ws.guards[first_end_guard(ws) + contact.index]
 
 

@@ -20,21 +20,22 @@ gap tolerance past the end, and must not end at once."""
 
 @kernel("f8(ws, Contact)")
 def feature_guard(ws: Workspace, contact: Contact) -> float:
-    """End guard of a closed contact [m]: the distance to the end of its features, negative if the features changed.
+    """End guard of a closed contact [m]: the distance to the end of its features, negative past it.
 
-    Features without an end have the distance 1. A change turns the sign of a positive distance: the guard fires.
+    Features are the faces, edges or corners in contact. If they are others than at the start of the step, the sign of a
+    positive distance is turned, so that the guard fires.
     """
+    # a contact may close a gap tolerance past the end, so the guard ends two of them past it; without an end it is 1
     distance = _END_DISTANCE * ws.tolerance.gap - contact.past_feature if contact.past_feature != 0.0 else 1.0
+    # features are numbered; with NO_FEATURE a change is no event in this step
     is_unchanged = contact.feature == NO_FEATURE or int(contact.feature_now) == contact.feature
     return distance if distance < 0.0 or is_unchanged else -distance
 
 
 @kernel("b1(ws, Contact)")
 def has_other_features(ws: Workspace, contact: Contact) -> bool:
-    """True if a contact whose end guard fired has passed to other features, False if its features ended.
-
-    After a change the witness points are within the new features, so the distance past their end is not positive.
-    """
+    """True if a contact whose end guard fired has passed to other features, False if its features ended."""
+    # after a change the witness points are within the new features, so the distance past their end is not positive
     return contact.past_feature <= ws.tolerance.gap
 
 
@@ -54,15 +55,16 @@ def store_features(ws: Workspace) -> None:
 def write_guards(ws: Workspace, t: float, y: int, forces_are_known: bool) -> None:
     """Write all guards at time ``t`` [s] and state ``y``, where the right-hand side was evaluated.
 
-    Without known forces the guards of closed contacts keep their values.
+    Without known forces the normal and friction guards of closed contacts keep their values. Gaps are evaluated here.
     """
     _write_guards_without_gaps(ws, t, y, forces_are_known)
     for contact in ws.contacts:
+        # the closed contact of a body with an own step (multirate) is not in the right-hand side
         steps_alone = has_own_step(ws, contact.index)
         if contact.mode == Mode.OPEN or steps_alone:
             _write_gap(ws, contact)
         if steps_alone:
-            # none of its guards may fire before the own step of its body ends
+            # its gap is needed for the drift from its constraint, but no guard may fire before the own step ends
             normal_of(ws, contact).value = 1.0
 
 
@@ -71,7 +73,9 @@ def _write_gap(ws: Workspace, contact: Contact) -> None:
     """Evaluate the geometry and the rates of an open contact, and write its gap as its normal guard."""
     evaluate_kinematics(ws, contact.index)
     normal_of(ws, contact).value = contact.gap
+    # an open contact has no friction: its guard is positive and cannot fire
     friction_of(ws, contact).value = 1.0
+    # the rate of the guard: later evaluations of the contact overwrite normal_rate
     contact.gap_rate = contact.normal_rate
 
 
@@ -79,8 +83,10 @@ def _write_gap(ws: Workspace, contact: Contact) -> None:
 def _write_guards_without_gaps(ws: Workspace, t: float, y: int, forces_are_known: bool) -> None:
     """Write the force guards of closed contacts, the guards of the user, and all end guards.
 
-    End guards are 1 for open contacts, for unknown forces, and for bodies with an own step: then none may fire.
+    End guards are 1 for open contacts, without known forces, and for bodies with an own step: none of these may fire.
+    Guards of the user are functions of time and state alone.
     """
+    # gaps need the driven bodies, which the right-hand side evaluates only with closed contacts
     if ws.island.n_grouped == 0:
         evaluate_driven_bodies(ws, t, y)
     elif forces_are_known:
@@ -98,7 +104,11 @@ def _write_guards_without_gaps(ws: Workspace, t: float, y: int, forces_are_known
 
 @kernel("void(ws, Contact)")
 def _write_force_guards(ws: Workspace, contact: Contact) -> None:
-    """Write the normal and the friction guard of a closed contact, whose force was evaluated."""
+    """Write the normal and the friction guard of a closed contact, whose force was evaluated.
+
+    The friction guard is the distance to the static bound if the contact sticks, else the slip.
+    """
+    # the rate of the guard: later evaluations of the contact overwrite normal_rate
     contact.gap_rate, sticks = contact.normal_rate, contact.mode == Mode.STICK
     normal_of(ws, contact).value = value_of_normal_guard(ws, contact.index)
     friction_of(ws, contact).value = contact.static_margin if sticks else value_of_slip_guard(ws, contact.index)
@@ -106,7 +116,7 @@ def _write_force_guards(ws: Workspace, contact: Contact) -> None:
 
 @kernel("void(ws, f8, i8)")
 def evaluate_motion(ws: Workspace, t: float, y: int) -> None:
-    """Evaluate the bodies at time ``t`` [s] and state ``y``, without forces.
+    """Evaluate the bodies at time ``t`` [s] and state ``y``, without contact forces: enough for gaps and user guards.
 
     Bodies in ballistic motion are evaluated only if one of their gaps may close in the step.
     """
@@ -129,7 +139,10 @@ def _evaluate_ballistic_bodies(ws: Workspace, t: float, y: int) -> None:
 
 @kernel("void(ws, f8, i8, Contact)")
 def _evaluate_ballistic_bodies_of(ws: Workspace, t: float, y: int, contact: Contact) -> None:
-    """Evaluate those of the two bodies of a contact that are in ballistic motion."""
+    """Evaluate the ballistic bodies among the two of a contact, at time ``t`` [s] and state ``y``.
+
+    Bodies in ballistic motion follow a closed form, so the right-hand side does not evaluate them.
+    """
     if ws.bodies[contact.body_a].is_ballistic:
         evaluate_body(ws, t, y, contact.body_a)
     if ws.bodies[contact.body_b].is_ballistic:
@@ -141,6 +154,7 @@ def evaluate_guards(ws: Workspace, t: float, y: int, elapsed: float, needs_force
     """Evaluate motion and guards within the step, ``elapsed`` [s] after its start: at time ``t`` [s] and state ``y``.
 
     Gaps that cannot close in the step keep their values. Guards of closed contacts do so unless it ``needs_forces``.
+    Of guards that are zero at the start of the step, the growth over the elapsed time takes the place of the value.
     """
     if needs_forces:
         right_hand_side(ws, t, y, may_choose=False, of_all_bodies=False)

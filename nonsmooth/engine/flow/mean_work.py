@@ -9,7 +9,8 @@ from nonsmooth.engine.native.kernel import Workspace, kernel
 def account_for_mean_forces(ws: Workspace) -> None:
     """Subtract the work of averaged normal forces since the last call from the closing loss [J].
 
-    The geometry must be evaluated.
+    ``mean_gap`` becomes the present gap [m], up to which the work is accounted for. The geometry must be evaluated. The
+    work of compliant forces is no loss.
     """
     for contact in ws.contacts:
         if contact.is_averaged and not contact.is_compliant:

@@ -39,7 +39,7 @@ _NO_BODY = -1
 
 @kernel("b1(ws, i8, i8)")
 def _is_at_rest(ws: Workspace, number: int, frame: int) -> bool:
-    """True if body ``number`` is driven and its frame does not move."""
+    """True if body ``number`` is driven and the ``frame`` on it, given by its offset, does not move."""
     one = frame_at(ws.floats, frame)
     moves = dot(one.velocity, one.velocity) + dot(one.spin, one.spin)
     return ws.bodies[number].n_u == 0 and moves == 0.0
@@ -55,8 +55,9 @@ def _has_body_at_rest(ws: Workspace, contact: Contact) -> bool:
 def _independent_body(ws: Workspace, contact: Contact) -> int:
     """Body that sticks by this contact alone to a body at rest and has no own step yet, or ``_NO_BODY``.
 
-    It must not be the only body that moves, because then no events of others could interrupt it. A spin that is
-    integrated along axes in space has another interpolant, so such bodies take no own step.
+    Such a body acts on nothing else, so it may take a step of its own. It must not be the only body with velocities:
+    then an own step would save nothing, as there are no events of others. A body that declares a spin (not negative)
+    may be integrated with another interpolant, so it takes no own step.
     """
     is_rigid = not contact.is_compliant and not contact.is_averaged and not contact.is_anisotropic
     if contact.mode != Mode.STICK or not is_rigid or contact.past_feature > 0.0:
@@ -71,9 +72,10 @@ def _independent_body(ws: Workspace, contact: Contact) -> int:
 
 @kernel("i8(ws)")
 def _group_independent_bodies(ws: Workspace) -> int:
-    """Let the integrator step the independent bodies only, and group their contacts. Number of these bodies.
+    """Let the integrator step the independent bodies only, and group their contacts into islands. Number of bodies.
 
-    Afterwards the bodies of a common step must be chosen anew.
+    Independent is a body that sticks by a single contact to a body at rest. Afterwards the bodies and islands of a
+    common step must be chosen anew.
     """
     for body in ws.bodies:
         body.n_closed = 0
@@ -95,17 +97,18 @@ def _group_independent_bodies(ws: Workspace) -> int:
 
 @kernel("void(Guard, f8, b1)")
 def _extend_range(guard: Guard, value: float, is_first: bool) -> None:
-    """Extend the range of a guard's values by ``value``, or start it there. It is stored as ``base`` to ``at_end``."""
+    """Extend the range of a guard's values by ``value``, or start it there if it ``is_first``."""
+    # the range is stored from base to at_end, which are free until the next common step writes the guards
     guard.base = value if is_first else min(guard.base, value)
     guard.at_end = value if is_first else max(guard.at_end, value)
 
 
 @kernel("void(ws, b1)")
 def _extend_ranges(ws: Workspace, is_first: bool) -> None:
-    """Extend the ranges of the force guards of the grouped contacts by their present values.
+    """Extend the ranges of the force guards of the grouped contacts by their present values [N].
 
-    A normal guard stays armed as long as its contact has the same features, sticks by friction, and its other body is
-    at rest.
+    Also marks contacts that allow an own step: their normal guard stays armed as long as the contact has the features
+    of the first sample, sticks by friction, and its other body is at rest.
     """
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]
@@ -121,23 +124,25 @@ def _extend_ranges(ws: Workspace, is_first: bool) -> None:
 
 @kernel("b1(Guard)")
 def _keeps_distance(guard: Guard) -> bool:
-    """True if the samples of a guard are positive and differ too little for a root between them."""
+    """True if the samples of a guard, ``base`` to ``at_end``, are positive and differ too little for a root between."""
     return guard.base > 0.0 and guard.base >= _LARGEST_DROP * guard.at_end
 
 
 @kernel("f8(ws, f8, f8)")
 def _find_step(ws: Workspace, usual: float, longest: float) -> float:
-    """Step the independent bodies. Length of the step that meets the tolerance [s], or 0 if none does.
+    """Step the independent bodies to ``y_new``. Length of the step that meets the tolerance [s], or 0 if none does.
 
-    The first length that is tried is that of the last own step, or ``usual`` [s]. None exceeds ``longest`` [s].
+    The first length that is tried is that of the last own step, or ``usual`` [s]. None exceeds ``longest`` [s], nor the
+    common end of the present own steps. ``own_step`` becomes the length to try next.
     """
     wanted = min(ws.island.own_step if ws.island.own_step > 0.0 else usual, ws.tolerance.largest_step)
     h = min(wanted, longest, ws.island.own_steps_end - ws.island.time)
     for _attempt in range(_ATTEMPTS):
         error = explicit_step(ws, h)
+        # of an error that is not finite no factor can be estimated
         factor = step_factor(error) if error < math.inf else SHRINK
         if error <= 1.0:
-            # a step that was cut short says nothing of the next one
+            # a step that was cut short to its end does not shorten the next one
             ws.island.own_step = max(wanted, h * factor) if h < wanted else h * factor
             return float(h)
         h *= factor
@@ -147,7 +152,10 @@ def _find_step(ws: Workspace, usual: float, longest: float) -> float:
 
 @kernel("void(ws, Body, f8)")
 def _store_step(ws: Workspace, body: Body, h: float) -> None:
-    """Give a body an own step of ``h`` [s] from the present time. Stores its start and slopes for the interpolant."""
+    """Give a body an own step of ``h`` [s] from the present time. Stores its start and slopes for the interpolant.
+
+    They are those of the coordinates and velocities of the body alone, in all stages of the step taken last.
+    """
     body.has_own_step, body.own_step_time, body.own_step = True, ws.island.time, h
     for part in range(2):
         first, n = (body.q, body.n_q) if part == 0 else (ws.model.n_q + body.u, body.n_u)
@@ -161,21 +169,26 @@ def _store_step(ws: Workspace, body: Body, h: float) -> None:
 def begin_own_steps(ws: Workspace, usual: float, longest: float) -> None:
     """Begin own steps of all bodies that may take one, before the first common step after an event.
 
-    The first length that is tried is ``usual`` [s]. None exceeds ``longest`` [s]. Afterwards the bodies are evaluated
-    at another state. Systems with loads, joints or inner states of laws have no own steps.
+    Until its end such a body moves along the interpolant of its step, whatever happens elsewhere. The first length that
+    is tried is that of the last own step, or ``usual`` [s]. None exceeds ``longest`` [s]. Afterwards the bodies are
+    evaluated at another state. Systems with loads, joints or inner states of laws have no own steps.
     """
     if ws.model.n_loads + ws.model.n_joints + ws.model.n_states > 0 or _group_independent_bodies(ws) == 0:
         return
     h = _try_own_step(ws, usual, longest)
+    # no step meets the tolerance
     if h == 0.0:
         return
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]
         normal, friction = normal_of(ws, contact), friction_of(ws, contact)
+        # the least normal force in the stages of the step is a sample, too
         _extend_range(normal, contact.least_force, is_first=False)
         if normal.is_armed and _keeps_distance(normal) and _keeps_distance(friction):
+            # the other body is at rest
             number = contact.body_b if ws.bodies[contact.body_b].n_u > 0 else contact.body_a
             _store_step(ws, ws.bodies[number], h)
+            # all own steps end at one instant: h is at most the time up to the end of those that began before
             ws.island.own_steps_end = min(ws.island.own_steps_end, ws.island.time + h)
 
 
@@ -183,8 +196,10 @@ def begin_own_steps(ws: Workspace, usual: float, longest: float) -> None:
 def _try_own_step(ws: Workspace, usual: float, longest: float) -> float:
     """Step the independent bodies, and sample the ranges of their guards at start, end and middle of the step.
 
-    Length of the step [s], or 0 if none meets the tolerance. Whether common steps are implicit is kept.
+    Length of the step [s], or 0 if none meets the tolerance. From the samples the caller finds which guards cannot fire
+    within it.
     """
+    # the explicit step sets it to zero; it decides whether the next common step is implicit
     stage_time = ws.island.stage_time
     for i in range(ws.island.n_grouped):
         ws.contacts[ws.island.grouped[i]].least_force = math.inf
@@ -202,7 +217,11 @@ def _try_own_step(ws: Workspace, usual: float, longest: float) -> float:
 
 @kernel("b1(ws, Contact)")
 def _has_drifted(ws: Workspace, contact: Contact) -> bool:
-    """True if a closed contact has left its constraints by more than ``_DRIFT`` tolerances, at the end of the step."""
+    """True if a closed contact has left its constraints by more than ``_DRIFT`` tolerances, at the end of the step.
+
+    Constraints are a gap and a gap rate of zero, and no slip if it sticks. A compliant contact constrains only its
+    slip. Contacts with averaged forces are projected at the end of their span.
+    """
     if contact.mode == Mode.OPEN or contact.is_averaged:
         return False
     rate, gap = abs(contact.velocity_at_end[0]), abs(contact.gap_at_end)
@@ -215,7 +234,10 @@ def _has_drifted(ws: Workspace, contact: Contact) -> bool:
 
 @kernel("b1(ws)")
 def has_drifted(ws: Workspace) -> bool:
-    """True if some closed contact has left its constraints by more than ``_DRIFT`` tolerances: it must be projected."""
+    """True if some closed contact has left its constraints by more than ``_DRIFT`` tolerances.
+
+    The closed contacts are then projected: put back on their constraints.
+    """
     for contact in ws.contacts:
         if _has_drifted(ws, contact):
             return True
@@ -224,7 +246,10 @@ def has_drifted(ws: Workspace) -> bool:
 
 @kernel("i8(ws)")
 def end_own_steps(ws: Workspace) -> int:
-    """End all own steps if the common end is reached, else those whose contacts have drifted. Number that ended."""
+    """End all own steps if the common end is reached, else those whose contacts have drifted. Number that ended.
+
+    If any ends, the closed contacts must be grouped anew. A drifted contact takes part in the next projection.
+    """
     n_ended, is_end = 0, ws.island.own_steps_end - ws.island.time <= ws.tolerance.time
     if is_end:
         ws.island.own_steps_end = math.inf

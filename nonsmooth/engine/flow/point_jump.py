@@ -36,7 +36,10 @@ _LEAST_SPEED_RATIO = 3.0
 
 @kernel("i8(ws)")
 def _store_displacements(ws: Workspace) -> int:
-    """Store the displacements of the contact points from before the jump to now. Number of stretches of the jump."""
+    """Store the displacements of the contact points from before the jump to now [m]. Number of stretches of the jump.
+
+    A stretch is a part of the displacement that is short compared with the bodies. Impulses act in each of them.
+    """
     longest = 0.0
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]
@@ -51,13 +54,15 @@ def _store_displacements(ws: Workspace) -> int:
 def _set_up_problem(ws: Workspace, part: float) -> None:
     """Move the points of the active contacts by a ``part`` of their displacements, and write the contact problem there.
 
-    It has gap rates and slips in place of accelerations, and impulses in place of forces.
+    It has gap rates and slips [m/s] in place of accelerations, and impulses [N s] in place of forces. A contact that
+    the jump has released in an earlier stretch, with its cause in ``release``, stays open or sliding.
     """
     ws.problem.acceleration_scale = 0.0
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         contact.point_a = _moved(contact.point_a_before_jump, part, contact.jump_a)
         contact.point_b = _moved(contact.point_b_before_jump, part, contact.jump_b)
+        # the points are not those of the bodies' positions, so the contact must not count as evaluated
         contact.version_a = NOT_EVALUATED
         evaluate_rates(ws, active.contact)
         evaluate_jacobian(ws, active.contact)
@@ -67,11 +72,13 @@ def _set_up_problem(ws: Workspace, part: float) -> None:
         sticks = contact.mode == Mode.STICK and contact.release == NO_RELEASE
         active.is_normal_force_unknown = contact.release != Cause.LIFT_OFF
         active.sticks = sticks and active.static_coefficient > 0.0
+        # a slip within the velocity tolerance keeps its direction
         active.direction = contact.direction
         if speed > ws.tolerance.velocity:
             active.direction = contact.slip[0] / speed, contact.slip[1] / speed
         for r in range(3):
             active.free[r] = contact.rate[r]
+            # the largest rate: the impulse that counts as zero is relative to that which stops it
             ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, abs(contact.rate[r]))
     assemble_delassus(ws)
 
@@ -87,7 +94,7 @@ def _moved(point: Vector, part: float, displacement: Vector) -> Vector:
 def _release(ws: Workspace) -> int:
     """Open the active contacts that pull, and let those past their static bound slide. Number of these contacts.
 
-    The cause of each is written to ``release``.
+    The cause of each is written to ``release``, by which they stay released in later stretches of the jump.
     """
     n_released = 0
     for active in ws.actives:
@@ -99,6 +106,7 @@ def _release(ws: Workspace) -> int:
         elif active.sticks and length(active.friction) > active.static_coefficient * active.normal_force + round_off:
             (t1, t2), norm = active.friction, length(active.friction)
             contact.release, active.sticks = Cause.STICK_TO_SLIP, False
+            # the slip begins against the friction that held the contact
             contact.direction = active.direction = -t1 / norm, -t2 / norm
             n_released += 1
     return n_released
@@ -106,18 +114,21 @@ def _release(ws: Workspace) -> int:
 
 @kernel("void(ws, f8)")
 def _apply_impulses(ws: Workspace, part: float) -> None:
-    """Apply the impulses of the active contacts at a ``part`` of their displacements, and account for their work.
+    """Apply the impulses of the active contacts at a ``part`` of their displacements to ``y_new``.
 
     In the middle of a stretch they reverse the part of the velocity that the contacts resist. So this part is zero on
-    average over the stretch. Only friction dissipates.
+    average over the stretch. Only friction dissipates. The work goes to the energy accounts of ``y_new``.
     """
     _set_up_problem(ws, part)
+    # each round releases a contact, and a contact can be released twice: from sticking, and from sliding
     for _round in range(2 * ws.problem.n_active + 1):
+        # an impulse of a contact that was released must not remain
         for i in range(3 * ws.problem.n_active):
             ws.problem.forces[i] = 0.0
         resolve(ws)
         if _release(ws) == 0:
             break
+    # these impulses stop the rates, twice as large ones reverse them
     for i in range(3 * ws.problem.n_active):
         ws.problem.forces[i] *= 2.0
     add_response(ws, ws.problem.forces.start, ws.step.y_new.start + ws.model.n_q)
@@ -126,6 +137,7 @@ def _apply_impulses(ws: Workspace, part: float) -> None:
         contact = ws.contacts[active.contact]
         for r in range(3):
             impulse = active.force[r]
+            # work of driven bodies, which prescribe a part of the rates
             ws.floats[powers + DRIVEN] -= impulse * contact.prescribed_rate[r]
             ws.floats[powers + EXCHANGED] += abs(impulse * contact.prescribed_rate[r])
             if r != NORMAL_ROW and not active.sticks:
@@ -138,7 +150,7 @@ def _apply_impulses(ws: Workspace, part: float) -> None:
 
 @kernel()
 def _store_points(ws: Workspace) -> None:
-    """Evaluate the grouped contacts at the present state, and store their contact points as those before a jump."""
+    """Evaluate the grouped contacts at the present state, and store their contact points as those before a jump [m]."""
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]
@@ -148,10 +160,11 @@ def _store_points(ws: Workspace) -> None:
 
 @kernel("i8(ws, f8, f8)")
 def _jumping_contact(ws: Workspace, h: float, rate: float) -> int:
-    """Contact whose point moves in the time ``h`` [s] faster than its bodies, to a point where they approach.
+    """Contact whose point jumps in the time ``h`` [s]: it moves much faster than its bodies, to where they approach.
 
-    Their gap rate there must be below ``rate`` [m/s]. The bodies must be evaluated at the end of that time. The last
-    such contact is returned, or ``NO_CONTACT``.
+    Their gap rate there must be below ``rate`` [m/s]. The speed of the bodies is that of slip and relative turning.
+    They must be evaluated at the end of that time. The point is that on the second body. The last such contact is
+    returned, or ``NO_CONTACT``. Evaluates geometry and rates of the grouped contacts.
     """
     which = NO_CONTACT
     for i in range(ws.island.n_grouped):
@@ -168,9 +181,10 @@ def _jumping_contact(ws: Workspace, h: float, rate: float) -> int:
 
 @kernel()
 def evaluate_force_round_off(ws: Workspace) -> None:
-    """Write the force that counts as zero after a jump [N]: a part of the largest force, or force to stop the bias.
+    """Write the force that counts as zero after a jump to ``force_round_off`` of the grouped contacts [N].
 
-    Forces before the jump are no measure of it: close to the flat place they may be unbounded.
+    It is a part of the largest normal force, or force that would stop the bias, the acceleration at constant
+    velocities. Forces before the jump are no measure of it: close to the flat place they may be unbounded.
     """
     right_hand_side(ws, ws.island.time, ws.island.y.start, may_choose=False, of_all_bodies=True)
     largest = 0.0
@@ -187,25 +201,32 @@ def evaluate_force_round_off(ws: Workspace) -> None:
 def jump_contact_points(ws: Workspace, h: float) -> bool:
     """Write the state after the time ``h`` [s], which is too short for a step, to ``y_new``, if a contact point jumps.
 
-    True if one jumps, else False. ``slopes`` must hold the slope at ``y``, and the closed contacts must be grouped.
-    ``release`` becomes the cause by which the impulses released a contact.
+    A point jumps if it moves much faster than its bodies, as where a flat part of a surface rolls over another one. The
+    jump is made in short stretches, with impulses that keep the contacts closed in the middle of each. True if one
+    jumps. ``slopes`` must hold the slope at ``y``, and the closed contacts must be grouped. ``release`` becomes the
+    cause by which the impulses released a contact.
     """
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]
+        # a compliant contact has a known force and needs no impulse
         if contact.is_compliant:
             return False
         contact.release = NO_RELEASE
     _store_points(ws)
+    # coordinates along a straight line; impulses change the velocities
     for i in range(ws.model.n_y):
         ws.step.y_new[i] = ws.island.y[i] + (h * ws.island.slopes[i] if i < ws.model.n_q else 0.0)
     evaluate_bodies(ws, ws.island.time + h, ws.step.y_new.start)
+    # any approach at the new point counts
     if _jumping_contact(ws, h, 0.0) == NO_CONTACT:
         return False
     n_stretches = _store_displacements(ws)
     for stretch in range(n_stretches):
         for group in range(ws.island.n_groups):
             activate_group(ws, group)
+            # in the middle of the stretch
             _apply_impulses(ws, (stretch + 0.5) / n_stretches)
+        # the next stretch begins with the new velocities
         evaluate_bodies(ws, ws.island.time + h, ws.step.y_new.start)
     return True
 
@@ -215,7 +236,8 @@ def contact_past_flat_place(ws: Workspace) -> int:
     """Closed contact whose point jumped within the step that was taken, or ``NO_CONTACT``.
 
     After such a step the bodies approach faster than the tolerances allow: a face has fallen flat, and now the other
-    side of its rim is the lower one. Evaluates the bodies at the end of the step.
+    side of its rim is the lower one. Compliant and averaged contacts may approach, and past the end of its features a
+    contact has no rate. If some contact approaches, evaluates the bodies at the end of the step.
     """
     approaches, allowed = False, ALLOWED * ws.tolerance.velocity
     for i in range(ws.island.n_grouped):

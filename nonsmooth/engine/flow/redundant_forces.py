@@ -20,9 +20,10 @@ from nonsmooth.engine.native.kernel import Workspace, kernel
 
 @kernel("b1(ws)")
 def choose_forces_again(ws: Workspace) -> bool:
-    """Choose the redundant forces anew at the present state. True if the chosen forces keep all bounds.
+    """Choose the redundant forces (those that are not unique) anew at the present state. True if they keep all bounds.
 
-    False if no choice does, or if the last choice was less than the time tolerance ago: all forces may vanish then.
+    Then a force at its bound is no event. False if no choice keeps the bounds, or if the last choice was less than the
+    time tolerance ago: all forces may vanish then, and choices would never end.
     """
     if ws.island.time - ws.island.last_choice <= ws.tolerance.time:
         return False
@@ -35,7 +36,8 @@ def choose_forces_again(ws: Workspace) -> bool:
 def blend_chosen_forces(ws: Workspace, theta: float) -> None:
     """Interpolate the null-space forces between the choices at both ends of the step, at its fraction ``theta``.
 
-    Nothing is written if there is no choice at the end.
+    Null-space forces are the part of the contact forces that does not change the motion. Without a choice at the end
+    they stay constant over the step.
     """
     if not ws.step.is_blended:
         return
@@ -49,7 +51,8 @@ def blend_chosen_forces(ws: Workspace, theta: float) -> None:
 def _choose_at(ws: Workspace, elapsed: float, y: int) -> bool:
     """Choose the redundant forces after ``elapsed`` [s] of the step, at the state ``y``. True if all keep their bounds.
 
-    Else no choice keeps them, and the slack of the last choice is removed, which would delay the end of the mode.
+    Else no choice keeps them. Then ``slack``, the excess over the bounds that such a choice is allowed, is removed,
+    because it would delay the end of the mode.
     """
     if right_hand_side(ws, ws.island.time + elapsed, y, may_choose=True, of_all_bodies=False):
         return True
@@ -60,7 +63,7 @@ def _choose_at(ws: Workspace, elapsed: float, y: int) -> bool:
 
 @kernel("b1(ws)")
 def _exceeds_bound(ws: Workspace) -> bool:
-    """True if a guard that depends on a redundant force has fired."""
+    """True if a guard that depends on a redundant force has fired. Only such guards make a new choice worthwhile."""
     for i in range(first_user_guard(ws)):
         if is_of_redundant_force(ws, i) and has_fired(ws, i):
             return True
@@ -71,8 +74,9 @@ def _exceeds_bound(ws: Workspace) -> bool:
 def choose_at_end(ws: Workspace, h: float) -> None:
     """Choose the redundant forces at the end of the step of ``h`` [s] too, if those of its start exceed a bound there.
 
-    Only forces that were chosen at the very start are, and only in explicit steps. The guards must be written at the
-    end of the step. They are written anew if forces were chosen.
+    Within the step the forces are then blended from one choice to the other (``is_blended``). This is done only if the
+    forces were chosen at the very start, and only in explicit steps: in implicit ones forces exist at the ends of
+    stages only. The guards must be written at the end of the step. They are written anew if forces were chosen.
     """
     ws.step.is_blended = False
     is_chosen_at_start = ws.island.last_choice == ws.island.time
@@ -82,6 +86,7 @@ def choose_at_end(ws: Workspace, h: float) -> None:
         for r in range(3):
             contact.choice_at_start[r] = contact.null_space_force[r]
     ws.step.is_blended = True
+    # forces of a failed choice are evaluated again without their slack
     if not _choose_at(ws, h, ws.step.y_new.start):
         right_hand_side(ws, ws.island.time + h, ws.step.y_new.start, may_choose=False, of_all_bodies=False)
     for contact in ws.contacts:
@@ -94,8 +99,9 @@ def choose_at_end(ws: Workspace, h: float) -> None:
 def can_choose_within(ws: Workspace, high: float) -> bool:
     """True if redundant forces can be chosen at the fraction ``high`` of the step although the blend exceeds a bound.
 
-    This happens if the bounds allow a single choice only, which changes nonlinearly over the step. A shorter step then
-    keeps the bounds. In a step within the time tolerance it is False: the bound is then an event.
+    Then a shorter step keeps the bounds, and there is no event. This happens if the bounds allow a single choice only,
+    which changes nonlinearly over the step. False in a step within the time tolerance, and at its end (``high`` 1),
+    which has its own choice: the bound is then an event. Chooses forces at that fraction of the step.
     """
     if not ws.step.is_blended or high == 1.0 or ws.step.h <= ws.tolerance.time:
         return False

@@ -49,16 +49,17 @@ def held_gap(contact: Contact) -> float:
 
 @kernel("f8(ws, i8)")
 def tolerated_gap(ws: Workspace, c: int) -> float:
-    """Gap that a closed contact may have, or overlap of an open one, by the tolerances [m].
+    """Gap that a closed contact ``c`` may have, or overlap of an open one, by the tolerances [m].
 
     These are the tolerances of gaps, of steps (relative to the distances of the witness points from the origins of
-    space and bodies), and of event times.
+    space and bodies), and of event times (by the gap rate at the start of the step).
     """
     contact = ws.contacts[c]
     farthest = 0.0
     for side in range(2):
         point = contact.point_a if side == 0 else contact.point_b
         offset = minus(point, frame_at(ws.floats, contact.frame_a if side == 0 else contact.frame_b).origin)
+        # both distances in the 1-norm
         far = 0.0
         for i in range(3):
             far += abs(point[i]) + abs(offset[i])
@@ -69,7 +70,7 @@ def tolerated_gap(ws: Workspace, c: int) -> float:
 
 @kernel("f8(ws, i8)")
 def allowed_gap(ws: Workspace, c: int) -> float:
-    """Gap that a closed contact may have [m]: by the tolerances, and until averaged forces have brought it to rest."""
+    """Gap that a closed contact may have [m]: by the tolerances, plus its change until averaged forces stop it."""
     contact = ws.contacts[c]
     change = contact.mean_gap_change if contact.is_averaged else 0.0
     return float(tolerated_gap(ws, c) + change)
@@ -77,7 +78,7 @@ def allowed_gap(ws: Workspace, c: int) -> float:
 
 @kernel("b1(ws, Contact)")
 def _has_closed_contact(ws: Workspace, contact: Contact) -> bool:
-    """True if some contact of the same two frames as ``contact`` is closed."""
+    """True if some contact of the same two frames as ``contact`` is closed: other features may then overlap."""
     for other in ws.contacts:
         if other.mode != Mode.OPEN and other.frame_a == contact.frame_a and other.frame_b == contact.frame_b:
             return True
@@ -86,7 +87,10 @@ def _has_closed_contact(ws: Workspace, contact: Contact) -> bool:
 
 @kernel("f8(ws, i8)")
 def _allowed_overlap(ws: Workspace, number: int) -> float:
-    """Overlap of a pair of convex parts that the tolerances of gaps and of steps allow [m]."""
+    """Overlap of pair ``number`` of convex parts that the tolerances of gaps and of steps allow [m].
+
+    The tolerance of steps is relative to the distance from the origin of space and the size of the parts.
+    """
     pair = ws.pairs[number]
     farthest = 0.0
     for side in range(2):
@@ -99,11 +103,12 @@ def _allowed_overlap(ws: Workspace, number: int) -> float:
 def check_gaps(ws: Workspace) -> None:
     """Check pairs and gaps at the start of a step: open contacts must be apart, and closed rigid ones without gap.
 
-    The features of compliant bodies may overlap while a contact of the two bodies is closed. A check that fails ends
-    the run.
+    A pair is two convex parts of bodies with contacts. The features of compliant bodies may overlap while a contact of
+    the two bodies is closed. A check that fails ends the run.
     """
     if ws.model.n_pairs > 0:
         check_pairs(ws)
+    # the pair that overlaps most beyond the depth of its closed contacts, or -1
     if ws.run.passed_pair >= 0:
         allowed = ws.run.passed_allowed + _allowed_overlap(ws, ws.run.passed_pair)
         if ws.run.passed_depth > allowed:
@@ -111,10 +116,13 @@ def check_gaps(ws: Workspace) -> None:
     for contact in ws.contacts:
         gap = contact.gap_at_end
         if contact.mode == Mode.OPEN:
+            # a positive gap is no error
             gap = min(0.0, gap)
+            # past the end of features the gap is a distance, and the overlap is stored apart
             if contact.overlap_at_end < 0.0 and not _has_closed_contact(ws, contact):
                 gap = contact.overlap_at_end
         elif contact.is_compliant or contact.past_feature > 0.0:
+            # a compliant contact has a depth, and past the end of features the gap is only a distance
             continue
         # the first bound is cheap, and decides most cases
         if abs(gap) > ALLOWED * ws.tolerance.gap and abs(gap) > allowed_gap(ws, contact.index):
@@ -123,19 +131,27 @@ def check_gaps(ws: Workspace) -> None:
 
 @kernel("f8(ws, Contact, f8)")
 def _stored_energy(ws: Workspace, contact: Contact, depth: float) -> float:
-    """Energy of a compliant contact at a depth [J]: the integral of its force at rest, by Gauss's three-point rule."""
+    """Energy of a compliant contact at a ``depth`` [m]: the integral of its force at rest [J].
+
+    Gauss's three-point rule is exact for polynomials of degree five.
+    """
     total = 0.0
     for i in range(-1, 2):
-        # Gauss's rule on [0, 1]
+        # Gauss's rule on [0, 1]: weights 5/18, 8/18 and 5/18
         weight, node = (8.0 - 3.0 * i * i) / 18.0, 0.5 * (1.0 + i * math.sqrt(0.6))
         parameters = at(ws.floats, contact.normal_parameters)
+        # 0.0 is the rate of the depth
         total += weight * call_compliance(contact.normal_function, node * depth, 0.0, contact.closing_rate, parameters)
     return float(depth * total)
 
 
 @kernel("f8(ws, Contact, b1)")
 def _deepest_other(ws: Workspace, contact: Contact, after: bool) -> float:
-    """Least gap of the other closed contacts of the same two frames, or 0 [m]; closed before or ``after`` an event."""
+    """Least gap of the other closed contacts of the same two frames, or 0 [m]; closed before or ``after`` an event.
+
+    Its depth is that at which a contact may replace another one. After the event, the modes are those in
+    ``mode_agreed``.
+    """
     deepest = 0.0
     for other in ws.contacts:
         mode = other.mode_agreed if after else other.mode
@@ -149,10 +165,12 @@ def _deepest_other(ws: Workspace, contact: Contact, after: bool) -> float:
 def check_new_springs(ws: Workspace) -> None:
     """Check compliant contacts that close or open inside of a body at an event, before their modes are taken over.
 
-    A contact may replace another one at the depth of that one. The energy that springs gain or lose by other changes of
-    depth is stored as unexplained. A spring that closes deeper than all others of its bodies ends the run.
+    ``mode`` is still the old mode, ``mode_agreed`` the new one. A contact may replace another one at the depth of that
+    one. The energy that springs gain or lose by changes of depth is summed up in ``jumped_energy``. A spring that
+    closes deeper than all others of its bodies ends the run.
     """
     for contact in ws.contacts:
+        # rigid, or neither closes nor opens
         if not contact.is_compliant or (contact.mode == Mode.OPEN) == (contact.mode_agreed == Mode.OPEN):
             continue
         if contact.mode != Mode.OPEN:
@@ -162,6 +180,7 @@ def check_new_springs(ws: Workspace) -> None:
                 ws.run.jumped_energy -= _stored_energy(ws, contact, depth)
             continue
         tolerated = allowed_gap(ws, contact.index)
+        # a spring that begins at the surface gains no energy
         if contact.gap >= -tolerated:
             continue
         ws.run.jumped_energy += _stored_energy(ws, contact, -contact.gap)
@@ -173,7 +192,7 @@ def check_new_springs(ws: Workspace) -> None:
 
 @kernel("f8(ws)")
 def _accounted_energy(ws: Workspace) -> float:
-    """Energy that events have supplied to the bodies so far, by the totals [J]: driven work minus all losses."""
+    """Energy that events and projections have given to the bodies so far [J]: driven work minus all losses."""
     return float(ws.totals.driven_work - ws.totals.restitution_loss - ws.totals.friction_loss - ws.totals.closing_loss)
 
 
@@ -183,6 +202,7 @@ def energies_of_bodies(ws: Workspace) -> EnergyPair:
     kinetic = potential = 0.0
     for body in ws.bodies:
         if body.n_u > 0:
+            # kinetic and potential; driven bodies have none
             energy = energies(ws, body)
             kinetic += energy[0]
             potential += energy[1]
@@ -191,7 +211,10 @@ def energies_of_bodies(ws: Workspace) -> EnergyPair:
 
 @kernel()
 def open_energy_account(ws: Workspace) -> None:
-    """Store the energies of the bodies and the account before an event. The bodies must be evaluated."""
+    """Store the energies of the bodies and their account before an event [J]. The bodies must be evaluated.
+
+    :func:`close_energy_account` compares them with those after the event.
+    """
     ws.island.has_energy_account = True
     ws.island.kinetic_before, ws.island.potential_before = energies_of_bodies(ws)
     ws.island.accounted_before = _accounted_energy(ws)
@@ -201,9 +224,10 @@ def open_energy_account(ws: Workspace) -> None:
 def close_energy_account(ws: Workspace) -> None:
     """Compare the energy after an event with its account, and store the worst difference of the run [J].
 
-    The bodies must be evaluated. The difference is relative to the allowed one: the tolerance of impacts times the
-    kinetic energies, and round-off of the potential energy and of all that the run exchanged so far.
+    The bodies must be evaluated. The worst difference is the largest relative to the allowed one: the tolerance of
+    impacts times the kinetic energies, and round-off of the potential energy and of all that the run exchanged so far.
     """
+    # no event has come since the last comparison
     if not ws.island.has_energy_account:
         return
     ws.island.has_energy_account = False
@@ -213,6 +237,7 @@ def close_energy_account(ws: Workspace) -> None:
     exchanged = abs(ws.island.y[ws.model.n_q + ws.model.n_u + EXCHANGED])
     allowed = ALLOWED * ws.tolerance.impact * (ws.island.kinetic_before + kinetic + abs(accounted))
     allowed += _ROUND_OFF * (exchanged + abs(potential) + abs(ws.island.potential_before))
+    # nothing is allowed only if nothing moves and nothing was exchanged
     ratio = abs(change - accounted) / allowed if allowed > 0.0 else 0.0
     if ratio > ws.run.worst_energy_ratio:
         ws.run.worst_energy_ratio, ws.run.worst_energy = ratio, change - accounted
@@ -221,11 +246,15 @@ def close_energy_account(ws: Workspace) -> None:
 
 @kernel("f8(ws)")
 def scale_energy(ws: Workspace) -> float:
-    """Kinetic energy if all velocities were as large as their scales ``y_scale`` [J]. The bodies must be evaluated."""
+    """Kinetic energy if all velocities were as large as their scales ``y_scale`` [J]. The bodies must be evaluated.
+
+    An energy for comparison, in states of rest too.
+    """
     total = 0.0
     for body in ws.bodies:
         inverse = inverse_mass(ws, body)
         for i in range(body.n_u):
+            # entries i (n_u + 1) are the diagonal
             # TODO: an energy needs the reciprocals of the diagonal of the inverse mass matrix.
             total += 0.5 * inverse[i * (body.n_u + 1)] * ws.step.y_scale[ws.model.n_q + body.u + i] ** 2
     return total
@@ -233,7 +262,10 @@ def scale_energy(ws: Workspace) -> float:
 
 @kernel()
 def check_end(ws: Workspace) -> None:
-    """Check the state in which the run ends: gaps as at the start of a step, and the energy of the last event."""
+    """Check the state in which the run ends: gaps as at the start of a step, and the energy of the last event.
+
+    Also accounts for the work of averaged forces, and stores the energy with which unexplained changes are compared.
+    """
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     for contact in ws.contacts:
         evaluate_geometry(ws, contact.index)

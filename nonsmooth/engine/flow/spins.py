@@ -28,7 +28,8 @@ _SMALLEST_SINE = 1e-9
 def _rotate(floats: Floats, q: int, v: int, sign: float, out: int) -> None:
     """Write the vector at ``v``, rotated by the quaternion at ``q`` of any length, to ``out``.
 
-    ``sign`` is ``_TO_SPACE`` or ``_TO_BODY``.
+    ``sign``, the sign of the quaternion's scalar part, is ``_TO_SPACE`` (from the axes of the body) or ``_TO_BODY``.
+    With a the scalar and e the vector part, the result is v + 2 (a e x v + e x (e x v)) / (a^2 + e . e).
     """
     a, axis = sign * floats[q], (floats[q + 1], floats[q + 2], floats[q + 3])
     x, y, z = floats[v], floats[v + 1], floats[v + 2]
@@ -42,7 +43,7 @@ def _rotate(floats: Floats, q: int, v: int, sign: float, out: int) -> None:
 
 @kernel("f8(F, i8)")
 def square_of_quaternion(floats: Floats, q: int) -> float:
-    """Square of the length of the quaternion at ``q``."""
+    """Square of the length of the quaternion at ``q``, the offset of its four numbers."""
     square = 0.0
     for i in range(4):
         square += floats[q + i] * floats[q + i]
@@ -51,7 +52,7 @@ def square_of_quaternion(floats: Floats, q: int) -> float:
 
 @kernel("f8(F, i8)")
 def normalise(floats: Floats, q: int) -> float:
-    """Bring the quaternion at ``q`` to unit length. Its length before."""
+    """Bring the quaternion at ``q``, the offset of its four numbers, to unit length. Its length before."""
     size = math.sqrt(square_of_quaternion(floats, q))
     factor = 1.0 / size
     for i in range(4):
@@ -61,13 +62,16 @@ def normalise(floats: Floats, q: int) -> float:
 
 @kernel("i8(ws, i8)")
 def _slopes_of(ws: Workspace, number: int) -> int:
-    """Offset of the slopes in space of the spin of body ``number`` [1/s^2]: three floats for each stage."""
+    """Offset of the slopes of the spin of body ``number`` along axes in space [1/s^2]: three floats for each stage."""
     return int(ws.island.spin_slopes.start + 3 * N_STAGES * number)
 
 
 @kernel("b1(F, i8, i8)")
 def _changes_direction(floats: Floats, spin: int, rate: int) -> bool:
-    """True if the spin at ``spin``, whose rate is at ``rate``, changes its direction, False if it keeps it."""
+    """True if the spin at ``spin``, whose rate is at ``rate``, changes its direction, False if it keeps it.
+
+    The direction is kept if the two are parallel, by the sine of the angle between them.
+    """
     u, v = (floats[spin], floats[spin + 1], floats[spin + 2]), (floats[rate], floats[rate + 1], floats[rate + 2])
     across = cross(u, v)
     return dot(across, across) > _SMALLEST_SINE * _SMALLEST_SINE * dot(u, u) * dot(v, v)
@@ -75,13 +79,18 @@ def _changes_direction(floats: Floats, spin: int, rate: int) -> bool:
 
 @kernel()
 def choose_spins_in_space(ws: Workspace) -> None:
-    """List the integrated bodies whose spin changes direction at the start of the step. It is integrated in space."""
+    """List the integrated bodies whose spin changes direction at the start of the step, in ``spinning``.
+
+    Their spins are integrated along axes in space in this step, because a force on a fast spinning body changes slowly
+    there. Only bodies that declare a spin take part, because a gyroscopic torque may be slower along the body.
+    """
     ws.island.n_spinning = 0
     for i in range(ws.island.n_integrated):
         number = ws.island.integrated[i]
         body = ws.bodies[number]
         spin = ws.model.n_q + body.u + body.spin
         spin_now, rate = ws.island.y.start + spin, ws.island.slopes.start + spin
+        # a body that does not declare its spin has -1
         body.spins_apart = body.spin >= 0 and _changes_direction(ws.floats, spin_now, rate)
         if body.spins_apart:
             ws.island.spinning[ws.island.n_spinning] = number
@@ -93,7 +102,7 @@ def store_spin_slope(ws: Workspace, stage: int, state: int) -> None:
     """Store the spin slopes of a stage along axes in space [1/s^2]. ``state`` is where the stage was evaluated.
 
     At the first stage the spins at the start are stored too. :func:`write_spins_of_stage` normalised the quaternions of
-    inner stages, so their slopes are scaled back to the lengths before.
+    inner stages. Their slopes grow with their length, so they are scaled back to the lengths before.
     """
     for i in range(ws.island.n_spinning):
         number = ws.island.spinning[i]
@@ -110,9 +119,11 @@ def store_spin_slope(ws: Workspace, stage: int, state: int) -> None:
 
 @kernel("void(ws, i8, f8, i8)")
 def write_spins_of_stage(ws: Workspace, stage: int, h: float, out: int) -> None:
-    """Write the spins of a stage to the state at ``out``, whose quaternions are those of the stage.
+    """Write the spins of a stage to the state at ``out``, along the bodies, whose quaternions are those of the stage.
 
-    The quaternions of inner stages are normalised, because the angular velocity grows with the square of their length.
+    They follow from the slopes in space of the stages before, in a step of ``h`` [s]. The quaternions of inner stages
+    are normalised, because the angular velocity grows with the square of their length. That of the last stage is the
+    result of the step, which is left as the method gives it.
     """
     for i in range(ws.island.n_spinning):
         number = ws.island.spinning[i]
@@ -127,7 +138,10 @@ def write_spins_of_stage(ws: Workspace, stage: int, h: float, out: int) -> None:
 
 @kernel("void(ws, f8, i8)")
 def write_spin_errors(ws: Workspace, h: float, out: int) -> None:
-    """Write the errors of the spins in a step of ``h`` [s] to ``out``, along the bodies at its end [1/s]."""
+    """Write the estimated errors of the spins in a step of ``h`` [s] to ``out``, along the bodies at its end [1/s].
+
+    ``out`` is the offset of a state of errors. The errors of spins that are integrated along the body are left.
+    """
     for i in range(ws.island.n_spinning):
         number = ws.island.spinning[i]
         body = ws.bodies[number]
@@ -140,7 +154,8 @@ def write_spin_errors(ws: Workspace, h: float, out: int) -> None:
 def write_spin_within(ws: Workspace, number: int, early: Vector, late: Vector, out: int) -> None:
     """Write the spin of a body within the step to the state at ``out``, whose quaternion is the one there.
 
-    ``early`` and ``late`` are the weights of the interpolant. That of an implicit step is along the body.
+    ``early`` and ``late`` are the weights of the interpolant [s]. Spins that are integrated along the body are left,
+    and those of an implicit step, whose interpolant is along the body.
     """
     body = ws.bodies[number]
     if not body.spins_apart or ws.island.stage_time > 0.0:

@@ -36,12 +36,13 @@ _SECOND_NODE = tableau.NODES[1] / tableau.NODES[2]
 def _largest_error(ws: Workspace, first: int, end: int, worst: float) -> float:
     """Largest error of entries ``first`` to ``end`` - 1 of the state, relative to the tolerance, at least ``worst``.
 
-    ``y_stage`` holds the errors. An error that is not a number is passed on.
+    ``y_stage`` holds the errors. The tolerance is relative to the scale of an entry, plus the larger of its values at
+    start and end of the step. An error that is not a number is passed on.
     """
     for i in range(first, end):
         allowed = ws.tolerance.relative * (ws.step.y_scale[i] + max(abs(ws.island.y[i]), abs(ws.step.y_new[i])))
         error = abs(ws.step.y_stage[i])
-        # this comparison avoids most divisions
+        # this comparison avoids most divisions; a number that differs from itself is not a number
         if error > worst * allowed or error != error:
             worst = error / allowed
     return worst
@@ -49,8 +50,12 @@ def _largest_error(ws: Workspace, first: int, end: int, worst: float) -> float:
 
 @kernel("f8(ws)")
 def _relative_error(ws: Workspace) -> float:
-    """Largest error in ``y_stage`` of all that is integrated but the energy accounts, relative to the tolerance."""
+    """Largest error in ``y_stage`` of all that is integrated but the energy accounts, relative to the tolerance.
+
+    The accounts, which follow the velocities in the state, shorten no step.
+    """
     worst = 0.0
+    # a span is a connected part of the state that is integrated; the last one reaches past the velocities, and is cut
     for span in range(ws.island.n_spans):
         first = ws.island.span_first[span]
         worst = _largest_error(ws, first, min(first + ws.island.span_length[span], ws.model.n_q + ws.model.n_u), worst)
@@ -64,13 +69,14 @@ def _relative_error(ws: Workspace) -> float:
 def _error_of_second_stage(ws: Workspace, h: float) -> float:
     """Deviation of the second stage from the line between the first and the third, relative to the tolerance.
 
-    The second stage has no weight in the result, nor in the error estimate. A force that only this stage meets would be
-    lost, for example if it throws the later stages out of a contact. The deviation is of the order (L h)^3, and the
-    error of the step of the order (L h)^5. So it is compared with the square root of the tolerance, and 0 is returned
-    if it is within.
+    Of the accelerations; 0 if within the tolerance. The second stage has no weight in the result, nor in the error
+    estimate. A force that only this stage meets would be lost, for example if it throws the later stages out of a
+    contact. With the rate L of the motion, the deviation is of the order (L h)^3, and the error of the step of the
+    order (L h)^5. So it is compared with the square root of the tolerance.
     """
     first = ws.island.slopes.start + ws.model.n_q
     second, third = first + ws.model.n_y, first + 2 * ws.model.n_y
+    # the slopes of a stage are n_y numbers; accelerations and velocities are behind the n_q coordinates
     y_scale = ws.step.y_scale.start + ws.model.n_q
     y, y_new = ws.island.y.start + ws.model.n_q, ws.step.y_new.start + ws.model.n_q
     worst, tolerance = 0.0, math.sqrt(ws.tolerance.relative)
@@ -87,9 +93,10 @@ def _error_of_second_stage(ws: Workspace, h: float) -> float:
 
 @kernel("f8(ws)")
 def relaxation_rate(ws: Workspace) -> float:
-    """Largest rate at which a slip direction relaxes at the start of the step [1/s].
+    """Largest rate at which a slip direction relaxes at the start of the step [1/s]: friction mu f_n G / slip speed.
 
-    It is 0 if no implicit step is possible: it needs a contact that slides, and all closed contacts must be rigid.
+    An explicit step is stable for about two relaxation times. The rate is 0 if no implicit step is possible: that needs
+    a contact that slides with instantaneous forces, and all closed contacts must be rigid.
     """
     fastest = 0.0
     for i in range(ws.island.n_grouped):
@@ -98,6 +105,7 @@ def relaxation_rate(ws: Workspace) -> float:
             return 0.0
         if contact.mode == Mode.SLIDE and not contact.is_averaged:
             friction, speed = length((contact.force[1], contact.force[2])), length(contact.slip_at_end)
+            # the last step ended where this one starts; a slip that begins has no speed
             slip = max(speed, _SMALLEST_SLIP * ws.tolerance.velocity)
             fastest = max(fastest, contact.slip_per_force * friction / slip)
     return fastest
@@ -105,7 +113,10 @@ def relaxation_rate(ws: Workspace) -> float:
 
 @kernel("b1(ws)")
 def _are_modes_valid(ws: Workspace) -> bool:
-    """True if no force of a closed contact violates its mode. Else explicit steps find the time at which one does."""
+    """True if no force of a closed contact violates its mode.
+
+    Else the implicit step is given up: explicit steps find the time at which a force does, which is an event.
+    """
     for i in range(ws.island.n_grouped):
         if is_violated(ws, ws.island.grouped[i]):
             return False
@@ -114,9 +125,10 @@ def _are_modes_valid(ws: Workspace) -> bool:
 
 @kernel("void(ws, f8, i8, i8)")
 def _predict_stage(ws: Workspace, h: float, stage: int, out: int) -> None:
-    """Write the first guess of the state of a stage to ``out``, and the slope that leads there to the stage's slope.
+    """Write the first guess of the state of an implicit stage to ``out``, and the slope that leads there to its slope.
 
-    The state is extrapolated from the stages before. Without the stage's own slope it is ``y_guess``.
+    The state is extrapolated from the stages before. ``y_guess`` is the state without the stage's own slope, whose
+    weight is the stage time. The step is one of ``h`` [s].
     """
     n, stages, predictor = ws.model.n_y, ws.coefficients.implicit_stages.start, ws.coefficients.implicit_predictor.start
     y, slopes = ws.island.y.start, ws.island.slopes.start
@@ -133,12 +145,15 @@ def _solve_stage(ws: Workspace, h: float, stage: int) -> bool:
 
     Friction of slips is solved for. All else is iterated until the estimated remaining change is small: it is that of
     a geometric sequence. The last stage must have the slope of its own state, so its last change itself must be small.
+    The state is left in ``y_stage``, of the last stage in ``y_new``.
     """
     n = ws.model.n_y
     out = ws.step.y_new.start if stage == LAST_STAGE else ws.step.y_stage.start
     here = ws.island.slopes.start + stage * n
     _predict_stage(ws, h, stage, out)
+    # becomes true if the slip at the end of the stage is not found
     ws.problem.is_unsettled = False
+    # no change is known before the first iteration
     before = 0.0
     for _iteration in range(implicit_tableau.ITERATIONS):
         for i in range(n):
@@ -147,6 +162,7 @@ def _solve_stage(ws: Workspace, h: float, stage: int) -> bool:
         if ws.problem.is_unsettled:
             return False
         worst = _change_of_stage(ws, here, out)
+        # with the ratio r = worst / before of the changes, those that follow add up to worst r / (1 - r)
         left = worst * worst / (before - worst) if before > worst and stage < LAST_STAGE else worst
         if left <= implicit_tableau.SETTLED:
             return _are_modes_valid(ws)
@@ -158,8 +174,9 @@ def _solve_stage(ws: Workspace, h: float, stage: int) -> bool:
 def _evaluate_implicit_slope(ws: Workspace, t: float, y: int, out: int) -> None:
     """Write the slope at time ``t`` [s] and state ``y`` to ``out``, with friction against the slip that it leads to.
 
-    ``y_guess`` holds the first guess of the slope.
+    ``y_guess`` holds the first guess of the slope. ``is_unsettled`` becomes true if no such friction is found.
     """
+    # a positive stage time of the contact problem selects this friction, but only for this slope
     ws.problem.stage_time, ws.problem.guess = ws.island.stage_time, ws.step.y_guess.start + ws.model.n_q
     slope(ws, t, y, out, may_choose=False, of_all_bodies=False)
     ws.problem.stage_time = 0.0
@@ -167,9 +184,9 @@ def _evaluate_implicit_slope(ws: Workspace, t: float, y: int, out: int) -> None:
 
 @kernel("f8(ws, i8, i8)")
 def _change_of_stage(ws: Workspace, here: int, out: int) -> float:
-    """Add the change of a stage's slope at ``here`` since ``y_guess`` to the state at ``out``.
+    """Correct the state of a stage at ``out`` by the change of its slope at ``here`` since the guess in ``y_guess``.
 
-    Largest change of a coordinate or velocity, relative to the tolerance.
+    Result: largest change of a coordinate or velocity, relative to the tolerance of a step.
     """
     worst = 0.0
     for i in range(ws.model.n_y):
@@ -184,8 +201,10 @@ def _change_of_stage(ws: Workspace, here: int, out: int) -> float:
 def _find_first_slope(ws: Workspace) -> bool:
     """Write the slope at the start, with friction against the slip that a stage leads to, to that of the second stage.
 
-    An implicit step has no second stage. True if the slope is found and its forces keep the modes.
+    Right after an event this is the slope on which the slip settles. An implicit step has no second stage, so the place
+    is free. True if the slope is found and its forces keep the modes.
     """
+    # the accelerations are guessed to be zero
     for i in range(ws.model.n_y):
         ws.step.y_guess[i] = 0.0
     ws.problem.is_unsettled = False
@@ -200,10 +219,12 @@ def _try_implicit_step(ws: Workspace, h: float) -> float:
 
     The error is infinite if a stage is not found. The slopes become those with which the dense output of the explicit
     step gives the interpolant of this step. Right after an event the slip may not have settled yet: then the slope on
-    which it settles replaces the first one. ``first_slope`` keeps the first one for the next attempt.
+    which it settles replaces the first one. ``first_slope`` keeps the first one for the next attempt. The step ends in
+    ``y_new``.
     """
     n, slopes = ws.model.n_y, ws.island.slopes.start
     ws.island.stage_time = implicit_tableau.DIAGONAL * h
+    # the implicit stages start from the second slope: the first one, or that on which the slip settles
     for i in range(n):
         ws.island.slopes[n + i] = ws.island.slopes[i]
     if not ws.step.uses_last_slope and not _find_first_slope(ws):
@@ -222,9 +243,14 @@ def _try_implicit_step(ws: Workspace, h: float) -> float:
 
 @kernel("f8(ws, f8)")
 def explicit_step(ws: Workspace, h: float) -> float:
-    """Take one explicit step of ``h`` [s] of all that is integrated. Its error relative to the tolerance."""
+    """Take one explicit step of ``h`` [s] of all that is integrated, to ``y_new``. Its error relative to the tolerance.
+
+    Spins that change direction are integrated along axes in space. The stage time becomes 0, which marks explicit
+    steps.
+    """
     ws.island.stage_time = 0.0
     choose_spins_in_space(ws)
+    # only ballistic bodies: energy accounts and inner states, behind the velocities, stay as they are
     if ws.island.n_integrated == 0:
         for i in range(ws.model.n_q + ws.model.n_u, ws.model.n_y):
             ws.step.y_new[i] = ws.island.y[i]
@@ -235,6 +261,7 @@ def explicit_step(ws: Workspace, h: float) -> float:
         out = ws.step.y_new.start if stage == LAST_STAGE else ws.step.y_stage.start
         _write_stage(ws, h, stage, out)
         slopes = ws.island.slopes.start + stage * ws.model.n_y
+        # the last stage is at the end of the step, so its slope is the first one of the next step
         slope(ws, ws.island.time + tableau.NODES[stage] * h, out, slopes, may_choose=False, of_all_bodies=False)
         store_spin_slope(ws, stage, out)
     _write_errors(ws, h)
@@ -243,7 +270,10 @@ def explicit_step(ws: Workspace, h: float) -> float:
 
 @kernel("void(ws, f8, i8, i8)")
 def _write_stage(ws: Workspace, h: float, stage: int, out: int) -> None:
-    """Write the integrated parts of the state of an explicit stage to ``out``, from the slopes of the stages before."""
+    """Write the integrated parts of the state of an explicit stage to ``out``, from the slopes of the stages before.
+
+    These parts are spans: entries of the state that follow one another. The step is one of ``h`` [s].
+    """
     y, slopes = ws.island.y.start, ws.island.slopes.start
     for span in range(ws.island.n_spans):
         i, n = ws.island.span_first[span], ws.island.span_length[span]
@@ -253,7 +283,10 @@ def _write_stage(ws: Workspace, h: float, stage: int, out: int) -> None:
 
 @kernel("void(ws, f8)")
 def _write_errors(ws: Workspace, h: float) -> None:
-    """Write the error estimates of the integrated parts of the state, in a step of ``h`` [s], to ``y_stage``."""
+    """Write the error estimates of the integrated parts of the state, in a step of ``h`` [s], to ``y_stage``.
+
+    These parts are spans: entries of the state that follow one another.
+    """
     errors, slopes = ws.step.y_stage.start, ws.island.slopes.start
     for span in range(ws.island.n_spans):
         i, n = ws.island.span_first[span], ws.island.span_length[span]
@@ -265,8 +298,9 @@ def _write_errors(ws: Workspace, h: float) -> None:
 def _step_integrated(ws: Workspace, h: float) -> float:
     """Take one step of ``h`` [s] of all that is integrated. Its error relative to the tolerance.
 
-    It is implicit if the last one was, or if an explicit step fails and is longer than its stability allows. If no
-    implicit step is found, it is explicit.
+    It is implicit if the last one was (its stage time is positive), or if an explicit step fails and is longer than its
+    stability allows: ``relaxation`` is the rate at which slip directions relax. If no implicit step is found (its error
+    is infinite), it is explicit.
     """
     if ws.island.stage_time > 0.0:
         error = _try_implicit_step(ws, h)
@@ -284,23 +318,29 @@ def try_step(ws: Workspace, h: float) -> float:
 
     It is implicit if the one that was tried before was implicit. So a part of an implicit step is implicit too, however
     short. ``slopes`` must hold the slope at ``y`` first. Its last entry becomes the slope at ``y_new``. If a force or
-    slip violates its mode at some stage, ``has_doubtful_force`` is set.
+    slip violates its mode at some stage, ``has_doubtful_force`` is set: the search for events then looks within the
+    step.
     """
     ws.step.has_doubtful_force = False
+    # the implicit step before this one has replaced the slope at y
     if ws.step.has_replaced_slope:
         ws.step.has_replaced_slope = False
         for i in range(ws.model.n_y):
             ws.island.slopes[i] = ws.step.first_slope[i]
+    # the stages find the least normal guards
     for contact in ws.contacts:
         contact.least_force = math.inf
     error = _step_integrated(ws, h)
-    # a step that is rejected anyway needs no motion of the ballistic bodies
+    # a step that is rejected anyway needs no motion of the ballistic bodies; land gives 0, or NaN for an invalid motion
     return error + land(ws, h) if ws.island.n_ballistic > 0 and error <= TRUSTED else error
 
 
 @kernel("f8(ws, f8)")
 def try_length(ws: Workspace, h: float) -> float:
-    """Take one step of ``h`` [s], implicit only if an explicit one may be unstable. Error relative to the tolerance."""
+    """Take one step of ``h`` [s], implicit only if an explicit one may be unstable. Error relative to the tolerance.
+
+    ``relaxation`` is the rate at which slip directions relax [1/s]. A stage time of 0 lets the step begin as explicit.
+    """
     if h * ws.step.relaxation <= LARGEST_EXPLICIT:
         ws.island.stage_time = 0.0
     return float(try_step(ws, h))
