@@ -52,7 +52,7 @@ def state_size(ws: Workspace) -> int:
 
 @kernel("impact_state(ws, i8, ActiveContact)")
 def state_at(ws: Workspace, y: int, active: ActiveContact) -> ContactState:
-    """Numbers of an active contact in the state of the impact at ``y``, or in the slope of a state."""
+    """Numbers of an active contact in the state, or slope of a state, at offset ``y`` of the floats."""
     state: ContactState = impact_state(ws.floats, y, active.index)
     return state
 
@@ -80,7 +80,10 @@ def is_lone(ws: Workspace, active: ActiveContact) -> bool:
 
 @kernel("f8(ws, ActiveContact, f8)")
 def normal_force(ws: Workspace, active: ActiveContact, deformation: float) -> float:
-    """Normal force of an active contact at a ``deformation`` [m], Eq. (20) [N]; 1 if its impulse is the clock."""
+    """Normal force of an active contact at a ``deformation`` [m], Eq. (20) [N].
+
+    It is 1 if its own impulse is the variable of integration, because force is the slope of impulse.
+    """
     if is_lone(ws, active):
         return 1.0
     if deformation <= 0.0:
@@ -91,7 +94,10 @@ def normal_force(ws: Workspace, active: ActiveContact, deformation: float) -> fl
 
 @kernel("f8(ws, ActiveContact, f8)")
 def efficiency(ws: Workspace, active: ActiveContact, rate: float) -> float:
-    """Efficiency of the energy transfer of an active contact at a gap ``rate`` [m/s], Eq. (28) [1]."""
+    """Efficiency of the energy transfer of an active contact at a gap ``rate`` [m/s], Eq. (28) [1].
+
+    It is 1 if the contact is to have no loss, whatever its law.
+    """
     if active.is_lossless:
         return 1.0
     contact = ws.contacts[active.contact]
@@ -100,7 +106,10 @@ def efficiency(ws: Workspace, active: ActiveContact, rate: float) -> float:
 
 @kernel("f8(ws, ActiveContact, f8)")
 def expansion_efficiency(ws: Workspace, active: ActiveContact, rate: float) -> float:
-    """Efficiency of the expansion of an active contact at a gap ``rate`` [m/s], Eq. (28) [1]."""
+    """Efficiency of the expansion of an active contact at a gap ``rate`` [m/s], Eq. (28) [1].
+
+    The rate is taken positive: at rate 0 a law returns another number, the returned part.
+    """
     return efficiency(ws, active, max(rate, _SEPARATES))
 
 
