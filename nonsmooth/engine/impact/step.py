@@ -79,7 +79,7 @@ def reset_attempt(ws: Workspace) -> None:
 
 @kernel("f8(ws, i8)")
 def _relative_error(ws: Workspace, errors: int) -> float:
-    """Largest error of the active contacts, relative to the tolerance [1]. The errors of their state are at ``errors``."""
+    """Largest error of the active contacts, relative to the tolerance [1], from the errors of a state at ``errors``."""
     worst = 0.0
     for active in ws.actives:
         if active.phase != Phase.IDLE:
@@ -166,8 +166,8 @@ def _is_straight(ws: Workspace, active: ActiveContact, middle: int, end: int) ->
 def _check_stiffness(ws: Workspace, h: float) -> bool:
     """True if the direction of a slip follows the forces too fast for an explicit step of ``h``, and is in equilibrium.
 
-    Then an implicit step is tried. A slip that passes close to rest turns fast and changes fast. Its further direction depends on
-    every digit, which explicit steps find. Leaves the rates at the start of the step.
+    Then an implicit step is tried. A slip that passes close to rest turns fast and changes fast. Its further direction
+    depends on every digit, which explicit steps find. Leaves the rates at the start of the step.
     """
     evaluate_impact_rates(ws, ws.impact.slopes.start)
     for active in ws.actives:
@@ -262,8 +262,8 @@ def _solve_stage(ws: Workspace, h: float, stage: int) -> bool:
 def _advance_stage(ws: Workspace, ahead: float, out: int, here: int, guess: int) -> None:
     """Add ``ahead`` times the slope at ``here`` to the numbers of the state at ``out`` other than impulses.
 
-    The impulses have been added with the forces. The last change of the slope, times ``ahead``, replaces the ``guess``. The slope depends on no energy, so energies
-    count as unchanged.
+    The impulses have been added with the forces. The last change of the slope, times ``ahead``, replaces the ``guess``,
+    for the test of convergence. The slope depends on no energy, so energies count as unchanged.
     """
     # ahead: pseudo-time of the implicit part of the stage
     for i in range(state_size(ws)):
