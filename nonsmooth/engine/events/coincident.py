@@ -27,7 +27,7 @@ def _coincide(one: Contact, other: Contact) -> bool:
         return False
     if one.is_compliant or other.is_compliant:
         return False
-    # the difference of two unit normals is their angle; lengths are compared as squares
+    # the length of the difference of two unit normals is the angle between them if that is small
     turned, moved = minus(one.normal, other.normal), minus(one.point_b, other.point_b)
     is_close = dot(moved, moved) <= (_LARGEST_DIFFERENCE * one.size) ** 2
     return dot(turned, turned) <= _LARGEST_DIFFERENCE**2 and is_close
