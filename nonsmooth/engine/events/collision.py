@@ -179,10 +179,8 @@ def _add_to_totals(ws: Workspace) -> None:
 
 @kernel()
 def _restore_velocities(ws: Workspace) -> None:
-    """Restore the velocities before the event, because an island has no impulses.
-
-    Those of other islands are lost, too. They are in no account yet.
-    """
+    """Restore the velocities before the event, because an island has no impulses."""
+    # the impulses of other islands are lost, too; they are in no account yet
     for i in range(ws.model.n_u):
         ws.island.y[ws.model.n_q + i] = ws.event.u_before[i]
 

@@ -113,10 +113,8 @@ def _force_has_vanished(ws: Workspace, contact: Contact) -> bool:
 
 @kernel("b1(ws, Contact, i8)")
 def _share_a_bound(ws: Workspace, contact: Contact, which: int) -> bool:
-    """True if the forces of a contact and of contact ``which`` are both redundant: they share one bound of friction.
-
-    So they break away together.
-    """
+    """True if the forces of a contact and of contact ``which`` are both redundant, so that they break away together."""
+    # the sum of redundant friction obeys the sum of the bounds
     return contact.has_redundant_force and ws.contacts[which].has_redundant_force
 
 

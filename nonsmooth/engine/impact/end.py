@@ -52,10 +52,8 @@ def account(ws: Workspace, active: ActiveContact) -> None:
 
 @kernel("void(ws, ActiveContact)")
 def lose_energy(ws: Workspace, active: ActiveContact) -> None:
-    """Set the stored energy and the deformation of an active contact to zero.
-
-    The energy is lost to restitution: it was stored and is not returned.
-    """
+    """Set the stored energy and the deformation of an active contact to zero: the energy is lost to restitution."""
+    # no account is needed: energy that was stored and is not returned counts as lost
     state = state_of(ws, active)
     state.deformation = state.energy = state.lost = 0.0
 
@@ -220,12 +218,9 @@ def cut_short(ws: Workspace) -> None:
 def how_over(ws: Workspace) -> Truncation:
     """How the impact of the active contacts, which was cut short, would end: a member of :class:`Truncation`.
 
-    SLOW: the approach that remains is negligible. Contacts that slip may feed each other's bounces without end, however
-    small the bounces are.
-
+    SLOW: the approach that remains is negligible. Contacts that slip may feed each other's bounces without end.
     FAST: compressions of light bodies stop a heavy one gradually. Each compression loses energy, so the limit of
     infinitely many is common rest: an inelastic impact.
-
     NONE: the impact has no end. A slip that is faster than the approach may feed the bounces, and a contact without
     loss never damps them.
     """

@@ -106,10 +106,8 @@ def efficiency(ws: Workspace, active: ActiveContact, rate: float) -> float:
 
 @kernel("f8(ws, ActiveContact, f8)")
 def expansion_efficiency(ws: Workspace, active: ActiveContact, rate: float) -> float:
-    """Efficiency of the expansion of an active contact at a gap ``rate`` [m/s], Eq. (28) [1].
-
-    The rate is taken positive: at rate 0 a law returns another number, the returned part.
-    """
+    """Efficiency of the expansion of an active contact at a gap ``rate`` [m/s], Eq. (28) [1]."""
+    # at rate 0 a law returns another number: the part of the energy that is returned before the contact opens
     return efficiency(ws, active, max(rate, _SEPARATES))
 
 
@@ -121,8 +119,5 @@ def returned_part(ws: Workspace, active: ActiveContact) -> float:
 
 @kernel("f8(ws, ActiveContact)")
 def least_efficiency(ws: Workspace, active: ActiveContact) -> float:
-    """Smaller one of the returned part and the efficiency of a slow expansion [1].
-
-    An active contact loses energy if it is below 1.
-    """
+    """Smaller one of returned part and efficiency of a slow expansion [1]. Below 1 an active contact loses energy."""
     return min(returned_part(ws, active), efficiency(ws, active, _SEPARATES))

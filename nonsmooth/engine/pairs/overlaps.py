@@ -103,7 +103,7 @@ def _has_half_space(ws: Workspace, pair: Pair) -> bool:
 
 @kernel("f8(ws, i8, f8)")
 def _separation(ws: Workspace, number: int, enough: float) -> float:
-    """Largest separation that is found of pair ``number`` [m], negative in an overlap. Writes the direction of the pair.
+    """Largest separation that is found of pair ``number`` [m], negative in an overlap. Writes its direction.
 
     The search stops at a value of ``enough`` [m] or more. The normal of its deepest closed contact is tried first.
     """
@@ -142,7 +142,7 @@ def check_pairs(ws: Workspace) -> None:
             are_depths_known = True
         # pairs of the same two shapes share the depth of their contacts
         group, are_discs = ws.pairs[pair.group], pair.are_both_flat
-        # a disc that rests on another one may cross its plane by an error of the gap
+        # the overlap of discs without thickness is no depth that could be compared with that of a closed contact
         if are_discs and group.is_closed:
             continue
         allowed = group.deepest - pair.allowed
