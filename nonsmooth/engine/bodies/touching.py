@@ -15,7 +15,7 @@ from nonsmooth.engine.native.kernel import Contact, Workspace, entry_point, kern
 
 
 @entry_point("b1(ws)")
-def touch(ws: Workspace) -> bool:
+def find_touching(ws: Workspace) -> bool:
     """Find and evaluate the touching contacts. True if one of them approaches.
 
     Closed contacts of bodies with an own step (multirate) take no part. If anything else touches such a body, its own

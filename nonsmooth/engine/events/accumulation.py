@@ -18,7 +18,7 @@ import math
 from nonsmooth.engine.bodies.compliance import accelerate_by_compliance, start_inner_states
 from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.bodies.kinematics import row
-from nonsmooth.engine.bodies.touching import touch
+from nonsmooth.engine.bodies.touching import find_touching
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
 from nonsmooth.engine.contact.inelastic import inelastic_impulses
 from nonsmooth.engine.contact.mean_forces import averaging_time, is_averaged
@@ -226,7 +226,7 @@ def stop_slow_islands(ws: Workspace) -> int:
         n_stopped, which = n_stopped + 1, fastest
         _stop_active(ws)
     if n_stopped > 0:
-        touch(ws)
+        find_touching(ws)
         for contact in ws.contacts:
             set_provisional_mode(ws, contact.index)
         _stop_slow_closed(ws)
@@ -279,7 +279,7 @@ def stop_creeping(ws: Workspace) -> float:
     if not _has_creeping_contact(ws):
         return 0.0
     loss = 0.0
-    touch(ws)
+    find_touching(ws)
     group_touching(ws)
     for group in range(ws.island.n_groups):
         activate_group(ws, group)

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.bodies.touching import touch
+from nonsmooth.engine.bodies.touching import find_touching
 from nonsmooth.engine.contact.mean_forces import averaging_time, has_no_stopping_slip, is_averaged
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.averaging_time import find_mean_forces
@@ -95,7 +95,7 @@ def end_averaging(ws: Workspace) -> None:
 
     The projection removes what the forces pushed too much. Their work so far is accounted for.
     """
-    touch(ws)
+    find_touching(ws)
     account_for_mean_forces(ws)
     ws.totals.closing_loss += project_closed(ws, at_event=True, averaged=True)
     ws.island.averaged_until = math.inf

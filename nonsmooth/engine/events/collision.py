@@ -16,7 +16,7 @@ from nonsmooth.engine.bodies.anisotropy import on_unit_tangents, release_stickin
 from nonsmooth.engine.bodies.compliance import accelerate_by_compliance
 from nonsmooth.engine.bodies.courses import end_own_steps_of, has_own_step
 from nonsmooth.engine.bodies.kinematics import evaluate_bias, evaluate_jacobian
-from nonsmooth.engine.bodies.touching import touch
+from nonsmooth.engine.bodies.touching import find_touching
 from nonsmooth.engine.contact.forces import reduced_coefficient
 from nonsmooth.engine.contact.problem import accelerate_touching
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
@@ -190,7 +190,7 @@ def _set_provisional_modes(ws: Workspace) -> None:
     """Give the contacts the modes that their rates after an impact suggest, until those of the instant are found."""
     # their facing then follows the slip after the impact
     release_sticking_anisotropic(ws)
-    touch(ws)
+    find_touching(ws)
     for contact in ws.contacts:
         # the contact was closed before, or took part in the impact
         if contact.code_during != contact.code_before or contact.mode != Mode.OPEN:

@@ -101,7 +101,7 @@ def _deformation_scale(ws: Workspace, active: ActiveContact) -> float:
 
 @kernel("f8(ws, ActiveContact)")
 def reached_energy(ws: Workspace, active: ActiveContact) -> float:
-    """Energy to which errors of an active contact are relative [J]: its scale, or the largest of its energies so far."""
+    """Energy to which errors of an active contact are relative [J]: its scale, or the largest of its energies."""
     # if friction blocks a light point, or slip presses bodies together, these far exceed what its approach brings
     state = state_of(ws, active)
     return float(max(active.energy_scale, abs(state.work), state.dissipated, state.energy))
