@@ -51,7 +51,7 @@ def set_provisional_mode(ws: Workspace, c: int) -> None:
         return
     # a compliant contact stays closed while it separates within its reach
     separates = not contact.is_compliant and contact.normal_rate > ws.tolerance.velocity
-    # release: a jump of the contact point has opened the contact, or its slip begins
+    # release: the contact could not stay closed, or stick, while its contact point jumped
     if not contact.is_touching or contact.release != NO_RELEASE or separates:
         contact.mode = Mode.OPEN
         return
@@ -67,8 +67,9 @@ def set_provisional_mode(ws: Workspace, c: int) -> None:
 def _is_short(ws: Workspace, c: int, time: float) -> bool:
     """True if contact ``c`` separates, but turns back within a ``time`` T [s]. Limits ``first_step``, the next step.
 
-    With the rate v and the acceleration -a, the condition is gap + T (v - a T) <= 0, as of averaged forces. The contact
-    closes again after 2 v / a. The next step is at most 1.5 times as long, so that it does not miss that.
+    With the rate v and the acceleration -a, the condition is gap + T (v - a T) <= 0: one step of the time-stepping rule
+    by which averaged forces are found. The contact closes again after 2 v / a. The next step is at most 1.5 times as
+    long, so that it does not miss that.
     """
     contact = ws.contacts[c]
     rate = contact.normal_rate
@@ -86,8 +87,8 @@ def end_short_bounces(ws: Workspace) -> int:
     """End the bounces that have become shorter than their contact time. Number of islands in which a bounce ends.
 
     The last bounce of a single contact is left out. If several contacts touch, the forces of their island are averaged
-    over a contact time, so that all come to rest together. The contacts must have their modes after the event. Sets
-    ``first_step`` [s], to which bounces that go on limit the next step.
+    over a contact time, so that all come to rest together. The contacts must have their modes after the event. Bounces
+    that are not short limit the next step by ``first_step`` [s].
     """
     ws.island.first_step = math.inf
     group_touching(ws)
@@ -205,10 +206,11 @@ def slow_speed(ws: Workspace) -> float:
 
 @kernel("i8(ws)")
 def stop_slow_islands(ws: Workspace) -> int:
-    """Stop islands whose approaches are slow by an inelastic impact. Number of these islands.
+    """Stop islands whose approaches are slow by an inelastic impact, as their bounces would accumulate (Zeno).
 
-    After an impact that was cut short, islands are stopped at any speed: another impact would be cut short too. All
-    closings are recorded as one event, of the fastest contact of the last island. The contacts get provisional modes.
+    Returns the number of these islands. After an impact that was cut short, islands are stopped at any speed: another
+    impact would be cut short too. All stops are recorded as one event, of the fastest contact of the last island. The
+    contacts get provisional modes.
     """
     # the free accelerations tell which approaches are slow
     accelerate_touching(ws)
@@ -226,6 +228,7 @@ def stop_slow_islands(ws: Workspace) -> int:
         n_stopped, which = n_stopped + 1, fastest
         _stop_active(ws)
     if n_stopped > 0:
+        # evaluates the contacts at the new velocities
         find_touching(ws)
         for contact in ws.contacts:
             set_provisional_mode(ws, contact.index)

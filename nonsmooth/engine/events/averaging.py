@@ -124,7 +124,7 @@ def contact_of_burst(ws: Workspace) -> int:
     """Contact at which evaluations of forces accumulate so that time hardly passes, or ``NO_CONTACT``.
 
     The contact is the one whose slip direction relaxes fastest, if more than once per contact time, or else the one
-    with the most events in its present burst. Updates the measure of evaluations.
+    with the most events in its present burst, a short time with several events. Updates the measure of evaluations.
     """
     if _update_burst(ws) <= _LARGEST_BURST:
         return NO_CONTACT

@@ -46,5 +46,6 @@ def cause_at_start(ws: Workspace, which: int) -> Cause:
     # the contact point is past the end of an edge or a face
     if end_of(ws, contact).at_end < 0.0:
         return Cause.FEATURE_END
+    # else the force of a closed contact has the wrong sign, or exceeds the bound of friction
     pulls = normal_of(ws, contact).at_end < 0.0
     return Cause.LIFT_OFF if pulls else Cause.STICK_TO_SLIP

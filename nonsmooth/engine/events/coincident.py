@@ -48,7 +48,7 @@ def closed_coincident(ws: Workspace, c: int) -> int:
 
 @kernel("b1(ws, i8)")
 def has_replaced(ws: Workspace, c: int) -> bool:
-    """True if contact ``c`` has only changed its features in the event, and not closed.
+    """True if contact ``c`` has only changed its features in the event, such as an edge for a face, and not closed.
 
     So it is if, of ``c`` and the contacts that coincide with it, one was closed before the event and one is closed now.
     """
@@ -76,6 +76,7 @@ def replace_coincident(ws: Workspace, c: int) -> bool:
             contact.mode = ws.contacts[replaced].mode
             has_taken_over = True
         ws.contacts[replaced].mode = Mode.OPEN
+        # nor is it part of the present islands
         ws.contacts[replaced].is_in_problem = False
         # one that is open is not found again
         replaced = closed_coincident(ws, c)

@@ -132,7 +132,8 @@ def _write_rates_before(ws: Workspace, is_lossless: bool) -> None:
 def _find_impulses(ws: Workspace, cause: Cause, seed: float, is_large: bool) -> Status:
     """Find the impulses of the active contacts: of a jam, by a map of velocities, or by integration over the impact.
 
-    ``RUNNING`` if they are found. An endless impact may be cut short if what is left of the approach is negligible.
+    A jam is a slip at the Painleve singularity. ``RUNNING`` if they are found. An endless impact may be cut short if
+    what is left of the approach is negligible, or would be stopped by infinitely many compressions.
     """
     if cause == Cause.JAM:
         return Status.RUNNING if jam_slips(ws) else Status.NO_CONTACT_SOLUTION
@@ -188,13 +189,14 @@ def _restore_velocities(ws: Workspace) -> None:
 @kernel()
 def _set_provisional_modes(ws: Workspace) -> None:
     """Give the contacts the modes that their rates after an impact suggest, until those of the instant are found."""
-    # their facing then follows the slip after the impact
+    # the bound of anisotropic friction then follows the direction of slip after the impact
     release_sticking_anisotropic(ws)
     find_touching(ws)
     for contact in ws.contacts:
         # the contact was closed before, or took part in the impact
         if contact.code_during != contact.code_before or contact.mode != Mode.OPEN:
             set_provisional_mode(ws, contact.index)
+        # a release by a jump of the contact point is in the mode now
         contact.release = NO_RELEASE
 
 
@@ -245,8 +247,8 @@ def add_closing_contacts(ws: Workspace, speed: float) -> int:
     """Let contacts touch whose gaps a collision at a ``speed`` [m/s] may close within its contact time.
 
     The collision lasts for that time, so they take part in it. Their gaps must be within the allowed one, because
-    friction that acts over a larger gap would turn the bodies. The own steps of these bodies end. Number of steps that
-    ended: if it is not zero, the touching contacts must be found anew.
+    friction that acts over a larger gap would turn the bodies. The own steps (multirate) of these bodies end. Number of
+    steps that ended: if it is not zero, the touching contacts must be found anew.
     """
     n_ended = 0
     for contact in ws.contacts:
@@ -254,8 +256,9 @@ def add_closing_contacts(ws: Workspace, speed: float) -> int:
         near = min(contact.contact_time * speed, ALLOWED * ws.tolerance.gap)
         is_free = is_apart and contact.gap <= near and not has_own_step(ws, contact.index)
         if is_free and not _has_touching_contact(ws, contact):
+            # as of every touching contact, its Jacobian and second-order terms are needed
             contact.is_touching = True
             evaluate_jacobian(ws, contact.index)
-            evaluate_bias(ws, contact.index, 3)
+            evaluate_bias(ws, contact.index, rows=3)
             n_ended += end_own_steps_of(ws, contact.index)
     return n_ended

@@ -103,7 +103,7 @@ def _force_has_vanished(ws: Workspace, contact: Contact) -> bool:
     Then both lift off together.
     """
     largest = 0.0
-    # the normal guard of a closed rigid contact is its force
+    # the normal guard of a closed rigid contact is its force; initial is its value at the start of the step
     for other in ws.contacts:
         if other.mode != Mode.OPEN and not other.is_compliant and not has_own_step(ws, other.index):
             largest = max(largest, ws.guards[normal_guard(other.index)].initial)
@@ -159,7 +159,7 @@ def _use_guessed_modes(ws: Workspace) -> None:
 def _take_solution(ws: Workspace) -> bool:
     """Store what the solver found for the active contacts. True if anisotropic friction faces the other way now.
 
-    The guards of the next step need the thresholds of force and slip that are stored here.
+    Later steps need the threshold of force and the inverse mass that are stored here.
     """
     has_turned = False
     for active in ws.actives:

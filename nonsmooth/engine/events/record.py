@@ -41,7 +41,7 @@ _CLOSED, _APPROACHES, _SLIPS = 1, 2, 4
 
 @kernel("i8(Contact)")
 def mode_code(contact: Contact) -> int:
-    """Bits of Eq. (29) of a contact in its present mode: 0 if it is open."""
+    """Bits of Eq. (29) of a contact in its present mode (closed, approaches, slips): 0 if it is open."""
     if contact.mode == Mode.OPEN:
         return 0
     return _CLOSED + _SLIPS if contact.mode == Mode.SLIDE else _CLOSED
@@ -49,7 +49,7 @@ def mode_code(contact: Contact) -> int:
 
 @kernel("i8(ws, i8)")
 def impact_code(ws: Workspace, c: int) -> int:
-    """Bits of Eq. (29) of contact ``c`` at the start of an impact, from its rates."""
+    """Bits of Eq. (29) of contact ``c`` at the start of an impact (closed, approaches, slips), from its rates."""
     contact = ws.contacts[c]
     if not contact.is_touching:
         return 0

@@ -37,20 +37,20 @@ def _part_before_stop_of(ws: Workspace, contact: Contact, h: float) -> float:
     part is 1, and the contact becomes ``halting_contact``.
     """
     # the end of the last step is the start of this one
-    c, first = contact.index, length(contact.slip_at_end)
+    c, speed = contact.index, length(contact.slip_at_end)
     v1, v2 = contact.slip_at_end
     du = ws.island.slopes.start + ws.model.n_q
     a1, a2 = row(ws, c, FIRST_ROW, du) + contact.bias[1], row(ws, c, SECOND_ROW, du) + contact.bias[2]
     # predicted decrease of the speed over the step [m/s]
-    decrease = -h * (v1 * a1 + v2 * a2) / first
+    decrease = -h * (v1 * a1 + v2 * a2) / speed
     # the shortest part is two time tolerances long
     part, least = _UNKNOWN_PART, 2.0 * ws.tolerance.time
     if decrease > 0.0:
-        part = first / decrease
+        part = speed / decrease
         # an explicit step may reach the stop; an implicit one that passes it is taken again, shorter
         if _EXPLICIT_PART * part * h * ws.step.relaxation <= LARGEST_EXPLICIT:
             part *= _EXPLICIT_PART
-        elif first > ws.tolerance.velocity:
+        elif speed > ws.tolerance.velocity:
             # only a slip within the velocity tolerance may stop in an implicit step, at its end
             part *= _IMPLICIT_PART
         elif abs(part - 1.0) * h <= _SMALLEST_PART * h + least:

@@ -150,8 +150,8 @@ def _moves(ws: Workspace) -> bool:
         brought = max(brought, active.energy_scale)
     for active in ws.actives:
         # gap rate whose energy is REST^2 of the largest one brought
-        still = max(REST * math.sqrt(brought * diagonal_block(ws, active.index).nn), ws.event.slow_speed)
-        if is_loaded(active) and abs(active.gap_rate) > still:
+        rest_rate = max(REST * math.sqrt(brought * diagonal_block(ws, active.index).nn), ws.event.slow_speed)
+        if is_loaded(active) and abs(active.gap_rate) > rest_rate:
             return True
     return False
 

@@ -55,6 +55,7 @@ def choose_friction(ws: Workspace, probe: float, turns_rate: bool) -> None:
     for active in ws.actives:
         _write_problem(ws, active, probe)
     if has_contact_at_rest:
+        # slopes of rates have no part without contact forces
         clear(ws.floats, ws.problem.free_accelerations.start, 3 * len(ws.actives))
         gauss_seidel(ws, SWEEPS)
         _refine_starting_slips(ws)

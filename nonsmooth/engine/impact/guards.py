@@ -55,7 +55,7 @@ class GuardKind(IntEnum):
 
 @kernel("ImpactGuard(ws, ActiveContact, GuardKind)")
 def guard_of(ws: Workspace, active: ActiveContact, kind: GuardKind) -> ImpactGuard:
-    """The guard of an active contact of this ``kind``."""
+    """The guard of an active contact of this ``kind``: a function whose root ends its phase."""
     return ws.impact_guards[IMPACT_GUARDS * active.index + kind]
 
 
@@ -115,13 +115,14 @@ def _rate_guard(ws: Workspace, active: ActiveContact) -> float:
 def _energy_guard(ws: Workspace, active: ActiveContact, state: ContactState) -> float:
     """Guard of the deformation or of the energy of an active contact, relative to its scale [1].
 
-    It is 1, and never fires, for a contact that is idle or held, and for a lone compression, whose rate ends it.
+    It is 1, and never fires, for a contact that is idle or held. So it is for the compression of a lone contact, which
+    alone has a load and whose energy replaces its deformation: the gap rate ends it.
     """
     if active.phase == Phase.COMPRESSION and not is_lone(ws, active):
         # a compression of round-off may start with a deformation just below zero
         return _SLACK + state.deformation / active.deformation_scale
     if active.phase == Phase.EXPANSION:
-        # a contact that opens under load does so before its deformation is zero; a lone one has no deformation
+        # a contact that opens under load does so before its deformation is zero
         if is_lone(ws, active) or state.lost > 0.0:
             return (state.energy - state.lost) / active.energy_scale
         return state.deformation / active.deformation_scale

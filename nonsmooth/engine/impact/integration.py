@@ -105,7 +105,7 @@ def energetic_impact(ws: Workspace, seed: float) -> Outcome:
     dissipated by friction [J]. ``FINISHED``, or why it has none (:class:`Outcome`). An impact without collision needs a
     speed ``seed`` [m/s] as its scale; of other impacts it is zero.
     """
-    # the normal impulse of a contact that is alone is the variable of integration from the start
+    # the normal impulse of a lone contact is the variable of integration; later one that is left alone may become so
     ws.impact.lone_contact = 0 if len(ws.actives) == 1 else NO_CONTACT
     ws.impact.may_be_lone, ws.impact.is_step_implicit = True, False
     ws.event.truncation = Truncation.NONE
@@ -184,6 +184,7 @@ def _attempt(ws: Workspace, h: float) -> Attempt:
         h_again = aimed.h * rejection_factor(ws, error)
         return Attempt(h=aimed.h, error=error, guard=NO_GUARD, is_accepted=False, h_again=h_again)
     switch = _step_to_switch(ws, aimed, is_linear)
+    # the shorter step to the switch has a larger error than the full one
     if not switch.error <= TRUSTED:
         h_again = aimed.h * _UNTRUSTED
         return Attempt(h=aimed.h, error=switch.error, guard=NO_GUARD, is_accepted=False, h_again=h_again)
@@ -214,7 +215,7 @@ def _step_to_switch(ws: Workspace, aimed: Aim, is_linear: bool) -> Switch:
 def _next_pace(ws: Workspace, pace: Pace, attempt: Attempt) -> Pace:
     """Pace after an accepted step without an event: by its error, and on the common clock by the trend of errors.
 
-    The phases of a lone contact are polynomials, so their errors have no trend.
+    The phases of a lone contact are polynomials, so their errors have no trend. After a switch there is none yet.
     """
     factor, error = step_factor(attempt.error), max(_LEAST_ERROR, attempt.error)
     if pace.h_before > 0.0 and ws.impact.lone_contact == NO_CONTACT:

@@ -158,6 +158,7 @@ def _turn(ws: Workspace, active: ActiveContact) -> bool:
         active.sticks = False
         return False
     if was == Phase.EXPANSION:
+        # one wave of compression has passed the contact, and another one comes
         account(ws, active)
         ws.contacts[active.contact].n_waves += 1
     # the bodies approach, or approach again; a contact that was loaded keeps its friction
@@ -209,6 +210,7 @@ def end_faint(ws: Workspace) -> None:
         has_passed = active.phase == Phase.EXPANSION or is_compressed_again
         energy = active.normal_force * state_of(ws, active).deformation
         is_weak = energy <= faint_rate * faint_rate * active.energy_scale
+        # well below the rate at which a phase behind the wave begins, so that the two do not alternate
         if has_passed and is_weak and abs(active.gap_rate) <= _FAINT * faint_rate * ws.impact.speed_scale:
             _pass_wave(ws, active)
     prepare_guards(ws)

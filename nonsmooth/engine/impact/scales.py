@@ -49,7 +49,7 @@ def scale_impact(ws: Workspace, seed: float) -> float:
         energy = min(brought, ws.impact.speed_scale * ws.impact.speed_scale / inverse_mass)
         active.energy_scale = energy
         active.impulse_scale = math.sqrt(energy / inverse_mass)
-        # a lone contact has no deformation, and its force on its clock is 1
+        # the impulse of a lone contact is the variable of integration: its deformation is not needed
         deformation = 1.0 if is_lone(ws, active) else _deformation_scale(ws, active)
         if deformation < 0.0:
             return deformation

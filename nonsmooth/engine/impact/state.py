@@ -71,7 +71,7 @@ def is_loaded(active: ActiveContact) -> bool:
 
 @kernel("b1(ws, ActiveContact)")
 def is_lone(ws: Workspace, active: ActiveContact) -> bool:
-    """True if an active contact is the lone one, whose impulse is the clock."""
+    """True if an active contact is the only one with a load, and its normal impulse the variable of integration."""
     return active.index == ws.impact.lone_contact
 
 

@@ -82,6 +82,7 @@ def _relative_error(ws: Workspace, errors: int) -> float:
     """Largest error of the active contacts, relative to the tolerance [1], from the errors of a state at ``errors``."""
     worst = 0.0
     for active in ws.actives:
+        # the numbers of an idle contact do not change
         if active.phase != Phase.IDLE:
             worst = _worse_error(ws, active, state_at(ws, errors, active), worst)
             # a maximum does not show what is not a number
@@ -123,7 +124,7 @@ def _worse_error(ws: Workspace, active: ActiveContact, error: ContactState, wors
 def try_linear_step(ws: Workspace, h: float) -> bool:
     """Take one step of ``h`` to ``y_new`` by the midpoint rule. True if the slope is linear, so that it is exact.
 
-    A lone contact whose slip keeps its direction moves so. The slope at the end shows whether it did. Slopes and forces
+    A contact that alone has a load moves so while its slip keeps its direction. The slope at the end shows whether it did. Slopes and forces
     at the end are left as those of the last stage.
     """
     n = state_size(ws)

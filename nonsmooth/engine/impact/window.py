@@ -48,6 +48,7 @@ def windowed_impact(ws: Workspace) -> Outcome:
     These contacts form a window, which is drawn anew whenever the wave reaches its rim. Results and outcome are those
     of :func:`nonsmooth.engine.impact.integration.energetic_impact`.
     """
+    # a contact that is left alone may become the variable of integration
     ws.impact.may_be_lone, ws.impact.is_step_implicit = True, False
     ws.event.truncation = Truncation.NONE
     ws.impact.slow_steps = 0
@@ -113,7 +114,7 @@ def _gather(ws: Workspace) -> float:
 
 @kernel("void(Contact)")
 def _clear(contact: Contact) -> None:
-    """Set the impulse and the energies of a contact to zero, and its phase to idle."""
+    """Set the impulse and the energies of a contact to zero, and its phase to idle, before the first window."""
     contact.window_phase, contact.window_sticks, contact.n_waves = Phase.IDLE, False, 0
     for r in range(3):
         contact.window_impulse[r] = 0.0
@@ -150,7 +151,7 @@ def _collect(ws: Workspace) -> None:
 
 @kernel("void(ws, f8, b1)")
 def _draw(ws: Workspace, fastest: float, is_first: bool) -> None:
-    """Make the contacts that are not idle, and their neighbours in ``_LAYERS`` layers, the active ones.
+    """Draw the window: make the contacts that are not idle, and their neighbours in some layers, the active ones.
 
     In the first window all contacts are idle, and it is drawn about those that approach. ``fastest`` is the fastest
     approach [m/s].

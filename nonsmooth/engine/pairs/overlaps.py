@@ -32,7 +32,7 @@ _LARGEST_DISPLACEMENT = 1e3
 
 @kernel()
 def _write_depths_of_contacts(ws: Workspace) -> None:
-    """Write the normal of the deepest closed contact of every pair, and its gap or 0 if it is open [m].
+    """Write the normal of the deepest closed contact of every pair, and its gap, at most 0 [m].
 
     By that depth the pair may overlap. Pairs of the same two shapes have one entry, that of their first pair.
     """
@@ -73,7 +73,7 @@ def _add_displacements(ws: Workspace) -> None:
 
 @kernel("f8(ws, Pair)")
 def _displacement_bound(ws: Workspace, pair: Pair) -> float:
-    """Bound of the displacement of both parts of a pair [m]. Its separation changes by no more."""
+    """Sum of the bounds of the displacements of both parts of a pair [m]. Its separation changes by no more."""
     return float(ws.carriers[pair.carrier_a].distance + ws.carriers[pair.carrier_b].distance)
 
 
@@ -135,6 +135,7 @@ def check_pairs(ws: Workspace) -> None:
         if _displacement_bound(ws, pair) < pair.margin:
             continue
         depth = _depth(ws, pair)
+        # an overlap that the laws of the pair allow
         if depth <= pair.allowed:
             continue
         if not are_depths_known:

@@ -55,6 +55,7 @@ def _search(ws: Workspace, number: int, start: Vector, shift: Vector, size: floa
         height = dot(n, found)
         if height > lower:
             lower, best = height, n
+        # size of the simplex, to which round-off is relative
         far = max(far, abs(found[0]) + abs(found[1]) + abs(found[2]))
         # no new point, or both bounds agree
         if _is_corner(ws, n_corners, found) or upper - lower <= _ROUND_OFF * size:

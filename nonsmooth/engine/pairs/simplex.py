@@ -117,6 +117,7 @@ def _try_tetrahedron(ws: Workspace, size: float) -> float:
         is_outside = _volume(ws, i, j, m, (0.0, 0.0, 0.0)) * _volume(ws, i, j, m, corner(ws, top)) <= 0.0
         if is_flat or is_outside:
             best = _try_face(ws, i, j, m, best)
+    # no face has the origin on its outside: it is inside
     return 0.0 if best == math.inf else best
 
 

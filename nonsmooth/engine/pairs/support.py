@@ -71,6 +71,7 @@ def _gradient_of_norm(floats: Floats, place: int, n: Vector) -> Vector:
     a, b, c = part.semi
     p, q = part.powers[0], part.powers[1]
     ax, by, cz = abs(a * n[0]), abs(b * n[1]), abs(c * n[2])
+    # wide becomes the norm of the first two components, high that of all three
     wide = max(ax, by)
     if wide > 0.0:
         wide *= ((ax / wide) ** q + (by / wide) ** q) ** (1.0 / q)
@@ -119,7 +120,7 @@ def to_part(floats: Floats, frame_place: int, place: int, v: Vector) -> Vector:
 
 @kernel("v3(F, i8, i8)")
 def middle_of(floats: Floats, frame_place: int, place: int) -> Vector:
-    """Origin of the axes of the part at ``place`` in the world [m]. Its frame is at ``frame_place``."""
+    """Origin of the axes of the part at offset ``place``, in the world [m]. Its frame is at ``frame_place``."""
     frame = frame_at(floats, frame_place)
     x, y, z = turned(frame.rotation, part_at(floats, place).place)
     return frame.origin[0] + x, frame.origin[1] + y, frame.origin[2] + z
