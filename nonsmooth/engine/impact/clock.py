@@ -104,8 +104,9 @@ def _restore_state(ws: Workspace) -> None:
 def aim_at_event(ws: Workspace, h: float) -> Aim:
     """Step of the lone contact to its next event, at most ``h`` [N s], and the guard whose root that event is.
 
-    This contact alone has a load, and its normal impulse is the variable of integration. Gap rate and slip are linear in it while
-    the slip keeps its direction, so their roots are known. The guard is ``NO_GUARD`` if there is no event within ``h``.
+    This contact alone has a load, and its normal impulse is the variable of integration. Gap rate and slip are linear
+    in it while the slip keeps its direction, so their roots are known. The guard is ``NO_GUARD`` if there is no event
+    within ``h``.
     """
     active = ws.actives[ws.impact.lone_contact]
     direction = ws.contacts[active.contact].direction
@@ -156,8 +157,9 @@ def _aim_at_end_of_phase(ws: Workspace, active: ActiveContact, growth: float, ai
 def has_arrived(ws: Workspace, aim: Aim) -> bool:
     """True if the guard that a step of the lone contact aimed at is zero within round-off, False if it aimed at none.
 
-    Then the step ends at its event and need not be shortened. The energy guard is the energy that expansion has still to return, relative to ``energy_scale``. If that energy is
-    small from the start, lost * part / (1 - part) with the returned part, the threshold is relative to it.
+    Then the step ends at its event and need not be shortened. The energy guard is the energy that expansion has still
+    to return, relative to ``energy_scale``. If that energy is small from the start, lost * part / (1 - part) with the
+    returned part, the threshold is relative to it.
     """
     if aim.guard == NO_GUARD:
         return False

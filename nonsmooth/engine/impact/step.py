@@ -124,8 +124,8 @@ def _worse_error(ws: Workspace, active: ActiveContact, error: ContactState, wors
 def try_linear_step(ws: Workspace, h: float) -> bool:
     """Take one step of ``h`` to ``y_new`` by the midpoint rule. True if the slope is linear, so that it is exact.
 
-    A contact that alone has a load moves so while its slip keeps its direction. The slope at the end shows whether it did. Slopes and forces
-    at the end are left as those of the last stage.
+    A contact that alone has a load moves so while its slip keeps its direction. The slope at the end shows whether it
+    did. Slopes and forces at the end are left as those of the last stage.
     """
     n = state_size(ws)
     middle, end = ws.impact.slopes.start + n, ws.impact.slopes.start + LAST_STAGE * n
