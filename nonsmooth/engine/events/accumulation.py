@@ -129,7 +129,8 @@ def _short_bounce(ws: Workspace) -> int:
 def _end_bounce(ws: Workspace, c: int) -> None:
     """Close contact ``c``, the only active one, in place of its last bounce, and record the closing.
 
-    A projection brings its gap rate to zero. The kinetic energy that this removes is closing loss.
+    Its mode follows from its slip. A projection brings its gap rate to zero. The kinetic energy that this removes is
+    closing loss.
     """
     begin_event(ws)
     contact = ws.contacts[c]

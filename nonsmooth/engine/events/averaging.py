@@ -91,7 +91,7 @@ def stays_averaged(ws: Workspace, ends: bool) -> bool:
 
 @kernel()
 def end_averaging(ws: Workspace) -> None:
-    """End the averaging span before its time: project the contacts with averaged forces onto their constraints.
+    """End the span of averaged forces before its time, as gaps deviate from its plan: project its closed contacts.
 
     The projection removes what the forces pushed too much. Their work so far is accounted for.
     """

@@ -160,8 +160,8 @@ def _moves(ws: Workspace) -> bool:
 def _balance(ws: Workspace) -> Pair:
     """How far the present forces f of the active contacts balance each other [m/s per pseudo-time]: two numbers.
 
-    The first is the largest component of G f, by which the forces accelerate the contacts. The second is the largest
-    sum of the magnitudes of the terms of a component.
+    Balanced forces move nothing, however long they act. The first number is the largest component of G f, by which the
+    forces accelerate the contacts. The second is the largest sum of the magnitudes of the terms of a component.
     """
     left = size = 0.0
     for active in ws.actives:

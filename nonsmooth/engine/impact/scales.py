@@ -36,11 +36,11 @@ _NO_SCALE = -1.0
 
 @kernel("f8(ws, f8)")
 def scale_impact(ws: Workspace, seed: float) -> float:
-    """Set the scales of the active contacts. Returns the time of the shortest compression, in pseudo-time.
+    """Set the scales of the active contacts, to which guards and errors of the impact are relative.
 
-    It is negative if a force law has no scale. No speed is taken smaller than the ``seed`` [m/s], as an impact without
-    collision has none. A contact takes up no more energy than the fastest approach would bring to it, and no more than
-    any approach brings.
+    Returns the duration of the shortest compression, in pseudo-time. It is negative if a force law has no scale. No
+    speed is taken smaller than the ``seed`` [m/s], as an impact without collision has none. A contact takes up no more
+    energy than the fastest approach would bring to it, and no more than any approach brings.
     """
     brought = _scale_speeds(ws, seed)
     shortest = math.inf
