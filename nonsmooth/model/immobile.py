@@ -50,7 +50,7 @@ def immobile_contact(model: LaidOut) -> ImmobileContact | None:
     if not model.system.joints:
         return None
     memory = model.memory
-    call_entry("touch", memory)
+    call_entry("find_touching", memory)
     active = model.active
     for index in np.flatnonzero(memory[owners.Contact.is_touching][: len(active)]).tolist():
         contact = model.system.contacts[active[index]]

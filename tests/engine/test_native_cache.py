@@ -90,7 +90,7 @@ def test_what_is_damaged_is_not_loaded(
     damage(filled / "advance.code")
     assert not _is_filled()
     assert capsys.readouterr().err == f"{filled / 'advance.code'} is damaged and compiled again\n"
-    assert _is_filled("touch")
+    assert _is_filled("find_touching")
 
 
 _RUN = """
@@ -155,7 +155,7 @@ def test_a_cache_that_cannot_be_written_to_is_read(
     assert _is_filled()
     shutil.copy(filled / "update_at_event.code", writable / "touch.code")
     (filled / "touch.code").unlink()
-    assert not _is_filled("touch")
+    assert not _is_filled("find_touching")
     assert "touch.code is damaged" in capsys.readouterr().err
 
 
@@ -206,10 +206,10 @@ def test_what_belongs_to_another_user_is_not_loaded(filled: Path, monkeypatch: p
     if owner == 0 and os.getuid() == 0:
         os.chown(filled / "advance.code", 65534, 65534)
         assert not _is_filled()
-        assert _is_filled("touch")
+        assert _is_filled("find_touching")
         os.chown(filled, 65534, 65534)
         assert filled not in folders()[0]
-        assert not _is_filled("touch")
+        assert not _is_filled("find_touching")
 
 
 @needs_users

@@ -15,7 +15,7 @@ from nonsmooth.engine.native.kernel import Contact, Workspace, entry_point, kern
 
 
 @entry_point("b1(ws)")
-def touch(ws: Workspace) -> bool:
+def find_touching(ws: Workspace) -> bool:
     """Evaluate all bodies, and find and evaluate the contacts that touch. True if one of them approaches.
 
     Touching contacts take part in an event: ``is_touching``, Jacobians, bias and compliant force are written. Closed

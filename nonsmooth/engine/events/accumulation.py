@@ -18,7 +18,7 @@ import math
 from nonsmooth.engine.bodies.compliance import accelerate_by_compliance, start_inner_states
 from nonsmooth.engine.bodies.courses import has_own_step
 from nonsmooth.engine.bodies.kinematics import row
-from nonsmooth.engine.bodies.touching import touch
+from nonsmooth.engine.bodies.touching import find_touching
 from nonsmooth.engine.contact.cone import SWEEPS, gauss_seidel
 from nonsmooth.engine.contact.inelastic import inelastic_impulses
 from nonsmooth.engine.contact.mean_forces import averaging_time, is_averaged
@@ -43,12 +43,15 @@ _PART_AT_REST = 1.0 - 1e-6
 def set_provisional_mode(ws: Workspace, c: int) -> None:
     """Give contact ``c`` the mode that its rates suggest, until the modes of the instant are found.
 
-    A contact of a body with an own step keeps its mode.
+    A contact that closes starts the inner states of its laws anew.
     """
     contact = ws.contacts[c]
+    # the contact of a body with its own step (multirate) takes no part in the event, and keeps its mode
     if has_own_step(ws, c):
         return
+    # a compliant contact stays closed while it separates within its reach
     separates = not contact.is_compliant and contact.normal_rate > ws.tolerance.velocity
+    # release: the contact could not stay closed, or stick, while its contact point jumped
     if not contact.is_touching or contact.release != NO_RELEASE or separates:
         contact.mode = Mode.OPEN
         return
@@ -62,10 +65,11 @@ def set_provisional_mode(ws: Workspace, c: int) -> None:
 
 @kernel("b1(ws, i8, f8)")
 def _is_short(ws: Workspace, c: int, time: float) -> bool:
-    """True if contact ``c`` separates, but will close again within a ``time`` [s]. Limits the first step.
+    """True if contact ``c`` separates, but turns back within a ``time`` T [s]. Limits ``first_step``, the next step.
 
-    With the rate v and the acceleration -a, it closes again after 2 v / a. The next step must not be much longer, or it
-    would miss that: ``first_step`` is at most 1.5 times this time. A positive gap must close too.
+    With the rate v and the acceleration -a, the condition is gap + T (v - a T) <= 0: one step of the time-stepping rule
+    by which averaged forces are found. The contact closes again after 2 v / a. The next step is at most 1.5 times as
+    long, so that it does not miss that.
     """
     contact = ws.contacts[c]
     rate = contact.normal_rate
@@ -73,6 +77,7 @@ def _is_short(ws: Workspace, c: int, time: float) -> bool:
     if rate <= ws.tolerance.velocity or acceleration <= 0.0:
         return False
     ws.island.first_step = min(ws.island.first_step, 3.0 * rate / acceleration)
+    # a contact that coincides with a closed one is the same contact, and does not bounce
     is_back = (rate - acceleration * time) * time <= -max(0.0, contact.gap)
     return is_back and closed_coincident(ws, c) == NO_CONTACT
 
@@ -82,7 +87,8 @@ def end_short_bounces(ws: Workspace) -> int:
     """End the bounces that have become shorter than their contact time. Number of islands in which a bounce ends.
 
     The last bounce of a single contact is left out. If several contacts touch, the forces of their island are averaged
-    over a contact time, so that all come to rest together. The contacts must have their modes after the event.
+    over a contact time, so that all come to rest together. The contacts must have their modes after the event. Bounces
+    that are not short limit the next step by ``first_step`` [s].
     """
     ws.island.first_step = math.inf
     group_touching(ws)
@@ -104,10 +110,11 @@ def end_short_bounces(ws: Workspace) -> int:
 def _short_bounce(ws: Workspace) -> int:
     """Active contact whose bounce is shorter than the contact time, or ``NO_CONTACT`` (the last one of several).
 
-    Forces that are averaged over a span may leave a rate, as long as the gap stays within the allowed one over it.
-    In an island of several contacts a faster bounce is not short.
+    Forces that are averaged over a contact time may leave a rate, as long as the gap stays within the allowed one over
+    that time. In an island of several contacts a faster bounce is not short.
     """
     time, fastest = averaging_time(ws), math.inf
+    # the contacts of an averaged island come to rest at the end of the time, up to round-off
     if ws.problem.n_active > 1:
         time *= _PART_AT_REST
         fastest = ALLOWED * ws.tolerance.gap / max(time, ws.tolerance.time)
@@ -120,7 +127,11 @@ def _short_bounce(ws: Workspace) -> int:
 
 @kernel("void(ws, i8)")
 def _end_bounce(ws: Workspace, c: int) -> None:
-    """Close contact ``c``, the only active one, in place of its last bounce, and record the closing."""
+    """Close contact ``c``, the only active one, in place of its last bounce, and record the closing.
+
+    Its mode follows from its slip. A projection brings its gap rate to zero. The kinetic energy that this removes is
+    closing loss.
+    """
     begin_event(ws)
     contact = ws.contacts[c]
     contact.mode = Mode.SLIDE if length(contact.slip) > ws.tolerance.velocity else Mode.STICK
@@ -146,6 +157,7 @@ def _stop_active(ws: Workspace) -> None:
     assemble_delassus(ws)
     for active in ws.actives:
         for r in range(3):
+            # accelerations do not matter in no time, and no impulses are known to start from
             active.free[r] = active.force[r] = 0.0
     inelastic_impulses(ws, 0.0)
     add_response(ws, ws.problem.forces.start, ws.island.y.start + ws.model.n_q)
@@ -154,6 +166,7 @@ def _stop_active(ws: Workspace) -> None:
         contact = ws.contacts[active.contact]
         for r in range(3):
             impulse, rate = active.force[r], contact.rate[r]
+            # the impulse times the mean of the rates before and after is its work
             loss -= 0.5 * impulse * add_product(ws, 2.0 * rate, active.index, r, ws.problem.forces.start)
             ws.totals.driven_work -= impulse * contact.prescribed_rate[r]
             contact.event_impulse[r] = impulse
@@ -173,7 +186,7 @@ def _fastest_approach(ws: Workspace) -> int:
 
 @kernel("b1(ws, i8)")
 def _is_slow(ws: Workspace, c: int) -> bool:
-    """True if contact ``c`` approaches no faster than the slow speed of the active contacts."""
+    """True if contact ``c`` approaches too slowly for a bounce that is longer than the contact time."""
     return -ws.contacts[c].normal_rate <= slow_speed(ws)
 
 
@@ -194,11 +207,13 @@ def slow_speed(ws: Workspace) -> float:
 
 @kernel("i8(ws)")
 def stop_slow_islands(ws: Workspace) -> int:
-    """Stop islands whose approaches are slow by an inelastic impact. Number of these islands.
+    """Stop islands whose approaches are slow by an inelastic impact, as their bounces would accumulate (Zeno).
 
-    After an impact that was cut short, islands are stopped at any speed: another impact would be cut short too. The
-    closing is recorded, and the touching contacts get provisional modes.
+    Returns the number of these islands. After an impact that was cut short, islands are stopped at any speed: another
+    impact would be cut short too. All stops are recorded as one event, of the fastest contact of the last island. The
+    contacts get provisional modes.
     """
+    # the free accelerations tell which approaches are slow
     accelerate_touching(ws)
     accelerate_by_compliance(ws)
     group_touching(ws)
@@ -214,7 +229,8 @@ def stop_slow_islands(ws: Workspace) -> int:
         n_stopped, which = n_stopped + 1, fastest
         _stop_active(ws)
     if n_stopped > 0:
-        touch(ws)
+        # evaluates the contacts at the new velocities
+        find_touching(ws)
         for contact in ws.contacts:
             set_provisional_mode(ws, contact.index)
         _stop_slow_closed(ws)
@@ -229,6 +245,7 @@ def average_slow_islands(ws: Workspace) -> bool:
     True if another island approaches: fast, or with forces that cannot be averaged. An inelastic impact has no exact
     solution if its contacts contradict each other. Then another impact would leave an approach again.
     """
+    # the free accelerations tell which approaches are slow
     accelerate_touching(ws)
     accelerate_by_compliance(ws)
     group_touching(ws)
@@ -243,7 +260,10 @@ def average_slow_islands(ws: Workspace) -> bool:
 
 @kernel()
 def _stop_slow_closed(ws: Workspace) -> None:
-    """Bring the slow approaches that an inelastic impact left to zero by projection, in islands of closed contacts."""
+    """Bring the slow approaches that an inelastic impact left to zero by projection, in islands of closed contacts.
+
+    The kinetic energy that this removes is closing loss.
+    """
     group_closed(ws)
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
@@ -263,13 +283,14 @@ def stop_creeping(ws: Workspace) -> float:
     if not _has_creeping_contact(ws):
         return 0.0
     loss = 0.0
-    touch(ws)
+    find_touching(ws)
     group_touching(ws)
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
         assemble_delassus(ws)
         for active in ws.actives:
             contact = ws.contacts[active.contact]
+            # unknown normal impulses, without friction; with rates as free accelerations, forces are impulses
             active.is_at_rest, active.is_normal_force_unknown = False, True
             active.friction_coefficient = active.normal_force = 0.0
             active.direction = contact.direction
@@ -288,7 +309,10 @@ def stop_creeping(ws: Workspace) -> float:
 
 @kernel("b1(ws)")
 def _has_creeping_contact(ws: Workspace) -> bool:
-    """True if an open rigid contact touches and approaches, by more than a negligible rate."""
+    """True if an open rigid contact touches and approaches, by more than a negligible rate.
+
+    In time, such an approach would lead the bodies into each other.
+    """
     for contact in ws.contacts:
         rests = contact.is_touching and not contact.is_compliant and contact.mode == Mode.OPEN
         if rests and contact.normal_rate < -NEGLIGIBLE * ws.tolerance.velocity:
@@ -306,8 +330,8 @@ def _is_approaching(ws: Workspace, contact: Contact) -> bool:
 def replace_coincident_contacts(ws: Workspace) -> bool:
     """Replace closed contacts by approaching ones that coincide with them, stop what still approaches, and record that.
 
-    True if this was done. False, and nothing is replaced, if an approaching contact coincides with no closed one. The
-    event names the last contact that replaces another.
+    True if this was done. False, and nothing is replaced, if an approaching contact coincides with no closed one: it
+    collides. The event names the last contact that replaces another.
     """
     for contact in ws.contacts:
         if _is_approaching(ws, contact) and closed_coincident(ws, contact.index) == NO_CONTACT:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 
-from nonsmooth.engine.bodies.touching import touch
+from nonsmooth.engine.bodies.touching import find_touching
 from nonsmooth.engine.contact.mean_forces import averaging_time, has_no_stopping_slip, is_averaged
 from nonsmooth.engine.delassus.islands import activate_group, group_closed
 from nonsmooth.engine.flow.averaging_time import find_mean_forces
@@ -33,9 +33,11 @@ _BURST = 1e-2
 def average_active(ws: Workspace) -> bool:
     """Let the forces of the active contacts be averaged over time from now on. False if they cannot be, or already are.
 
-    The contact problem of a single contact always has a solution. If the instantaneous forces of a contact failed soon
-    after their last attempt, the wait before the next attempt is doubled.
+    This is the fallback for an island whose events accumulate. The contact problem of a single contact always has a
+    solution. If the instantaneous forces of a contact failed soon after their last attempt, the wait before the next
+    attempt is doubled.
     """
+    # 0 if there is no contact time over which to average
     time = averaging_time(ws)
     if ws.problem.n_active == 1 or time == 0.0 or is_averaged(ws):
         return False
@@ -43,6 +45,7 @@ def average_active(ws: Workspace) -> bool:
         contact = ws.contacts[active.contact]
         fails_again = ws.island.time - contact.mean_forces_asked <= max(time, contact.mean_forces_wait)
         contact.mean_forces_wait = max(time, 2.0 * contact.mean_forces_wait) if fails_again else 0.0
+        # any mode but OPEN marks the contact as averaged; its first span is a contact time
         contact.mode_after_averaging = Mode.SLIDE
         contact.mean_span = 0.0
         for r in range(3):
@@ -54,7 +57,7 @@ def average_active(ws: Workspace) -> bool:
 def average_island_of(ws: Workspace, c: int) -> bool:
     """Let the forces of the island of contact ``c``, which becomes the active one, be averaged over time from now on.
 
-    False if the contact is open, or the forces cannot be averaged or already are.
+    False if the contact is open, or the forces cannot be averaged or already are. The closed contacts are grouped anew.
     """
     if ws.contacts[c].mode == Mode.OPEN:
         return False
@@ -76,6 +79,7 @@ def stays_averaged(ws: Workspace, ends: bool) -> bool:
         return True
     if ws.problem.n_active == 1:
         return False
+    # a slip would stop within a contact time
     if not has_no_stopping_slip(ws):
         return True
     for active in ws.actives:
@@ -87,11 +91,11 @@ def stays_averaged(ws: Workspace, ends: bool) -> bool:
 
 @kernel()
 def end_averaging(ws: Workspace) -> None:
-    """End the averaging span before its time: project the contacts with averaged forces onto their constraints.
+    """End the span of averaged forces before its time, as gaps deviate from its plan: project its closed contacts.
 
     The projection removes what the forces pushed too much. Their work so far is accounted for.
     """
-    touch(ws)
+    find_touching(ws)
     account_for_mean_forces(ws)
     ws.totals.closing_loss += project_closed(ws, at_event=True, averaged=True)
     ws.island.averaged_until = math.inf
@@ -107,6 +111,7 @@ def agree_on_averaged_modes(ws: Workspace, follows: bool) -> None:
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         speed = length(contact.slip)
+        # the modes under trial are those at the end of the span
         contact.mode_agreed = active.mode_tried
         contact.direction_agreed = active.direction
         if speed > ws.tolerance.velocity and active.mode_tried != Mode.OPEN:
@@ -119,7 +124,7 @@ def contact_of_burst(ws: Workspace) -> int:
     """Contact at which evaluations of forces accumulate so that time hardly passes, or ``NO_CONTACT``.
 
     The contact is the one whose slip direction relaxes fastest, if more than once per contact time, or else the one
-    with the most events in its present burst. Updates the measure of evaluations.
+    with the most events in its present burst, a short time with several events. Updates the measure of evaluations.
     """
     if _update_burst(ws) <= _LARGEST_BURST:
         return NO_CONTACT
@@ -128,6 +133,7 @@ def contact_of_burst(ws: Workspace) -> int:
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]
         speed, friction = length(contact.slip_at_end), length((contact.force[1], contact.force[2]))
+        # relaxations of the slip direction per contact time
         turns = contact.contact_time * contact.slip_per_force * friction / max(speed, ws.tolerance.velocity)
         if contact.mode == Mode.SLIDE and not contact.is_averaged and turns > fastest:
             which, fastest = contact.index, turns
@@ -141,7 +147,8 @@ def contact_of_burst(ws: Workspace) -> int:
 def _update_burst(ws: Workspace) -> float:
     """Measure of accumulating evaluations of forces: it grows by 1 with each, and falls by 1 per contact time.
 
-    The contact time is the shortest one of the closed contacts. If it is zero, the measure is 0.
+    Updates it to the present time. The contact time is the shortest one of the closed contacts. If it is zero, the
+    measure is 0, as forces cannot be averaged.
     """
     time = math.inf
     for i in range(ws.island.n_grouped):
@@ -156,7 +163,10 @@ def _update_burst(ws: Workspace) -> float:
 
 @kernel("void(ws, i8)")
 def count_event(ws: Workspace, c: int) -> None:
-    """Count an event of contact ``c`` in its present burst of events, or in a new one if that is over."""
+    """Count an event of contact ``c`` in its present burst of events, or in a new one if that is over.
+
+    A burst lasts for a small part of the contact time. Too many events within it show that time hardly passes.
+    """
     contact = ws.contacts[c]
     if abs(ws.island.time - contact.burst_start) > max(ws.tolerance.time, _BURST * contact.contact_time):
         contact.burst_start, contact.burst_events = ws.island.time, 0
@@ -165,5 +175,5 @@ def count_event(ws: Workspace, c: int) -> None:
 
 @kernel("b1(ws, i8)")
 def is_stalled(ws: Workspace, c: int) -> bool:
-    """True if contact ``c`` has so many events in its present burst that time hardly passes."""
+    """True if contact ``c`` has so many events in a small part of its contact time that time hardly passes."""
     return ws.contacts[c].burst_events > _MOST_EVENTS

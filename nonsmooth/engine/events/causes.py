@@ -27,6 +27,7 @@ def cause_of(ws: Workspace, guard: int) -> Cause:
     The static bound vanishes with the normal force. So friction that reaches the bound at zero force is a lift-off.
     """
     contact = contact_at(ws, guard)
+    # the normal guard is the gap of an open contact, and the force of a closed one
     if not is_friction_guard(ws, guard):
         return _cause_of_closing(contact) if contact.mode == Mode.OPEN else Cause.LIFT_OFF
     if contact.mode != Mode.STICK:
@@ -39,9 +40,12 @@ def cause_of(ws: Workspace, guard: int) -> Cause:
 def cause_at_start(ws: Workspace, which: int) -> Cause:
     """Cause of an event of contact ``which`` at the start of a step: its gap is closed, or a guard is negative."""
     contact = ws.contacts[which]
+    # of an open contact only the gap is a guard
     if contact.mode == Mode.OPEN:
         return _cause_of_closing(contact)
+    # the contact point is past the end of an edge or a face
     if end_of(ws, contact).at_end < 0.0:
         return Cause.FEATURE_END
+    # else the force of a closed contact has the wrong sign, or exceeds the bound of friction
     pulls = normal_of(ws, contact).at_end < 0.0
     return Cause.LIFT_OFF if pulls else Cause.STICK_TO_SLIP

@@ -27,6 +27,7 @@ def _coincide(one: Contact, other: Contact) -> bool:
         return False
     if one.is_compliant or other.is_compliant:
         return False
+    # the length of the difference of two unit normals is the angle between them if that is small
     turned, moved = minus(one.normal, other.normal), minus(one.point_b, other.point_b)
     is_close = dot(moved, moved) <= (_LARGEST_DIFFERENCE * one.size) ** 2
     return dot(turned, turned) <= _LARGEST_DIFFERENCE**2 and is_close
@@ -34,7 +35,10 @@ def _coincide(one: Contact, other: Contact) -> bool:
 
 @kernel("i8(ws, i8)")
 def closed_coincident(ws: Workspace, c: int) -> int:
-    """First closed contact that coincides with contact ``c`` and does not approach, or ``NO_CONTACT``."""
+    """First closed contact that coincides with contact ``c`` and does not approach, or ``NO_CONTACT``.
+
+    Contact ``c`` may take its place, as when a body rolls from an edge onto a face. It is never ``c`` itself.
+    """
     for other in ws.contacts:
         is_closed = other.mode != Mode.OPEN and other.normal_rate >= -ws.tolerance.velocity
         if is_closed and _coincide(ws.contacts[c], other):
@@ -44,14 +48,15 @@ def closed_coincident(ws: Workspace, c: int) -> int:
 
 @kernel("b1(ws, i8)")
 def has_replaced(ws: Workspace, c: int) -> bool:
-    """True if of contact ``c`` and those that coincide with it one was closed before the event, and one is closed now.
+    """True if contact ``c`` has only changed its features in the event, such as an edge for a face, and not closed.
 
-    Two of them may be closed at once, while their margins overlap. So the contact changes its features only.
+    So it is if, of ``c`` and the contacts that coincide with it, one was closed before the event and one is closed now.
     """
     was_closed, is_closed = False, False
     for other in ws.contacts:
         if other.index == c or _coincide(ws.contacts[c], other):
             is_closed = is_closed or other.mode != Mode.OPEN
+            # the code of an open contact is 0
             was_closed = was_closed or other.code_before != 0
     return was_closed and is_closed
 
@@ -60,7 +65,7 @@ def has_replaced(ws: Workspace, c: int) -> bool:
 def replace_coincident(ws: Workspace, c: int) -> bool:
     """Close contact ``c`` in place of the closed contacts that coincide with it. True if there are any.
 
-    It takes the mode of the first of them. They open.
+    It takes the mode of the first of them, and they open. Nothing collides, because no impulse can distinguish them.
     """
     contact = ws.contacts[c]
     replaced, has_taken_over = closed_coincident(ws, c), False
@@ -71,6 +76,8 @@ def replace_coincident(ws: Workspace, c: int) -> bool:
             contact.mode = ws.contacts[replaced].mode
             has_taken_over = True
         ws.contacts[replaced].mode = Mode.OPEN
+        # nor is it part of the present islands
         ws.contacts[replaced].is_in_problem = False
+        # one that is open is not found again
         replaced = closed_coincident(ws, c)
     return has_taken_over

@@ -16,7 +16,7 @@ from nonsmooth.engine.bodies.anisotropy import on_unit_tangents, release_stickin
 from nonsmooth.engine.bodies.compliance import accelerate_by_compliance
 from nonsmooth.engine.bodies.courses import end_own_steps_of, has_own_step
 from nonsmooth.engine.bodies.kinematics import evaluate_bias, evaluate_jacobian
-from nonsmooth.engine.bodies.touching import touch
+from nonsmooth.engine.bodies.touching import find_touching
 from nonsmooth.engine.contact.forces import reduced_coefficient
 from nonsmooth.engine.contact.problem import accelerate_touching
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
@@ -48,6 +48,7 @@ def collide(ws: Workspace, cause: Cause, which: int, seed: float) -> Status:
     starts from rest and needs a speed ``seed`` [m/s] to begin with. ``which`` is the contact that is recorded.
     """
     begin_event(ws)
+    # the end of an impact needs free accelerations: they tell which rates are too slow to bounce
     accelerate_touching(ws)
     accelerate_by_compliance(ws)
     group_touching(ws)
@@ -60,6 +61,7 @@ def collide(ws: Workspace, cause: Cause, which: int, seed: float) -> Status:
         if status != Status.RUNNING:
             _restore_velocities(ws)
             return status
+        # the record counts the phases of all islands, and has the worst of their truncations
         n_phases += ws.event.n_phases
         if ws.event.truncation > truncation:
             truncation = ws.event.truncation
@@ -72,7 +74,10 @@ def collide(ws: Workspace, cause: Cause, which: int, seed: float) -> Status:
 
 @kernel("b1(ws, Cause, i8)")
 def _takes_part(ws: Workspace, cause: Cause, which: int) -> bool:
-    """True if the active contacts collide: one of them approaches, or it is ``which``, that jams or has no force."""
+    """True if the active contacts collide: one of them approaches, or it is ``which``, the cause of the event.
+
+    Of a jam or of Painleve's paradox, only the island of ``which`` has impulses.
+    """
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         approaches = contact.normal_rate < -ws.tolerance.velocity
@@ -87,10 +92,12 @@ def _collide_island(ws: Workspace, cause: Cause, seed: float) -> Status:
 
     Large islands are solved in windows, which assemble their own parts of the Delassus matrix.
     """
+    # a map of velocities needs all contacts at once; an impact without collision has no approach to begin a window with
     is_large = len(ws.actives) > LARGE and ws.options.impact_map == 0 and cause == Cause.IMPACT
     if not is_large:
         assemble_delassus(ws)
     _write_rates_before(ws, cause == Cause.PAINLEVE and ws.options.painleve_policy == Painleve.COMPLIANT)
+    # an integrated impact counts its phases; any other one has a single phase
     ws.event.n_phases, ws.event.truncation = 1, Truncation.NONE
     ws.event.slow_speed = slow_speed(ws)
     status = _find_impulses(ws, cause, seed, is_large)
@@ -106,9 +113,10 @@ def _collide_island(ws: Workspace, cause: Cause, seed: float) -> Status:
 
 @kernel("void(ws, b1)")
 def _write_rates_before(ws: Workspace, is_lossless: bool) -> None:
-    """Write the rates of the active contacts before the impact.
+    """Write the rates of the active contacts before the impact [m/s], and whether their restitution is to be 1.
 
-    A gap rate within the velocity tolerance is written as zero: it must not begin a compression.
+    A gap rate within the velocity tolerance is written as zero: it must not begin a compression. The bits of Eq. (29)
+    for the record are taken here, too.
     """
     for active in ws.actives:
         contact = ws.contacts[active.contact]
@@ -124,7 +132,8 @@ def _write_rates_before(ws: Workspace, is_lossless: bool) -> None:
 def _find_impulses(ws: Workspace, cause: Cause, seed: float, is_large: bool) -> Status:
     """Find the impulses of the active contacts: of a jam, by a map of velocities, or by integration over the impact.
 
-    ``RUNNING`` if they are found. An endless impact may be cut short if what is left of the approach is negligible.
+    A jam is a slip at the Painleve singularity. ``RUNNING`` if they are found. An endless impact may be cut short if
+    what is left of the approach is negligible, or would be stopped by infinitely many compressions.
     """
     if cause == Cause.JAM:
         return Status.RUNNING if jam_slips(ws) else Status.NO_CONTACT_SOLUTION
@@ -135,6 +144,7 @@ def _find_impulses(ws: Workspace, cause: Cause, seed: float, is_large: bool) -> 
     if outcome == Outcome.INVALID:
         return Status.NOT_FINITE
     if outcome == Outcome.ENDLESS:
+        # a large or interrupted impact that was cut short has no result
         ws.event.truncation = Truncation.NONE
         if not is_large and not ws.request.is_interrupted:
             ws.event.truncation = how_over(ws)
@@ -154,6 +164,7 @@ def _account_for_impulses(ws: Workspace) -> None:
             impulse = active.impulse[r]
             contact.event_impulse[r] = impulse
             ws.event.head[DRIVEN_WORK] -= impulse * contact.prescribed_rate[r]
+        # the tangents of anisotropic friction are stretched; the record has unit tangents
         if contact.is_anisotropic:
             contact.event_friction = on_unit_tangents(ws, contact.index, contact.event_friction)
 
@@ -169,7 +180,8 @@ def _add_to_totals(ws: Workspace) -> None:
 
 @kernel()
 def _restore_velocities(ws: Workspace) -> None:
-    """Restore the velocities before the event. The impulses of other islands are in no account yet."""
+    """Restore the velocities before the event, because an island has no impulses."""
+    # the impulses of other islands are lost, too; they are in no account yet
     for i in range(ws.model.n_u):
         ws.island.y[ws.model.n_q + i] = ws.event.u_before[i]
 
@@ -177,17 +189,23 @@ def _restore_velocities(ws: Workspace) -> None:
 @kernel()
 def _set_provisional_modes(ws: Workspace) -> None:
     """Give the contacts the modes that their rates after an impact suggest, until those of the instant are found."""
+    # the bound of anisotropic friction then follows the direction of slip after the impact
     release_sticking_anisotropic(ws)
-    touch(ws)
+    find_touching(ws)
     for contact in ws.contacts:
+        # the contact was closed before, or took part in the impact
         if contact.code_during != contact.code_before or contact.mode != Mode.OPEN:
             set_provisional_mode(ws, contact.index)
+        # a release by a jump of the contact point is in the mode now
         contact.release = NO_RELEASE
 
 
 @kernel("Status(ws, i8)")
 def resolve_jam(ws: Workspace, which: int) -> Status:
-    """Stop the slip of contact ``which``, which jams, by an impact of its island. ``RUNNING``, or why that fails."""
+    """Stop the slip of contact ``which``, which jams, by an impact of its island. ``RUNNING``, or why that fails.
+
+    The user may have the run end at a jam instead.
+    """
     if ws.options.painleve_policy == Painleve.REFUSE:
         return Status.PARADOX_REFUSED
     return collide(ws, Cause.JAM, which, 0.0)
@@ -198,7 +216,7 @@ def collide_without_approach(ws: Workspace) -> Status:
     """Start an impact from rest at the active contacts whose sliding has no force. ``RUNNING``, or why there is none.
 
     There the friction of a unit of normal force presses the contact together more than the force pushes it apart: the
-    reduced normal coefficient is not positive.
+    reduced normal coefficient is not positive. The fastest of their slips is the scale of the speeds of the impact.
     """
     for contact in ws.contacts:
         contact.has_no_force = False
@@ -228,8 +246,9 @@ def _has_touching_contact(ws: Workspace, contact: Contact) -> bool:
 def add_closing_contacts(ws: Workspace, speed: float) -> int:
     """Let contacts touch whose gaps a collision at a ``speed`` [m/s] may close within its contact time.
 
-    Their gaps must be within the allowed one. Friction that acts over a larger gap would turn the bodies. The own steps
-    of these bodies end. Number of steps that ended: if it is not zero, the touching contacts must be found anew.
+    The collision lasts for that time, so they take part in it. Their gaps must be within the allowed one, because
+    friction that acts over a larger gap would turn the bodies. The own steps (multirate) of these bodies end. Number of
+    steps that ended: if it is not zero, the touching contacts must be found anew.
     """
     n_ended = 0
     for contact in ws.contacts:
@@ -237,8 +256,9 @@ def add_closing_contacts(ws: Workspace, speed: float) -> int:
         near = min(contact.contact_time * speed, ALLOWED * ws.tolerance.gap)
         is_free = is_apart and contact.gap <= near and not has_own_step(ws, contact.index)
         if is_free and not _has_touching_contact(ws, contact):
+            # as of every touching contact, its Jacobian and second-order terms are needed
             contact.is_touching = True
             evaluate_jacobian(ws, contact.index)
-            evaluate_bias(ws, contact.index, 3)
+            evaluate_bias(ws, contact.index, rows=3)
             n_ended += end_own_steps_of(ws, contact.index)
     return n_ended

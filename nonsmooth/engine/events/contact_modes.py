@@ -42,13 +42,16 @@ class Solution(IntEnum):
 def guess_modes(ws: Workspace, cause: Cause, which: int) -> None:
     """Group the contacts that touch and do not separate, and guess their modes from the past and from the event.
 
-    A contact outside of the problem is open, or keeps its mode if its body has an own step.
+    ``which`` is the contact of the event, with its ``cause``. The guesses are ``mode_agreed``; contacts keep their
+    modes until solutions are adopted. A contact outside of the problem is to be open, or keeps its mode if its body has
+    an own step (multirate).
     """
     for contact in ws.contacts:
         contact.is_in_problem = False
         contact.mode_agreed = contact.mode if has_own_step(ws, contact.index) else Mode.OPEN
         if contact.is_compliant:
             _guess_compliant_mode(ws, contact, cause, which)
+        # averaged forces may leave a gap rate, and go on in spite of it
         elif contact.is_touching and (contact.normal_rate <= ws.tolerance.velocity or contact.is_averaged):
             contact.is_in_problem = True
             contact.mode_agreed = _guessed_mode(ws, contact, cause, which)
@@ -63,6 +66,7 @@ def _guessed_mode(ws: Workspace, contact: Contact, cause: Cause, which: int) -> 
         return Mode.SLIDE
     if cause == Cause.LIFT_OFF and (is_cause or _force_has_vanished(ws, contact)):
         return Mode.OPEN
+    # an open contact closes if it is the cause, or at the start of a run; a jam stops a slip, and closes nothing
     may_have_closed = (is_cause and cause != Cause.JAM) or cause == Cause.START
     if contact.mode == Mode.OPEN and not may_have_closed:
         return Mode.OPEN
@@ -71,8 +75,12 @@ def _guessed_mode(ws: Workspace, contact: Contact, cause: Cause, which: int) -> 
 
 @kernel("void(ws, Contact, Cause, i8)")
 def _guess_compliant_mode(ws: Workspace, contact: Contact, cause: Cause, which: int) -> None:
-    """Guess the mode of a compliant contact. Its normal force is known. Its friction may be part of the problem."""
+    """Guess the mode of a compliant contact at an event of contact ``which``, and whether its friction is unknown.
+
+    Its normal force is known. A contact with a traction law has a known friction, too, and always slides.
+    """
     is_cause = contact.index == which
+    # its guard has fired, so that it opens: its gap is at the limit up to round-off
     if cause == Cause.LIFT_OFF and is_cause:
         contact.is_touching = False
     if not contact.is_touching:
@@ -90,8 +98,12 @@ def _guess_compliant_mode(ws: Workspace, contact: Contact, cause: Cause, which: 
 
 @kernel("b1(ws, Contact)")
 def _force_has_vanished(ws: Workspace, contact: Contact) -> bool:
-    """True if the normal force of a closed rigid contact is round-off, as is that of the contact which lifts off."""
+    """True if the normal force of a closed rigid contact is round-off, as is that of the contact which lifts off.
+
+    Then both lift off together.
+    """
     largest = 0.0
+    # the normal guard of a closed rigid contact is its force; initial is its value at the start of the step
     for other in ws.contacts:
         if other.mode != Mode.OPEN and not other.is_compliant and not has_own_step(ws, other.index):
             largest = max(largest, ws.guards[normal_guard(other.index)].initial)
@@ -101,15 +113,20 @@ def _force_has_vanished(ws: Workspace, contact: Contact) -> bool:
 
 @kernel("b1(ws, Contact, i8)")
 def _share_a_bound(ws: Workspace, contact: Contact, which: int) -> bool:
-    """True if the forces of two contacts are redundant: they share one bound of friction and break away together."""
+    """True if the forces of a contact and of contact ``which`` are both redundant, so that they break away together."""
+    # the sum of redundant friction obeys the sum of the bounds
     return contact.has_redundant_force and ws.contacts[which].has_redundant_force
 
 
 @kernel("Solution(ws, b1)")
 def solve_islands(ws: Workspace, averaging_ends: bool) -> Solution:
-    """Find modes and forces of the grouped contacts, island by island: instantaneous, or averaged over time."""
+    """Find modes and forces of the grouped contacts, island by island: instantaneous, or averaged over time.
+
+    ``averaging_ends`` is true at the end of a span of averaged forces, where instantaneous ones are tried again.
+    """
     accelerate_touching(ws)
     accelerate_by_compliance(ws)
+    # islands that stay averaged set the end of their span again
     ws.island.averaged_until = math.inf
     has_turned = False
     for group in range(ws.island.n_groups):
@@ -132,6 +149,7 @@ def _use_guessed_modes(ws: Workspace) -> None:
     """Start the solver of the active contacts from the guessed modes, and end their averaging over time."""
     for active in ws.actives:
         contact = ws.contacts[active.contact]
+        # if the instantaneous forces fail soon after this attempt, the next one comes later
         if contact.is_averaged:
             contact.mean_forces_asked = ws.island.time
         contact.mode_after_averaging, active.mode_tried = Mode.OPEN, contact.mode_agreed
@@ -139,7 +157,10 @@ def _use_guessed_modes(ws: Workspace) -> None:
 
 @kernel("b1(ws)")
 def _take_solution(ws: Workspace) -> bool:
-    """Store what the solver found for the active contacts. True if anisotropic friction faces the other way now."""
+    """Store what the solver found for the active contacts. True if anisotropic friction faces the other way now.
+
+    Later steps need the threshold of force and the inverse mass that are stored here.
+    """
     has_turned = False
     for active in ws.actives:
         contact = ws.contacts[active.contact]
@@ -147,6 +168,7 @@ def _take_solution(ws: Workspace) -> bool:
         contact.slip_per_force = tangential_inverse_mass(ws, active)
         contact.mode_agreed = active.mode_tried
         contact.direction_agreed = active.direction
+        # the friction of a contact at rest may oppose the other direction of slip, which has another coefficient
         if active.is_at_rest and active.mode_tried != Mode.OPEN:
             has_turned = turn_facing(ws, contact.index, active.force[1]) or has_turned
     return has_turned
@@ -154,7 +176,10 @@ def _take_solution(ws: Workspace) -> bool:
 
 @kernel("b1(ws)")
 def coefficients_are_valid(ws: Workspace) -> bool:
-    """True if the friction coefficients of the active contacts are numbers that are not negative."""
+    """True if the friction coefficients of the active contacts, which the user's laws gave, are positive or zero.
+
+    A problem without a solution may be the fault of a law.
+    """
     for active in ws.actives:
         if not (active.friction_coefficient >= 0.0 and active.static_coefficient >= 0.0):
             return False
@@ -168,6 +193,7 @@ def adopt_modes(ws: Workspace) -> None:
         if contact.mode == Mode.OPEN and contact.mode_agreed != Mode.OPEN:
             start_inner_states(ws, contact.index)
         contact.mode = contact.mode_agreed
+        # OPEN also marks that forces are not averaged over time
         if contact.mode == Mode.OPEN:
             contact.mode_after_averaging = Mode.OPEN
         if contact.mode == Mode.SLIDE:
@@ -176,7 +202,10 @@ def adopt_modes(ws: Workspace) -> None:
 
 @kernel("b1(ws)")
 def modes_have_changed(ws: Workspace) -> bool:
-    """True if a contact has another mode than before the event, or its averaging over time has begun or ended."""
+    """True if a contact has another mode than before the event, or its averaging over time has begun or ended.
+
+    If not, the event need not be recorded.
+    """
     for contact in ws.contacts:
         if mode_code(contact) != contact.code_before or contact.is_averaged != contact.was_averaged:
             return True

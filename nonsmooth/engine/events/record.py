@@ -41,7 +41,7 @@ _CLOSED, _APPROACHES, _SLIPS = 1, 2, 4
 
 @kernel("i8(Contact)")
 def mode_code(contact: Contact) -> int:
-    """Bits of Eq. (29) of a contact in its present mode: 0 if it is open."""
+    """Bits of Eq. (29) of a contact in its present mode (closed, approaches, slips): 0 if it is open."""
     if contact.mode == Mode.OPEN:
         return 0
     return _CLOSED + _SLIPS if contact.mode == Mode.SLIDE else _CLOSED
@@ -49,7 +49,7 @@ def mode_code(contact: Contact) -> int:
 
 @kernel("i8(ws, i8)")
 def impact_code(ws: Workspace, c: int) -> int:
-    """Bits of Eq. (29) of contact ``c`` at the start of an impact, from its rates."""
+    """Bits of Eq. (29) of contact ``c`` at the start of an impact (closed, approaches, slips), from its rates."""
     contact = ws.contacts[c]
     if not contact.is_touching:
         return 0
@@ -72,6 +72,7 @@ def begin_event(ws: Workspace) -> None:
             contact.event_impulse[r] = 0.0
     for i in range(ws.model.n_u):
         ws.event.u_before[i] = ws.island.y[ws.model.n_q + i]
+    # the first number of the head is the time, which is written with the record
     for i in range(1, EVENT_HEAD):
         ws.event.head[i] = 0.0
 
@@ -81,6 +82,7 @@ def _list_contacts(ws: Workspace, which: int) -> int:
     """List the contacts that take part in an event: all that are or were closed, and ``which``. Number of contacts."""
     n = 0
     for contact in ws.contacts:
+        # the code of an open contact is 0
         if contact.index == which or contact.code_before + contact.code_during + mode_code(contact) > 0:
             ws.event.listed[n] = contact.index
             n += 1
@@ -102,6 +104,7 @@ def _write_contact(ws: Workspace, contact: Contact, out: int) -> None:
     ws.floats[out + SLIP_DIRECTION], ws.floats[out + SLIP_DIRECTION + 1] = contact.direction
     ws.floats[out + CLOSED_WITH], ws.floats[out + FACING] = contact.closing_rate, float(contact.facing)
     ws.floats[out + AVERAGED] = float(contact.mode_after_averaging.value)
+    # features: offset of the pair of features of a contact that is chosen among many, 0 if it has no choice
     for r in range(CANDIDATE):
         ws.floats[out + FEATURES + r] = ws.floats[contact.features + r] if contact.features > 0 else 0.0
 
@@ -110,9 +113,11 @@ def _write_contact(ws: Workspace, contact: Contact, out: int) -> None:
 def record_event(ws: Workspace, cause: Cause, which: int, phases: int) -> None:
     """Append an event of contact or user's guard ``which``: what was stored before it, and the state after it.
 
-    A resumed run repeats events that the earlier run has recorded already: ``n_known_events`` of them are not kept.
+    ``phases`` is the number of phases of an impact, 0 of other events. A resumed run repeats events that the earlier
+    run has recorded already: ``n_known_events`` of them are not kept.
     """
     ws.event.n_recorded += 1
+    # all contacts that are or were closed are listed, too
     n_listed = _list_contacts(ws, NO_CONTACT if cause == Cause.GUARD else which)
     ws.output.last_floats, ws.output.last_integers = ws.output.floats_used, ws.output.integers_used
     ws.output.last_cause, ws.output.last_contact, ws.output.last_phases = cause, which, phases
@@ -123,6 +128,7 @@ def record_event(ws: Workspace, cause: Cause, which: int, phases: int) -> None:
     for i in range(n_listed):
         _write_contact(ws, ws.contacts[ws.event.listed[i]], end + LISTED * i)
         _write_contact_codes(ws, ws.contacts[ws.event.listed[i]], codes + CODE_HEAD + 2 * i)
+    # written, but not counted: the next event overwrites it
     if ws.request.n_known_events > 0:
         ws.request.n_known_events -= 1
         return
@@ -133,7 +139,10 @@ def record_event(ws: Workspace, cause: Cause, which: int, phases: int) -> None:
 
 @kernel("i8(ws, i8)")
 def _write_event_state(ws: Workspace, row: int) -> int:
-    """Write head, state and totals of an event to offset ``row``. Offset at which they end."""
+    """Write head, state and totals of an event to offset ``row``. Offset at which they end.
+
+    The state has the velocities both before and after the event.
+    """
     n_q, n_u, n_y = ws.model.n_q, ws.model.n_u, ws.model.n_y
     ws.event.head[TIME] = ws.island.time
     for i in range(EVENT_HEAD):
@@ -179,6 +188,7 @@ def amend_last(ws: Workspace) -> None:
 
     Nothing is done if the event is in no buffer, as it was known from an earlier run.
     """
+    # an event that is not kept has used no floats
     if ws.output.n_events == 0 or ws.output.floats_used == ws.output.last_floats:
         return
     ws.output.floats_used, ws.output.integers_used = ws.output.last_floats, ws.output.last_integers
@@ -193,6 +203,7 @@ def begin_sample(ws: Workspace) -> int:
 
     There the caller writes q, u and the rest of the integrated state, in the floats of the workspace.
     """
+    # a sample is its time, the state, and the energies accounted for at instants
     row = ws.output.samples.start + ws.output.n_samples * (1 + ws.model.n_y + BOOKED)
     ws.floats[row] = ws.output.next_sample
     _write_accounts(ws, row + 1 + ws.model.n_y)
@@ -204,7 +215,8 @@ def begin_sample(ws: Workspace) -> int:
 
 @kernel("void(ws, f8)")
 def record_samples(ws: Workspace, h: float) -> None:
-    """Append the samples within the first ``h`` [s] of the step that was taken."""
+    """Append the samples within the first ``h`` [s] of the step that was taken, from its interpolant."""
     while ws.output.next_sample <= ws.island.time + h and ws.output.n_samples < ws.model.sample_capacity:
         theta = (ws.output.next_sample - ws.island.time) / ws.step.h
+        # round-off may put the fraction of the step just outside of it
         state_within(ws, ws.step.h, min(1.0, max(0.0, theta)), begin_sample(ws))

@@ -36,19 +36,22 @@ def _part_before_stop_of(ws: Workspace, contact: Contact, h: float) -> float:
     The stop is predicted from slip and slip acceleration at the start. If the slip stops at the end of the step, the
     part is 1, and the contact becomes ``halting_contact``.
     """
-    c, first = contact.index, length(contact.slip_at_end)
+    # the end of the last step is the start of this one
+    c, speed = contact.index, length(contact.slip_at_end)
     v1, v2 = contact.slip_at_end
     du = ws.island.slopes.start + ws.model.n_q
     a1, a2 = row(ws, c, FIRST_ROW, du) + contact.bias[1], row(ws, c, SECOND_ROW, du) + contact.bias[2]
-    decrease = -h * (v1 * a1 + v2 * a2) / first
+    # predicted decrease of the speed over the step [m/s]
+    decrease = -h * (v1 * a1 + v2 * a2) / speed
     # the shortest part is two time tolerances long
     part, least = _UNKNOWN_PART, 2.0 * ws.tolerance.time
     if decrease > 0.0:
-        part = first / decrease
+        part = speed / decrease
         # an explicit step may reach the stop; an implicit one that passes it is taken again, shorter
         if _EXPLICIT_PART * part * h * ws.step.relaxation <= LARGEST_EXPLICIT:
             part *= _EXPLICIT_PART
-        elif first > ws.tolerance.velocity:
+        elif speed > ws.tolerance.velocity:
+            # only a slip within the velocity tolerance may stop in an implicit step, at its end
             part *= _IMPLICIT_PART
         elif abs(part - 1.0) * h <= _SMALLEST_PART * h + least:
             ws.step.halting_contact = c
@@ -64,6 +67,7 @@ def part_before_stop(ws: Workspace, h: float) -> float:
     """
     part, negligible = 1.0, NEGLIGIBLE * ws.tolerance.velocity
     for contact in ws.contacts:
+        # the slip at the end of the last step is the one at the start of this step
         has_slip = _has_coulomb_slip(contact)
         if has_slip and length(contact.slip) <= negligible and length(contact.slip_at_end) > negligible:
             part = min(part, _part_before_stop_of(ws, contact, h))
@@ -88,6 +92,7 @@ def stopped_contact(ws: Workspace) -> int:
     for contact in ws.contacts:
         if _has_coulomb_slip(contact):
             speed = length(contact.slip_at_end)
+            # the friction guard of a sliding contact is its slip
             if speed <= ws.tolerance.velocity and speed < friction_of(ws, contact).initial:
                 return contact.index
     return NO_CONTACT

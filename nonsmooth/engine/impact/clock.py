@@ -37,7 +37,11 @@ class Aim(NamedTuple):
 
 @kernel("b1(ws)")
 def change_clock(ws: Workspace) -> bool:
-    """Let the last contact with a load be the clock, or undo that if others follow. True if the clock has changed."""
+    """Let the only contact that is not idle be the clock, or undo that if others follow. True if the clock changes.
+
+    The clock is the variable of integration. If it is the normal impulse of one contact, its next event is known in
+    closed form. If another contact is loaded before it is done, the impact returns to the state before the change.
+    """
     n_others, last = 0, NO_CONTACT
     for active in ws.actives:
         if active.phase != Phase.IDLE and active.index != ws.impact.lone_contact:
@@ -51,6 +55,7 @@ def change_clock(ws: Workspace) -> bool:
     elif n_others == 0:
         return False
     else:
+        # one attempt is made in an impact: the common clock continues for good
         ws.impact.lone_contact, ws.impact.may_be_lone = NO_CONTACT, False
         _restore_state(ws)
     prepare_guards(ws)
@@ -59,21 +64,18 @@ def change_clock(ws: Workspace) -> bool:
 
 @kernel("b1(ws, ActiveContact)")
 def _can_be_clock(ws: Workspace, active: ActiveContact) -> bool:
-    """True if the impulse of an active contact, the only one that is not idle, may be the clock.
-
-    This is tried once in an impact, and a held contact has no energy to end with. A lone expansion ends when its energy
-    is used up. The error of the integration may have left none: a steep force has returned all energy long before the
-    deformation is zero, which ends the phase on the common clock.
-    """
+    """True if the impulse of an active contact, the only one that is not idle, may be the variable of integration."""
+    # this is tried once in an impact; a held contact stores no energy that could be used up
     if not ws.impact.may_be_lone or active.phase == Phase.HELD:
         return False
     state = state_of(ws, active)
+    # a steep force returns all energy long before the deformation is zero: then only the deformation ends the phase
     return active.phase != Phase.EXPANSION or state.energy > state.lost
 
 
 @kernel()
 def _store_state(ws: Workspace) -> None:
-    """Store the state of the impact before the clock changes."""
+    """Store the state of the impact before a lone contact becomes the clock, for :func:`_restore_state`."""
     copy_numbers(ws.floats, ws.impact.y.start, state_size(ws), ws.impact.y_kept.start)
     ws.impact.phases_kept = ws.event.n_phases
     for active in ws.actives:
@@ -85,7 +87,7 @@ def _store_state(ws: Workspace) -> None:
 
 @kernel()
 def _restore_state(ws: Workspace) -> None:
-    """Return to the state of the impact before the clock changed."""
+    """Return to the state of the impact before a lone contact became the clock, because another one is loaded."""
     copy_numbers(ws.floats, ws.impact.y_kept.start, state_size(ws), ws.impact.y.start)
     ws.event.n_phases = ws.impact.phases_kept
     for active in ws.actives:
@@ -100,7 +102,12 @@ def _restore_state(ws: Workspace) -> None:
 
 @kernel("Aim(ws, f8)")
 def aim_at_event(ws: Workspace, h: float) -> Aim:
-    """Shorten a step of ``h`` of the lone contact to its next event, which its polynomials predict."""
+    """Step of the lone contact to its next event, at most ``h`` [N s], and the guard whose root that event is.
+
+    This contact alone has a load, and its normal impulse is the variable of integration. Gap rate and slip are linear
+    in it while the slip keeps its direction, so their roots are known. The guard is ``NO_GUARD`` if there is no event
+    within ``h``.
+    """
     active = ws.actives[ws.impact.lone_contact]
     direction = ws.contacts[active.contact].direction
     rate, force, own = active.rate, active.force, diagonal_block(ws, active.index).entries
@@ -113,6 +120,7 @@ def aim_at_event(ws: Workspace, h: float) -> Aim:
         for j in range(3):
             slip_growth += own[3 * r + j] * force[j] * direction[r - 1]
     found = _aim_at_end_of_phase(ws, active, growth, Aim(h=h, guard=NO_GUARD))
+    # friction may stop the slip before the phase ends
     if not active.sticks and active.friction_coefficient > 0.0 and slip > 0.0 and slip_growth < 0.0:
         root = -slip / slip_growth
         if root < found.h:
@@ -122,12 +130,14 @@ def aim_at_event(ws: Workspace, h: float) -> Aim:
 
 @kernel("Aim(ws, ActiveContact, f8, Aim)")
 def _aim_at_end_of_phase(ws: Workspace, active: ActiveContact, growth: float, aim: Aim) -> Aim:
-    """Shorten a step to the end of the phase of the lone contact, whose gap rate has the slope ``growth``.
+    """Shorten the step ``aim`` to the end of the phase of the lone contact, whose gap rate g' has the slope ``growth``.
 
-    A compression ends at g' + growth s = 0, where s is the pseudo-time. An expansion ends at E + E' s + E'' s^2 / 2 = 0
-    with E' = -g' / efficiency. The root is written so that nothing cancels. A later end leaves the step as it is.
+    A compression ends at g' + growth s = 0, where s is the pseudo-time. An expansion ends when the energy E that it has
+    still to return is used up: E + E' s + E'' s^2 / 2 = 0 with E' = -g' / efficiency. A later end leaves the step as it
+    is.
     """
     rate = active.gap_rate
+    # the step is aimed only if the gap rate grows, as it does under the contact's own force unless friction prevents it
     if active.phase == Phase.COMPRESSION and growth > 0.0:
         root = -rate / growth
         if 0.0 < root < aim.h:
@@ -135,6 +145,7 @@ def _aim_at_end_of_phase(ws: Workspace, active: ActiveContact, growth: float, ai
     if active.phase == Phase.EXPANSION and growth > 0.0:
         state = state_of(ws, active)
         energy, first = state.energy - state.lost, state_at(ws, ws.impact.slopes.start, active).energy
+        # the root is 2 E / (sqrt(E'^2 - 2 E'' E) - E'), in which nothing cancels
         square = first * first + 2.0 * growth / expansion_efficiency(ws, active, rate) * energy
         speed = math.sqrt(max(0.0, square)) - first
         if speed > 0.0 and 0.0 < 2.0 * energy / speed < aim.h:
@@ -146,14 +157,16 @@ def _aim_at_end_of_phase(ws: Workspace, active: ActiveContact, growth: float, ai
 def has_arrived(ws: Workspace, aim: Aim) -> bool:
     """True if the guard that a step of the lone contact aimed at is zero within round-off, False if it aimed at none.
 
-    The energy guard is the energy that expansion has still to return, relative to ``energy_scale``. If that energy is
-    small from the start, lost * part / (1 - part) with the returned part, the threshold is relative to it.
+    Then the step ends at its event and need not be shortened. The energy guard is the energy that expansion has still
+    to return, relative to ``energy_scale``. If that energy is small from the start, lost * part / (1 - part) with the
+    returned part, the threshold is relative to it.
     """
     if aim.guard == NO_GUARD:
         return False
     active = ws.actives[ws.impact.lone_contact]
     near, lost = _AT_EVENT, state_of(ws, active).lost
     if aim.guard == guard_of(ws, active, GuardKind.ENERGY).index and lost != 0.0:
+        # lost is 1 - part of the energy at the start of the expansion, so part is below 1 here
         part = returned_part(ws, active)
         returned = lost * part / ((1.0 - part) * active.energy_scale)
         near = _AT_EVENT * min(1.0, returned)

@@ -36,9 +36,13 @@ _LEAST_TOLERANCE = 1e-11
 
 @kernel("void(ws, ActiveContact)")
 def account(ws: Workspace, active: ActiveContact) -> None:
-    """Account for the work of the present phase of an active contact [J], as far as it is not accounted for."""
+    """Add the work of an active contact since the last call [J] to its stored or, in expansion, its returned energy.
+
+    To be called before its phase changes, and at the end.
+    """
     state = state_of(ws, active)
     done = state.work - active.work_accounted
+    # the work of a force that brakes the bodies is negative
     if active.phase == Phase.COMPRESSION:
         active.energy_stored -= done
     else:
@@ -48,14 +52,15 @@ def account(ws: Workspace, active: ActiveContact) -> None:
 
 @kernel("void(ws, ActiveContact)")
 def lose_energy(ws: Workspace, active: ActiveContact) -> None:
-    """Set the energy and the deformation of an active contact to zero. The energy is lost to restitution."""
+    """Set the stored energy and the deformation of an active contact to zero: the energy is lost to restitution."""
+    # no account is needed: energy that was stored and is not returned counts as lost
     state = state_of(ws, active)
     state.deformation = state.energy = state.lost = 0.0
 
 
 @kernel("void(ws, ActiveContact)")
 def end_phase(ws: Workspace, active: ActiveContact) -> None:
-    """End the phase of an active contact, which is idle from then on."""
+    """End the phase of an active contact, which is idle from then on. Energy that is left is lost to restitution."""
     account(ws, active)
     active.phase = Phase.IDLE
     active.sticks = False
@@ -79,11 +84,12 @@ def write_impact_results(ws: Workspace) -> None:
 
 @kernel("b1(ws)")
 def is_finished(ws: Workspace) -> bool:
-    """True if no contact is loaded.
+    """True if the impact is over: no contact is in expansion or in compression.
 
-    A compression on the common clock counts only if it has a deformation, or approaches.
+    A compression on the common clock counts only if it has a deformation, or approaches by more than round-off.
     """
     for active in ws.actives:
+        # a lone contact, whose impulse is the clock, has an energy in place of a deformation
         has_begun = is_lone(ws, active) or state_of(ws, active).deformation > 0.0
         begins = has_begun or active.gap_rate < -NOISE * ws.impact.speed_scale
         if active.phase == Phase.EXPANSION or (active.phase == Phase.COMPRESSION and begins):
@@ -93,7 +99,10 @@ def is_finished(ws: Workspace) -> bool:
 
 @kernel("b1(ws)")
 def end_trapped(ws: Workspace) -> bool:
-    """End the phases of trapped contacts, whose energy is lost to restitution. True if there were any."""
+    """End the phases of trapped contacts, as their forces move nothing for ever. True if there were any.
+
+    Their energy is lost to restitution.
+    """
     if not _is_trapped(ws):
         return False
     for active in ws.actives:
@@ -120,7 +129,9 @@ def _is_trapped(ws: Workspace) -> bool:
     for active in ws.actives:
         if active.phase != Phase.IDLE:
             stored += state_of(ws, active).energy
+        # half of the smallest effective mass: times the square of the slow speed it is the least energy of a bounce
         lightest = min(lightest, 0.5 / diagonal_block(ws, active.index).nn)
+    # the unbalanced part of the forces is left / size
     left, size = _balance(ws)
     if left < max(SINGULAR, ws.tolerance.impact) * size:
         return True
@@ -130,14 +141,17 @@ def _is_trapped(ws: Workspace) -> bool:
 
 @kernel("b1(ws)")
 def _moves(ws: Workspace) -> bool:
-    """True if a loaded contact approaches or separates fast enough to have an energy and to bounce, else False."""
+    """True if a loaded contact approaches or separates fast enough to have an energy and to bounce.
+
+    Bounces from the slow speed are shorter than their contact time.
+    """
     brought = 0.0
     for active in ws.actives:
         brought = max(brought, active.energy_scale)
     for active in ws.actives:
         # gap rate whose energy is REST^2 of the largest one brought
-        still = max(REST * math.sqrt(brought * diagonal_block(ws, active.index).nn), ws.event.slow_speed)
-        if is_loaded(active) and abs(active.gap_rate) > still:
+        rest_rate = max(REST * math.sqrt(brought * diagonal_block(ws, active.index).nn), ws.event.slow_speed)
+        if is_loaded(active) and abs(active.gap_rate) > rest_rate:
             return True
     return False
 
@@ -146,8 +160,8 @@ def _moves(ws: Workspace) -> bool:
 def _balance(ws: Workspace) -> Pair:
     """How far the present forces f of the active contacts balance each other [m/s per pseudo-time]: two numbers.
 
-    The first is the largest component of G f, by which the forces accelerate the contacts. The second is the largest
-    sum of the magnitudes of the terms of a component.
+    Balanced forces move nothing, however long they act. The first number is the largest component of G f, by which the
+    forces accelerate the contacts. The second is the largest sum of the magnitudes of the terms of a component.
     """
     left = size = 0.0
     for active in ws.actives:
@@ -168,7 +182,10 @@ def _balance(ws: Workspace) -> Pair:
 
 @kernel("b1(ws)")
 def has_faded(ws: Workspace) -> bool:
-    """True if the energies that are stored, and the approaches, are below the tolerance or too slow to bounce."""
+    """True if the impact may be cut short: stored energies and approaches are below the tolerance or do not bounce.
+
+    A bounce from the slow speed is shorter than its contact time.
+    """
     small = max(ws.tolerance.impact, _LEAST_TOLERANCE)
     # after the impact, an approach within the tolerance of velocities counts as rest
     slowest = max(ws.event.slow_speed, ws.tolerance.velocity)
@@ -176,9 +193,11 @@ def has_faded(ws: Workspace) -> bool:
     for active in ws.actives:
         inverse_mass = diagonal_block(ws, active.index).nn
         stored = state_of(ws, active).energy if active.phase != Phase.IDLE else 0.0
+        # energies are quadratic in speeds
         least = max(small * small * active.energy_scale, 0.5 * slowest * slowest / inverse_mass)
         if active.gap_rate < -slow or stored > least:
             return False
+        # a contact that separates fast returns the rest of its energy by itself
         if active.gap_rate > slow and stored > 0.0 and active.phase == Phase.EXPANSION:
             return False
     return True
@@ -186,7 +205,10 @@ def has_faded(ws: Workspace) -> bool:
 
 @kernel()
 def cut_short(ws: Workspace) -> None:
-    """End all phases of a cascade of ever smaller compressions. The contact problem after it stops what approaches."""
+    """End all phases of a cascade of ever smaller compressions. Their energy is lost to restitution.
+
+    The contact problem after the impact stops what still approaches.
+    """
     for active in ws.actives:
         end_phase(ws, active)
     ws.event.truncation = Truncation.SLOW
@@ -194,14 +216,11 @@ def cut_short(ws: Workspace) -> None:
 
 @kernel("Truncation(ws)")
 def how_over(ws: Workspace) -> Truncation:
-    """How the impact of the active contacts ended that was cut short: a member of :class:`Truncation`.
+    """How the impact of the active contacts, which was cut short, would end: a member of :class:`Truncation`.
 
-    SLOW: the approach that remains is negligible. Contacts that slip may feed each other's bounces without end, however
-    small the bounces are.
-
+    SLOW: the approach that remains is negligible. Contacts that slip may feed each other's bounces without end.
     FAST: compressions of light bodies stop a heavy one gradually. Each compression loses energy, so the limit of
     infinitely many is common rest: an inelastic impact.
-
     NONE: the impact has no end. A slip that is faster than the approach may feed the bounces, and a contact without
     loss never damps them.
     """

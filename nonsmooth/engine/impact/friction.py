@@ -40,10 +40,10 @@ _PATIENCE = 20
 
 @entry_point("void(ws, f8, b1)")
 def choose_friction(ws: Workspace, probe: float, turns_rate: bool) -> None:
-    """Decide which contacts at rest stick and in which direction the others start to slide.
+    """Decide which contacts at rest stick and in which direction the others start to slide, where a phase begins.
 
     ``probe`` is the pseudo-time after which forces are compared if none has built up yet. ``turns_rate`` is true if the
-    sign of a gap rate has just changed. Slips of contacts at rest are stopped by impulses.
+    sign of a gap rate has just changed. Before, the slips of contacts at rest are stopped exactly, by impulses.
     """
     evaluate_impact_rates(ws, ws.impact.y.start)
     has_contact_at_rest = False
@@ -55,11 +55,13 @@ def choose_friction(ws: Workspace, probe: float, turns_rate: bool) -> None:
     for active in ws.actives:
         _write_problem(ws, active, probe)
     if has_contact_at_rest:
+        # slopes of rates have no part without contact forces
         clear(ws.floats, ws.problem.free_accelerations.start, 3 * len(ws.actives))
         gauss_seidel(ws, SWEEPS)
         _refine_starting_slips(ws)
         _hold_slips_without_start(ws)
     for active in ws.actives:
+        # without a normal force no friction holds the contact
         if active.normal_force <= 0.0:
             active.sticks = False
         ws.contacts[active.contact].direction = active.direction
@@ -78,6 +80,7 @@ def _find_rest(ws: Workspace, active: ActiveContact, turns_rate: bool) -> None:
     active.friction_coefficient = slip_coefficient(ws, active.contact, speed)
     gets_away = turns_rate and _gets_away(ws, active)
     is_slow = (speed <= active.rest_slip and not gets_away) or active.sticks
+    # a law may have sliding friction but no static one: then only a slip of exactly zero has to choose a direction
     is_still = speed == 0.0 and active.friction_coefficient > 0.0
     active.is_at_rest = is_slow and (active.static_coefficient > 0.0 or is_still)
 
@@ -86,8 +89,8 @@ def _find_rest(ws: Workspace, active: ActiveContact, turns_rate: bool) -> None:
 def _gets_away(ws: Workspace, active: ActiveContact) -> bool:
     """True if the slip of an active contact is more than round-off and grows.
 
-    If the sign of a gap rate changes, no force jumps. Stopping the slip would change the rates of other contacts, and
-    it would start again.
+    Such a slip is not stopped where the sign of a gap rate changes. No force jumps there, so the slip would start
+    again, and stopping it would change the rates of other contacts.
     """
     if length(active.slip) <= NOISE * ws.impact.speed_scale:
         return False
@@ -97,8 +100,12 @@ def _gets_away(ws: Workspace, active: ActiveContact) -> bool:
 
 @kernel()
 def _stop_slips(ws: Workspace) -> None:
-    """Bring the slip velocities of the contacts at rest to exactly zero, by the impulses of least norm."""
+    """Bring the slip velocities of the contacts at rest to exactly zero, by the impulses of least norm.
+
+    What is left of such a slip is round-off, whose direction would act as that of a slip.
+    """
     for active in ws.actives:
+        # the equations of forces, posed with rates: friction impulses of the contacts at rest are the only unknowns
         active.is_normal_force_unknown = False
         active.sticks = active.is_at_rest
         active.normal_force = active.friction_coefficient = 0.0
@@ -114,9 +121,10 @@ def _stop_slips(ws: Workspace) -> None:
 
 @kernel("void(ws, ActiveContact, f8)")
 def _write_problem(ws: Workspace, active: ActiveContact, probe: float) -> None:
-    """Write coefficient, normal force and slip direction of an active contact, and its friction if it slides.
+    """Write the data for the choice of friction of an active contact: coefficient, slip direction, normal force [N].
 
-    The normal force of a held contact is unknown, that of a loaded one follows from its deformation [N].
+    The normal force of a held contact is unknown, that of a loaded one follows from its deformation. ``probe`` is a
+    short pseudo-time. Friction is written as if the contact slid.
     """
     speed = length(active.slip)
     active.friction_coefficient = slip_coefficient(ws, active.contact, speed)
@@ -146,6 +154,7 @@ def _refine_starting_slips(ws: Workspace) -> None:
     """
     ws.problem.acceleration_scale = 0.0
     for active in ws.actives:
+        # Newton's method reads the modes under trial, given normal forces and the largest acceleration
         own = diagonal_block(ws, active.index)
         active.has_given_force = is_loaded(active)
         active.mode_tried = Mode.STICK if active.sticks else Mode.SLIDE
@@ -168,6 +177,7 @@ def _hold_slips_without_start(ws: Workspace) -> None:
     """
     largest = 0.0
     for active in ws.actives:
+        # slope of a gap rate under the contact's own force, as a scale
         largest = max(largest, diagonal_block(ws, active.index).nn * active.normal_force)
     for active in ws.actives:
         may_stick = active.is_at_rest and not active.sticks and active.static_coefficient > 0.0
@@ -180,7 +190,10 @@ def _hold_slips_without_start(ws: Workspace) -> None:
 
 @kernel("void(ws, ActiveContact)")
 def break_away(ws: Workspace, active: ActiveContact) -> None:
-    """Let an active contact that sticks slip in the direction opposite to its friction."""
+    """Let an active contact that sticks slip in the direction opposite to its friction.
+
+    Without friction the last direction is kept.
+    """
     t1, t2 = active.friction
     active.sticks = False
     if length(active.friction) > 0.0:
@@ -189,21 +202,20 @@ def break_away(ws: Workspace, active: ActiveContact) -> None:
 
 @kernel("b1(ActiveContact)")
 def has_stopped(active: ActiveContact) -> bool:
-    """True if an active contact that slides with friction has come to rest, False also if it sticks."""
+    """True if an active contact slides with friction at a speed that counts as rest: it must choose friction."""
     slides = not active.sticks and active.friction_coefficient != 0.0
     return slides and length(active.slip) <= active.rest_slip
 
 
 @kernel()
 def count_stopped_slips(ws: Workspace) -> None:
-    """Count the slips that the accepted step has stopped: they stick from now on.
-
-    After an implicit step slips may have any direction, so that the directions are set anew.
-    """
+    """Make the stops of slips in an accepted implicit step final: the contacts stick. Each stop counts as a phase."""
     if ws.impact.is_step_implicit:
         ws.impact.is_step_implicit = False
+        # slips may have turned by any angle within the step
         orient(ws)
     for active in ws.actives:
+        # a stop that is still marked would be undone with the next attempt of a step
         if active.was_halted:
             ws.event.n_phases += 1
         active.was_halted = False
@@ -211,9 +223,10 @@ def count_stopped_slips(ws: Workspace) -> None:
 
 @kernel()
 def orient(ws: Workspace) -> None:
-    """Set the slip directions of the step that begins to those of the present slips. Their guards start anew.
+    """Set the slip directions of the step that begins to those of the present slips.
 
-    Slips that count as rest keep the direction of before.
+    The friction guard is the component of the slip along this direction, so it becomes the speed of the slip. Slips
+    that count as rest keep the direction of before.
     """
     for active in ws.actives:
         speed = length(active.slip)
@@ -234,6 +247,7 @@ def count_slow_step(ws: Workspace) -> bool:
             continue
         (v1, v2), (growth_1, growth_2) = active.slip, slip_slope(ws, active)
         is_slow = True
+        # a slip that slows down needs no patience: this step makes the count exceed it
         if v1 * growth_1 + v2 * growth_2 < 0.0:
             ws.impact.slow_steps = _PATIENCE
     ws.impact.slow_steps = ws.impact.slow_steps + 1 if is_slow else 0

@@ -55,7 +55,7 @@ class GuardKind(IntEnum):
 
 @kernel("ImpactGuard(ws, ActiveContact, GuardKind)")
 def guard_of(ws: Workspace, active: ActiveContact, kind: GuardKind) -> ImpactGuard:
-    """The guard of an active contact of this ``kind``."""
+    """The guard of an active contact of this ``kind``: a function whose root ends its phase."""
     return ws.impact_guards[IMPACT_GUARDS * active.index + kind]
 
 
@@ -80,6 +80,7 @@ def write_impact_guards(ws: Workspace, y: int) -> None:
     """Write the guards of the active contacts at the impact state ``y``, at which the forces are evaluated."""
     evaluate_margins(ws)
     for active in ws.actives:
+        # the forces do not need the rates of idle contacts, but their guards do
         if active.phase == Phase.IDLE:
             write_rates(ws, active, y)
         guard_of(ws, active, GuardKind.RATE).value = _rate_guard(ws, active)
@@ -97,14 +98,15 @@ def _force_scale(ws: Workspace, active: ActiveContact) -> float:
 def _rate_guard(ws: Workspace, active: ActiveContact) -> float:
     """Guard of the gap rate of an active contact, relative to the largest speed, or of the force that holds it [1].
 
-    ``NOISE`` keeps a rate of round-off from firing the guard.
+    It is positive while a compression approaches, and while an idle contact or an expansion separates. ``NOISE`` keeps
+    a rate of round-off from firing it.
     """
     rate = active.gap_rate / ws.impact.speed_scale
     if active.phase == Phase.COMPRESSION:
         return NOISE - rate
     if active.phase == Phase.HELD:
         return NOISE + active.normal_force / _force_scale(ws, active)
-    # in a window, an approach of a contact that a wave has passed may be an error
+    # faint_rate is the error of rates in a window of a large impact: an approach behind the wave may be such an error
     has_passed = active.phase == Phase.IDLE and ws.contacts[active.contact].n_waves > 0
     return (ws.impact.faint_rate if has_passed and ws.impact.faint_rate > 0.0 else NOISE) + rate
 
@@ -113,11 +115,14 @@ def _rate_guard(ws: Workspace, active: ActiveContact) -> float:
 def _energy_guard(ws: Workspace, active: ActiveContact, state: ContactState) -> float:
     """Guard of the deformation or of the energy of an active contact, relative to its scale [1].
 
-    It is 1, and never fires, for a contact that is idle or held, and for a lone compression.
+    It is 1, and never fires, for a contact that is idle or held. So it is for the compression of a lone contact, which
+    alone has a load and whose energy replaces its deformation: the gap rate ends it.
     """
     if active.phase == Phase.COMPRESSION and not is_lone(ws, active):
+        # a compression of round-off may start with a deformation just below zero
         return _SLACK + state.deformation / active.deformation_scale
     if active.phase == Phase.EXPANSION:
+        # a contact that opens under load does so before its deformation is zero
         if is_lone(ws, active) or state.lost > 0.0:
             return (state.energy - state.lost) / active.energy_scale
         return state.deformation / active.deformation_scale
@@ -133,7 +138,7 @@ def _friction_guard(ws: Workspace, active: ActiveContact) -> float:
     if active.phase == Phase.IDLE or (not active.sticks and active.friction_coefficient == 0.0):
         return 1.0
     if active.sticks:
-        # a slip that the step has stopped may have been outside of the cone before
+        # a slip that the step has stopped was sliding earlier in it: friction that would hold it there may be too large
         margin = max(0.0, active.static_margin) if active.was_halted else active.static_margin
         return NOISE + margin / _force_scale(ws, active)
     # a slip may turn by any angle in an implicit step
@@ -168,7 +173,11 @@ def arm_impact_guards(ws: Workspace) -> None:
 
 @kernel("i8(ws, i8)")
 def first_fired(ws: Workspace, located: int) -> int:
-    """Number of the first guard that has fired, other than ``located``, or ``NO_GUARD``."""
+    """Number of the first guard that has fired, other than ``located``, or ``NO_GUARD``.
+
+    An armed guard was positive in its phase. One that was not may be round-off about zero, so it fires only if it is
+    clearly negative.
+    """
     for guard in ws.impact_guards:
         has_fired = (guard.value < 0.0 and guard.is_armed) or guard.value < _VIOLATED
         if has_fired and guard.index != located:

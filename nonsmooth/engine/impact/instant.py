@@ -20,17 +20,18 @@ Steps that approach the singularity shrink without end, and stop short of it."""
 
 @kernel("b1(ws)")
 def jam_slips(ws: Workspace) -> bool:
-    """Stop the slips that are at the Painleve singularity. True if there are any, and impulses that press do that.
+    """Stop the slips that are at the Painleve singularity, by impulses [N s]. True if there are any that press do that.
 
     In the limit of the singularity friction is at its bound and the gap stays closed, so the impulse is the one that
     brings slip and gap rate to rest together. The other contacts keep their modes. False if no slip jams, or if an
-    impulse would have to pull.
+    impulse would have to pull: then the impulses are undefined.
     """
     has_jammed = False
     for active in ws.actives:
         has_jammed = _write_jam(ws, active) or has_jammed
     if not has_jammed:
         return False
+    # the problem is posed with rates, so the forces that are found are impulses
     resolve(ws)
     for active in ws.actives:
         if not active.normal_force >= 0.0:
@@ -43,11 +44,15 @@ def jam_slips(ws: Workspace) -> bool:
 
 @kernel("b1(ws, ActiveContact)")
 def _write_jam(ws: Workspace, active: ActiveContact) -> bool:
-    """Write the problem of an active contact that keeps its mode, or sticks if its slip jams. True if its slip jams."""
+    """Write the problem of an active contact that keeps its mode, or sticks if its slip jams. True if its slip jams.
+
+    A slip jams if more normal force hardly accelerates the gap, because its friction presses the contact together.
+    """
     contact = ws.contacts[active.contact]
     speed = length(contact.slip)
     for r in range(3):
         active.free[r] = contact.rate[r]
+    # friction of sliding; a contact that does not slip has none, or an unknown one if it sticks
     active.friction_coefficient = 0.0
     active.is_normal_force_unknown, active.sticks = True, contact.mode == Mode.STICK
     if contact.mode != Mode.SLIDE or contact.is_compliant or not speed > 0.0:
@@ -65,7 +70,10 @@ def _write_jam(ws: Workspace, active: ActiveContact) -> bool:
 
 @kernel()
 def map_impact(ws: Workspace) -> None:
-    """Let a law that maps velocities find the impulses of the active contacts [N s], and write their losses [J]."""
+    """Let the user's law that maps velocities find the impulses of the active contacts [N s]. Writes their losses [J].
+
+    The law gets the Delassus matrix, the rates before the impact and the parameters of the contacts.
+    """
     n = len(ws.actives)
     for active in ws.actives:
         _write_parameters(ws, active)
@@ -79,6 +87,7 @@ def map_impact(ws: Workspace) -> None:
     call_map(ws.options.impact_map, n, matrix, rates, block, impulses)
     for i in range(GUARD):
         if ws.floats[behind + i] != UNTOUCHED:
+            # not zero: the law is at fault, with that number of contacts
             ws.run.n_past_map = n
     _write_losses(ws)
 
@@ -106,9 +115,11 @@ def _write_losses(ws: Workspace) -> None:
         normal = tangential = 0.0
         for r in range(3):
             impulse = active.impulse[r]
+            # the impulses change the rates by G P
             mean = 0.5 * add_product(ws, 2.0 * active.rate_before[r], active.index, r, ws.impact.impulse.start)
             if r == 0:
                 normal -= impulse * mean
             else:
                 tangential -= impulse * mean
+        # the loss to restitution is what is stored less what is returned
         active.energy_stored, active.energy_returned, active.energy_dissipated = normal, 0.0, tangential

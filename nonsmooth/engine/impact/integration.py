@@ -102,13 +102,16 @@ def energetic_impact(ws: Workspace, seed: float) -> Outcome:
     """Integrate the impact of the active contacts, from their rates before it.
 
     Writes the impulse of every active contact [N s] and its energies stored in compression, returned in expansion and
-    dissipated by friction [J]. An impact without collision needs a speed ``seed`` [m/s]; of other impacts it is zero.
+    dissipated by friction [J]. ``FINISHED``, or why it has none (:class:`Outcome`). An impact without collision needs a
+    speed ``seed`` [m/s] as its scale; of other impacts it is zero.
     """
+    # the normal impulse of a lone contact is the variable of integration; later one that is left alone may become so
     ws.impact.lone_contact = 0 if len(ws.actives) == 1 else NO_CONTACT
     ws.impact.may_be_lone, ws.impact.is_step_implicit = True, False
     ws.event.truncation = Truncation.NONE
     ws.impact.slow_steps = 0
     shortest = scale_impact(ws, seed)
+    # negative if a force law has no scale
     if not shortest > 0.0:
         return Outcome.INVALID
     h = first_step(ws, shortest)
@@ -120,13 +123,18 @@ def energetic_impact(ws: Workspace, seed: float) -> Outcome:
 def run_impact(ws: Workspace, h: float, shortest: float, is_windowed: bool) -> Outcome:
     """Integrate from the present phases and state, with a first step of ``h`` in pseudo-time.
 
-    The active contacts are all contacts of the impact, or those of a window of it. ``shortest`` is the pseudo-time of
-    the shortest compression.
+    The active contacts are all contacts of the impact or, if ``is_windowed``, of a part of it. ``shortest`` is the
+    pseudo-time of the shortest compression.
+
+    FINISHED: no contact is loaded. MOVED: a contact at the rim of the window is not idle, and the next step, in another
+    window, is ``impact.h``. INVALID: a law gives no finite number. ENDLESS: interrupted, or too many steps.
     """
     prepare_guards(ws)
     write_impact_slope(ws, ws.impact.slopes.start)
+    # there is no step before the first one
     pace = Pace(h=h, h_before=0.0, error_before=1.0)
     for _ in range(MOST_STEPS):
+        # callers discard an interrupted impact, so it needs no results
         if interrupted(ws, _WORK * len(ws.actives)):
             return Outcome.ENDLESS
         if is_finished(ws):
@@ -144,9 +152,10 @@ def run_impact(ws: Workspace, h: float, shortest: float, is_windowed: bool) -> O
         count_stopped_slips(ws)
         if attempt.guard == NO_GUARD:
             pace = _next_pace(ws, pace, attempt)
-            _continue(ws, shortest)
+            _prepare_after_smooth_step(ws, shortest)
             continue
         pace = pace._replace(h=_pass_switch(ws, attempt, shortest, is_windowed), h_before=0.0)
+        # a lone contact has no deformation with which the next window could continue
         if is_windowed and ws.impact.lone_contact == NO_CONTACT and has_reached_rim(ws):
             ws.impact.h = pace.h
             return Outcome.MOVED
@@ -163,7 +172,8 @@ def run_impact(ws: Workspace, h: float, shortest: float, is_windowed: bool) -> O
 def _attempt(ws: Workspace, h: float) -> Attempt:
     """Try a step of ``h`` in pseudo-time, or a shorter one that ends at an event.
 
-    If it is accepted, ``y_new`` holds the state at its end.
+    If it is accepted, ``y_new`` holds the state at its end. A lone contact, whose events are known in closed form, aims
+    at the next one. It may then move so simply that the midpoint rule is exact.
     """
     reset_attempt(ws)
     aimed = aim_at_event(ws, h) if ws.impact.lone_contact != NO_CONTACT else Aim(h=graded_step(ws, h), guard=NO_GUARD)
@@ -174,6 +184,7 @@ def _attempt(ws: Workspace, h: float) -> Attempt:
         h_again = aimed.h * rejection_factor(ws, error)
         return Attempt(h=aimed.h, error=error, guard=NO_GUARD, is_accepted=False, h_again=h_again)
     switch = _step_to_switch(ws, aimed, is_linear)
+    # the shorter step to the switch has a larger error than the full one
     if not switch.error <= TRUSTED:
         h_again = aimed.h * _UNTRUSTED
         return Attempt(h=aimed.h, error=switch.error, guard=NO_GUARD, is_accepted=False, h_again=h_again)
@@ -182,10 +193,11 @@ def _attempt(ws: Workspace, h: float) -> Attempt:
 
 @kernel("Switch(ws, Aim, b1)")
 def _step_to_switch(ws: Workspace, aimed: Aim, is_linear: bool) -> Switch:
-    """Shorten an accepted step to the first guard that fires in it. The step is kept if it ends where it was aimed.
+    """Shorten an accepted step to the first guard that fires in it. It is kept if it ends where it was aimed.
 
-    The last stage of the step has left the forces at its end.
+    ``is_linear`` tells that it was taken by the midpoint rule, which has no interpolant.
     """
+    # the last stage of the step has left the forces at its end
     write_impact_guards(ws, ws.impact.y_new.start)
     fired = first_fired(ws, NO_GUARD)
     if has_arrived(ws, aimed) and (fired == NO_GUARD or fired == aimed.guard):
@@ -201,7 +213,10 @@ def _step_to_switch(ws: Workspace, aimed: Aim, is_linear: bool) -> Switch:
 
 @kernel("Pace(ws, Pace, Attempt)")
 def _next_pace(ws: Workspace, pace: Pace, attempt: Attempt) -> Pace:
-    """Pace after an accepted step without an event: by its error, and on the common clock by the trend of errors."""
+    """Pace after an accepted step without an event: by its error, and on the common clock by the trend of errors.
+
+    The phases of a lone contact are polynomials, so their errors have no trend. After a switch there is none yet.
+    """
     factor, error = step_factor(attempt.error), max(_LEAST_ERROR, attempt.error)
     if pace.h_before > 0.0 and ws.impact.lone_contact == NO_CONTACT:
         factor = min(factor, trend(error, pace.error_before, attempt.h / pace.h_before))
@@ -212,10 +227,11 @@ def _next_pace(ws: Workspace, pace: Pace, attempt: Attempt) -> Pace:
 
 
 @kernel("void(ws, f8)")
-def _continue(ws: Workspace, shortest: float) -> None:
-    """Prepare the next step after one without an event. Its first slope is the last one of the step before.
+def _prepare_after_smooth_step(ws: Workspace, shortest: float) -> None:
+    """Write guards, slip directions and first slope of the next step, after one without an event.
 
-    Friction is chosen anew if a slip stays next to rest.
+    The first slope is the last one of the step before. It is evaluated only if forces have changed: friction is chosen
+    anew for a slip that stays next to rest, and contacts end whose forces move nothing.
     """
     if count_slow_step(ws):
         choose_friction(ws, first_step(ws, shortest), turns_rate=False)
@@ -238,11 +254,13 @@ def _continue(ws: Workspace, shortest: float) -> None:
 def _pass_switch(ws: Workspace, attempt: Attempt, shortest: float, is_windowed: bool) -> float:
     """Change the phases at the guard that fired, and the clock, and end contacts that are trapped or faded.
 
-    Returns the length of the next step, in pseudo-time.
+    Returns the length of the next step, in pseudo-time. Contacts that feed each other ever smaller bounces are faded:
+    they are cut short after many phases.
     """
     h = step_after_switch(ws, attempt.h, shortest)
     switch_phases(ws, first_step(ws, shortest), attempt.guard)
     if len(ws.actives) > 1 and change_clock(ws):
+        # the pseudo-time of the other clock has another unit
         h = shortest if ws.impact.lone_contact == NO_CONTACT else lone_step(ws)
     n_contacts = ws.impact.n_colliding if is_windowed else len(ws.actives)
     if ws.event.n_phases > _LONG * n_contacts and has_faded(ws):

@@ -41,8 +41,8 @@ _FAINT = 0.5
 def start_phases(ws: Workspace, probe: float, seed: float) -> None:
     """Set the phases in which the active contacts start, and their friction.
 
-    ``probe`` is a short pseudo-time, ``seed`` the speed of an impact without collision [m/s], or zero. A contact at
-    rest that the other contacts press together takes part from the start.
+    ``probe`` is a short pseudo-time, after which forces are compared. ``seed`` is the speed of an impact without
+    collision [m/s], or zero. A contact at rest that the other contacts press together takes part from the start.
     """
     clear(ws.floats, ws.impact.y.start, state_size(ws))
     ws.event.n_phases = 0
@@ -56,6 +56,7 @@ def start_phases(ws: Workspace, probe: float, seed: float) -> None:
             active.phase = Phase.COMPRESSION
             ws.event.n_phases += 1
             is_pressed = True
+    # the new compressions have other forces
     if is_pressed:
         choose_friction(ws, probe, turns_rate=False)
 
@@ -84,7 +85,8 @@ def _start(ws: Workspace, active: ActiveContact, is_without_collision: bool) -> 
 def switch_phases(ws: Workspace, probe: float, fired: int) -> None:
     """Change the phases whose guards have come to zero: the guard ``fired``, and all that vanish together with it.
 
-    The guards are evaluated. ``probe`` is a short pseudo-time.
+    The guards are evaluated before, and prepared for the next step after. ``probe`` is a short pseudo-time, after which
+    forces are compared if none has built up yet.
     """
     needs_friction = False
     for active in ws.actives:
@@ -98,8 +100,8 @@ def switch_phases(ws: Workspace, probe: float, fired: int) -> None:
 def _switch(ws: Workspace, active: ActiveContact, fired: int) -> bool:
     """Change the phase or the friction of an active contact if a guard of it vanishes. True if friction must be chosen.
 
-    At most one change is made: that of the energy, else of the gap rate, else of the friction. If a contact opens under
-    load, the forces of the others jump, and friction is chosen.
+    The step ended at the guard ``fired``. At most one change is made: that of the energy, else of the gap rate, else of
+    the friction. If a contact opens under load, the forces of the others jump, and friction is chosen.
     """
     if is_loaded(active) and _vanishes(guard_of(ws, active, GuardKind.ENERGY), fired):
         opens_under_load = state_of(ws, active).lost > 0.0
@@ -124,7 +126,10 @@ def _vanishes(guard: ImpactGuard, fired: int) -> bool:
 
 @kernel("void(ws, ActiveContact)")
 def _pass_wave(ws: Workspace, active: ActiveContact) -> None:
-    """End the phase of an active contact, and count a wave of compression that has passed it."""
+    """End the phase of an active contact, and count the wave of compression that has passed it.
+
+    Behind a wave, errors must not be taken for a new one (see :func:`end_faint`).
+    """
     end_phase(ws, active)
     ws.contacts[active.contact].n_waves += 1
     ws.event.n_phases += 1
@@ -139,6 +144,7 @@ def _turn(ws: Workspace, active: ActiveContact) -> bool:
     was = active.phase
     if was == Phase.COMPRESSION:
         account(ws, active)
+        # without restitution there is no expansion
         if least_efficiency(ws, active) > _NO_RETURN:
             active.phase = Phase.EXPANSION
             state = state_of(ws, active)
@@ -146,13 +152,16 @@ def _turn(ws: Workspace, active: ActiveContact) -> bool:
             return False
         _hold(ws, active)
         return True
+    # the force that holds the contact would have to pull
     if was == Phase.HELD:
         active.phase = Phase.IDLE
         active.sticks = False
         return False
     if was == Phase.EXPANSION:
+        # one wave of compression has passed the contact, and another one comes
         account(ws, active)
         ws.contacts[active.contact].n_waves += 1
+    # the bodies approach, or approach again; a contact that was loaded keeps its friction
     active.phase = Phase.COMPRESSION
     return was == Phase.IDLE
 
@@ -163,6 +172,7 @@ def _hold(ws: Workspace, active: ActiveContact) -> None:
     lose_energy(ws, active)
     active.phase = Phase.HELD
     evaluate_impact_forces(ws, ws.impact.y.start)
+    # its force would have to pull
     if active.normal_force < 0.0:
         active.phase = Phase.IDLE
 
@@ -188,16 +198,19 @@ def _switch_friction(ws: Workspace, active: ActiveContact) -> bool:
 
 @kernel()
 def end_faint(ws: Workspace) -> None:
-    """End what is left below the tolerance at contacts of a window that the wave has passed.
+    """End the phases of contacts of a window that the wave has passed, if energy and rate are below the tolerance.
 
-    The energy of a contact is known to the tolerance only. Its force and deformation are known better, and decide.
+    Without this, errors behind the wave would keep contacts in the window. The stored energy of a contact is known to
+    the tolerance only. Force and deformation are known better, so their product decides. Prepares the guards.
     """
+    # faint_rate: error of rates, relative to the largest speed of the impact; 0 if all contacts are in the window
     faint_rate = ws.impact.faint_rate
     for active in ws.actives:
         is_compressed_again = active.phase == Phase.COMPRESSION and ws.contacts[active.contact].n_waves > 0
         has_passed = active.phase == Phase.EXPANSION or is_compressed_again
         energy = active.normal_force * state_of(ws, active).deformation
         is_weak = energy <= faint_rate * faint_rate * active.energy_scale
+        # well below the rate at which a phase behind the wave begins, so that the two do not alternate
         if has_passed and is_weak and abs(active.gap_rate) <= _FAINT * faint_rate * ws.impact.speed_scale:
             _pass_wave(ws, active)
     prepare_guards(ws)
@@ -205,7 +218,10 @@ def end_faint(ws: Workspace) -> None:
 
 @kernel("b1(ws)")
 def has_reached_rim(ws: Workspace) -> bool:
-    """True if a contact in the outermost layer of the window is not idle: its neighbours may be outside."""
+    """True if a contact in the outermost layer of the window is not idle, so that a new window must be drawn.
+
+    Its neighbours, which may be outside, could take part.
+    """
     for active in ws.actives:
         if active.phase != Phase.IDLE and ws.contacts[active.contact].is_at_rim:
             return True

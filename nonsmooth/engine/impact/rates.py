@@ -37,6 +37,7 @@ from nonsmooth.engine.numerics.vectors import Pair
 @kernel("void(ws, ActiveContact, i8)")
 def write_rates(ws: Workspace, active: ActiveContact, y: int) -> None:
     """Write z = z_0 + G P of an active contact, its gap rate and slip velocity [m/s], at the impact state ``y``."""
+    # G has a block of 3 x 3 numbers for each contact that acts on this one
     z0, (z1, z2) = active.gap_rate_before, active.slip_before
     for block in range(active.first_block, active.end_block):
         p = impact_state(ws.floats, y, ws.island.block_column[block]).impulse
@@ -91,6 +92,7 @@ def _write_force(ws: Workspace, active: ActiveContact, y: int) -> bool:
 @kernel()
 def _complete_forces(ws: Workspace) -> None:
     """Find the unknown forces [N]: held contacts keep their gap rates under them, and sticking ones their slips."""
+    # only contact forces change rates in an impact, so b of the equations b + G f = 0 is zero
     clear(ws.floats, ws.problem.free_accelerations.start, 3 * len(ws.actives))
     resolve(ws)
 
@@ -118,6 +120,7 @@ def impact_slope(ws: Workspace, y: int, out: int) -> None:
     for active in ws.actives:
         has_unknown = _write_force(ws, active, y) or has_unknown
         _write_slope(ws, active, out)
+    # unknown forces depend on the forces of all contacts: once they are found, the slopes are written again
     if has_unknown:
         _complete_forces(ws)
         write_impact_slope(ws, out)
@@ -132,7 +135,10 @@ def write_impact_slope(ws: Workspace, out: int) -> None:
 
 @kernel("void(ws, ActiveContact, i8)")
 def _write_slope(ws: Workspace, active: ActiveContact, out: int) -> None:
-    """Write the slope of an active contact, whose rate and force are evaluated, to ``out``."""
+    """Write the slope of an active contact in pseudo-time, Eqs. (19) to (28), to ``out``.
+
+    Its rate and force are evaluated.
+    """
     slope, rate, (v1, v2) = state_at(ws, out, active), active.gap_rate, active.slip
     force, (t1, t2) = active.normal_force, active.friction
     deforming = 0.0
@@ -141,6 +147,7 @@ def _write_slope(ws: Workspace, active: ActiveContact, out: int) -> None:
     elif active.phase == Phase.EXPANSION:
         deforming = -rate / expansion_efficiency(ws, active, rate)
     slope.normal_force, slope.friction = force, (t1, t2)
+    # the energy of a lone contact replaces its deformation
     slope.deformation = 0.0 if is_lone(ws, active) else deforming
     slope.work = slope.dissipated = 0.0
     if active.phase != Phase.IDLE:
@@ -148,4 +155,5 @@ def _write_slope(ws: Workspace, active: ActiveContact, out: int) -> None:
         slope.work = force * rate
         slope.dissipated = -(t1 * v1 + t2 * v2)
     slope.energy = force * deforming
+    # the energy that an expansion will not return is known where it begins, and constant
     slope.lost = 0.0

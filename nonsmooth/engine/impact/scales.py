@@ -36,10 +36,11 @@ _NO_SCALE = -1.0
 
 @kernel("f8(ws, f8)")
 def scale_impact(ws: Workspace, seed: float) -> float:
-    """Set the scales of the active contacts. Returns the time of the shortest compression, in pseudo-time.
+    """Set the scales of the active contacts, to which guards and errors of the impact are relative.
 
-    It is negative if a force law has no scale. No speed is smaller than the ``seed`` [m/s] of an impact without
-    collision.
+    Returns the duration of the shortest compression, in pseudo-time. It is negative if a force law has no scale. No
+    speed is taken smaller than the ``seed`` [m/s], as an impact without collision has none. A contact takes up no more
+    energy than the fastest approach would bring to it, and no more than any approach brings.
     """
     brought = _scale_speeds(ws, seed)
     shortest = math.inf
@@ -48,11 +49,13 @@ def scale_impact(ws: Workspace, seed: float) -> float:
         energy = min(brought, ws.impact.speed_scale * ws.impact.speed_scale / inverse_mass)
         active.energy_scale = energy
         active.impulse_scale = math.sqrt(energy / inverse_mass)
+        # the impulse of a lone contact is the variable of integration: its deformation is not needed
         deformation = 1.0 if is_lone(ws, active) else _deformation_scale(ws, active)
         if deformation < 0.0:
             return deformation
         active.deformation_scale = deformation
         active.force_scale = energy / deformation
+        # pseudo-time is deformation over speed; that of a lone contact is its impulse, energy over speed
         shortest = min(shortest, (energy if is_lone(ws, active) else deformation) / ws.impact.speed_scale)
     _set_rest_slips(ws)
     return shortest
@@ -62,7 +65,8 @@ def scale_impact(ws: Workspace, seed: float) -> float:
 def _scale_speeds(ws: Workspace, seed: float) -> float:
     """Set the largest speed of the impact and the slip that counts as rest. Returns the largest energy [J].
 
-    An approach g' of effective inverse mass G_nn brings the energy g'^2 / G_nn, twice its kinetic energy.
+    No speed is taken smaller than the ``seed`` [m/s]. An approach g' of effective inverse mass G_nn brings the energy
+    g'^2 / G_nn, twice its kinetic energy.
     """
     ws.impact.speed_scale = seed
     brought = 0.0
@@ -77,7 +81,10 @@ def _scale_speeds(ws: Workspace, seed: float) -> float:
 
 @kernel("f8(ws, ActiveContact)")
 def _deformation_scale(ws: Workspace, active: ActiveContact) -> float:
-    """Deformation x of an active contact with F(x) x = its energy scale [m], or ``_NO_SCALE``, by a secant."""
+    """Deformation x of an active contact with F(x) x = its energy scale [m], or ``_NO_SCALE`` if there is none.
+
+    By a secant in the logarithms, because force laws are close to powers of x. It starts from 1 m.
+    """
     contact, energy, x = ws.contacts[active.contact], active.energy_scale, 1.0
     parameters = at(ws.floats, contact.impact_force_parameters)
     for _ in range(_ITERATIONS):
@@ -87,16 +94,15 @@ def _deformation_scale(ws: Workspace, active: ActiveContact) -> float:
             return _NO_SCALE
         if abs(energy - force * x) <= _CLOSE * energy:
             break
+        # log(2 double / force) / log(2) is the power with which F(x) x grows
         x *= (energy / (force * x)) ** (math.log(2.0) / math.log(2.0 * double / force))
     return x
 
 
 @kernel("f8(ws, ActiveContact)")
 def reached_energy(ws: Workspace, active: ActiveContact) -> float:
-    """Energy to which errors of an active contact are relative [J]: its scale, or what it has taken up.
-
-    If friction blocks a light point, or slip presses bodies together, that is far more than its approach brings.
-    """
+    """Energy to which errors of an active contact are relative [J]: its scale, or the largest of its energies."""
+    # if friction blocks a light point, or slip presses bodies together, these far exceed what its approach brings
     state = state_of(ws, active)
     return float(max(active.energy_scale, abs(state.work), state.dissipated, state.energy))
 
@@ -126,6 +132,7 @@ def _set_rest_slips(ws: Workspace) -> None:
         moved = 0.0
         for block in range(active.first_block, active.end_block):
             impulse = ws.actives[ws.island.block_column[block]].impulse_scale
+            # the rows of the two tangents
             for i in range(3, DELASSUS):
                 moved = max(moved, abs(ws.island.delassus[DELASSUS * block + i]) * impulse)
         inverse_mass, small = max(own.t11, own.t22), float(ws.impact.rest_speed)

@@ -52,7 +52,7 @@ def state_size(ws: Workspace) -> int:
 
 @kernel("impact_state(ws, i8, ActiveContact)")
 def state_at(ws: Workspace, y: int, active: ActiveContact) -> ContactState:
-    """Numbers of an active contact in the state of the impact at ``y``, or in the slope of a state."""
+    """Numbers of an active contact in the state, or slope of a state, at offset ``y`` of the floats."""
     state: ContactState = impact_state(ws.floats, y, active.index)
     return state
 
@@ -71,7 +71,7 @@ def is_loaded(active: ActiveContact) -> bool:
 
 @kernel("b1(ws, ActiveContact)")
 def is_lone(ws: Workspace, active: ActiveContact) -> bool:
-    """True if an active contact is the lone one, whose impulse is the clock."""
+    """True if an active contact is the only one with a load, and its normal impulse the variable of integration."""
     return active.index == ws.impact.lone_contact
 
 
@@ -80,7 +80,10 @@ def is_lone(ws: Workspace, active: ActiveContact) -> bool:
 
 @kernel("f8(ws, ActiveContact, f8)")
 def normal_force(ws: Workspace, active: ActiveContact, deformation: float) -> float:
-    """Normal force of an active contact at a ``deformation`` [m], Eq. (20) [N]; 1 if its impulse is the clock."""
+    """Normal force of an active contact at a ``deformation`` [m], Eq. (20) [N].
+
+    It is 1 if its own impulse is the variable of integration, because force is the slope of impulse.
+    """
     if is_lone(ws, active):
         return 1.0
     if deformation <= 0.0:
@@ -91,7 +94,10 @@ def normal_force(ws: Workspace, active: ActiveContact, deformation: float) -> fl
 
 @kernel("f8(ws, ActiveContact, f8)")
 def efficiency(ws: Workspace, active: ActiveContact, rate: float) -> float:
-    """Efficiency of the energy transfer of an active contact at a gap ``rate`` [m/s], Eq. (28) [1]."""
+    """Efficiency of the energy transfer of an active contact at a gap ``rate`` [m/s], Eq. (28) [1].
+
+    It is 1 if the contact is to have no loss, whatever its law.
+    """
     if active.is_lossless:
         return 1.0
     contact = ws.contacts[active.contact]
@@ -101,6 +107,7 @@ def efficiency(ws: Workspace, active: ActiveContact, rate: float) -> float:
 @kernel("f8(ws, ActiveContact, f8)")
 def expansion_efficiency(ws: Workspace, active: ActiveContact, rate: float) -> float:
     """Efficiency of the expansion of an active contact at a gap ``rate`` [m/s], Eq. (28) [1]."""
+    # at rate 0 a law returns another number: the part of the energy that is returned before the contact opens
     return efficiency(ws, active, max(rate, _SEPARATES))
 
 
@@ -112,8 +119,5 @@ def returned_part(ws: Workspace, active: ActiveContact) -> float:
 
 @kernel("f8(ws, ActiveContact)")
 def least_efficiency(ws: Workspace, active: ActiveContact) -> float:
-    """Smaller one of the returned part and the efficiency of a slow expansion [1].
-
-    An active contact loses energy if it is below 1.
-    """
+    """Smaller one of returned part and efficiency of a slow expansion [1]. Below 1 an active contact loses energy."""
     return min(returned_part(ws, active), efficiency(ws, active, _SEPARATES))

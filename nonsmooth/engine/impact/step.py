@@ -46,7 +46,7 @@ def try_impact_step(ws: Workspace, h: float) -> float:
     """Take one step of ``h`` in pseudo-time to ``y_new``. Returns its error, relative to the tolerance [1].
 
     A stiff step that the explicit pair rejects is taken implicitly. A slip that an implicit step stops sticks from then
-    on, unless the step is tried again.
+    on, unless the step is tried again. The slope at the start must be in the first of ``slopes``.
     """
     reset_attempt(ws)
     n, slopes = state_size(ws), ws.impact.slopes.start
@@ -58,15 +58,19 @@ def try_impact_step(ws: Workspace, h: float) -> float:
     error = _relative_error(ws, ws.impact.y_stage.start)
     if not error <= 1.0:
         if _check_stiffness(ws, h):
+            # if both are rejected, the next step need be no shorter than the better one demands
             return min(_try_implicit_step(ws, h), error)
-        # the stiffness check has left other rates
+        # the stiffness check has left other rates, but guards are written from those at the end
         evaluate_impact_rates(ws, ws.impact.y_new.start)
     return error
 
 
 @kernel()
 def reset_attempt(ws: Workspace) -> None:
-    """Undo the last attempt of a step: slips that it stopped slide again, and the step counts as explicit."""
+    """Undo the last attempt of a step: slips that it stopped slide again, and the step counts as explicit.
+
+    The stop of a slip in an accepted step is no longer marked as halted, so it is kept.
+    """
     ws.impact.is_step_implicit = False
     for active in ws.actives:
         if active.was_halted:
@@ -75,9 +79,10 @@ def reset_attempt(ws: Workspace) -> None:
 
 @kernel("f8(ws, i8)")
 def _relative_error(ws: Workspace, errors: int) -> float:
-    """Largest error of the active contacts, relative to the tolerance [1], from the ``errors`` of a state."""
+    """Largest error of the active contacts, relative to the tolerance [1], from the errors of a state at ``errors``."""
     worst = 0.0
     for active in ws.actives:
+        # the numbers of an idle contact do not change
         if active.phase != Phase.IDLE:
             worst = _worse_error(ws, active, state_at(ws, errors, active), worst)
             # a maximum does not show what is not a number
@@ -119,7 +124,8 @@ def _worse_error(ws: Workspace, active: ActiveContact, error: ContactState, wors
 def try_linear_step(ws: Workspace, h: float) -> bool:
     """Take one step of ``h`` to ``y_new`` by the midpoint rule. True if the slope is linear, so that it is exact.
 
-    A lone contact whose slip keeps its direction moves so. The slope at the end shows whether it did.
+    A contact that alone has a load moves so while its slip keeps its direction. The slope at the end shows whether it
+    did. Slopes and forces at the end are left as those of the last stage.
     """
     n = state_size(ws)
     middle, end = ws.impact.slopes.start + n, ws.impact.slopes.start + LAST_STAGE * n
@@ -146,6 +152,7 @@ def _is_straight(ws: Workspace, active: ActiveContact, middle: int, end: int) ->
         i = IMPACT_STATE * active.index + component
         first, half, last = ws.impact.slopes[i], ws.floats[middle + i], ws.floats[end + i]
         size = abs(first) + abs(last) + abs(half)
+        # impulses come first in the state
         if component < DEFORMATION:
             size = max(size, force)
         if not abs(first + last - 2.0 * half) <= _STRAIGHT * size:
@@ -160,8 +167,8 @@ def _is_straight(ws: Workspace, active: ActiveContact, middle: int, end: int) ->
 def _check_stiffness(ws: Workspace, h: float) -> bool:
     """True if the direction of a slip follows the forces too fast for an explicit step of ``h``, and is in equilibrium.
 
-    A slip that passes close to rest turns fast and changes fast. Its further direction depends on every digit, which
-    explicit steps find. Leaves the rates at the start of the step.
+    Then an implicit step is tried. A slip that passes close to rest turns fast and changes fast. Its further direction
+    depends on every digit, which explicit steps find. Leaves the rates at the start of the step.
     """
     evaluate_impact_rates(ws, ws.impact.slopes.start)
     for active in ws.actives:
@@ -171,6 +178,7 @@ def _check_stiffness(ws: Workspace, h: float) -> bool:
     evaluate_impact_rates(ws, ws.impact.y.start)
     for active in ws.actives:
         own = diagonal_block(ws, active.index)
+        # over the slip speed, this is the rate with which the direction relaxes
         turning = length(state_at(ws, ws.impact.slopes.start, active).friction) * max(own.t11, own.t22)
         is_settled = not active.sticks and turning > _SETTLED * length(active.slip_acceleration)
         if is_settled and h * turning > _STIFF * length(active.slip):
@@ -190,7 +198,7 @@ def _try_implicit_step(ws: Workspace, h: float) -> float:
     has_solution = True
     for stage in range(2, N_STAGES):
         has_solution = has_solution and _solve_stage(ws, h, stage)
-    # a slip that the step has stopped sticks at its end
+    # a slip that the step has stopped sticks at its end; it is marked even if the step fails, so that it can be undone
     for active in ws.actives:
         active.was_halted = active.mode_past == Mode.SLIDE and active.sticks
     if not has_solution:
@@ -203,7 +211,10 @@ def _try_implicit_step(ws: Workspace, h: float) -> float:
 
 @kernel()
 def _begin_implicit_step(ws: Workspace) -> None:
-    """Set the modes in which the contacts begin an implicit step, and the slope of its first stage."""
+    """Set the modes in which the contacts begin an implicit step, and the slope of its first stage.
+
+    That slope is the slope at the start, which is stored before it. Marks the step as implicit: its slips may reverse.
+    """
     ws.impact.is_step_implicit = True
     for active in ws.actives:
         active.mode_past = Mode.STICK if active.sticks else Mode.SLIDE
@@ -219,7 +230,7 @@ def _begin_implicit_step(ws: Workspace) -> None:
 
 @kernel("b1(ws, f8, i8)")
 def _solve_stage(ws: Workspace, h: float, stage: int) -> bool:
-    """Find the slope of a stage at the state to which this slope leads. True if it is found.
+    """Find the slope of an implicit stage of a step of ``h``, at the state to which this slope leads. True if found.
 
     The friction of slips, which is stiff, is solved for. Deformations, which are not, are iterated.
     """
@@ -242,6 +253,7 @@ def _solve_stage(ws: Workspace, h: float, stage: int) -> bool:
         evaluate_impact_rates(ws, out)
         write_impact_slope(ws, here)
         _advance_stage(ws, ahead, out, here, guess)
+        # the guess now holds the last change of the state
         if _relative_error(ws, guess) <= implicit_tableau.SETTLED:
             return True
     return False
@@ -251,9 +263,10 @@ def _solve_stage(ws: Workspace, h: float, stage: int) -> bool:
 def _advance_stage(ws: Workspace, ahead: float, out: int, here: int, guess: int) -> None:
     """Add ``ahead`` times the slope at ``here`` to the numbers of the state at ``out`` other than impulses.
 
-    The last change of the slope, times ``ahead``, replaces the ``guess``. The slope depends on no energy, so energies
-    count as unchanged.
+    The impulses have been added with the forces. The last change of the slope, times ``ahead``, replaces the ``guess``,
+    for the test of convergence. The slope depends on no energy, so energies count as unchanged.
     """
+    # ahead: pseudo-time of the implicit part of the stage
     for i in range(state_size(ws)):
         component = i % IMPACT_STATE
         change = ws.floats[here + i] - ws.floats[guess + i] if component <= DEFORMATION else 0.0
@@ -270,6 +283,7 @@ def _write_problem(ws: Workspace, ahead: float, y: int, guess: int) -> None:
     stage would end without forces.
     """
     n = state_size(ws)
+    # go to the guessed end, and back below
     for i in range(n):
         ws.floats[y + i] += ahead * ws.floats[guess + i]
     evaluate_impact_rates(ws, y)
@@ -280,6 +294,7 @@ def _write_problem(ws: Workspace, ahead: float, y: int, guess: int) -> None:
         ws.floats[y + i] -= ahead * ws.floats[guess + i]
     evaluate_impact_rates(ws, y)
     for active in ws.actives:
+        # a held contact keeps its gap rate; a slip at rest, or of a contact that sticks, is not removed but kept
         moves = active.mode_past == Mode.SLIDE and length(active.slip) > active.rest_slip
         active.free[0] = 0.0
         for r in range(1, 3):
@@ -298,6 +313,7 @@ def _write_given(ws: Workspace, active: ActiveContact, y: int, guess: int) -> No
         active.normal_force = normal_force(ws, active, state_at(ws, y, active).deformation)
     if active.mode_past == Mode.SLIDE:
         active.friction_coefficient = slip_coefficient(ws, active.contact, length(active.slip))
+        # the contact problem treats a slip that friction may stop as one that begins
         active.is_at_rest = active.friction_coefficient > 0.0
         t1, t2 = state_at(ws, guess, active).friction
         if length((t1, t2)) > 0.0:

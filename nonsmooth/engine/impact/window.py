@@ -43,10 +43,12 @@ _NO_ENTRY = -1
 
 @entry_point("Outcome(ws)")
 def windowed_impact(ws: Workspace) -> Outcome:
-    """Integrate the impact of the active contacts, window by window.
+    """Integrate a large impact of the active contacts, of which only those near the wave are evaluated at a time.
 
-    The results are those of :func:`nonsmooth.engine.impact.integration.energetic_impact`.
+    These contacts form a window, which is drawn anew whenever the wave reaches its rim. Results and outcome are those
+    of :func:`nonsmooth.engine.impact.integration.energetic_impact`.
     """
+    # a contact that is left alone may become the variable of integration
     ws.impact.may_be_lone, ws.impact.is_step_implicit = True, False
     ws.event.truncation = Truncation.NONE
     ws.impact.slow_steps = 0
@@ -56,6 +58,7 @@ def windowed_impact(ws: Workspace) -> Outcome:
         if outcome != Outcome.MOVED:
             break
         outcome = _run_window(ws, fastest, is_first=False)
+    # other impacts have no windows
     ws.impact.faint_rate = 0.0
     _collect(ws)
     return Outcome.ENDLESS if outcome == Outcome.MOVED else outcome
@@ -73,6 +76,7 @@ def _run_window(ws: Workspace, fastest: float, is_first: bool) -> Outcome:
     ws.impact.faint_rate = 0.0 if has_all else CIRCLING * ws.tolerance.impact
     _load(ws)
     ws.impact.lone_contact = NO_CONTACT
+    # the rates in later windows are smaller: the fastest approach of the impact remains their scale
     shortest = scale_impact(ws, fastest)
     if not shortest > 0.0:
         return Outcome.INVALID
@@ -89,9 +93,9 @@ def _run_window(ws: Workspace, fastest: float, is_first: bool) -> Outcome:
 
 @kernel("f8(ws)")
 def _gather(ws: Workspace) -> float:
-    """List the active contacts, all idle, as those of the impact, and by articulation.
+    """List the active contacts, all idle, as those of the impact, and by articulation, so that neighbours are found.
 
-    Returns the fastest approach [m/s].
+    Copies the velocities, to which the windows add their impulses. Returns the fastest approach [m/s].
     """
     fastest = 0.0
     ws.impact.n_colliding = len(ws.actives)
@@ -110,7 +114,7 @@ def _gather(ws: Workspace) -> float:
 
 @kernel("void(Contact)")
 def _clear(contact: Contact) -> None:
-    """Set the impulse and the energies of a contact to zero, and its phase to idle."""
+    """Set the impulse and the energies of a contact to zero, and its phase to idle, before the first window."""
     contact.window_phase, contact.window_sticks, contact.n_waves = Phase.IDLE, False, 0
     for r in range(3):
         contact.window_impulse[r] = 0.0
@@ -120,7 +124,10 @@ def _clear(contact: Contact) -> None:
 
 @kernel("void(ws, i8, i8)")
 def _add_entry(ws: Workspace, number: int, entry: int) -> None:
-    """Add an entry to the list of an articulation: the number of a contact, plus ``n_slots`` for its second side."""
+    """Add an entry to the linked list of articulation ``number``: a contact, plus ``n_slots`` for its second side.
+
+    ``chain`` holds the next entry of each one.
+    """
     articulation = ws.articulations[number]
     ws.impact.chain[entry] = articulation.first_colliding
     articulation.first_colliding = entry
@@ -144,9 +151,10 @@ def _collect(ws: Workspace) -> None:
 
 @kernel("void(ws, f8, b1)")
 def _draw(ws: Workspace, fastest: float, is_first: bool) -> None:
-    """Make the contacts that are not idle, and their neighbours in ``_LAYERS`` layers, the active ones.
+    """Draw the window: make the contacts that are not idle, and their neighbours in some layers, the active ones.
 
-    In the first window all contacts are idle, and it is drawn about those that approach.
+    In the first window all contacts are idle, and it is drawn about those that approach. ``fastest`` is the fastest
+    approach [m/s].
     """
     ws.problem.n_active = 0
     for i in range(ws.impact.n_colliding):
@@ -155,6 +163,7 @@ def _draw(ws: Workspace, fastest: float, is_first: bool) -> None:
         approaches = is_first and contact.normal_rate < -NOISE * fastest
         if approaches or contact.window_phase != Phase.IDLE:
             _add(ws, contact, layer=0)
+    # each layer adds the neighbours of the layer before, from begin to end
     begin = 0
     for layer in range(1, _LAYERS + 1):
         end = ws.problem.n_active
@@ -167,7 +176,10 @@ def _draw(ws: Workspace, fastest: float, is_first: bool) -> None:
 
 @kernel("void(ws, Contact, i8)")
 def _add(ws: Workspace, contact: Contact, layer: int) -> None:
-    """Add a contact to the window, in a ``layer`` counted from the contacts that are not idle."""
+    """Add a contact to the window, in a ``layer`` counted from the contacts that are not idle.
+
+    The last layer is the rim.
+    """
     contact.layer, contact.is_at_rim = layer, layer == _LAYERS
     ws.problem.active[ws.problem.n_active] = contact.index
     ws.problem.n_active += 1
@@ -179,6 +191,7 @@ def _add_neighbours(ws: Workspace, number: int, layer: int) -> None:
     articulation = ws.articulations[number]
     entry = articulation.first_colliding if articulation.n_u > 0 else _NO_ENTRY
     while entry != _NO_ENTRY:
+        # an entry is a contact, plus n_slots for its second side
         neighbour = ws.contacts[entry if entry < ws.model.n_slots else entry - ws.model.n_slots]
         if neighbour.layer == _OUTSIDE:
             _add(ws, neighbour, layer)
@@ -187,7 +200,10 @@ def _add_neighbours(ws: Workspace, number: int, layer: int) -> None:
 
 @kernel()
 def _load(ws: Workspace) -> None:
-    """Write Delassus matrix, rates and state of the window. Its structure takes the place of that of the island."""
+    """Write Delassus matrix, rates and state of the window. Its structure takes the place of that of the island.
+
+    Rates follow from the velocities after the windows before.
+    """
     link_active(ws)
     assemble_delassus(ws)
     for active in ws.actives:
@@ -213,7 +229,10 @@ def _load_state(ws: Workspace, active: ActiveContact, contact: Contact) -> None:
 
 @kernel()
 def _store(ws: Workspace) -> None:
-    """Give the bodies the impulses of the window, and store the state in which it ends."""
+    """Give the bodies the impulses of the window, and store the state in which it ends, for the next window.
+
+    Impulses and energies are summed over the windows.
+    """
     for active in ws.actives:
         state, contact = state_of(ws, active), ws.contacts[active.contact]
         account(ws, active)

@@ -35,7 +35,7 @@ ENTRY_POINTS = (
     "update_at_event",
     "advance",
     "try_step",
-    "touch",
+    "find_touching",
     "project_rates",
     "project_joints",
     "project_closed",

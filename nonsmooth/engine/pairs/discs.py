@@ -19,7 +19,10 @@ from nonsmooth.engine.pairs.support import middle_of, to_part, to_world
 
 @kernel("v3(F, i8, i8)")
 def _centre(floats: Floats, frame_place: int, place: int) -> Vector:
-    """Centre of the circle of the disc at ``place`` in the world [m]. Its frame is at ``frame_place``."""
+    """Centre of the circle of the disc at ``place`` in the world [m]. Its frame is at ``frame_place``.
+
+    Both are offsets among the floats. The centre need not be the origin of the axes of the disc.
+    """
     rings, middle = at(floats, place + PART_RINGS), middle_of(floats, frame_place, place)
     x, y, z = to_world(floats, frame_place, place, (rings[0], rings[1], rings[2]))
     return middle[0] + x, middle[1] + y, middle[2] + z
@@ -31,6 +34,7 @@ def _offset_in_plane(previous: Vector, current: Vector, tolerance: float) -> flo
 
     Heights up to ``tolerance`` [m] count as in the plane. For a segment within the plane it is the least distance.
     """
+    # part: fraction of the way from the current to the previous point
     dx, dy = previous[0] - current[0], previous[1] - current[1]
     if max(abs(current[2]), abs(previous[2])) <= tolerance:
         square = dx * dx + dy * dy
@@ -40,6 +44,7 @@ def _offset_in_plane(previous: Vector, current: Vector, tolerance: float) -> flo
     elif current[2] * previous[2] < 0.0:
         part = current[2] / (current[2] - previous[2])
     else:
+        # on one side, or only the previous point is in the plane: then it was found when it was the current one
         return -1.0
     return math.hypot(current[0] + part * dx, current[1] + part * dy)
 
@@ -49,7 +54,7 @@ def crossing_overlap(ws: Workspace, number: int) -> float:
     """Overlap of the discs of pair ``number`` in the plane of the first, where the second passed through [m], else 0.
 
     The position of the second centre is stored in the pair for the next evaluation. A pair without a margin has no
-    position yet.
+    position yet. Discs that are not parallel count by the centre of the second one only: their rims meet first.
     """
     pair = ws.pairs[number]
     between = minus(_centre(ws.floats, pair.frame_b, pair.part_b), _centre(ws.floats, pair.frame_a, pair.part_a))
@@ -62,5 +67,6 @@ def crossing_overlap(ws: Workspace, number: int) -> float:
     normal = to_world(ws.floats, pair.frame_b, pair.part_b, (0.0, 0.0, 1.0))
     tilt = to_part(ws.floats, pair.frame_a, pair.part_a, normal)
     radius_a, radius_b = at(ws.floats, pair.part_a + PART_RINGS)[3], at(ws.floats, pair.part_b + PART_RINGS)[3]
+    # the rim of the second disc rises over the plane by no more than the allowed overlap
     parallel = math.hypot(tilt[0], tilt[1]) * radius_b <= pair.allowed
     return float(max(0.0, radius_a + (radius_b if parallel else 0.0) - offset))

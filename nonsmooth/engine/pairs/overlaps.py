@@ -32,7 +32,10 @@ _LARGEST_DISPLACEMENT = 1e3
 
 @kernel()
 def _write_depths_of_contacts(ws: Workspace) -> None:
-    """Write the normal of the deepest closed contact of every pair, and its gap or 0 if that is less deep [m]."""
+    """Write the normal of the deepest closed contact of every pair, and its gap, at most 0 [m].
+
+    By that depth the pair may overlap. Pairs of the same two shapes have one entry, that of their first pair.
+    """
     for pair in ws.pairs:
         pair.is_closed, pair.deepest = False, 0.0
     for contact in ws.contacts:
@@ -56,9 +59,11 @@ def _add_displacements(ws: Workspace) -> None:
         for i in range(9):
             square += (frame.rotation[i] - carrier.axes[i]) ** 2
             carrier.axes[i] = frame.rotation[i]
+        # a carrier is a body frame that holds parts, all within the radius
         carrier.distance += distance(frame.origin, carrier.place) + carrier.radius * math.sqrt(0.5 * square)
         carrier.place = frame.origin
         farthest = max(farthest, carrier.distance)
+    # with a margin of 0 every pair is evaluated anew
     if farthest > _LARGEST_DISPLACEMENT:
         for carrier in ws.carriers:
             carrier.distance = 0.0
@@ -68,7 +73,7 @@ def _add_displacements(ws: Workspace) -> None:
 
 @kernel("f8(ws, Pair)")
 def _displacement_bound(ws: Workspace, pair: Pair) -> float:
-    """Bound of the displacement of both parts of a pair [m]. Its separation changes by no more."""
+    """Sum of the bounds of the displacements of both parts of a pair [m]. Its separation changes by no more."""
     return float(ws.carriers[pair.carrier_a].distance + ws.carriers[pair.carrier_b].distance)
 
 
@@ -84,6 +89,7 @@ def _known_separation(ws: Workspace, number: int) -> float:
     between = distance(middle_of(ws.floats, pair.frame_b, pair.part_b), middle_of(ws.floats, pair.frame_a, pair.part_a))
     apart = between - part_at(ws.floats, pair.part_a).radius - part_at(ws.floats, pair.part_b).radius
     n = pair.direction
+    # a direction of length 0: no search has been made yet
     if apart >= 0.0 or dot(n, n) == 0.0:
         return float(apart)
     return float(separation_along(ws, number, n))
@@ -97,13 +103,14 @@ def _has_half_space(ws: Workspace, pair: Pair) -> bool:
 
 @kernel("f8(ws, i8, f8)")
 def _separation(ws: Workspace, number: int, enough: float) -> float:
-    """Largest separation that is found of pair ``number`` [m]. The search stops at a value of ``enough`` [m] or more.
+    """Largest separation that is found of pair ``number`` [m], negative in an overlap. Writes its direction.
 
-    The normal of its deepest closed contact is tried first. Writes the direction of the pair.
+    The search stops at a value of ``enough`` [m] or more. The normal of its deepest closed contact is tried first.
     """
     pair = ws.pairs[number]
     if _has_half_space(ws, pair):
         return height_above_plane(ws, number)
+    # the first pair of the same two shapes has their contact
     group = ws.pairs[pair.group]
     if group.is_closed:
         found = separation_along(ws, number, group.normal)
@@ -124,9 +131,11 @@ def check_pairs(ws: Workspace) -> None:
     ws.run.passed_pair, are_depths_known, most = NO_PAIR, False, 0.0
     _add_displacements(ws)
     for pair in ws.pairs:
+        # the parts have not moved so far that they may meet
         if _displacement_bound(ws, pair) < pair.margin:
             continue
         depth = _depth(ws, pair)
+        # an overlap that the laws of the pair allow
         if depth <= pair.allowed:
             continue
         if not are_depths_known:
@@ -134,6 +143,7 @@ def check_pairs(ws: Workspace) -> None:
             are_depths_known = True
         # pairs of the same two shapes share the depth of their contacts
         group, are_discs = ws.pairs[pair.group], pair.are_both_flat
+        # the overlap of discs without thickness is no depth that could be compared with that of a closed contact
         if are_discs and group.is_closed:
             continue
         allowed = group.deepest - pair.allowed
@@ -151,10 +161,12 @@ def _depth(ws: Workspace, pair: Pair) -> float:
     """
     number = pair.index
     apart = _known_separation(ws, number)
+    # the separation from a half-space is exact
     if apart < -pair.allowed and not _has_half_space(ws, pair):
         pair.direction = separating_direction(ws, number, pair.direction)
         apart = separation_along(ws, number, pair.direction)
     are_discs = pair.are_both_flat
     depth = crossing_overlap(ws, number) if are_discs else -apart
+    # an overlap up to the allowed one needs no evaluation, but discs without thickness have no such depth
     pair.margin = _displacement_bound(ws, pair) + apart + (0.0 if are_discs else pair.allowed)
     return float(depth)

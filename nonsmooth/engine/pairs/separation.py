@@ -40,10 +40,11 @@ def _unit(v: Vector, other: Vector) -> Vector:
 
 @kernel("v3(ws, i8, v3, v3, f8)")
 def _search(ws: Workspace, number: int, start: Vector, shift: Vector, size: float) -> Vector:
-    """Unit vector along which the parts are farthest apart if the second one is moved by ``shift`` [m].
+    """Unit vector along which the parts of pair ``number`` are farthest apart if the second is moved by ``shift`` [m].
 
-    The search begins with the unit vector ``start``. The simplex holds points of the difference of the parts. Its point
-    nearest to the origin is an upper bound of the distance, and s(n) a lower one. ``size`` [m] is that of the pair.
+    It is the algorithm of Gilbert, Johnson and Keerthi, from the unit vector ``start``. The simplex holds points of the
+    difference of the parts. Its point nearest to the origin is an upper bound of the distance, and the separation s(n)
+    a lower one. ``size`` [m] is that of the pair.
     """
     n = best = start
     lower, upper, n_corners, far = -math.inf, math.inf, 0, 0.0
@@ -54,11 +55,14 @@ def _search(ws: Workspace, number: int, start: Vector, shift: Vector, size: floa
         height = dot(n, found)
         if height > lower:
             lower, best = height, n
+        # size of the simplex, to which round-off is relative
         far = max(far, abs(found[0]) + abs(found[1]) + abs(found[2]))
+        # no new point, or both bounds agree
         if _is_corner(ws, n_corners, found) or upper - lower <= _ROUND_OFF * size:
             break
         put_corner(ws, n_corners, found)
         n_corners = reduce_to_nearest(ws, n_corners + 1, far)
+        # the origin is inside: the parts overlap
         if n_corners == 0:
             break
         point = nearest_point(ws, n_corners)
@@ -72,7 +76,7 @@ def _search(ws: Workspace, number: int, start: Vector, shift: Vector, size: floa
 
 @kernel("b1(ws, i8, v3)")
 def _is_corner(ws: Workspace, n_corners: int, point: Vector) -> bool:
-    """True if a point is one of the corners of the simplex."""
+    """True if a point is one of the ``n_corners`` corners of the simplex: the search has found nothing new."""
     for i in range(n_corners):
         off = minus(corner(ws, i), point)
         if dot(off, off) == 0.0:
@@ -82,9 +86,14 @@ def _is_corner(ws: Workspace, n_corners: int, point: Vector) -> bool:
 
 @kernel("v3(ws, i8, v3, f8)")
 def _climb(ws: Workspace, number: int, start: Vector, size: float) -> Vector:
-    """Unit vector of a local maximum of s(n), from the unit vector ``start`` on. ``size`` [m] is that of the pair."""
+    """Unit vector of a local maximum of the separation s(n), from ``start`` on. ``size`` [m] is that of the pair.
+
+    The second part is shifted away along n, so that the parts are apart and a search is accurate. The direction that it
+    finds is then judged at the true position.
+    """
     n, best = start, separation_along(ws, number, start)
     for _ in range(_MOST_SHIFTS):
+        # twice the overlap, or a small part of the size if the parts are close
         shift = scaled(max(-2.0 * best, _SHIFT * size), n)
         other = _search(ws, number, n, shift, size)
         found = separation_along(ws, number, other)
@@ -112,10 +121,8 @@ def _between_middles(ws: Workspace, number: int) -> Vector:
 
 @kernel("v3(ws, i8, v3)")
 def separating_direction(ws: Workspace, number: int, known: Vector) -> Vector:
-    """Unit vector along which a pair is farthest apart, by one search. Reliable only if the parts are apart.
-
-    The search starts from ``known``, or from the direction between the middles if that has length 0.
-    """
+    """Unit vector along which a pair is farthest apart, by one search from ``known``. Parts that overlap need more."""
+    # a known direction of length 0 is none: the search then starts from the direction between the middles
     pair = ws.pairs[number]
     return _search(ws, number, _unit(known, _between_middles(ws, number)), (0.0, 0.0, 0.0), pair.size)
 

@@ -47,11 +47,12 @@ def _clear_weights(ws: Workspace) -> None:
 def _try_edge(ws: Workspace, i: int, j: int, best: float) -> float:
     """Squared distance of the edge from corner ``i`` to ``j`` to the origin [m^2], or ``best`` if that is less.
 
-    If the edge is nearer, its weights are written.
+    If the edge is nearer, the weights of its corners in its nearest point are written.
     """
     a, b = corner(ws, i), corner(ws, j)
     edge = minus(b, a)
     square = dot(edge, edge)
+    # fraction of the edge at its nearest point; two equal corners are a point
     part = min(1.0, max(0.0, -dot(a, edge) / square)) if square > 0.0 else 0.0
     x, y, z = scaled(part, edge)
     point = a[0] + x, a[1] + y, a[2] + z
@@ -67,7 +68,7 @@ def _try_edge(ws: Workspace, i: int, j: int, best: float) -> float:
 def _try_face(ws: Workspace, i: int, j: int, m: int, best: float) -> float:
     """Squared distance of the triangle of corners ``i``, ``j``, ``m`` to the origin [m^2], or ``best`` if that is less.
 
-    If the triangle is nearer, its weights are written.
+    If the triangle is nearer, the weights of its corners in its nearest point are written.
     """
     a, b, c = corner(ws, i), corner(ws, j), corner(ws, m)
     u, v = minus(b, a), minus(c, a)
@@ -80,6 +81,7 @@ def _try_face(ws: Workspace, i: int, j: int, m: int, best: float) -> float:
         a, b, c = minus(a, foot), minus(b, foot), minus(c, foot)
         of_a, of_b, of_c = dot(normal, cross(b, c)), dot(normal, cross(c, a)), dot(normal, cross(a, b))
         if of_a >= 0.0 and of_b >= 0.0 and of_c >= 0.0:
+            # the normal is not of unit length
             if height * height * square >= best:
                 return best
             _clear_weights(ws)
@@ -87,6 +89,7 @@ def _try_face(ws: Workspace, i: int, j: int, m: int, best: float) -> float:
             parts = ws.problem.simplex.start + WEIGHTS
             ws.floats[parts + i], ws.floats[parts + j], ws.floats[parts + m] = of_a / whole, of_b / whole, of_c / whole
             return float(height * height * square)
+    # outside, or without area: the nearest point is on an edge
     best = _try_edge(ws, i, j, best)
     best = _try_edge(ws, j, m, best)
     return float(_try_edge(ws, m, i, best))
@@ -103,7 +106,8 @@ def _volume(ws: Workspace, i: int, j: int, m: int, top: Vector) -> float:
 def _try_tetrahedron(ws: Workspace, size: float) -> float:
     """Squared distance of the tetrahedron to the origin [m^2], 0 if the origin is inside. Writes the weights.
 
-    ``size`` [m] is its largest extent. Only the faces whose outside holds the origin are tested.
+    ``size`` [m] is its largest extent. Only the faces whose outside holds the origin are tested, but all faces of a
+    flat one, which has no inside.
     """
     is_flat = abs(_volume(ws, 0, 1, 2, corner(ws, 3))) <= _FLAT_TETRAHEDRON * size * size * size
     best = math.inf
@@ -113,14 +117,15 @@ def _try_tetrahedron(ws: Workspace, size: float) -> float:
         is_outside = _volume(ws, i, j, m, (0.0, 0.0, 0.0)) * _volume(ws, i, j, m, corner(ws, top)) <= 0.0
         if is_flat or is_outside:
             best = _try_face(ws, i, j, m, best)
+    # no face has the origin on its outside: it is inside
     return 0.0 if best == math.inf else best
 
 
 @kernel("i8(ws, i8, f8)")
 def reduce_to_nearest(ws: Workspace, n: int, size: float) -> int:
-    """Reduce the ``n`` corners to those of the face nearest to the origin. Their number, or 0 if the origin is inside.
+    """Reduce the ``n`` corners to those of the face, edge or corner nearest to the origin, and write their weights.
 
-    ``size`` [m] is the largest extent of the simplex.
+    Returns their number, or 0 if the origin is inside. ``size`` [m] is the largest extent of the simplex.
     """
     _clear_weights(ws)
     parts = ws.problem.simplex.start + WEIGHTS
@@ -132,6 +137,7 @@ def reduce_to_nearest(ws: Workspace, n: int, size: float) -> int:
         _try_face(ws, 0, 1, 2, math.inf)
     elif _try_tetrahedron(ws, size) == 0.0:
         return 0
+    # corners without weight are dropped, and the others move up
     n_kept = 0
     for i in range(n):
         if ws.floats[parts + i] > 0.0:
@@ -143,7 +149,7 @@ def reduce_to_nearest(ws: Workspace, n: int, size: float) -> int:
 
 @kernel("v3(ws, i8)")
 def nearest_point(ws: Workspace, n: int) -> Vector:
-    """Weighted sum of the ``n`` corners of the simplex [m]."""
+    """Point of the simplex of ``n`` corners that is nearest to the origin [m]: the weighted sum of its corners."""
     x, y, z = 0.0, 0.0, 0.0
     for i in range(n):
         a = corner(ws, i)

@@ -19,7 +19,7 @@ from nonsmooth.engine.numerics.vectors import Vector, dot, minus, opposite
 
 @kernel("v3(F, v3)")
 def turned(axes: Floats, v: Vector) -> Vector:
-    """R v for a rotation matrix R, row by row: from the axes of a body or part to those around it."""
+    """R v for a rotation matrix R, row by row: components along the outer axes from those along a body's or part's."""
     x, y, z = v
     return (
         axes[0] * x + axes[1] * y + axes[2] * z,
@@ -30,7 +30,7 @@ def turned(axes: Floats, v: Vector) -> Vector:
 
 @kernel("v3(F, v3)")
 def _turned_back(axes: Floats, v: Vector) -> Vector:
-    """R^T v: from the surrounding axes to those of a body or part."""
+    """R^T v for a rotation matrix R: components along the axes of a body or part from those along the outer axes."""
     x, y, z = v
     return (
         axes[0] * x + axes[3] * y + axes[6] * z,
@@ -43,7 +43,7 @@ def _turned_back(axes: Floats, v: Vector) -> Vector:
 def _farthest_on_circles(floats: Floats, place: int, n: Vector) -> Vector:
     """Point of the hull of a part's circles that is farthest along ``n`` [m], in the axes of the part.
 
-    It is the origin if there are no circles.
+    The circles are about its third axis. The point is the origin if there are no circles.
     """
     rings = at(floats, place + PART_RINGS)
     x, y, z = n
@@ -56,6 +56,7 @@ def _farthest_on_circles(floats: Floats, place: int, n: Vector) -> Vector:
             best, found = height, i
     if best == -math.inf:
         return 0.0, 0.0, 0.0
+    # along the axis all points of the circle are as far: take its centre
     part = rings[found + 3] / across if across > 0.0 else 0.0
     return rings[found] + part * x, rings[found + 1] + part * y, rings[found + 2]
 
@@ -64,12 +65,13 @@ def _farthest_on_circles(floats: Floats, place: int, n: Vector) -> Vector:
 def _gradient_of_norm(floats: Floats, place: int, n: Vector) -> Vector:
     """Gradient of ((|a n_x|^q + |b n_y|^q)^(p/q) + |c n_z|^p)^(1/p) at ``n``: support of a superellipsoid [m].
 
-    Sums of powers are scaled by their largest term, so that large powers do not overflow.
+    Sums of powers are scaled by their largest term, so that large powers do not overflow. a, b, c are the semi-axes.
     """
     part = part_at(floats, place)
     a, b, c = part.semi
     p, q = part.powers[0], part.powers[1]
     ax, by, cz = abs(a * n[0]), abs(b * n[1]), abs(c * n[2])
+    # wide becomes the norm of the first two components, high that of all three
     wide = max(ax, by)
     if wide > 0.0:
         wide *= ((ax / wide) ** q + (by / wide) ** q) ** (1.0 / q)
@@ -94,6 +96,7 @@ def _farthest_of_summands(floats: Floats, place: int, n: Vector) -> Vector:
     if part.function > 0.0:
         x, y, z = call_support(at(floats, place), int(part.function), n[0], n[1], n[2])
     elif part.semi[0] > 0.0:
+        # an ellipsoid needs no powers
         if part.powers[0] == 2.0 and part.powers[1] == 2.0:
             ax, by, cz = part.semi[0] * n[0], part.semi[1] * n[1], part.semi[2] * n[2]
             size = math.sqrt(ax * ax + by * by + cz * cz)
@@ -105,19 +108,19 @@ def _farthest_of_summands(floats: Floats, place: int, n: Vector) -> Vector:
 
 @kernel("v3(F, i8, i8, v3)")
 def to_world(floats: Floats, frame_place: int, place: int, v: Vector) -> Vector:
-    """World components of a vector along the axes of a part."""
+    """World components of a vector ``v`` that is given along the axes of the part at offset ``place``."""
     return turned(frame_at(floats, frame_place).rotation, turned(part_at(floats, place).axes, v))
 
 
 @kernel("v3(F, i8, i8, v3)")
 def to_part(floats: Floats, frame_place: int, place: int, v: Vector) -> Vector:
-    """Components of a world vector along the axes of a part."""
+    """Components of a world vector ``v`` along the axes of the part at offset ``place``."""
     return _turned_back(part_at(floats, place).axes, _turned_back(frame_at(floats, frame_place).rotation, v))
 
 
 @kernel("v3(F, i8, i8)")
 def middle_of(floats: Floats, frame_place: int, place: int) -> Vector:
-    """Origin of the axes of the part at ``place`` in the world [m]. Its frame is at ``frame_place``."""
+    """Origin of the axes of the part at offset ``place``, in the world [m]. Its frame is at ``frame_place``."""
     frame = frame_at(floats, frame_place)
     x, y, z = turned(frame.rotation, part_at(floats, place).place)
     return frame.origin[0] + x, frame.origin[1] + y, frame.origin[2] + z
@@ -126,6 +129,7 @@ def middle_of(floats: Floats, frame_place: int, place: int) -> Vector:
 @kernel("v3(F, i8, i8, v3)")
 def _farthest(floats: Floats, frame_place: int, place: int, n: Vector) -> Vector:
     """Support point of a part along the unit vector ``n`` [m], both in the world."""
+    # a part is the sum of a hull of circles and of other convex sets, and so are their support points
     along = to_part(floats, frame_place, place, n)
     rx, ry, rz = _farthest_on_circles(floats, place, along)
     ax, ay, az = _farthest_of_summands(floats, place, along)
@@ -153,9 +157,9 @@ def separation_along(ws: Workspace, number: int, n: Vector) -> float:
 
 @kernel("f8(ws, i8)")
 def height_above_plane(ws: Workspace, number: int) -> float:
-    """Separation of pair ``number``, whose first part is the half-space below the plane z = 0 of its frame [m].
+    """Separation of pair ``number``, whose first part is a half-space [m], by the lowest point of the second part.
 
-    The lowest point of the second part gives it exactly.
+    The half-space is below the plane through the origin of that part, normal to the third axis of its frame.
     """
     pair = ws.pairs[number]
     frame = frame_at(ws.floats, pair.frame_a)
