@@ -25,6 +25,7 @@ from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.native.address_calls import by_address
 from nonsmooth.engine.native.callees import KERNELS, Kernel, callees_of
+from nonsmooth.engine.native.collector import uncollected
 from nonsmooth.engine.native.compiler import entry_address, is_stored, kernel_dispatcher
 from nonsmooth.engine.native.entries import Fingerprint, known, own_name
 from nonsmooth.engine.native.folders import folders
@@ -133,12 +134,13 @@ def _address(name: str) -> int:
 @functools.cache
 def entry_addresses() -> tuple[int, ...]:
     """Addresses of all entry points, in the order of ``ENTRY_POINTS``. The first call compiles those not on disk."""
-    # this module imports all those that define entry points
-    importlib.import_module("nonsmooth.engine.events.event_loop")
-    if missing := tuple(name for name in ENTRY_POINTS if not is_stored(name)):
-        say("compiling the engine once for this machine (some 20 s, longer where it is busy) ...")
-        _compile_apart(missing)
-    return tuple(_address(name) for name in ENTRY_POINTS)
+    with uncollected():
+        # this module imports all those that define entry points
+        importlib.import_module("nonsmooth.engine.events.event_loop")
+        if missing := tuple(name for name in ENTRY_POINTS if not is_stored(name)):
+            say("compiling the engine once for this machine (some 20 s, longer where it is busy) ...")
+            _compile_apart(missing)
+        return tuple(_address(name) for name in ENTRY_POINTS)
 
 
 def _compile_apart(names: tuple[str, ...]) -> None:
@@ -181,9 +183,10 @@ def compile_entries(names: tuple[str, ...]) -> None:
 
     Those on disk are left out: the other process, which takes them in the opposite order, may have compiled them.
     """
-    for name in names:
-        if not is_stored(name):
-            _address(name)
+    with uncollected():
+        for name in names:
+            if not is_stored(name):
+                _address(name)
 
 
 def call_entry(name: str, memory: Memory, *arguments: float) -> Any:

@@ -5,16 +5,15 @@ It is used if numba has all the names that it needs; see :mod:`nonsmooth.engine.
 
 from __future__ import annotations
 
-import contextlib
 import functools
-import gc
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 import numba
 
 from nonsmooth.engine.native.cache import Store
 from nonsmooth.engine.native.callees import callees_of
+from nonsmooth.engine.native.collector import uncollected
 from nonsmooth.engine.native.numba_names import NO_ALLOCATION, NO_WRAPPERS
 from nonsmooth.engine.native.passes import CFunction, EntryPasses, KernelPasses, LawPasses, ShimPasses
 
@@ -73,18 +72,3 @@ def _address(function: CFunction) -> int:
     function.compile()
     _alive.append(function)
     return int(function.address or 0)
-
-
-@contextlib.contextmanager
-def uncollected() -> Iterator[None]:
-    """Switch the garbage collector off within a ``with`` block, which saves a tenth of the time of compiling.
-
-    The compiler makes millions of small objects, all of which are needed. A collector that was off stays off.
-    """
-    is_enabled = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if is_enabled:
-            gc.enable()

@@ -52,9 +52,16 @@ class View(types.Type):
     ----------
     members : tuple
         Names and types of the values that it consists of.
+    arguments : tuple
+        Arguments of its class.
     """
 
     members: tuple[tuple[str, Any], ...] = _POINTERS
+    arguments: tuple[Any, ...]
+
+    def __reduce__(self) -> tuple[type[View], tuple[Any, ...]]:
+        """Pickle its class and arguments. Files of machine code name types, and would hold all declarations else."""
+        return type(self), self.arguments
 
 
 class Row(types.Type):
@@ -71,15 +78,16 @@ FLOAT_ROW, INTEGER_ROW = Row(FLOATS), Row(INTEGERS)
 
 
 class Part(View):
-    """The numbers of an owner that exists once. ``names`` are those of all scalars of the workspace."""
+    """The numbers of an owner that exists once, in the workspace of an engine that adds the owners ``own``."""
 
-    def __init__(self, name: str, owner: type[Owner], names: tuple[str, ...]) -> None:
+    def __init__(self, name: str, owner: type[Owner], own: tuple[type[Owner], ...]) -> None:
         """Take the declarations of the owner. Numba compares types by their names.
 
         So the name of the type has those of the scalars that an engine adds, which come after ``N_SCALARS`` others.
         """
-        self.fields, self.names = declarations(owner), names
-        super().__init__(name=f"Part({', '.join((name, *names[N_SCALARS:]))})")
+        self.arguments = name, owner, own
+        self.fields, self.names = declarations(owner), record_with(own).names or ()
+        super().__init__(name=f"Part({', '.join((name, *self.names[N_SCALARS:]))})")
 
     def type_of(self, name: str) -> Any:
         """Numba type of a scalar or an array by its name; None if there is none, which is an error where it is used."""
@@ -126,9 +134,9 @@ class Record(View):
 
     members = (*_POINTERS, ("index", types.int64))
 
-    def __init__(self, name: str, fields: Fields) -> None:
+    def __init__(self, name: str) -> None:
         """Take the fields, which say where each number is. Numba compares types by their names."""
-        self.fields = fields
+        self.arguments, self.fields = (name,), _FIELDS[name]
         super().__init__(name=f"Record({name})")
 
     def type_of(self, name: str) -> Any:
@@ -205,9 +213,10 @@ class Iterator(types.SimpleIteratorType):
         super().__init__(f"Iterator({sequence.name})", sequence.dtype)
 
 
-types_of = {owner.__name__: Record(owner.__name__, fields_of(owner)) for owner in RECORDS.values()}
-"""The numba types of records by the names of their owners, and of blocks by their kinds."""
-types_of |= {kind: Record(kind, fields) for kind, fields in PACKED.items()}
+_FIELDS: dict[str, Fields] = {owner.__name__: fields_of(owner) for owner in RECORDS.values()} | dict(PACKED)
+"""The fields of records by the names of their owners, and of blocks by their kinds."""
+types_of = {name: Record(name) for name in _FIELDS}
+"""The numba types of records and blocks by the same names."""
 _SEQUENCES = {name: Sequence(types_of[owner.__name__], owner.length) for name, owner in RECORDS.items()}
 
 
@@ -216,8 +225,9 @@ class Workspace(View):
 
     def __init__(self, own: Mapping[str, type[Owner]]) -> None:
         """Make the types of all parts. Numba compares types by name: it lists the scalars that ``own`` adds."""
-        names = record_with(own.values()).names or ()
-        self.parts = {name: Part(name, owner, names) for name, owner in {**PARTS, **own}.items()}
+        self.arguments, added = (own,), tuple(own.values())
+        names = record_with(added).names or ()
+        self.parts = {name: Part(name, owner, added) for name, owner in {**PARTS, **own}.items()}
         super().__init__(name=f"Workspace({', '.join(names[N_SCALARS:])})")
 
     def can_convert_to(self, context: Any, other: Any) -> Any:
