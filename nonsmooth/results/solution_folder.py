@@ -244,20 +244,26 @@ class SolutionFolder:
                 "To go on behind its end, run its model from the `state` of nonsmooth.open_solution.",
             )
 
-    def cut_to_checkpoint(self) -> State:
-        """Leave what the run had done when its last checkpoint was made, and return the state there.
+    def state_at_checkpoint(self) -> State:
+        """State of the run at its last checkpoint. The folder stays as it is.
 
         Raises
         ------
         InvalidInput
             If there is none.
         """
-        checkpoint = self.said("checkpoint")
-        name, own = str(checkpoint.get("state")), str(self.attributes.pop(_OWN, ""))
-        if name not in _STATES:
-            raise InvalidInput(f"{self._arrays.path}: checkpoint", "must name a state", name, "It is damaged.")
-        state = self._state(name)
-        for coordinate in own.split():
+        return self._state(self._checkpoint_state())
+
+    def cut_to_checkpoint(self) -> None:
+        """Remove what the run had done after its last checkpoint.
+
+        Raises
+        ------
+        InvalidInput
+            If there is none.
+        """
+        name, checkpoint = self._checkpoint_state(), self.said("checkpoint")
+        for coordinate in str(self.attributes.pop(_OWN, "")).split():
             self._arrays.remove(coordinate)
         with naming_damage(f"{self._arrays.path}: checkpoint"):
             lengths = {one: min(max(0, int(checkpoint[one])), self._lengths[one]) for one in GROWING}
@@ -265,7 +271,13 @@ class SolutionFolder:
             self._lengths[dimension] = length
             self._arrays.cut(dimension, length)
         self.attributes["state"], self._safe = name, True
-        return state
+
+    def _checkpoint_state(self) -> str:
+        """Name of the state of the last checkpoint."""
+        name = str(self.said("checkpoint").get("state"))
+        if name not in _STATES:
+            raise InvalidInput(f"{self._arrays.path}: checkpoint", "must name a state", name, "It is damaged.")
+        return name
 
     def append(self, events: Events, rows: Floats, state: State, wall: float) -> None:
         """Append what a run has done since, with the state from which it goes on.

@@ -296,8 +296,9 @@ class Model:
         check_calls("resume", until, progress)
         with contextlib.closing(SolutionFolder.held(Output.to(output))) as folder, self._reserved("resume"):
             request = checked_request(folder, until)
+            state = self._state_to_resume(folder)
             # this removes all that is newer than the checkpoint; what is left are the results before it
-            state = self._cut_to_checkpoint(folder)
+            folder.cut_to_checkpoint()
             laid = self._laid
             self._records = Records(laid, (folder.events(), folder.rows()))
             resume_run(laid, self._blank, state)
@@ -348,12 +349,9 @@ class Model:
         """True if a state was left by a run of this model or of an equal one, so that a run from there continues it."""
         return state.continuation is not None and state.continuation.model == self._key()
 
-    def _cut_to_checkpoint(self, folder: SolutionFolder) -> State:
-        """Remove the results after the last checkpoint from a folder. State there, from which the run is resumed.
-
-        Errors as :meth:`resume`.
-        """
-        state = folder.cut_to_checkpoint()
+    def _state_to_resume(self, folder: SolutionFolder) -> State:
+        """State of the run in a folder at its last checkpoint. The folder stays as it is. Errors as :meth:`resume`."""
+        state = folder.state_at_checkpoint()
         if not self._continues(state):
             raise InvalidInput(
                 str(folder.place),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import json
 import subprocess
@@ -80,6 +81,11 @@ def _cut_off(folder: Path, system: ns.System, at: float, sample_interval: float 
 
     with pytest.raises(Dies):
         ns.simulate(system, T_END, output=folder, progress=die, sample_interval=sample_interval)
+
+
+def _content(folder: Path) -> dict[Path, bytes]:
+    """Bytes of all files in a folder."""
+    return {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
 def _reached(folder: Path) -> float:
@@ -181,6 +187,21 @@ def test_what_cannot_go_on_is_refused(tmp_path: Path) -> None:
     assert differences(ns.simulate(balls(Own()), T_END), after) == []
     with pytest.raises(ns.InvalidInput, match=r"must hold a run that was cut off, but it is 'done'"):
         ns.resume(tmp_path, system=balls(Own()))
+
+
+def test_a_refused_resume_leaves_the_folder_as_it_is(tmp_path: Path) -> None:
+    def stop(t: float, t_end: float) -> None:
+        if t > 0.3:
+            raise KeyboardInterrupt
+
+    cut = ns.simulate(balls(), T_END, output=tmp_path, progress=stop)
+    assert cut.status == "interrupted"
+    with contextlib.closing(SolutionFolder.held(Output(tmp_path))) as folder:
+        folder.add_coordinates({"height": cut.t}, lambda name: "s")
+    before = _content(tmp_path)
+    with pytest.raises(ns.InvalidInput, match="must hold a run of this model"):
+        ns.resume(tmp_path, system=balls(Coulomb(0.3)))
+    assert _content(tmp_path) == before
 
 
 def test_a_foreign_folder_runs_no_file_and_no_pickle(tmp_path: Path) -> None:
