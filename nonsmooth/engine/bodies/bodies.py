@@ -94,6 +94,7 @@ def _are_all_evaluated_at(ws: Workspace, t: float, y: int) -> bool:
     """True if all bodies with coordinates were evaluated last at time ``t`` [s] and state ``y``.
 
     Then none needs to be evaluated. It is never true with loads or joints: they must be evaluated again in any case.
+    ``free_time`` is the time of the last evaluation of all, or NaN, which equals no time, if one was evaluated since.
     """
     if ws.island.free_time != t or ws.model.n_loads + ws.model.n_joints > 0:
         return False
@@ -122,7 +123,7 @@ def evaluate_driven_bodies(ws: Workspace, t: float, y: int) -> None:
 def evaluate_integrated_bodies(ws: Workspace, t: float, y: int) -> None:
     """Evaluate the bodies that the integrator steps at time ``t`` [s] and state ``y``, without loads and joints.
 
-    The other bodies are driven, or move in closed form.
+    The other bodies are driven, or move in closed form. The powers of driven bodies and loads begin at zero.
     """
     _start_evaluation(ws, y)
     for i in range(ws.island.n_integrated):
@@ -143,8 +144,8 @@ def _start_evaluation(ws: Workspace, y: int) -> None:
 def evaluate_free_bodies(ws: Workspace, t: float, y: int, of_all_bodies: bool) -> None:
     """Evaluate the bodies with coordinates at time ``t`` [s] and state ``y``, then the loads and joints on them.
 
-    These are all bodies with coordinates, or only those that the integrator steps. The powers of driven bodies and
-    loads begin at zero, and get the parts of loads and joints.
+    ``of_all_bodies``: all bodies with coordinates, else only those that the integrator steps. The powers of driven
+    bodies and loads begin at zero, and get the parts of loads and joints.
     """
     # the frequent case, without the tests of the loop below
     if not of_all_bodies and ws.model.n_loads + ws.model.n_joints == 0:
@@ -154,11 +155,12 @@ def evaluate_free_bodies(ws: Workspace, t: float, y: int, of_all_bodies: bool) -
     # loads and joints may act on driven bodies
     if ws.model.n_loads + ws.model.n_joints > 0:
         evaluate_driven_bodies(ws, t, y)
+    # then there are no loads and joints either
     if of_all_bodies and _are_all_evaluated_at(ws, t, y):
         return
     for i in range(ws.model.n_bodies if of_all_bodies else ws.island.n_integrated):
         number = i if of_all_bodies else ws.island.integrated[i]
-        # a driven body
+        # a driven body has no coordinates
         if ws.bodies[number].n_u == 0:
             continue
         _clear_forces(ws, ws.bodies[number])
@@ -167,6 +169,7 @@ def evaluate_free_bodies(ws: Workspace, t: float, y: int, of_all_bodies: bool) -
             evaluate_if_changed(ws, t, y, number)
         else:
             evaluate_body(ws, t, y, number)
+    # each evaluation above has set it to NaN
     if of_all_bodies:
         ws.island.free_time = t
     for load in range(ws.model.n_loads):
@@ -214,8 +217,8 @@ def evaluate_bodies(ws: Workspace, t: float, y: int) -> None:
 def _apply_load(ws: Workspace, number: int, t: float, y: int) -> None:
     """Add the generalised forces of a load at time ``t`` [s] to those of its bodies, and its power to ``load_power``.
 
-    The wrench acts on the second body, and the opposite wrench on the first one. A driven body gets no forces. The
-    velocities for the power are those of the state ``y``.
+    The wrench acts on the second body, and the opposite wrench on the first one. A driven body gets no forces, and its
+    power does not count, because it has no energy. The velocities for the power are those of the state ``y``.
     """
     load = ws.loads[number]
     frame_a, frame_b = at(ws.floats, load.frame_a), at(ws.floats, load.frame_b)
