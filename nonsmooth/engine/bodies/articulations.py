@@ -155,11 +155,11 @@ def evaluate_articulation(ws: Workspace, articulation: Articulation) -> None:
         for j in range(i + 1):
             ws.floats[factor + i * m + j] = product(ws.floats, 0.0, jacobian + i * n, r + j * n, n)
     _write_factor(ws.floats, factor, m)
-    # Y, solved column by column
+    # Y, solved column by column, whose entries are n apart
     for i in range(m * n):
         ws.floats[y + i] = ws.floats[r + i]
     for k in range(n):
-        solve_factorised(ws.floats, factor, m, y + k, stride=n)
+        solve_factorised(ws.floats, factor, m, y + k, n)
     # M^-1 becomes K in place; zero entries are skipped, as there are many
     for i in range(n):
         for line in range(m):
