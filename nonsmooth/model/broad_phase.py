@@ -150,16 +150,18 @@ def _half_space(
     """The unbounded shape of contact ``number``, and the bounding sphere of the other shape, if there is one.
 
     That sphere was made for other contacts of its frame. Its radius in ``radii`` grows in place to hold this shape,
-    too. If the half-space is steady, the contact is active only while the sphere is near its ceiling.
+    too. If the half-space is steady, the contact is active only while the sphere is near its ceiling, else always.
     """
     # a small system may have two bounded shapes here: then the second takes the place of the unbounded one
     unbounded, other = (0, 1) if not math.isfinite(contact.extents[0]) else (1, 0)
     sides = [(int(table.bodies[number, i]), int(table.frames[number, i])) for i in (unbounded, other)]
     sphere, ceiling = frames.get(sides[1]), contact.shapes[unbounded].ceiling
+    # steady: below a plane, on a driven body whose prescribed motion does not change
     body = bodies[sides[0][0]]
     is_steady = sphere is not None and math.isfinite(ceiling) and body.n_u == 0 and math.isinf(body.time_scale)
     if sphere is not None and math.isfinite(contact.extents[other]):
         radii[sphere] = max(radii[sphere], contact.extents[other])
+    # sphere and ceiling are read only if it is steady; else any valid numbers serve
     return HalfSpace(number, sides[0], sphere or 0, ceiling if is_steady else 0.0, is_steady)
 
 
