@@ -121,7 +121,7 @@ def _blocks_of_searches(model: LaidOut) -> Iterator[Block]:
 
 
 def _block(owner: Tie | Contact | str, function: Callable[..., None], start: int, size: int) -> Block:
-    """A block all of which a function of an owner writes. Its label is made only if a message needs it."""
+    """A block that a function must write wholly, with its owner. Its label is made only if a message needs it."""
     return Block(lambda: f"{owner}: {described(function)},", function, start, size, size)
 
 

@@ -170,12 +170,13 @@ def lay_law_floats(memory: Memory, contacts: Sequence[Contact], kinds: Kinds) ->
     """Write the times [s] and distances [m] of the laws, which are fields of a declared contact.
 
     These are the contact time of an impact, 0 without an impact law, and the reach: the gap up to which a compliant law
-    acts, 0 for a rigid contact.
+    acts, 0 for a rigid contact. The time of the last try to leave the time-stepping fallback begins as
+    minus infinity.
     """
     for numbers in kinds:
         normal, impact = contacts[numbers[0]].normal, contacts[numbers[0]].impact
         memory.declared(_CONTACT.contact_time)[numbers] = 0.0 if impact is None else impact.contact_time
-        # time of the last try for forces of an instant after the time-stepping fallback: never
+        # time of the last try to leave the time-stepping fallback, which averages forces: never
         memory.declared(_CONTACT.mean_forces_asked)[numbers] = -math.inf
         memory.declared(_CONTACT.reach)[numbers] = normal.reach if isinstance(normal, CompliantNormalLaw) else 0.0
 

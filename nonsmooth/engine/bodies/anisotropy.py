@@ -127,9 +127,9 @@ def release_sticking_anisotropic(ws: Workspace) -> None:
 def force_in_facing(ws: Workspace, c: int, f1: float) -> float:
     """First tangential force ``f1`` of contact ``c`` [N], scaled to the friction ratio of the slip that it opposes.
 
-    For the static bound. The row of ``f1`` is stretched by the ratio for slip in the sense of ``facing``, 1 or -1. A
-    force in that sense opposes slip in the other sense, which has the other ratio. The force itself, ratio times
-    ``f1``, is the same along both rows.
+    So scaled it can be compared with the static bound. The row of ``f1`` is stretched by the ratio for slip in the
+    sense of ``facing``, 1 or -1. A force in that sense opposes slip in the other sense, which has the other ratio. The
+    force itself, ratio times ``f1``, is the same along both rows. Isotropic friction leaves ``f1`` as it is.
     """
     contact = ws.contacts[c]
     # a force against the facing opposes slip in the sense of the facing, for which the row is stretched
@@ -145,7 +145,7 @@ def turn_facing(ws: Workspace, c: int, f1: float) -> bool:
     """Set the facing of contact ``c`` to the sense of slip that its first tangential force ``f1`` [N] opposes.
 
     1 is slip along the axis of the anisotropic law, -1 slip against it. True if this changes the friction ratio, so
-    that the force must be found again.
+    that the force must be found again. Isotropic contacts have no facing, and give False.
     """
     contact = ws.contacts[c]
     # a force against the facing opposes slip in the sense of the facing already

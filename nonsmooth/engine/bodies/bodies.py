@@ -40,7 +40,7 @@ def evaluate_body(ws: Workspace, t: float, y: int, number: int) -> None:
     """Evaluate body ``number`` at time ``t`` [s] and the state at offset ``y``.
 
     Its output block gets a new version, by which contacts see that they must be evaluated again. ``free_time``, the
-    time at which all bodies with coordinates were evaluated, becomes unknown.
+    time at which all bodies with coordinates were evaluated, becomes unknown (NaN).
     """
     body = ws.bodies[number]
     _call_body(ws, t, y, body)
@@ -132,8 +132,11 @@ def evaluate_integrated_bodies(ws: Workspace, t: float, y: int) -> None:
 
 @kernel("void(ws, i8)")
 def _start_evaluation(ws: Workspace, y: int) -> None:
-    """Set the powers of driven bodies and loads to zero, and let kinematics use the velocities of the state ``y``."""
-    # counts the work until the next interrupt check; the loop over steps handles the interruption
+    """Set the powers of driven bodies and loads to zero, and let kinematics use the velocities of the state ``y``.
+
+    Also counts the work, so that a long run can be interrupted.
+    """
+    # the loop over steps handles an interruption, so the result is not used
     interrupted(ws, ws.island.n_contacts + ws.model.n_bodies)
     ws.island.velocities = y + ws.model.n_q
     ws.step.driven_power = 0.0

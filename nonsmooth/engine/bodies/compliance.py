@@ -31,7 +31,7 @@ from nonsmooth.engine.numerics.vectors import Vector, dot, length, minus
 def evaluate_compliant_force(ws: Workspace, c: int) -> None:
     """Write the normal force of the compliant contact ``c`` [N], by its law. Geometry and rates must be evaluated."""
     contact = ws.contacts[c]
-    # laws take indentation and its rate: the gap and its rate with the opposite sign
+    # laws take indentation and its rate, gap and gap rate with the opposite sign, and the rate at which it closed
     depth, rate, parameters = -contact.gap, -contact.rate[0], at(ws.floats, contact.normal_parameters)
     contact.compliant_force = call_compliance(contact.normal_function, depth, rate, contact.closing_rate, parameters)
 
@@ -176,8 +176,8 @@ def apply_traction_law(ws: Workspace, c: int, f: Floats, y: int) -> None:
 def accelerate_by_compliance(ws: Workspace) -> None:
     """Add the accelerations by the known forces of touching compliant contacts to ``du``, before friction is found.
 
-    Known are all forces of contacts with a traction law, and else the normal forces: Coulomb friction is part of the
-    contact problem. The responses of the contacts must be evaluated.
+    Known are all forces of contacts with a traction law, which are written to ``force``, and else the normal forces:
+    Coulomb friction is part of the contact problem. The responses of the contacts must be evaluated.
     """
     for contact in ws.contacts:
         if not contact.is_compliant or not contact.is_touching:
