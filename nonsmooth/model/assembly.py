@@ -79,7 +79,7 @@ def assemble(system: System, engine: Engine) -> LaidOut:
 def lay_out(system: System, engine: Engine) -> LaidOut:
     """Layout of a system at its start, with the neighbour list there, but no check of the start.
 
-    For queries that place bodies, as those may overlap before.
+    For queries that place bodies, which may overlap before that.
 
     Raises
     ------
@@ -87,6 +87,7 @@ def lay_out(system: System, engine: Engine) -> LaidOut:
         If too many contacts are near each other.
     """
     model = lay(system, engine)
+    # coordinates, then velocities; energy accounts and inner states follow, and begin at zero
     model.memory[owners.Island.y][: model.n_q + model.n_u] = np.concatenate(system.starts())
     model.list_contacts()
     return model
@@ -112,7 +113,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
     settings = settings_of(engine, system.time_scale)
     memory = allocate(counts, laid_own(engine, counts))
     blocks = Heap(memory)
-    # by these addresses parts of the engine that are compiled apart call each other
+    # by these addresses functions of the engine call each other if they are compiled separately
     memory[owners.Model.entry_points][: len(entry_addresses())] = entry_addresses()
     bodies = lay_bodies(system, memory, blocks, parts.articulations)
     lay_joints(memory, blocks, parts.articulations, bodies)
@@ -129,6 +130,7 @@ def lay(system: System, engine: Engine) -> LaidOut:
     model = LaidOut(system, memory, counts["n_q"], counts["n_u"], counts["n_states"], marks_behind_blocks(memory))
     for scalar, value in settings.items():
         memory[scalar] = value
+    # the engine evaluates numbers of its own that no run changes
     engine.prepare(model)
     return model
 
@@ -136,12 +138,13 @@ def lay(system: System, engine: Engine) -> LaidOut:
 def _counts(system: System, engine: Engine, parts: _Parts) -> dict[str, int]:
     """All counts that the memory is allocated for, by name: those of the system, then those that the engine decides.
 
-    An event in the buffers has a head with the velocities before, the state after and the accounted energies, and a
-    few floats and two integers (number and code) for each active contact.
+    An event in the buffers has a head with the velocities before, the state after and the accounted energies, and
+    ``LISTED`` floats and two integers (number and code) for each active contact.
     """
     contacts, n_slots = system.contacts, parts.broad_phase.n_slots
     n_q = sum(body.n_q for body in system.bodies)
     n_u = sum(body.n_u for body in system.bodies)
+    # the contacts of a kind have the same laws, so that the first one stands for all
     n_states = sum(len(numbers) * len(initial_state(contacts[numbers[0]])) for numbers in parts.kinds)
     n_y = n_q + n_u + N_ACCOUNTS + n_states
     counts = {

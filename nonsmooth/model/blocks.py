@@ -67,9 +67,10 @@ def _blocks_of_bodies(model: LaidOut) -> Iterator[Block]:
         yield _block(tie, tie.component.evaluator, out, LOAD)
     named = list(zip(system.names.bodies, system.bodies, strict=True))
     for number, ((name, body), start) in enumerate(zip(named, memory[owners.Body.out].tolist(), strict=True)):
-        # a driven body must write the motion of a frame only, another one all up to the force; energies come last
+        # a driven body must write the motion of a frame only, another one all up to the end of the force
         force_end = place_of_inverse_mass(memory, number) - start
         n_written = FRAME if body.n_u == 0 else force_end
+        # behind the force are the inverse mass and two energies
         label = functools.partial("body {!r}, {!r}:".format, name, body)
         yield Block(label, body.evaluator, start, force_end + body.n_u**2 + 2, n_written)
     functions, outs = memory[owners.Body.ballistic_function].tolist(), memory[owners.Body.ballistic_out].tolist()
@@ -92,13 +93,16 @@ def _block_of_contact(model: LaidOut, index: int) -> Block:
 
 
 def _blocks_of_joints_and_laws(model: LaidOut) -> Iterator[Block]:
-    """The blocks of joints, then of traction laws and of the rates of inner states."""
+    """The blocks of joints, then those of friction laws: of traction laws, and of the rates of inner states.
+
+    A contact has one of the two if its law has such a block, else none.
+    """
     memory, contacts = model.memory, model.system.contacts
     for tie, out in zip(joints_in_order(model.system), memory[owners.Joint.out].tolist(), strict=True):
         assert isinstance(tie.component, Joint)
         yield _block(tie, tie.component.evaluator, out, JOINT_ROW * tie.component.n_rows)
     traction, rates = (memory.declared(out) for out in (owners.Contact.traction_out, owners.Contact.rates_out))
-    # 0: the contact has neither inner states nor a traction law
+    # an offset of 0: the contact has neither inner states nor a traction law
     for i in np.flatnonzero(traction).tolist():
         law = contacts[i].friction
         if isinstance(law, TractionLaw):
@@ -117,14 +121,15 @@ def _blocks_of_searches(model: LaidOut) -> Iterator[Block]:
 
 
 def _block(owner: Tie | Contact | str, function: Callable[..., None], start: int, size: int) -> Block:
-    """A block all of which a function of an owner writes. Its label is made only if a message needs it."""
+    """A block that a function must write wholly, with its owner. Its label is made only if a message needs it."""
     return Block(lambda: f"{owner}: {described(function)},", function, start, size, size)
 
 
 def marks_behind_blocks(memory: Memory) -> NDArray[np.int64]:
     """Places of the marks behind blocks among the floats of a memory on which no plug-in was called yet.
 
-    All marks still have the value ``UNTOUCHED``, which no other number has.
+    All marks still have the value ``UNTOUCHED``, which no other number has. A mark that changes later shows that a
+    plug-in wrote past its block.
     """
     # geometry blocks are among the arrays, the others behind them
     arrays, _, blocks = memory.early
@@ -134,7 +139,8 @@ def marks_behind_blocks(memory: Memory) -> NDArray[np.int64]:
 def block_overrun(model: LaidOut) -> str:
     """Sentences that name a function that wrote past its block, or "" if no mark behind a block has changed."""
     memory = model.memory
-    # an impact map has marks of its own, which the engine checks at each impact
+    # an impact map has marks of its own, which the engine checks at each impact. This is the number of contacts of the
+    # impact in which one had changed, or 0
     n_past_map = int(memory[owners.Run.n_past_map])
     if np.all(memory.floats[model.marks] == UNTOUCHED) and n_past_map <= 0:
         return ""
@@ -151,7 +157,7 @@ def block_overrun(model: LaidOut) -> str:
         if np.any(is_changed):
             return _sentences(block.label(), block.size, block.size + int(np.argmax(is_changed)))
     if n_past_map > 0:
-        # all contacts have the same map, which writes three impulses for each
+        # all contacts have the same map. It writes three impulses for each, so the next number is the first past them
         law = model.system.contacts[0].impact
         assert isinstance(law, ImpactMap)
         return _sentences(f"{type(law).__name__}: {described(law.impulses)},", 3 * n_past_map, 3 * n_past_map)

@@ -111,15 +111,16 @@ class BroadPhase:
 def find_broad_phase(contacts: Sequence[Contact], table: ContactTable, bodies: Sequence[Body]) -> BroadPhase:
     """Bounding spheres, pairs of spheres with their contacts, and half-spaces of a system with these bodies.
 
-    A frame with bounded shapes gets a sphere about its origin that holds them all. A contact of two bounded shapes
-    belongs to the pair of their spheres, any other contact to a half-space. Up to :data:`SMALL` contacts need no broad
-    phase: they all go to the half-spaces and are always active. Searches for candidate features need spheres anyway.
+    A frame with contacts of two bounded shapes gets a sphere about its origin that holds its bounded shapes. Such a
+    contact belongs to the pair of their spheres, any other contact to a half-space. Up to :data:`SMALL` contacts need
+    no broad phase: they all go to the half-spaces and are always active. Searches for candidate features need spheres
+    in any case.
     """
     searches = find_searches(contacts)
     is_bounded = np.all(np.isfinite(table.extents), axis=1)
     if len(contacts) <= SMALL and not searches:
         is_bounded[:] = False
-    # the contacts of two bounded shapes
+    # the contacts of two bounded shapes; none in a small system
     numbers = np.flatnonzero(is_bounded)
     # the numbers of body and frame make one integer, the key of a sphere; sides has the sphere of each contact's side
     n_frames = int(table.frames.max(initial=0)) + 1
@@ -128,10 +129,11 @@ def find_broad_phase(contacts: Sequence[Contact], table: ContactTable, bodies: S
     # the largest extent of the shapes at each frame
     radii = np.zeros(len(frames))
     np.maximum.at(radii, sides.ravel(), table.extents[numbers].ravel())
-    # contacts of the same two spheres are listed together
+    # contacts of the same two spheres, of which the lower number comes first, are listed together
     one, two = np.sort(sides.reshape(-1, 2), axis=1).T
     keys = one * len(frames) + two
     order = np.argsort(keys, kind="stable")
+    # of each pair its first contact, and the number of its contacts
     _, first, counts = np.unique(keys[order], return_index=True, return_counts=True)
     pairs = np.column_stack([one, two])[order[first]]
     unbounded = np.flatnonzero(~is_bounded).tolist()
@@ -150,16 +152,18 @@ def _half_space(
     """The unbounded shape of contact ``number``, and the bounding sphere of the other shape, if there is one.
 
     That sphere was made for other contacts of its frame. Its radius in ``radii`` grows in place to hold this shape,
-    too. If the half-space is steady, the contact is active only while the sphere is near its ceiling.
+    too. If the half-space is steady, the contact is active only while the sphere is near its ceiling, else always.
     """
     # a small system may have two bounded shapes here: then the second takes the place of the unbounded one
     unbounded, other = (0, 1) if not math.isfinite(contact.extents[0]) else (1, 0)
     sides = [(int(table.bodies[number, i]), int(table.frames[number, i])) for i in (unbounded, other)]
     sphere, ceiling = frames.get(sides[1]), contact.shapes[unbounded].ceiling
+    # steady: below a plane, on a driven body whose prescribed motion does not change
     body = bodies[sides[0][0]]
     is_steady = sphere is not None and math.isfinite(ceiling) and body.n_u == 0 and math.isinf(body.time_scale)
     if sphere is not None and math.isfinite(contact.extents[other]):
         radii[sphere] = max(radii[sphere], contact.extents[other])
+    # sphere and ceiling are read only if it is steady; else any valid numbers serve
     return HalfSpace(number, sides[0], sphere or 0, ceiling if is_steady else 0.0, is_steady)
 
 

@@ -88,7 +88,10 @@ class Checkpoint:
         return view_of(declared, self.record, self._counts, part)
 
     def declared(self, declared: Any) -> np.ndarray:
-        """A view of a field of all declared contacts, such as the mode. The number of an active contact is newer."""
+        """A view of a field of all declared contacts, such as the mode.
+
+        Of a contact on the neighbour list it may be out of date: its record as an active contact is newer.
+        """
         return np.asarray(self[getattr(owners.DeclaredContact, declared.name)])
 
     def put(self, memory: Memory) -> None:

@@ -54,7 +54,7 @@ def check_start(model: LaidOut) -> None:
 
 
 def _check_gaps(model: LaidOut, gaps: Vector) -> None:
-    """Check that no gap of a rigid contact is negative. That of a compliant contact only needs to be a number.
+    """Check that no gap of a rigid contact is negative. That of a compliant contact only must not be NaN.
 
     The error of a gap is allowed. A support function of a shape that fails gives a better message than the wrong gap
     that follows, so the shapes are tested before.
@@ -100,7 +100,10 @@ def _check_shapes(model: LaidOut, number: int) -> None:
 
 
 def _check_joints(model: LaidOut) -> None:
-    """Check that each row of each joint is closed at the start: residual and rate are zero, up to round-off."""
+    """Check that each row of each joint is closed at the start: residual and rate are zero, up to round-off.
+
+    A row is a scalar condition of the joint.
+    """
     if not model.system.joints:
         return
     memory = model.memory
@@ -123,7 +126,9 @@ def _check_joint(model: LaidOut, tie: Tie, number: int, articulation: int, allow
         ("residual", "m or rad", owners.Articulation.residual),
         ("rate", "m/s or rad/s", owners.Articulation.rate),
     ):
+        # the rows of all joints of an articulation follow each other
         values = memory.floats[int(memory[place][articulation]) + first :][:rows]
+        # this finds NaN, too
         if not float(np.max(np.abs(values))) <= allowed:
             raise InvalidInput(
                 f"start of the {tie}",

@@ -44,6 +44,7 @@ class ContactTable:
         Bodies and shapes are known by their identity. Attributes are read by maps, because systems may have thousands
         of contacts, and the axis of each shape is computed once.
         """
+        # the number of each body
         number = {id(body): i for i, body in enumerate(bodies)}
         sides = [[number[i] for i in map(id, map(attrgetter(side), contacts))] for side in ("first", "second")]
         frames, extents, support_radii = (

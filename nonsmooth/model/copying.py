@@ -19,6 +19,7 @@ def copied(memory: Memory) -> Memory:
     """
     # the memory to be copied may itself share the tables of another one
     owner = memory if memory.owner is None else memory.owner
+    # the tables are the last of the floats, from memory.tables on
     floats = np.zeros(len(owner.floats) if PLAIN else memory.tables)
     made = replace(
         memory,

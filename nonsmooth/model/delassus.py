@@ -36,6 +36,7 @@ def write_delassus(memory: Memory, matrix: Floats) -> None:
     memory[owners.Island.block_start][: n + 1] = np.searchsorted(rows, np.arange(n + 1))
     memory[owners.Island.block_column][: len(columns)] = columns
     memory[owners.ActiveContact.diagonal_block][:n] = np.flatnonzero(rows == columns)
+    # 9 numbers for each block
     memory[owners.Island.delassus][: 9 * len(columns)] = blocks[coupled].ravel()
 
 
@@ -45,5 +46,6 @@ def read_delassus(memory: Memory, n: int) -> Floats:
     columns = memory[owners.Island.block_column][: int(starts[-1])]
     rows = np.repeat(np.arange(n), np.diff(starts))
     blocks = np.zeros((n, n, 3, 3))
+    # 9 numbers for each block
     blocks[rows, columns] = memory[owners.Island.delassus][: 9 * len(columns)].reshape(-1, 3, 3)
     return np.ascontiguousarray(blocks.transpose(0, 2, 1, 3)).reshape(3 * n, 3 * n)

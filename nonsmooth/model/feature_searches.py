@@ -91,13 +91,14 @@ def lay_searches(
 ) -> None:
     """Write the searches. ``spheres`` has the bounding sphere of each frame, by the numbers of body and frame.
 
-    A search is valid until its features have moved too far. They may lie anywhere in their spheres, so their largest
-    radius, ``feature_radius``, is that of the sphere.
+    The pairs that a search finds are valid until the features have moved too far. These may lie anywhere in their
+    spheres, so their distance from the origin, ``feature_radius``, is taken as the radius of the sphere.
     """
     for number, search in enumerate(searches):
         fields = _lay_function(blocks, search)
         # all contacts of a search have the same two frames
         first = search.contacts.start
+        # body and frame of both sides
         sides = zip(table.bodies[first].tolist(), table.frames[first].tolist(), strict=True)
         sphere_a, sphere_b = (spheres[side] for side in sides)
         fields |= {"first_contact": first, "n_contacts": len(search.contacts)}
@@ -117,7 +118,7 @@ def _lay_function(blocks: Heap, search: FeatureSearch) -> dict[str, int]:
     tables = {name: value for name, value in values.items() if isinstance(value, Table)}
     # with an empty tuple in place of each table
     address, numbers = bind(function, "pair", {**values, **dict.fromkeys(tables, ())}, search.owner)
-    # the trial reads the tables behind the other parameters, the engine by their distance
+    # the trial reads the tables behind the other parameters; the engine reads them at their distance from those
     all_numbers = bind(function, "pair", values, search.owner)[1] if tables else numbers
     try_out(function, "pair", values, all_numbers, search.size, search.owner)
     start = blocks.store(numbers)

@@ -56,9 +56,10 @@ def immobile_contact(model: LaidOut) -> ImmobileContact | None:
         contact = model.system.contacts[active[index]]
         if isinstance(contact.normal, CompliantNormalLaw):
             continue
+        # effective inverse mass of each side, with joints and without; the contact has the sum
         sides = [_inverse_masses(model, index, side) for side in ("a", "b")]
         held, free = (sum(values) for values in zip(*sides, strict=True))
-        # two driven bodies have none, with or without joints; below SINGULAR the rest is round-off
+        # two driven bodies have none, and are left out; below SINGULAR times free, held is round-off
         if free > 0.0 and held <= SINGULAR * free:
             bodies = contact.first, contact.second
             joints = [tie for tie in model.system.joints if tie.first in bodies or tie.second in bodies]

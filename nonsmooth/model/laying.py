@@ -121,6 +121,7 @@ def _lay_body(
     fields |= _function(blocks, body.evaluator, "body", body, available, n_of_frames + n + body.n_u**2 + 2, start)
     out = fields["out"]
     fields |= {"n_q": body.n_q, "n_u": body.n_u, "tail": out + n_of_frames}
+    # where quaternion and spin begin among its coordinates and velocities, -1 without one
     fields |= {"quaternion": body.quaternion, "spin": body.spin}
     # the closed form of ballistic motion knows neither joints nor loads
     if body.flight is not None and not is_tied:
@@ -187,10 +188,14 @@ def _lay_joint(memory: Memory, blocks: Heap, number: int, tie: Tie, first: int, 
 
 
 def lay_loads(system: System, memory: Memory, blocks: Heap, layouts: BodyLayouts) -> None:
-    """Write the loads: functions of two frames that give a force and a moment, as of springs, and their two sides."""
+    """Write the loads: functions of two frames that give a force and a moment, as of springs, and their two sides.
+
+    The fields of the sides end in ``_a`` and ``_b``.
+    """
     for number, tie in enumerate(system.loads):
         load = tie.component
         assert isinstance(load, Load)
+        # arguments of the trial: time and two frames
         fields = _function(blocks, load.evaluator, "load", load, load.parameters(), LOAD, (0.0, *FRAMES))
         fields["depends_on_time"] = load.depends_on_time
         for side, body, frame in zip("ab", (tie.first, tie.second), tie.frames, strict=True):

@@ -100,7 +100,7 @@ def lay_contacts(
             for begin in starts.tolist():
                 blocks.refer(begin + place, begin + start, shared)
     _lay_states(memory, contacts, kinds)
-    # three rows of a Jacobian over the velocities of the largest articulation
+    # three rows of a Jacobian over the velocities of the largest articulation (a group of bodies tied by joints)
     size = 3 * _lay_sides(memory, table, bodies)
     # any unit vector, until a slip has a direction
     memory.declared(_CONTACT.direction)[:, 0] = 1.0
@@ -170,12 +170,13 @@ def lay_law_floats(memory: Memory, contacts: Sequence[Contact], kinds: Kinds) ->
     """Write the times [s] and distances [m] of the laws, which are fields of a declared contact.
 
     These are the contact time of an impact, 0 without an impact law, and the reach: the gap up to which a compliant law
-    acts, 0 for a rigid contact.
+    acts, 0 for a rigid contact. The time of the last try to leave the time-stepping fallback begins as
+    minus infinity.
     """
     for numbers in kinds:
         normal, impact = contacts[numbers[0]].normal, contacts[numbers[0]].impact
         memory.declared(_CONTACT.contact_time)[numbers] = 0.0 if impact is None else impact.contact_time
-        # time of the last try for forces of an instant after the time-stepping fallback: never
+        # time of the last try to leave the time-stepping fallback, which averages forces: never
         memory.declared(_CONTACT.mean_forces_asked)[numbers] = -math.inf
         memory.declared(_CONTACT.reach)[numbers] = normal.reach if isinstance(normal, CompliantNormalLaw) else 0.0
 
@@ -194,6 +195,7 @@ def kind_of(memory: Memory, contact: Contact, tried: set[tuple[Any, ...]] | None
     written into the memory, because all contacts share it.
     """
     made, law, impact, kinematics = Kind(), contact.friction, contact.impact, contact.kinematics
+    # the parameters of the geometry are the first in the block: `with_laws_of` keeps them
     geometry = LawFunction(
         _CONTACT.geometry_function, _CONTACT.geometry_parameters, kinematics, kinematics.evaluator, "pair"
     )
@@ -207,7 +209,7 @@ def kind_of(memory: Memory, contact: Contact, tried: set[tuple[Any, ...]] | None
         made.output(_CONTACT.traction_out, FORCE_AND_MOMENT + len(start))
         made.output(_CONTACT.rates_out, len(start))
     if isinstance(law, AnisotropicFrictionLaw):
-        # the block has the body that carries the axis (0 or 1), the unit axis, and the three ratios
+        # the block has the body that carries the axis (0 or 1), the unit axis, and the ratios forward, backward, across
         on_second = float(law.body == "second")
         made.fields[_CONTACT.is_anisotropic] = True
         made.store(_CONTACT.anisotropy, (on_second, *np.divide(law.axis, math.hypot(*law.axis)).tolist(), *law.ratios))
@@ -258,8 +260,8 @@ def _try_function(contact: Contact, part: LawFunction, values: Sequence[float]) 
     Functions of other forms return a number and write nothing, so they need no trial.
     """
     start = initial_state(contact)
-    # by form: size of the block, and any valid arguments before the parameters. These are two frames; normal force,
-    # slip with spin, and inner states; slip speed and inner states
+    # by form: size of the block, and any valid arguments before the parameters. These are
+    # pair: two frames; traction: normal force, slip with spin, inner states; rates: slip speed, inner states
     trials: Mapping[str, tuple[int, Sequence[float | Sequence[float]]]] = {
         "pair": (PAIR, FRAMES),
         "traction": (FORCE_AND_MOMENT + len(start), (1.0, (0.1, 0.2, 0.3, 0.4, 0.5), start)),

@@ -14,6 +14,7 @@ from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
 
 _OF_GEOMETRY = (owners.Contact.geometry_parameters, owners.Contact.features)
+"""Places in the block of a contact that belong to its geometry."""
 
 
 def lay_laws(model: LaidOut, system: System) -> LaidOut:
@@ -32,12 +33,12 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
     kinds = by_kind(contacts)
     for numbers in kinds:
         before, after = (kind_of(memory, one.contacts[numbers[0]]) for one in (model.system, system))
-        # the new parameters must fit in the places of the old ones
+        # the new parameters must fit in the places of the old ones, within blocks of the same length
         if (before.offsets, len(before.block)) != (after.offsets, len(after.block)):
             _refuse(contacts[numbers[0]], model.system.contacts[numbers[0]])
         for declared, value in after.fields.items():
             memory.declared(declared)[numbers] = value
-        # the parameters of the geometry come first, and may refer to tables; those of the laws follow
+        # the parameters of the geometry come first and stay, as they may refer to tables; those of the laws follow
         of_laws = [offset for declared, offset in after.offsets.items() if declared not in _OF_GEOMETRY]
         first = min(of_laws, default=len(after.block))
         # the block of each contact begins with the parameters of the geometry

@@ -87,7 +87,7 @@ def first_overlap(model: LaidOut, numbers: Sequence[int]) -> Overlap | None:
         contact, near = contacts[same[0]], [indices[number] for number in same if number in indices]
         if np.any(blocks[near, GAP] < 0.0) and isinstance(contact.normal, CompliantNormalLaw):
             continue
-        # the surface that contacts see may lie off the solid by set_back
+        # the surface that contacts use may lie off the boundary of the solid by up to set_back
         allowed = overlap_allowed(contact) + one.solid.set_back + two.solid.set_back
         # a plane across the normal of the smallest gap separates most solids; without a gap any direction is tried
         nearest = min(near, key=lambda index: abs(float(blocks[index, GAP])), default=None)

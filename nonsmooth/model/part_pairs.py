@@ -101,6 +101,7 @@ def carriers_of(pairs: Sequence[PartPair]) -> dict[tuple[int, int], float]:
     """
     radii: dict[tuple[int, int], float] = {}
     for side in itertools.chain.from_iterable(pair.sides for pair in pairs):
+        # a part is within a ball about its own origin
         reach = _UNBOUNDED if side.part.is_half_space else math.hypot(*side.part.place) + side.part.radius
         radii[side.carrier] = max(reach, radii.get(side.carrier, 0.0))
     return radii
@@ -198,5 +199,6 @@ def lay_part_pairs(
             fields |= {f"carrier_{name}": numbers[side.carrier], f"frame_{name}": frames[side.carrier]}
             fields[f"part_{name}"] = starts[side.key]
         write_record(memory, owners.Pair, number, fields)
+        # once for all pairs of the same shapes
         if number == pair.group:
             of_contact[np.array(pair.contacts)] = number

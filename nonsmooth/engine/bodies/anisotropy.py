@@ -38,9 +38,10 @@ def _least_axis(axis: Vector) -> int:
 def stretch_tangents(ws: Workspace, c: int, t1: Vector, t2: Vector) -> None:
     """Write the tangential axes of the anisotropic contact ``c``: unit vectors, stretched by the friction ratios.
 
-    Along stretched axes the elliptic friction bound is a disc, so that solvers keep their isotropic law. ``facing`` is
-    1 if the slip along the law's axis is forward, else -1: it selects the ratio. A slip within the velocity tolerance
-    does not change it, nor does a contact that sticks: its slip in the stages of a step is an error of integration.
+    Along stretched axes the elliptic friction bound is a disc, so that solvers keep their isotropic law. ``t1`` and
+    ``t2`` are the unit tangents of the geometry. ``facing`` selects the ratio, and is updated here: 1 if the slip along
+    the law's axis is forward, else -1. A slip within the velocity tolerance does not change it, nor does a contact that
+    sticks: its slip in the stages of a step is an error of integration.
     """
     contact, law = ws.contacts[c], at(ws.floats, ws.contacts[c].anisotropy)
     e1, e2 = _projected_axis(ws, contact, t1, t2)
@@ -63,7 +64,7 @@ def _projected_axis(ws: Workspace, contact: Contact, t1: Vector, t2: Vector) -> 
     axis of the body's frame that is farthest from it is used instead, because it turns with the body too.
     """
     law, axis = at(ws.floats, contact.anisotropy), at(ws.floats, contact.anisotropy + _AXIS)
-    # the parameters say which body carries the axis; 0 is the first
+    # the parameters say which body carries the axis: 0 the first, 1 the second
     rotation = frame_at(ws.floats, contact.frame_a if law[_SIDE] == 0.0 else contact.frame_b).rotation
     world = (
         rotation[0] * axis[0] + rotation[1] * axis[1] + rotation[2] * axis[2],
@@ -126,12 +127,12 @@ def release_sticking_anisotropic(ws: Workspace) -> None:
 def force_in_facing(ws: Workspace, c: int, f1: float) -> float:
     """First tangential force ``f1`` of contact ``c`` [N], scaled to the friction ratio of the slip that it opposes.
 
-    For the static bound. The row of ``f1`` is stretched by the ratio for slip in the sense of ``facing``, 1 or -1. A
-    force in that sense opposes slip in the other sense, which has the other ratio. The force itself, ratio times
-    ``f1``, is the same along both rows.
+    So scaled it can be compared with the static bound. The row of ``f1`` is stretched by the ratio for slip in the
+    sense of ``facing``, 1 or -1. A force in that sense opposes slip in the other sense, which has the other ratio. The
+    force itself, ratio times ``f1``, is the same along both rows. Isotropic friction leaves ``f1`` as it is.
     """
     contact = ws.contacts[c]
-    # a force against the facing opposes the slip that the row is made for
+    # a force against the facing opposes slip in the sense of the facing, for which the row is stretched
     if not contact.is_anisotropic or f1 * contact.facing <= 0.0:
         return f1
     law = at(ws.floats, contact.anisotropy)
@@ -144,7 +145,7 @@ def turn_facing(ws: Workspace, c: int, f1: float) -> bool:
     """Set the facing of contact ``c`` to the sense of slip that its first tangential force ``f1`` [N] opposes.
 
     1 is slip along the axis of the anisotropic law, -1 slip against it. True if this changes the friction ratio, so
-    that the force must be found again.
+    that the force must be found again. Isotropic contacts have no facing, and give False.
     """
     contact = ws.contacts[c]
     # a force against the facing opposes slip in the sense of the facing already

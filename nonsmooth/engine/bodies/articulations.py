@@ -33,9 +33,9 @@ from nonsmooth.engine.numerics.vectors import Vector, dot, opposite
 
 @kernel("f8(F, i8, v3, v3, v3)")
 def _speed_along_row(floats: Floats, place: int, axis: Vector, point: Vector, moment: Vector) -> float:
-    """Rate of a joint row due to the body with the frame at offset ``place`` [m/s].
+    """Rate of a joint row due to the body with the frame at offset ``place`` [m/s, or 1/s if the row is an angle].
 
-    It is ``axis`` . velocity of the ``point`` + ``moment`` . angular velocity.
+    It is ``axis`` . velocity of the ``point`` + ``moment`` . angular velocity. A row is a scalar condition of a joint.
     """
     velocity, spin = velocity_of_point(floats, place, point), frame_at(floats, place).spin
     return float(dot(axis, velocity) + moment[0] * spin[0] + moment[1] * spin[1] + moment[2] * spin[2])
@@ -45,8 +45,8 @@ def _speed_along_row(floats: Floats, place: int, axis: Vector, point: Vector, mo
 def _write_rows(ws: Workspace, joint: Joint, articulation: Articulation) -> None:
     """Evaluate the rows of a joint, and write them to its articulation, the bodies that joints tie together.
 
-    Written are the Jacobian A, the residuals [m], the rates A u [m/s] and the biases b [m/s^2]. A joint is closed if
-    its residuals are zero, and stays so if A u' + b = 0.
+    Written are the Jacobian A, the residuals [m], the rates A u [m/s] and the biases b [m/s^2], or without m if the row
+    is an angle. A joint is closed if its residuals are zero, and stays so if A u' + b = 0.
     """
     frame_a, frame_b = joint.frame_a, joint.frame_b
     a, b = at(ws.floats, frame_a), at(ws.floats, frame_b)
@@ -56,7 +56,7 @@ def _write_rows(ws: Workspace, joint: Joint, articulation: Articulation) -> None
         axis, moment = row.axis, row.moment
         line = articulation.jacobian + i * articulation.n_u
         side_a, side_b = line + joint.column_a, line + joint.column_b
-        # a row of A is a unit wrench on the second body, and the opposite one on the first
+        # a row of A is a unit wrench on the second body, and the opposite one on the first; other bodies keep zeros
         side_wrench(ws.floats, frame_a, row.point_a, opposite(axis), opposite(moment), joint.n_u_a, side_a)
         side_wrench(ws.floats, frame_b, row.point_b, axis, moment, joint.n_u_b, side_b)
         ws.floats[articulation.residual + i] = row.residual
@@ -94,7 +94,7 @@ def _write_responses(ws: Workspace, articulation: Articulation) -> None:
 
 @kernel("void(F, i8, i8)")
 def _write_factor(floats: Floats, a: int, n: int) -> None:
-    """Overwrite the symmetric n x n matrix at ``a`` by its lower Cholesky factor.
+    """Overwrite the symmetric n x n matrix at ``a`` by its lower Cholesky factor. Its upper half is not used.
 
     The matrix is A M^-1 A^T of joint rows. Rows that others imply get a zero pivot and column, hence no force.
     """
@@ -121,7 +121,8 @@ def _write_factor(floats: Floats, a: int, n: int) -> None:
 def solve_factorised(floats: Floats, a: int, n: int, x: int, stride: int) -> None:
     """Overwrite the right-hand side at ``x``, with entries ``stride`` apart, by the solution with the factor at ``a``.
 
-    ``a`` holds the n x n Cholesky factor of :func:`_write_factor`. Unknowns of zero pivots are zero.
+    ``a`` holds the n x n Cholesky factor of :func:`_write_factor`. Unknowns of zero pivots are zero. A stride of 1 is
+    for a vector, the length of a row for a column of a matrix.
     """
     # forward, then backward substitution
     for i in range(n):
@@ -154,25 +155,29 @@ def evaluate_articulation(ws: Workspace, articulation: Articulation) -> None:
         for j in range(i + 1):
             ws.floats[factor + i * m + j] = product(ws.floats, 0.0, jacobian + i * n, r + j * n, n)
     _write_factor(ws.floats, factor, m)
-    # Y, solved column by column
+    # Y, solved column by column, whose entries are n apart
     for i in range(m * n):
         ws.floats[y + i] = ws.floats[r + i]
     for k in range(n):
         solve_factorised(ws.floats, factor, m, y + k, n)
-    # M^-1 becomes K in place
+    # M^-1 becomes K in place; zero entries are skipped, as there are many
     for i in range(n):
         for line in range(m):
             entry = ws.floats[r + line * n + i]
             if entry != 0.0:
                 for j in range(n):
                     ws.floats[matrix + i * n + j] -= entry * ws.floats[y + line * n + j]
+    # a joint ties it to a driven body
     if articulation.is_driven:
         _remove_prescribed_velocities(ws, articulation)
 
 
 @kernel("f8(ws, Articulation)")
 def _power(ws: Workspace, articulation: Articulation) -> float:
-    """Power of the forces on the bodies of an articulation at the velocities ``u_free`` [W], without contact forces."""
+    """Power of the forces on the bodies of an articulation at the velocities ``u_free`` [W].
+
+    Forces of contacts and joints are not among them.
+    """
     power, velocities = 0.0, ws.island.u_free.start
     for number in range(articulation.first_body, articulation.first_body + articulation.n_bodies):
         body = ws.bodies[number]
@@ -202,15 +207,18 @@ def _remove_prescribed_velocities(ws: Workspace, articulation: Articulation) -> 
     of the velocities, and -w . (A R^T)^-1 b.
     """
     n, m = articulation.n_u, articulation.n_rows
+    # x, the place of the joint forces, is a work array here
     u, x = ws.island.u_free.start + articulation.u, articulation.forces
+    # first term: power of h after the change less that before it
     ws.step.driven_power -= _power(ws, articulation)
-    # all rates first, because the subtraction changes u
+    # all rates w first, because the subtraction changes u
     for line in range(m):
         ws.floats[x + line] = product(ws.floats, 0.0, articulation.jacobian + line * n, u, n)
     for line in range(m):
         subtract_response(ws, articulation, line, ws.floats[x + line], u)
     ws.step.driven_power += _power(ws, articulation)
-    solve_factorised(ws.floats, articulation.factor, m, x, 1)
+    # second term: x becomes (A R^T)^-1 w
+    solve_factorised(ws.floats, articulation.factor, m, x, stride=1)
     for line in range(m):
         ws.step.driven_power -= ws.floats[x + line] * ws.floats[articulation.bias + line]
 
@@ -224,6 +232,7 @@ def constrain(ws: Workspace, number: int) -> None:
     """
     articulation = ws.articulations[number]
     n, m = articulation.n_u, articulation.n_rows
+    # x, the place of the joint forces, is a work array here
     du, x = ws.island.du.start + articulation.u, articulation.forces
     # all rows first, because the subtraction changes du
     for line in range(m):

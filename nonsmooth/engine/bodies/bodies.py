@@ -40,7 +40,7 @@ def evaluate_body(ws: Workspace, t: float, y: int, number: int) -> None:
     """Evaluate body ``number`` at time ``t`` [s] and the state at offset ``y``.
 
     Its output block gets a new version, by which contacts see that they must be evaluated again. ``free_time``, the
-    time at which all bodies with coordinates were evaluated, becomes unknown.
+    time at which all bodies with coordinates were evaluated, becomes unknown (NaN).
     """
     body = ws.bodies[number]
     _call_body(ws, t, y, body)
@@ -94,6 +94,7 @@ def _are_all_evaluated_at(ws: Workspace, t: float, y: int) -> bool:
     """True if all bodies with coordinates were evaluated last at time ``t`` [s] and state ``y``.
 
     Then none needs to be evaluated. It is never true with loads or joints: they must be evaluated again in any case.
+    ``free_time`` is the time of the last evaluation of all, or NaN, which equals no time, if one was evaluated since.
     """
     if ws.island.free_time != t or ws.model.n_loads + ws.model.n_joints > 0:
         return False
@@ -122,7 +123,7 @@ def evaluate_driven_bodies(ws: Workspace, t: float, y: int) -> None:
 def evaluate_integrated_bodies(ws: Workspace, t: float, y: int) -> None:
     """Evaluate the bodies that the integrator steps at time ``t`` [s] and state ``y``, without loads and joints.
 
-    The other bodies are driven, or move in closed form.
+    The other bodies are driven, or move in closed form. The powers of driven bodies and loads begin at zero.
     """
     _start_evaluation(ws, y)
     for i in range(ws.island.n_integrated):
@@ -131,8 +132,11 @@ def evaluate_integrated_bodies(ws: Workspace, t: float, y: int) -> None:
 
 @kernel("void(ws, i8)")
 def _start_evaluation(ws: Workspace, y: int) -> None:
-    """Set the powers of driven bodies and loads to zero, and let kinematics use the velocities of the state ``y``."""
-    # counts the work until the next interrupt check; the loop over steps handles the interruption
+    """Set the powers of driven bodies and loads to zero, and let kinematics use the velocities of the state ``y``.
+
+    Also counts the work, so that a long run can be interrupted.
+    """
+    # the loop over steps handles an interruption, so the result is not used
     interrupted(ws, ws.island.n_contacts + ws.model.n_bodies)
     ws.island.velocities = y + ws.model.n_q
     ws.step.driven_power = 0.0
@@ -143,8 +147,8 @@ def _start_evaluation(ws: Workspace, y: int) -> None:
 def evaluate_free_bodies(ws: Workspace, t: float, y: int, of_all_bodies: bool) -> None:
     """Evaluate the bodies with coordinates at time ``t`` [s] and state ``y``, then the loads and joints on them.
 
-    These are all bodies with coordinates, or only those that the integrator steps. The powers of driven bodies and
-    loads begin at zero, and get the parts of loads and joints.
+    ``of_all_bodies``: all bodies with coordinates, else only those that the integrator steps. The powers of driven
+    bodies and loads begin at zero, and get the parts of loads and joints.
     """
     # the frequent case, without the tests of the loop below
     if not of_all_bodies and ws.model.n_loads + ws.model.n_joints == 0:
@@ -154,11 +158,12 @@ def evaluate_free_bodies(ws: Workspace, t: float, y: int, of_all_bodies: bool) -
     # loads and joints may act on driven bodies
     if ws.model.n_loads + ws.model.n_joints > 0:
         evaluate_driven_bodies(ws, t, y)
+    # then there are no loads and joints either
     if of_all_bodies and _are_all_evaluated_at(ws, t, y):
         return
     for i in range(ws.model.n_bodies if of_all_bodies else ws.island.n_integrated):
         number = i if of_all_bodies else ws.island.integrated[i]
-        # a driven body
+        # a driven body has no coordinates
         if ws.bodies[number].n_u == 0:
             continue
         _clear_forces(ws, ws.bodies[number])
@@ -167,6 +172,7 @@ def evaluate_free_bodies(ws: Workspace, t: float, y: int, of_all_bodies: bool) -
             evaluate_if_changed(ws, t, y, number)
         else:
             evaluate_body(ws, t, y, number)
+    # each evaluation above has set it to NaN
     if of_all_bodies:
         ws.island.free_time = t
     for load in range(ws.model.n_loads):
@@ -214,8 +220,8 @@ def evaluate_bodies(ws: Workspace, t: float, y: int) -> None:
 def _apply_load(ws: Workspace, number: int, t: float, y: int) -> None:
     """Add the generalised forces of a load at time ``t`` [s] to those of its bodies, and its power to ``load_power``.
 
-    The wrench acts on the second body, and the opposite wrench on the first one. A driven body gets no forces. The
-    velocities for the power are those of the state ``y``.
+    The wrench acts on the second body, and the opposite wrench on the first one. A driven body gets no forces, and its
+    power does not count, because it has no energy. The velocities for the power are those of the state ``y``.
     """
     load = ws.loads[number]
     frame_a, frame_b = at(ws.floats, load.frame_a), at(ws.floats, load.frame_b)

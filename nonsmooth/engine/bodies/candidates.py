@@ -31,7 +31,10 @@ def has_no_features(ws: Workspace, declared: int) -> bool:
 
 @kernel("b1(ws, i8, i8)")
 def are_near(ws: Workspace, a: int, b: int) -> bool:
-    """True if the bounding spheres ``a`` and ``b`` are nearer than the margin of the neighbour list."""
+    """True if the bounding spheres ``a`` and ``b`` are nearer than the margin of the neighbour list [m].
+
+    Their centres are those noted when the list is made.
+    """
     sphere_a, sphere_b = ws.spheres[a], ws.spheres[b]
     between = minus(sphere_a.place, sphere_b.place)
     near = sphere_a.radius + sphere_b.radius + ws.island.list_margin
@@ -82,7 +85,7 @@ def find_candidates(ws: Workspace) -> Status:
         if not _fill_empty(ws, search, n_found):
             return Status.NO_SLOT
         for declared in range(search.first_contact, end):
-            # largest distance of a pair while the list holds: the margin, and a margin by which the bodies may move
+            # largest distance of a pair while the list holds: the margin, and half of it for each body to move
             ws.floats[ws.declared_contacts[declared].features + CANDIDATE] = 2.0 * ws.island.list_margin
     return Status.RUNNING
 
@@ -91,8 +94,9 @@ def find_candidates(ws: Workspace) -> Status:
 def _find(ws: Workspace, search: Search) -> int:
     """Call a search for pairs of features if its shapes are near each other.
 
-    Number of pairs that it found, or ``_NOT_A_NUMBER`` if the function gave a negative or undefined number. The
-    function reads the margin [m] at ``search.out``, where it writes the number of pairs. The pairs follow.
+    Number of pairs that it found, 0 if the shapes are not near, or ``_NOT_A_NUMBER`` if the function gave a negative or
+    undefined number. The function reads the margin [m] at ``search.out``, where it writes the number of pairs. The
+    pairs follow.
     """
     if not are_near(ws, search.sphere_a, search.sphere_b):
         return 0

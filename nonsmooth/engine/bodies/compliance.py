@@ -31,7 +31,7 @@ from nonsmooth.engine.numerics.vectors import Vector, dot, length, minus
 def evaluate_compliant_force(ws: Workspace, c: int) -> None:
     """Write the normal force of the compliant contact ``c`` [N], by its law. Geometry and rates must be evaluated."""
     contact = ws.contacts[c]
-    # laws take indentation and its rate: the gap and its rate with the opposite sign
+    # laws take indentation and its rate, gap and gap rate with the opposite sign, and the rate at which it closed
     depth, rate, parameters = -contact.gap, -contact.rate[0], at(ws.floats, contact.normal_parameters)
     contact.compliant_force = call_compliance(contact.normal_function, depth, rate, contact.closing_rate, parameters)
 
@@ -40,7 +40,8 @@ def evaluate_compliant_force(ws: Workspace, c: int) -> None:
 def _evaluate_motion(ws: Workspace, contact: Contact) -> None:
     """Write the slip velocity [m/s] and the relative angular velocity [1/s] along t1, t2 and n for a traction law.
 
-    They go to ``problem.motion``, in the order of the law's argument.
+    They are those of the second body less the first, and go to ``problem.motion`` in the order of the law's argument:
+    slip along t1 and t2, then spin along t1, t2 and n.
     """
     motion = at(ws.floats, ws.problem.motion.start)
     turning = minus(frame_at(ws.floats, contact.frame_b).spin, frame_at(ws.floats, contact.frame_a).spin)
@@ -145,7 +146,8 @@ def write_wrench(ws: Workspace, c: int, f: Floats) -> None:
     """Write the generalised forces of contact ``c`` by its known force ``f`` along n, t1, t2 [N], and their response.
 
     A traction law adds its moment. The forces overwrite ``FIRST_ROW`` of the Jacobians. The response, the acceleration
-    that they give, overwrites response ``NORMAL_ROW``, the one of contacts with a single column.
+    that they give, overwrites response ``NORMAL_ROW``: there solvers read that to the force of a contact which does not
+    stick, whatever its direction.
     """
     contact = ws.contacts[c]
     force, moment = _in_world(contact, f[0], f[1], f[2]), (0.0, 0.0, 0.0)
@@ -174,8 +176,8 @@ def apply_traction_law(ws: Workspace, c: int, f: Floats, y: int) -> None:
 def accelerate_by_compliance(ws: Workspace) -> None:
     """Add the accelerations by the known forces of touching compliant contacts to ``du``, before friction is found.
 
-    Known are all forces of contacts with a traction law, and else the normal forces: Coulomb friction is part of the
-    contact problem. The responses of the contacts must be evaluated.
+    Known are all forces of contacts with a traction law, which are written to ``force``, and else the normal forces:
+    Coulomb friction is part of the contact problem. The responses of the contacts must be evaluated.
     """
     for contact in ws.contacts:
         if not contact.is_compliant or not contact.is_touching:
@@ -210,9 +212,11 @@ def decouple_normals(ws: Workspace) -> None:
         contact = ws.contacts[active.contact]
         for block in range(active.first_block, active.end_block):
             g, d = at(ws.floats, ws.island.delassus.start + DELASSUS * block), ws.island.block_column[block]
+            # the block of the contact with itself
             if d == active.index and contact.is_compliant:
                 # a contact of driven bodies has g_nn = 0, and any positive number gives the known force
                 g_nn = g[0] if g[0] > 0.0 else 1.0
+                # the problem sets g_nn x + free to zero
                 active.free[0] = -g_nn * contact.compliant_force
                 for i in range(1, 3):
                     g[i] = g[3 * i] = 0.0

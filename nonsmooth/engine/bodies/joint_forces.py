@@ -18,7 +18,7 @@ from nonsmooth.engine.numerics.linear import product
 def _add_contact_forces(ws: Workspace, forces: int) -> None:
     """Add the forces of the closed contacts to the generalised forces of all bodies at offset ``forces``.
 
-    ``FIRST_ROW`` of the Jacobians of the contacts is overwritten.
+    ``FIRST_ROW`` of the Jacobians of the contacts and ``NORMAL_ROW`` of their responses are overwritten.
     """
     for i in range(ws.island.n_grouped):
         c = ws.island.grouped[i]
@@ -40,6 +40,7 @@ def _solve_rows(ws: Workspace, articulation: Articulation, forces: int) -> None:
     ``forces``. The factor of the matrix and A M^-1, the response, must be evaluated.
     """
     n, m = articulation.n_u, articulation.n_rows
+    # the right-hand side of each row; the solution replaces it
     for line in range(m):
         row, bias = articulation.response + line * n, ws.floats[articulation.bias + line]
         ws.floats[articulation.forces + line] = -product(ws.floats, bias, row, forces + articulation.u, n)
@@ -50,7 +51,8 @@ def _solve_rows(ws: Workspace, articulation: Articulation, forces: int) -> None:
 def evaluate_joint_forces(ws: Workspace) -> None:
     """Write the force of every row of the joints [N or N m], for the output. The contact forces must be evaluated.
 
-    A row that others imply gets no force. ``FIRST_ROW`` of the Jacobians of the contacts is overwritten.
+    A row that others imply gets no force. ``FIRST_ROW`` of the Jacobians of the contacts and ``NORMAL_ROW`` of their
+    responses are overwritten.
     """
     # no step is in progress, so its work array y_stage can hold the generalised forces of all bodies
     forces = ws.step.y_stage.start

@@ -58,9 +58,10 @@ class WitnessMotion(NamedTuple):
 def evaluate_geometry(ws: Workspace, c: int) -> None:
     """Write gap [m], witness points, curvature and the axes n, t1, t2 of contact ``c``.
 
-    Past the end of its features (``past_feature`` > 0), as of a face or an edge, compliant bodies may overlap while
-    another contact of theirs is closed. Then ``overlap`` keeps the negative gap, and the gap becomes a positive
-    substitute: the distance to that end.
+    If ``past_feature`` > 0, the contact points lie past the end of their features, such as a face or an edge. Compliant
+    bodies may overlap there while another contact of theirs is closed. Then ``overlap`` keeps the negative gap, and the
+    gap becomes a positive substitute, the length of gap and ``past_feature``, so that this contact does not act.
+    ``overlap`` is zero otherwise.
     """
     contact = ws.contacts[c]
     a, b, parameters = contact.frame_a, contact.frame_b, at(ws.floats, contact.geometry_parameters)
@@ -136,8 +137,8 @@ def entry_of_column(floats: Floats, column: int, n_u: int, axis: Vector, moment:
 def side_entries(floats: Floats, frame: int, first: int, axis: Vector, moment: Vector) -> Vector:
     """Three entries, from entry ``first`` (0 or 3) on, of the row of a body with six velocities: (axis, moment) . J.
 
-    J is the Jacobian of the frame at offset ``frame``. A force in closed form uses the entries without a row in the
-    workspace.
+    J is the Jacobian of the frame at offset ``frame``. The closed form of the force of a single sliding contact takes
+    the entries directly, which is faster than a row in the workspace.
     """
     column = frame + FRAME + first
     return (
@@ -153,7 +154,7 @@ def side_row(floats: Floats, frame: int, point: Vector, axis: Vector, n_u: int, 
 
     rho leads from the origin of the body's frame to the point. J is the Jacobian of the frame, with ``n_u`` columns.
     """
-    # a driven body has no velocities, so its row is empty
+    # a driven body has no velocities, so its row has no entries
     if n_u == 0:
         return
     moment, first = cross(minus(point, frame_at(floats, frame).origin), axis), frame + FRAME

@@ -1,7 +1,7 @@
 """Touching contacts at an instant: which contacts take part in an event.
 
-A closed contact touches. An open contact touches if its gap is within the gap tolerance, or if it closes within the
-time tolerance at its present rate. Only touching contacts have Jacobians.
+A closed contact touches. An open contact touches if its gap is within the gap tolerance, or within the distance that
+the gap changes in the time tolerance at its present rate. Only touching contacts have Jacobians.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ def find_touching(ws: Workspace) -> bool:
     evaluate_bodies(ws, ws.island.time, ws.island.y.start)
     copy_inner_states(ws, ws.island.y.start)
     is_approaching, has_ended = False, True
+    # each pass ends the own step of another body, so that the loop ends
     while has_ended:
         is_approaching, has_ended = False, False
         for contact in ws.contacts:
@@ -60,10 +61,11 @@ def _does_touch(ws: Workspace, contact: Contact) -> bool:
     A closed rigid contact touches. An open one touches if its gap is within the gap tolerance, or within the
     distance that it changes in the time tolerance. A compliant contact touches up to its reach, the gap up to which its
     law acts, if it is closed, and up to a gap of zero if it is open. Within the gap tolerance of this end it must not
-    separate.
+    separate. False in any case past the end of features, and for a closed contact of a body with an own step.
     """
     gap, rate = contact.gap, contact.normal_rate
-    # past the end of its features (a face, an edge) a positive gap is a distance to them, no gap that can close
+    # a body with an own step (multirate) takes no part in events of the rest; past the end of its features (a face,
+    # an edge) a positive gap is a distance to them, no gap that can close
     if has_own_step(ws, contact.index) or (contact.past_feature > ws.tolerance.gap and gap > 0.0):
         return False
     if contact.is_compliant:
