@@ -89,7 +89,7 @@ def dense_weights(ws: Workspace, h: float, theta: float, is_late: bool) -> Vecto
     """Weights of three slopes in the interpolated state at the fraction ``theta`` of a step of length ``h`` [s].
 
     They belong to stages 4, 5 and 6 if ``is_late``, to 0, 2 and 3 otherwise. The slope of stage 1 has no weight. Two
-    calls give all six, for :func:`dense_part`. Each is a time, by which a slope is multiplied.
+    calls give all six, for :func:`dense_part`. Each includes the length of the step, by which slopes are multiplied.
     """
     one, two, three = (4, 5, 6) if is_late else (0, 2, 3)
     part = h * theta
