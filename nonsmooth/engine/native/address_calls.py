@@ -52,7 +52,10 @@ call_watch = by_address(types.float64(types.float64))
 
 
 def address_of(shim: Callable[..., Any], form: str, key: str) -> int:
-    """Address of a shim, which calls a plug-in's function, as a C function with the arguments of a form."""
+    """Address of a shim, which calls a plug-in's function, as a C function with the arguments of a form.
+
+    ``form`` is the name of one of ``FORMS``, and ``key`` that of the file of machine code.
+    """
     # compiled, or loaded from disk. Equal keys must mean equal functions; with an empty key nothing is kept on disk
     return shim_address(shim, signature_of(FORMS[form].signature), key)
 
@@ -62,12 +65,13 @@ watches: dict[int, Any] = {}
 
 
 def watch_address(function: Callable[[float], float]) -> int:
-    """Address of a C function that calls an interrupt check, a Python function of time [s] that returns a float.
+    """Address of a C function that calls an interrupt check, a Python function of time [s].
 
-    It is valid until :func:`forget_watch`.
+    The check returns how much work may be done until its next call, 0 to stop the run. The address is valid until
+    :func:`forget_watch`.
     """
     callback = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double)(function)
-    # an object of ctypes stores the address as its content
+    # an object of ctypes stores the address as its content. "or 0" is for type checkers: it is never None
     address = int(ctypes.c_void_p.from_buffer(callback).value or 0)
     watches[address] = callback
     return address
@@ -101,6 +105,7 @@ def _compiled_support_at(typingctx: Any, floats: Any, place: Any, x: Any, y: Any
 
     An intrinsic: numba calls it with types, and gets the signature of the call and the function that writes its code.
     """
+    # the type of the result
     point = types.UniTuple(types.float64, 3)
 
     def lower(context: Any, builder: Any, signature: Any, args: Any) -> Any:
@@ -131,7 +136,8 @@ def _support(floats: Any, place: int, x: float, y: float, z: float) -> tuple[flo
 
     The parameters of the function follow its address. This is the half of :func:`call_support` that Python calls.
     """
-    # copies as C arrays, since floats may be any sequence. The function writes the point to its last argument
+    # copies as C arrays, since floats may be any sequence: of the parameters, with one unused number behind them, and
+    # of the direction. The function writes the point to its last argument
     parameters = (ctypes.c_double * (len(floats) - place))(*floats[place + 1 :])
     direction, found = (ctypes.c_double * 3)(x, y, z), (ctypes.c_double * 3)()
     FORMS["support"].prototype()(int(floats[place]))(direction, parameters, found)
@@ -142,12 +148,12 @@ call_support = Shared(_support, _compiled_support)
 
 
 def _compiled_block(block: Any, place: int) -> Any:
-    """Compiled half of :func:`block_at`: pointer to the numbers of a block from a position on."""
+    """Compiled half of :func:`block_at`: pointer to the numbers of a plug-in's table from a position on."""
     return at(block, place)
 
 
 def _block(block: Any, place: int) -> Any:
-    """Python half of :func:`block_at`: the numbers of a block from a position on."""
+    """Python half of :func:`block_at`: the numbers of a plug-in's table from a position on."""
     return block[place:]
 
 

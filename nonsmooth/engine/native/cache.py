@@ -31,6 +31,8 @@ def _to_call(compiled: Any) -> tuple[Any, ...]:
 
     Only callers that include the code would need the intermediate code.
     """
+    # first the library: its name, the kind of its contents, and machine code with intermediate code. Then the types
+    # and the like of the function, which stay
     (name, kind, (code, _)), *others = compiled._reduce()
     # an empty function takes its place: numba reads there which symbol the machine code defines
     symbol = compiled.fndesc.llvm_cfunc_wrapper_name
@@ -73,6 +75,7 @@ class Store:
             # numba's `context.refresh` would do this too, but it imports all of numpy and scipy: a third of a start
             rtsys.initialize(context)
         processor, reduced = pickle.loads(content)
+        # code for another processor is not run: numba then compiles
         return None if processor != context.codegen().magic_tuple() else CompileResult._rebuild(context, *reduced)
 
     def save_overload(self, signature: Any, compiled: Any) -> None:
@@ -80,15 +83,17 @@ class Store:
 
         Numba calls this after it has compiled the function. A file that is already there is replaced.
         """
+        # the second of the pair: the one folder that is written to
         folder = folders()[1]
         if folder is None:
             say("no folder of yours to keep the compiled engine in: name one in XDG_CACHE_HOME")
             return
+        # the code has addresses of this process, which mean nothing in another one
         if compiled.library.has_dynamic_globals:
             return
         # the tuple describes the processor
         content = dumps((compiled.codegen.magic_tuple(), _to_call(compiled)))
-        # written under another name, then renamed: no other process reads a file that is not complete
+        # written under a random name, then renamed: no other process reads a file that is not complete
         part = folder / f"{self._name}.{uuid.uuid4().hex[:16]}"
         try:
             # 0o644: others may read it, but not write to it, whatever the user's settings
@@ -101,7 +106,11 @@ class Store:
                 part.unlink()
 
     def _sound(self) -> bytes | None:
-        """Content of the first undamaged file that nobody else can have written, or None."""
+        """Content of the first undamaged file that nobody else can have written, or None: the function is compiled.
+
+        The folders are tried in their order. A notice says why a file that exists is passed over.
+        """
+        # the first of the pair: all folders that may be read
         for folder in folders()[0]:
             path = folder / self._name
             try:
@@ -114,6 +123,7 @@ class Store:
             except OSError:
                 # no such file: it may be in the next folder
                 continue
+            # a file is the checksum, 32 bytes, and the content
             checksum, content = text[:_CHECKSUM], text[_CHECKSUM:]
             if checksum == self._checksum(content):
                 return content

@@ -51,6 +51,7 @@ def callees_of(function: Callable[..., Any]) -> list[Kernel]:
 
     def visit(caller: Callable[..., Any]) -> Iterator[Kernel]:
         """Kernels that ``caller`` calls and that were not visited yet. A visited kernel is removed from the mapping."""
+        # all names in the code that are not local. Most are no kernels, or kernels that were visited
         for name in caller.__code__.co_names:
             kernel = by_dispatcher.pop(id(caller.__globals__.get(name)), None)
             if kernel is not None:

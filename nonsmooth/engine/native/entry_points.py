@@ -105,7 +105,7 @@ def add_step(function: Callable[..., Any], own: type[Part], signature: str, fing
     """Register the step function of a plug-in's engine. Its name for :func:`call_entry`, whose first call compiles it.
 
     ``own`` is the part of the workspace that the engine adds. The machine code is kept on disk if ``fingerprint`` gives
-    a digest.
+    a digest of the function; if not, each process compiles it.
     """
     name, typed = own_name(function), signature_of(signature, workspace_with(own))
     ENTRIES[name] = Entry(function, signature, lambda: _step_address(function, typed, fingerprint))
@@ -115,9 +115,10 @@ def add_step(function: Callable[..., Any], own: type[Part], signature: str, fing
 
 
 def _step_address(function: Callable[..., Any], signature: Any, fingerprint: Fingerprint) -> int:
-    """Address of the C function of a step, compiled or loaded from the file that ``fingerprint`` finds.
+    """Address of the C function of a step, compiled or loaded from the file whose key ``fingerprint`` computes.
 
     The step includes the kernels that it calls. So their names and types are part of the key, with those of the step.
+    An empty digest means that the code of the step has no key: it is compiled, and not kept on disk.
     """
     callees = [(one.dispatcher.py_func.__qualname__, str(one.signature)) for one in callees_of(function)]
     digest = fingerprint(function, repr((str(signature), callees)))
@@ -148,9 +149,10 @@ def _compile_apart(names: tuple[str, ...]) -> None:
 
     The compiler would leave half a gigabyte in this process. If the others fail, this process compiles what is missing.
     """
-    # without a folder for the files nothing could be handed over: this process compiles
+    # without a folder to write files to nothing could be handed over: this process compiles
     if folders()[1] is None:
         return
+    # at most one for each processor that this process may use
     n = min(2, numba.config.NUMBA_DEFAULT_NUM_THREADS)
     # the end of the block waits for both processes
     with contextlib.ExitStack() as stack:
@@ -208,7 +210,7 @@ def _callable(name: str) -> Callable[..., Any]:
     Its arguments are the addresses of scalars, floats and integers, then numbers.
     """
     if name not in _callables:
-        # all entry points are compiled first, in processes of their own, as each may call others
+        # all entry points are compiled or loaded first, as each may call others by their addresses
         entry_addresses()
         _callables[name] = prototype_of(name)(known(ENTRIES, name).address())
     return _callables[name]
@@ -219,7 +221,8 @@ def prototype_of(name: str) -> Any:
 
     The workspace ``ws``, the first argument, is passed as three pointers: to scalars, floats and integers.
     """
+    # "f8(ws, i8)": the type of the result, then those of the arguments, the first of which is ws
     result, _, names = known(ENTRIES, name).signature.partition("(")
-    # a member of an enumeration is an integer
+    # a name that is not in C_TYPES is that of an enumeration, whose members are integers
     returned, *extra = [C_TYPES.get(n.strip(), ctypes.c_int64) for n in [result, *names.rstrip(")").split(",")[1:]]]
     return ctypes.CFUNCTYPE(returned, *[ctypes.c_void_p] * 3, *extra)

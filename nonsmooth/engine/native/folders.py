@@ -39,14 +39,16 @@ def build_name() -> str:
     digest = hashlib.sha256(f"{numba.__version__}{np.__version__}{sys.version}{processor}".encode())
     for source in sorted(_ENGINE.rglob("*.py")):
         digest.update(source.relative_to(_ENGINE).as_posix().encode() + source.read_bytes())
+    # 64 bits of it: two engines with the same name are next to impossible
     return f"engine-{digest.hexdigest()[:16]}"
 
 
 def folders() -> tuple[list[Path], Path | None]:
-    """Folders from which compiled code is read, in this order, and the folder to which it is written, or None.
+    """Folders from which compiled code is read, in this order, and the folder to which it is written.
 
     The first is in the user's cache. A temporary one follows if the first cannot be written to. Folders are created if
-    necessary. One that another user could write to is left out, with a notice.
+    necessary. One that another user could write to is left out, with a notice. If none can be written to, the second
+    result is None, and compiled code is not kept.
     """
     readable: list[Path] = []
     for home, permissions in _homes():
@@ -57,6 +59,7 @@ def folders() -> tuple[list[Path], Path | None]:
             for one in (home, folder):
                 one.mkdir(permissions, exist_ok=True)
                 _close(one)
+        # it could not be created: try the next one
         if not folder.is_dir():
             continue
         if not all(_is_safe_folder(one) for one in (home, folder)):
@@ -66,6 +69,7 @@ def folders() -> tuple[list[Path], Path | None]:
             )
             continue
         readable.append(folder)
+        # the first folder that can be written to is the last one that is read
         if os.access(folder, os.W_OK):
             return readable, folder
     return readable, None
@@ -87,7 +91,10 @@ def _homes() -> Iterator[tuple[Path, int]]:
 
 
 def _close(folder: Path) -> None:
-    """Withdraw write permission from all other users, if the folder belongs to this user. Say so if any had it."""
+    """Withdraw write permission from all other users, if the folder belongs to this user. Say so if any had it.
+
+    Code in a folder that others can write to is not loaded, because to load machine code is to run it.
+    """
     status = folder.lstat()
     # Windows has no such permissions. Others' folders and links stay as they are: _is_safe_folder then refuses them
     if sys.platform == "win32" or not stat.S_ISDIR(status.st_mode) or status.st_uid != os.geteuid():

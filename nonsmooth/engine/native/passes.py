@@ -162,6 +162,7 @@ class _OneFunction:
 
         All functions that it defines but the wrapper become internal. So those that are inlined everywhere are dropped.
         """
+        # numba begins the name of a C wrapper with "cfunc."
         for function in self._final_module.functions:
             if not function.is_declaration and not function.name.startswith("cfunc."):
                 function.linkage = "internal"
@@ -279,6 +280,7 @@ class CFunction(private.CFunc):
         all_options = {"nopython": True, "error_model": "numpy", **options}
         # the types of arguments and the type of the result
         typed = private.normalize_signature(signature)
+        # no types are prescribed for local variables: numba infers them
         super().__init__(function, typed, locals={}, options=all_options, pipeline_class=passes)
         if store is not None:
             self._cache = store

@@ -88,8 +88,8 @@ def shim_address(function: Callable[..., Any], signature: Any, key: str) -> int:
 def _address(function: Callable[..., Any], signature: Any, key: str, **options: bool) -> int:
     """Address of a C function, kept in a file of numba's if it has a key and is defined in a file.
 
-    The function is compiled, or loaded from its file. ``options`` are further ones of the compiler. A notice tells the
-    user, once, why compiling takes long.
+    The function is compiled, or loaded from its file; without a file each process compiles it. ``options`` are further
+    ones of the compiler. A notice tells the user, once, why compiling takes long.
     """
     say(
         f"numba {numba.__version__} lacks a name that fast compilation needs ({MISSING}): "

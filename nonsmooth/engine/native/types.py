@@ -108,7 +108,8 @@ def tag(access: Any, memory: str) -> None:
     Without the mark each store would make it load all offsets again.
     """
     module = access.function.module
-    # metadata of type-based alias analysis: the name is a type under a common root, and the access one of this type
+    # metadata of type-based alias analysis: the name is a type under a common root, and the access one of this type.
+    # Each zero is an offset within the type, as a number has no members
     root = module.add_metadata(["nonsmooth"])
     kind = module.add_metadata([memory, root, WORD(0)])
     access.set_metadata("tbaa", module.add_metadata([kind, kind, WORD(0)]))

@@ -172,6 +172,7 @@ class Record(View):
         Its offset is the sum of those of the array, of the first record in it, of this record and of the field.
         """
         field, members = self.fields[name], _members(context, builder, self, value)
+        # a field names the scalars that hold the first two offsets. An empty name: there is no such offset to add.
         # ``index`` is the number of a record in an array, or the offset of a block, which has no array
         offset = builder.mul(members.index, WORD(field.stride)) if field.array else members.index
         for key in (field.array, field.behind):
@@ -405,8 +406,9 @@ def _next(context: Any, builder: Any, signature: Any, args: Any, found: Any) -> 
 
 @intrinsic
 def copy_fields(typingctx: Any, source: Any, target: Any) -> Any:
-    """Copy the fields of the same name from a record to one of another owner, as from a declared contact to a slot.
+    """Copy the fields of the same name from a record to one of another owner.
 
+    So a declared contact is copied to a slot, a record of ``ws.contacts``, when its features are near, and later back.
     An intrinsic: numba calls it with types, and gets the signature of the call and the function that writes its code.
     """
 
@@ -437,8 +439,10 @@ def _packed(kind: str) -> Any:
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         """Write the code of the record: the pointer to the floats, and the offset of the block as its index."""
         members = _members(context, builder, record)
+        # a block has floats only: the pointers to scalars and integers are not set
         members.floats, members.index = args[0], args[1]
         if stride > 0:
+            # block number args[2] of several that follow each other
             members.index = builder.add(args[1], builder.mul(args[2], WORD(stride)))
         return members._getvalue()
 

@@ -10,7 +10,8 @@ def interrupted(ws: Workspace, work: int) -> bool:
     """Add ``work`` to the work done, and call the interrupt check if the budget is used up. True if the run must stop.
 
     A unit of work is about one evaluation of a contact, or of a pair in a matrix. The check returns the next budget,
-    zero to stop the run. Long loops then end as if they had failed, so that no unfinished result is used.
+    zero to stop the run. Long loops then end as if they had failed, so that no unfinished result is used. Without a
+    check nothing stops the run.
     """
     ws.request.n_work += work
     # an address of zero: there is no check

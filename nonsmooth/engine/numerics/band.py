@@ -17,7 +17,8 @@ from nonsmooth.engine.numerics.linear import band_width
 def _half_band(ws: Workspace) -> int:
     """Half width of the band of the matrix of the unknown forces: largest distance between rows that are coupled.
 
-    A row is an unknown. Forces are coupled if their contacts share a movable body, or bodies that joints connect.
+    A row is an unknown. Forces are coupled if their contacts share a movable body, or bodies that joints connect. The
+    blocks of a contact, from ``first_block``, are the pairs with its coupled contacts, listed in ``block_column``.
     """
     half = 0
     for active in ws.actives:
@@ -25,6 +26,7 @@ def _half_band(ws: Workspace) -> int:
         if active.end_unknown > active.first_unknown:
             # coupled contacts are listed in ascending order: the first one has the lowest unknowns
             first_coupled = ws.actives[ws.island.block_column[active.first_block]]
+            # from the last unknown of this contact to the first one of that. The other side is the same by symmetry
             half = max(half, active.end_unknown - 1 - first_coupled.first_unknown)
     return half
 
@@ -39,6 +41,7 @@ def open_band(ws: Workspace, n: int, matrix: int) -> bool:
     ws.problem.half_band = _half_band(ws)
     size = n * band_width(n, ws.problem.half_band)
     if size > MOST_ENTRIES:
+        # the mark of too many pairs of contacts serves here, too: either of them ends the run with the same message
         ws.run.has_too_many_blocks = True
         return False
     clear(ws.floats, matrix, size)

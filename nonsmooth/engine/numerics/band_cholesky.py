@@ -17,12 +17,13 @@ def factorise_band(floats: Floats, a: int, n: int, half: int, least: float) -> N
     """Overwrite the lower triangle of the band at ``a`` by its Cholesky factor L, with A = L L^T.
 
     A pivot, the square of a diagonal entry of L, is raised to ``least`` if it is smaller: round-off may make that of a
-    nearly singular matrix negative.
+    nearly singular matrix negative. ``least`` has the unit of the entries, and must be positive.
     """
     for i in range(n):
         row = band_row(a, i, n, half)
         for j in range(max(0, i - half), i + 1):
             other = band_row(a, j, n, half)
+            # A_ij less the products of the columns before j: L_ij L_jj, or the pivot if i is j
             total = floats[row + j]
             for c in range(max(0, i - half), j):
                 total -= floats[row + c] * floats[other + c]
@@ -59,6 +60,7 @@ def invert_in_band(floats: Floats, a: int, n: int, half: int, out: int) -> None:
     for i in range(n - 1, -1, -1):
         end = min(n, i + half + 1)
         row_i = band_row(out, i, n, half)
+        # L_ii, the root of pivot i
         root = floats[band_row(a, i, n, half) + i]
         for j in range(end - 1, i - 1, -1):
             total = 1.0 / root if j == i else 0.0

@@ -18,7 +18,7 @@ SINGULAR = 1e-10
 
 @kernel("f8(F, f8, i8, i8, i8)")
 def product(floats: Floats, total: float, a: int, b: int, n: int) -> float:
-    """Scalar product of the vectors of ``n`` numbers at ``a`` and ``b``, added to ``total``."""
+    """Sum of ``total`` and the scalar product of the vectors of ``n`` numbers at ``a`` and ``b``."""
     # the six velocities of a free body, the commonest case, are written out: the compiler unrolls no loops
     if n == 6:
         total += floats[a] * floats[b]
@@ -53,7 +53,8 @@ def multiply(floats: Floats, a: int, n: int, x: int, out: int) -> None:
 
     The matrix has ``n`` rows and is stored in full.
     """
-    # the six velocities of a free body. By symmetry the sums run down the columns, six neighbouring ones at once
+    # the six velocities of a free body, written out: the compiler unrolls no loops. By symmetry the sums run down the
+    # columns, which begin at i, in place of along the rows: entries of neighbouring columns follow each other in memory
     if n == 6:
         x0, x1, x2, x3, x4, x5 = floats[x], floats[x + 1], floats[x + 2], floats[x + 3], floats[x + 4], floats[x + 5]
         for i in range(a, a + 6):
@@ -61,7 +62,7 @@ def multiply(floats: Floats, a: int, n: int, x: int, out: int) -> None:
             floats[out - a + i] = first + floats[i + 18] * x3 + floats[i + 24] * x4 + floats[i + 30] * x5
         return
     for i in range(n):
-        floats[out + i] = product(floats, 0.0, a + i * n, x, n)
+        floats[out + i] = product(floats, total=0.0, a=a + i * n, b=x, n=n)
 
 
 @kernel("b1(F, i8, i8, i8, i8, f8)")
@@ -80,6 +81,7 @@ def eliminate(floats: Floats, a: int, n: int, half: int, x: int, least: float) -
         pivot, best = j, own
         for i in range(j + 1, below):
             row = band_row(a, i, n, half)
+            # the row with the largest entry, and its offset
             if abs(floats[row + j]) > abs(floats[best + j]):
                 pivot, best = i, row
         # "not >", so that nan counts as singular
@@ -118,6 +120,7 @@ def solve_three(row_0: Vector, row_1: Vector, row_2: Vector, right: Vector, leas
     if not g00 > smallest:
         return math.nan, math.nan, math.nan
     l10, l20 = g10 / g00, g20 / g00
+    # e is L_21 d1
     d1, e = g11 - l10 * g10, g21 - l20 * g10
     if not d1 > smallest:
         return math.nan, math.nan, math.nan

@@ -32,7 +32,10 @@ _SETTLED = 1e-15
 
 @kernel("f8(F, i8, i8, i8)")
 def largest_diagonal(floats: Floats, a: int, n: int, half: int) -> float:
-    """Largest absolute entry on the diagonal of the band matrix of ``n`` rows at ``a``, the scale of its entries."""
+    """Largest absolute entry on the diagonal of the band matrix of ``n`` rows at ``a``, the scale of its entries.
+
+    Entries that are nan are passed over.
+    """
     largest = 0.0
     for i in range(n):
         largest = max(largest, abs(floats[band_row(a, i, n, half) + i]))
@@ -41,7 +44,10 @@ def largest_diagonal(floats: Floats, a: int, n: int, half: int) -> float:
 
 @kernel("void(F, i8, i8, i8, i8, f8)")
 def copy_shifted(floats: Floats, a: int, n: int, half: int, out: int, shift: float) -> None:
-    """Write the band matrix of ``n`` rows at ``a`` to ``out``, with ``shift`` added to its diagonal."""
+    """Write the band matrix of ``n`` rows at ``a`` to ``out``, with ``shift`` added to its diagonal.
+
+    Its half width is ``half``. A shift makes a singular matrix regular; a shift of 0 copies it.
+    """
     copy_numbers(floats, a, n * band_width(n, half), out)
     for i in range(n):
         floats[band_row(out, i, n, half) + i] += shift
@@ -51,8 +57,8 @@ def copy_shifted(floats: Floats, a: int, n: int, half: int, out: int, shift: flo
 def solve_shifted(ws: Workspace, n: int) -> bool:
     """Replace the right-hand side in ``x`` by the solution of the system of ``reduced`` with a shifted diagonal.
 
-    The shift, a small part of the largest entry, makes a singular matrix regular. ``matrix`` is overwritten. False if
-    the shifted matrix is singular, too: ``x`` is then undefined.
+    The shift, a small part of the largest entry of the diagonal, makes a singular matrix regular. ``matrix`` is a work
+    array. False if the shifted matrix is singular, too: ``x`` is then undefined.
     """
     shift = _SHIFT * largest_diagonal(ws.floats, ws.problem.reduced.start, n, ws.problem.half_band)
     copy_shifted(ws.floats, ws.problem.reduced.start, n, ws.problem.half_band, ws.problem.matrix.start, shift)
@@ -61,10 +67,11 @@ def solve_shifted(ws: Workspace, n: int) -> bool:
 
 @kernel("void(ws, i8, i8)")
 def project_on_null(ws: Workspace, n: int, v: int) -> None:
-    """Replace the ``n`` numbers at ``v`` by their part in the null space of A. ``null`` holds the factor of A + s I.
+    """Replace the ``n`` numbers at ``v`` by their part in the null space of the matrix G of the unknown forces.
 
-    Each solve multiplies the part along an eigenvector of eigenvalue l by s / (l + s), which is 1 in the null space and
-    next to zero elsewhere.
+    H is a symmetric matrix with this null space, and e its shift ``null_shift``. ``null`` holds the Cholesky factor of
+    H + e. A solve with it, times e, multiplies the part along an eigenvector of H of eigenvalue l by e / (l + e), which
+    is 1 in the null space and next to zero elsewhere.
     """
     # the second solve makes the rest of the other parts the square of that small factor
     for _ in range(2):
@@ -77,7 +84,8 @@ def project_on_null(ws: Workspace, n: int, v: int) -> None:
 def _remove_null(ws: Workspace, n: int, v: int) -> None:
     """Subtract from the ``n`` numbers at ``v`` their part in the null space of the matrix of the unknown forces.
 
-    Each pass leaves a small part, by round-off, so that several passes are made. ``matrix`` is a work array.
+    So the norm becomes the least. Each pass leaves a small part, by round-off, so that several passes are made.
+    ``matrix`` is a work array.
     """
     part = ws.problem.matrix.start
     for _ in range(_REMOVALS):
@@ -90,7 +98,8 @@ def _remove_null(ws: Workspace, n: int, v: int) -> None:
 def _write_residual(ws: Workspace, n: int, x: int, out: int) -> float:
     """Write the residual right - reduced . x of the ``n`` numbers at ``x`` to ``out``. Its largest absolute entry.
 
-    ``right`` and ``reduced`` are the right-hand side and the band matrix of the unknown forces.
+    ``right`` and ``reduced`` are the right-hand side and the band matrix of the unknown forces. Entries that are nan
+    are written, but passed over by the result.
     """
     worst = 0.0
     for i in range(n):
@@ -106,12 +115,13 @@ def _write_residual(ws: Workspace, n: int, x: int, out: int) -> float:
 def _is_symmetric(ws: Workspace, n: int) -> bool:
     """True if the matrix of the unknown forces, ``reduced`` of ``n`` rows, is symmetric up to round-off.
 
-    Friction of sliding contacts makes it unsymmetric.
+    Friction of sliding contacts makes it unsymmetric. A symmetric matrix need not be squared to find its null space.
     """
     small = _SYMMETRIC * largest_diagonal(ws.floats, ws.problem.reduced.start, n, ws.problem.half_band)
     for i in range(n):
         row = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band)
         for j in range(max(0, i - ws.problem.half_band), i):
+            # entry (j, i), to be compared with entry (i, j)
             mirrored = band_row(ws.problem.reduced.start, j, n, ws.problem.half_band) + i
             if abs(ws.floats[row + j] - ws.floats[mirrored]) > small:
                 return False
@@ -127,7 +137,7 @@ def _write_square(ws: Workspace, n: int) -> None:
     half = ws.problem.half_band
     if _is_symmetric(ws, n):
         ws.problem.null_half_band = half
-        copy_shifted(ws.floats, ws.problem.reduced.start, n, half, ws.problem.basis.start, 0.0)
+        copy_shifted(ws.floats, ws.problem.reduced.start, n, half, ws.problem.basis.start, shift=0.0)
         return
     # the product of two matrices of a band has a band twice as wide
     ws.problem.null_half_band = min(2 * half, n - 1)
@@ -137,6 +147,7 @@ def _write_square(ws: Workspace, n: int) -> None:
         row = band_row(ws.problem.reduced.start, k, n, half)
         first, end = max(0, k - half), min(n, k + half + 1)
         for i in range(first, end):
+            # row i of H gets g_i g^T
             out = band_row(ws.problem.basis.start, i, n, ws.problem.null_half_band)
             if ws.floats[row + i] != 0.0:
                 for j in range(first, end):
@@ -148,11 +159,13 @@ def least_norm_in_band(ws: Workspace, n: int) -> None:
     """Solve the singular G x = r for least norm. ``reduced`` holds the band of G, and ``right`` the ``n`` numbers of r.
 
     H is a symmetric matrix with the null space of G, and e a small shift. Writes x to ``x``, H to ``basis``, the
-    Cholesky factor of H + e to ``null``, and the band of the projector on the null space, e (H + e)^-1, to ``reduced``.
-    If H may have too many entries for the memory, nothing is solved and the run stops.
+    Cholesky factor of H + e to ``null``, and the band of the projector on the null space, e (H + e)^-1, to ``reduced``
+    in place of G. These bands have the half width ``null_half_band``. If H may have too many entries for the memory,
+    nothing is solved and the run stops.
     """
     # H has at most twice the half band of G
     if n * band_width(n, 2 * ws.problem.half_band) > MOST_ENTRIES:
+        # the mark of too many pairs of contacts serves here, too: either of them ends the run with the same message
         ws.run.has_too_many_blocks = True
         return
     _write_square(ws, n)
@@ -161,9 +174,10 @@ def least_norm_in_band(ws: Workspace, n: int) -> None:
     # the shift must not be zero: a zero matrix gets one, too
     ws.problem.null_shift = _FAINT * (largest if largest > 0.0 else 1.0)
     copy_shifted(ws.floats, ws.problem.basis.start, n, half, null, ws.problem.null_shift)
-    # round-off may make a pivot of a singular matrix negative; each is at least a part of the shift
-    factorise_band(ws.floats, null, n, half, 0.1 * ws.problem.null_shift)
+    # each pivot of H + e is at least e, but round-off may make one smaller or even negative: a tenth of e then serves
+    factorise_band(ws.floats, null, n, half, least=0.1 * ws.problem.null_shift)
     _refine_solution(ws, n)
+    # G is not needed any more, so that its place gets (H + e)^-1
     invert_in_band(ws.floats, null, n, half, ws.problem.reduced.start)
     for i in range(n * band_width(n, half)):
         ws.problem.reduced[i] *= ws.problem.null_shift
@@ -175,7 +189,8 @@ def _refine_solution(ws: Workspace, n: int) -> None:
 
     The solution is the sum of corrections. Each solves the shifted system for the residual that is left, and loses its
     part in the null space, so that the norm is least. The sum ends when the residual is round-off, or when a correction
-    does not halve it. A correction that enlarges the residual is undone. ``sigma`` and ``matrix`` are work arrays.
+    does not halve it. A correction that enlarges the residual is undone. It also ends if the shifted matrix is
+    singular. ``sigma`` and ``matrix`` are work arrays.
     """
     # x holds the last correction until the end
     x, total, residual = ws.problem.x.start, ws.problem.sigma.start, ws.problem.sigma.start + n
@@ -184,9 +199,10 @@ def _refine_solution(ws: Workspace, n: int) -> None:
     size, before = largest_size(ws.floats, ws.problem.right.start, n), math.inf
     while True:
         left = _write_residual(ws, n, total, residual)
-        # "not <=" and "not <", so that a residual of nan is undone and ends the loop, too
         if not left <= before:
+            # the residual has grown: undo the last correction
             subtract_part(ws.floats, total, 1.0, x, n)
+        # it is round-off, or not halved; infinite values, which cannot be halved, end the loop, too
         if not left > _SETTLED * size or not left < 0.5 * before:
             break
         before = left

@@ -19,7 +19,7 @@ def weakened(kept: float, new: float, old: float) -> float:
     """Reduced function value at the bound of a bracket that a secant step keeps, so that it is not kept for ever.
 
     ``kept`` is its value now. At the other bound the value ``new``, of the same sign, replaces ``old``, which must not
-    be zero.
+    be zero. The next secant step then ends nearer to the bound that is kept.
     """
     ratio = 1.0 - new / old
     # half, if the new value is not smaller than the old one

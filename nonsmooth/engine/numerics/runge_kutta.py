@@ -29,7 +29,7 @@ def stage_part(
 
     ``start`` is the offset of the numbers at the start of the step of length ``h``, ``slopes`` that of their slopes
     of stage 0, ``out`` that of the result. The slopes of two stages are ``stride`` apart. The weights a_j are in the
-    table at ``stages``, six in each row.
+    table at ``stages``, six in each row, a row for each stage. ``stage`` is 1 to 6: stage 0 is the start itself.
     """
     row = stages + 6 * stage
     # one loop over all slopes: vectors are so short that a loop per slope would spend its time on loads and stores.
@@ -68,15 +68,17 @@ def dense_state(ws: Workspace, start: int, slopes: int, n: int, h: float, theta:
 
     ``start``, ``slopes`` and ``out`` are offsets of the state at the start, the slopes of all stages and the result.
     """
+    # weights of the slopes of stages 0, 2 and 3, and of stages 4, 5 and 6
     early, late = dense_weights(ws, h, theta, is_late=False), dense_weights(ws, h, theta, is_late=True)
+    # all n numbers of the state, so that the slopes of two stages are n apart
     dense_part(ws.floats, start, slopes, n, n, early, late, out)
 
 
 @kernel("f8(ws, i8, f8)")
 def _dense_weight(ws: Workspace, stage: int, theta: float) -> float:
-    """Weight w of the slope k of a stage in the interpolant y(theta) = y_0 + h theta sum w(theta) k [1].
+    """Weight w [1] of the slope k of a stage in the interpolant y(theta) = y_0 + h theta sum w(theta) k.
 
-    It is a cubic of ``theta``, the fraction of the step.
+    It is a cubic of ``theta``, the fraction of the step, whose four coefficients for each stage are in ``dense``.
     """
     d = ws.coefficients.dense.start + 4 * stage
     return float(ws.floats[d] + theta * (ws.floats[d + 1] + theta * (ws.floats[d + 2] + theta * ws.floats[d + 3])))
@@ -87,7 +89,7 @@ def dense_weights(ws: Workspace, h: float, theta: float, is_late: bool) -> Vecto
     """Weights of three slopes in the interpolated state at the fraction ``theta`` of a step of length ``h`` [s].
 
     They belong to stages 4, 5 and 6 if ``is_late``, to 0, 2 and 3 otherwise. The slope of stage 1 has no weight. Two
-    calls give all six, for :func:`dense_part`.
+    calls give all six, for :func:`dense_part`. Each includes the length of the step, by which slopes are multiplied.
     """
     one, two, three = (4, 5, 6) if is_late else (0, 2, 3)
     part = h * theta
@@ -105,7 +107,8 @@ def dense_part(
     """Write ``n`` numbers of the interpolated state to ``out``: start plus the weighted sum of the slopes.
 
     ``start`` is the offset of the numbers at the start of the step, ``slopes`` that of their slopes of stage 0. The
-    slopes of two stages are ``stride`` apart. ``early`` and ``late`` are the weights of :func:`dense_weights` [s].
+    slopes of two stages are ``stride`` apart. ``early`` and ``late`` are the weights of :func:`dense_weights` [s], for
+    stages 0, 2 and 3, and for stages 4, 5 and 6. That of stage 1 is zero.
     """
     a, b, c = early
     d, e, f = late
@@ -138,10 +141,11 @@ def write_implicit_interpolant(ws: Workspace, start: int, end: int, slopes: int,
     """Write slopes with which the dense output of the explicit pair gives the interpolant of an implicit step of ``h``.
 
     The interpolant is the cubic Hermite one plus h theta^2 (1 - theta)^2 b, where b is a weighted sum of the slopes.
-    The slopes of stages 1 to 5 are replaced by its derivative at the nodes of the explicit pair. The first and the last
-    slope belong to the states at ``start`` and ``end``, and are kept. ``bend`` is a work array of ``n`` numbers.
+    The slopes of stages 1 to 5 are replaced by its derivative at the nodes of the explicit pair, whose dense output is
+    exact for polynomials of fourth degree, as this one. The first and the last slope belong to the states at ``start``
+    and ``end``, and are kept. ``bend`` is a work array of ``n`` numbers.
     """
-    # twice b: the derivative of theta^2 (1 - theta)^2 is 2 theta (1 - theta) (1 - 2 theta)
+    # 2.0 gives twice b: the derivative of theta^2 (1 - theta)^2 is 2 theta (1 - theta) (1 - 2 theta)
     weigh_part(ws, ws.coefficients.implicit_bend.start, slopes, n, n, 2.0, bend)
     for stage in range(1, LAST_STAGE):
         c = tableau.NODES[stage]
@@ -159,7 +163,8 @@ def write_implicit_interpolant(ws: Workspace, start: int, end: int, slopes: int,
 def step_factor(error: float) -> float:
     """Ratio of the length of the next step to that of this one, from its ``error`` relative to the tolerance.
 
-    The error grows with the fifth power of the length. The next one should be ``SAFETY`` to this power.
+    The error grows with the fifth power of the length. The next one should be ``SAFETY`` to this power. The ratio is
+    kept between ``SHRINK`` and ``GROW``. If the error is above 1, this step is tried again with the new length.
     """
     # also for an error of zero, which has no negative power
     if error <= _TINY:
@@ -172,7 +177,8 @@ def trend(error: float, error_before: float, growth: float) -> float:
     """Ratio of the length of the next step to that of this one, from the last two errors relative to the tolerance.
 
     This step is ``growth`` times as long as the one before it. Towards a singularity each step must be shorter than the
-    last one, and :func:`step_factor`, which knows the last error only, always allows too long a step.
+    last one, and :func:`step_factor`, which knows the last error only, always allows too long a step. The ratio has a
+    lower bound only: the caller takes the smaller ratio of both functions.
     """
     # the error is C h^5, and C is assumed to grow by the same ratio again (K. Gustafsson, ACM Trans. Math. Softw. 20
     # (1994) 496-517). An error of zero is not allowed
