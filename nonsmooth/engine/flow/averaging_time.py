@@ -94,9 +94,9 @@ def _relative_deviation(ws: Workspace, contact: Contact, deviation: float, force
 def _largest_deviation(ws: Workspace, time: float) -> float:
     """Largest deviation of a gap from the linear model after a ``time`` [s] of impulses, relative to the allowed one.
 
-    Only contacts with a normal force count, as the others may open. Past the end of its features a contact has no true
-    gap. The deviation of a gap that is not a number is infinite. Afterwards bodies and contacts are evaluated at the
-    present state again.
+    Only rigid contacts with a normal force count, as the others may open. Past the end of its features a contact has no
+    true gap. Without any that counts it is 0; a gap that is not a number makes it infinite. Afterwards bodies and
+    contacts are evaluated at the present state again.
     """
     work = _allowed_work(ws)
     for active in ws.actives:
@@ -122,8 +122,9 @@ def _largest_deviation(ws: Workspace, time: float) -> float:
 def find_mean_forces(ws: Workspace, follows: bool) -> None:
     """Write the mean forces of the active contacts over an averaging span [N], and the modes at the end of the span.
 
-    The span is shortened until the gaps at its end agree with the linear model by which the forces are found. Rates and
-    accelerations without contact forces must be written. A span that ``follows`` another one may be longer.
+    The span is shortened until the gaps at its end agree with the linear model by which the forces are found, at most
+    to the time tolerance, whose forces are taken as they are. Rates and accelerations without contact forces must be
+    written. A span that ``follows`` another one may be longer.
     """
     time = find_mean_impulses(ws, averaging_span(ws, follows))
     deviation = _largest_deviation(ws, time)
@@ -141,7 +142,8 @@ def deviation_of_gaps(ws: Workspace) -> float:
     """Largest deviation of a gap under averaged forces from the linear model, relative to the allowed one.
 
     Writes it to ``strayed``, and its contact to ``stray_contact``. If it is above 1, the next step begins by ending the
-    averaging span. The contacts must be evaluated at the end of a step.
+    averaging span. Compliant contacts and those past the end of their features do not count. The contacts must be
+    evaluated at the end of a step.
     """
     work = _allowed_work(ws)
     ws.island.strayed = 0.0

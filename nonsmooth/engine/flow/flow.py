@@ -179,7 +179,7 @@ def _set_unknowns(ws: Workspace, active: ActiveContact, y: int) -> None:
         active.friction = contact.mean_force[1], contact.mean_force[2]
         return
     if contact.mode == Mode.STICK:
-        active.static_coefficient = friction_coefficient(ws, c, 0.0)
+        active.static_coefficient = friction_coefficient(ws, c, speed=0.0)
         if active.static_coefficient > 0.0:
             active.sticks = True
             return
@@ -208,9 +208,10 @@ def value_of_normal_guard(ws: Workspace, c: int) -> float:
 
 @kernel("b1(ws, i8)")
 def is_violated(ws: Workspace, c: int) -> bool:
-    """True if the force of the closed contact ``c`` violates its mode by more than round-off of its contact problem.
+    """True if the force of the rigid closed contact ``c`` violates its mode by more than round-off of its problem.
 
-    A normal force violates it if it pulls, friction that holds the contact if it exceeds its static bound.
+    A normal force violates it if it pulls, friction that holds the contact if it exceeds its static bound. For a
+    compliant contact this is no test, because its normal guard is a length.
     """
     contact = ws.contacts[c]
     least = value_of_normal_guard(ws, c)

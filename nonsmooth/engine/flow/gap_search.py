@@ -84,6 +84,7 @@ def _acceleration_bound(ws: Workspace, h: float, contact: Contact) -> float:
         _evaluate_geometry_at(ws, h, 0.0, contact)
         # the slope at the start holds the accelerations behind the n_q coordinate rates
         contact.acceleration_bound_at_start = fall_of(ws, contact.index, ws.island.slopes.start + ws.model.n_q)
+    # each is a bound, its growth per second of the step, and a bound of the turning rate, which is not needed here
     first, grows_first, _ = contact.acceleration_bound_at_start
     last, grows_last, _ = contact.acceleration_bound_at_end
     start, end = first + h * grows_first, last + h * grows_last
@@ -214,6 +215,7 @@ def _first_closing_of(ws: Workspace, h: float, contact: Contact, high: float, is
         if not _stays_open(ws, n, h, bounds) and n < PARTS and _is_undecided(ws, h, contact, n, speed):
             n_evaluations += 1
             if n_evaluations > _MOST_EVALUATIONS:
+                # counts the evaluation that is refused
                 ws.totals.n_gap_evaluations += 1
                 # this ends the run, so the result does not matter
                 fail_check(ws, Status.GAP_UNDECIDED, contact.index, left.gap, ws.tolerance.gap)
@@ -225,7 +227,7 @@ def _first_closing_of(ws: Workspace, h: float, contact: Contact, high: float, is
             if has_fired(ws, normal_guard(contact.index)):
                 return float(part_end(ws.floats, ws.step.part_ends.start, n).theta)
             continue
-        # the part is decided: the next one begins at its right end
+        # the part is decided: the next one begins at its right end; left is end 0 itself, so this overwrites it
         left.theta, left.gap, left.rate = right.theta, right.gap, right.rate
         left.past, left.offset = right.past, right.offset
         n -= 1

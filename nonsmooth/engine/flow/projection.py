@@ -378,6 +378,7 @@ def project_joints(ws: Workspace) -> None:
         # joints that are farther apart than steps can lead are not moved
         if iteration == 0 and worst > _allowed_residual(ws):
             break
+        # an iteration that does not even halve the residual makes no progress any more
         if worst <= NEGLIGIBLE * ws.tolerance.gap or worst > 0.5 * before or iteration == _MOST_ITERATIONS - 1:
             break
         # the last iteration moves nothing, so that the bodies are evaluated at their end
