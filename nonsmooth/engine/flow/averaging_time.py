@@ -59,6 +59,7 @@ def _extrapolate(ws: Workspace, time: float) -> None:
     for i in range(ws.model.n_u):
         # the mean velocity over that time
         ws.floats[velocities + i] += 0.5 * ws.floats[change + i]
+    # the bodies turn these velocities into rates of their coordinates
     evaluate_free_bodies(ws, ws.island.time, ws.step.y_stage.start, of_all_bodies=True)
     for body in ws.bodies:
         rates = coordinate_rates(ws, body)

@@ -170,6 +170,7 @@ def _set_unknowns(ws: Workspace, active: ActiveContact, y: int) -> None:
         active.is_normal_force_unknown = False
         active.normal_force = contact.compliant_force
         if contact.has_traction_law:
+            # writes friction and moment
             apply_traction_law(ws, c, active.force, y)
             return
     elif contact.is_averaged:
@@ -257,6 +258,7 @@ def slope(ws: Workspace, t: float, y: int, out: int, may_choose: bool, of_all_bo
     of_bodies = _write_slope_of_bodies(ws, y, out, of_all_bodies)
     lost = _power_of_friction(ws)
     _update_least_guards(ws)
+    # the rates of the energy accounts follow those of coordinates and velocities
     powers = out + ws.model.n_q + ws.model.n_u
     ws.floats[powers + DRIVEN], ws.floats[powers + LOADS] = ws.step.driven_power, ws.step.load_power
     ws.floats[powers + FRICTION_LOSS] = lost

@@ -170,7 +170,7 @@ def _stays_open(ws: Workspace, n: int, h: float, bounds: GapBounds) -> bool:
     # the surfaces cannot move that far in the time
     if too_far(g0, one.past, g1, two.past, span * bounds.speed):
         return True
-    # the bounds hold for features that face each other
+    # the bounds hold for features that face each other; a gap that has closed at an end is not open
     if one.past > 0.0 or two.past > 0.0 or min(g0, g1) < -ws.tolerance.gap:
         return False
     acceleration, turning = bounds.acceleration, bounds.turning

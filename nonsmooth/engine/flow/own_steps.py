@@ -111,9 +111,9 @@ def _extend_range(guard: Guard, value: float, is_first: bool) -> None:
 def _extend_ranges(ws: Workspace, is_first: bool) -> None:
     """Extend the ranges of normal force and static margin of the grouped contacts by a sample of an own step [N].
 
-    From the least and the largest sample the caller finds whether a contact may open or slip within the step. A sample
-    rules the own step out if the features in contact are others than at the first one, or have ended, if friction does
-    not hold the contact, or if its other body moves.
+    From the least and the largest sample, :func:`begin_own_steps` finds whether a contact may open or slip within the
+    step. A sample rules the own step out if the features in contact are others than at the first one, or have ended, if
+    friction does not hold the contact, or if its other body moves.
     """
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]

@@ -71,6 +71,7 @@ def _set_up_problem(ws: Workspace, part: float) -> None:
         active.static_coefficient = friction_coefficient(ws, active.contact, speed=0.0)
         active.friction_coefficient = slip_coefficient(ws, active.contact, speed)
         sticks = contact.mode == Mode.STICK and contact.release == NO_RELEASE
+        # the impulse of a contact that has lifted off is known to be 0
         active.is_normal_force_unknown = contact.release != Cause.LIFT_OFF
         active.sticks = sticks and active.static_coefficient > 0.0
         # a slip within the velocity tolerance keeps its direction

@@ -64,9 +64,9 @@ class Projected(NamedTuple):
 def project_rates(ws: Workspace, at_event: bool) -> float:
     """Bring gap rates of the active contacts, and slips of sticking ones, to zero. Energy that is removed [J].
 
-    At an event a slip within the velocity tolerance is removed too, because its direction is round-off. The velocities
-    in ``y`` change by the impulses of least kinetic energy, damped, and without friction on sliding contacts. The work
-    of driven bodies is added to the totals. The contacts must have their Jacobians.
+    At an event a slip within the velocity tolerance, whose direction is round-off, is removed too, unless a traction
+    law depends on it. The velocities in ``y`` change by the impulses of least kinetic energy, damped, and without
+    friction on sliding contacts. The work of driven bodies is added to the totals. The contacts need their Jacobians.
     """
     if ws.problem.n_active == 0:
         return 0.0

@@ -133,6 +133,7 @@ def _predict_stage(ws: Workspace, h: float, stage: int, out: int) -> None:
     n, stages, predictor = ws.model.n_y, ws.coefficients.implicit_stages.start, ws.coefficients.implicit_predictor.start
     y, slopes = ws.island.y.start, ws.island.slopes.start
     here = slopes + stage * n
+    # all n numbers of the state; the slopes of two stages are n apart, too
     stage_part(ws, stages, y, slopes, n, n, stage, h, ws.step.y_guess.start)
     stage_part(ws, predictor, y, slopes, n, n, stage, h, out)
     for i in range(n):
