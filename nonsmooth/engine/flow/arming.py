@@ -46,10 +46,11 @@ def store_end(ws: Workspace) -> None:
 
 @kernel()
 def store_start(ws: Workspace) -> None:
-    """Take gaps, and bounds of their speed and acceleration, at the end of the last step as those at the start of this.
+    """Take what is known of the gaps at the end of the last step as that at the start of this one.
 
-    After an event the bounds of the gap's acceleration are not evaluated yet: that is done only for gaps that may
-    close. ``follows_a_step`` is true if no event has come since the last step.
+    From gaps, their rates and bounds, distances past the features, and offsets of the contact points, the search for
+    gaps that close within the step starts. After an event the bounds of the gap's acceleration are not evaluated yet:
+    that is done only for gaps that may close. ``follows_a_step`` is true if no event has come since the last step.
     """
     for contact in ws.contacts:
         contact.gap_at_start, contact.gap_rate_at_start = contact.gap_at_end, contact.gap_rate_at_end

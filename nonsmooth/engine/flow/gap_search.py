@@ -300,7 +300,7 @@ def first_closing(ws: Workspace, h: float, high: float, needed: int) -> float:
     It need not be the first such time: after each closing, ``high`` becomes its time, and the other gaps are searched
     up to there. Contacts must be evaluated at ``high``, unless the features of some do not face each other. If no gap
     closes, the contacts that the search evaluated within the step are evaluated at ``high`` again: all of them if that
-    is the end of the step, else the contact ``needed`` only.
+    is the end of the step, else only ``needed``, the contact whose guard was located there.
     """
     # the search among features that do not face each other has evaluated the contacts at other times
     found, is_evaluated = 0.0, ws.step.n_not_facing == 0

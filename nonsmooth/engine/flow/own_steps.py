@@ -77,8 +77,8 @@ def _independent_body(ws: Workspace, contact: Contact) -> int:
 def _group_independent_bodies(ws: Workspace) -> int:
     """Let the integrator step the independent bodies only, and group their contacts into islands. Number of bodies.
 
-    Independent is a body that sticks by a single contact to a body at rest. If there is none, no contact is grouped.
-    Afterwards the bodies and islands of a common step must be chosen anew.
+    Independent is a body that sticks by a single contact to a body at rest. If there is none, the islands are left as
+    they were. In any case the bodies and islands of a common step must be chosen anew.
     """
     for body in ws.bodies:
         body.n_closed = 0

@@ -238,6 +238,7 @@ def _try_implicit_step(ws: Workspace, h: float) -> float:
     ws.step.has_replaced_slope = True
     for i in range(n):
         ws.step.first_slope[i], ws.island.slopes[i] = ws.island.slopes[i], ws.island.slopes[n + i]
+    # the errors in y_stage are evaluated, so it is free as a work array
     write_implicit_interpolant(ws, ws.island.y.start, ws.step.y_new.start, slopes, n, h, ws.step.y_stage.start)
     return error
 
