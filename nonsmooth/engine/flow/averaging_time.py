@@ -153,7 +153,8 @@ def deviation_of_gaps(ws: Workspace) -> float:
             continue
         # mean_gap is the gap at the start of the span: an open one may close, and one that opens comes to rest
         deviation = abs(contact.gap - contact.mean_gap) - abs(contact.mean_gap) - contact.mean_gap_change
-        relative = _relative_deviation(ws, contact, max(0.0, deviation), contact.mean_force[0], work)
+        # less than these motions is no deviation; number 0 of the force is the normal one
+        relative = _relative_deviation(ws, contact, max(0.0, deviation), force=contact.mean_force[0], work=work)
         if relative > ws.island.strayed:
             ws.island.strayed, ws.island.stray_contact = relative, contact.index
     return float(ws.island.strayed)

@@ -81,7 +81,7 @@ def _acceleration_bound(ws: Workspace, h: float, contact: Contact) -> float:
     """
     # NO_BOUND is negative: no step came before this one, or the gap was far from closing in it
     if contact.acceleration_bound_at_start[0] < 0.0:
-        _evaluate_geometry_at(ws, h, 0.0, contact)
+        _evaluate_geometry_at(ws, h, theta=0.0, contact=contact)
         # the slope at the start holds the accelerations behind the n_q coordinate rates
         contact.acceleration_bound_at_start = fall_of(ws, contact.index, ws.island.slopes.start + ws.model.n_q)
     # each is a bound, its growth per second of the step, and a bound of the turning rate, which is not needed here
