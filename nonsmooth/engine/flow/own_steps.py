@@ -61,9 +61,9 @@ def _independent_body(ws: Workspace, contact: Contact) -> int:
     may be integrated with another interpolant, so it takes no own step. Nor does one on a compliant, averaged or
     anisotropic contact. ``n_closed`` must be the number of closed contacts of each body.
     """
-    is_special = contact.is_compliant or contact.is_averaged or contact.is_anisotropic
+    is_plain = not contact.is_compliant and not contact.is_averaged and not contact.is_anisotropic
     # past_feature is positive past the end of the features in contact, where the contact opens
-    if contact.mode != Mode.STICK or is_special or contact.past_feature > 0.0:
+    if contact.mode != Mode.STICK or not is_plain or contact.past_feature > 0.0:
         return _NO_BODY
     if not _has_body_at_rest(ws, contact):
         return _NO_BODY
@@ -223,9 +223,9 @@ def _try_own_step(ws: Workspace, usual: float, longest: float) -> float:
     if h > 0.0:
         # the last stage of the step has evaluated its end
         _extend_ranges(ws, is_first=False)
-        middle = ws.step.y_stage.start
-        dense_state(ws, ws.island.y.start, ws.island.slopes.start, ws.model.n_y, h, theta=0.5, out=middle)
-        right_hand_side(ws, ws.island.time + 0.5 * h, middle, may_choose=False, of_all_bodies=False)
+        # a sample in the middle, too
+        dense_state(ws, ws.island.y.start, ws.island.slopes.start, ws.model.n_y, h, 0.5, ws.step.y_stage.start)
+        right_hand_side(ws, ws.island.time + 0.5 * h, ws.step.y_stage.start, may_choose=False, of_all_bodies=False)
         _extend_ranges(ws, is_first=False)
     return h
 
