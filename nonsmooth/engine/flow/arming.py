@@ -46,10 +46,11 @@ def store_end(ws: Workspace) -> None:
 
 @kernel()
 def store_start(ws: Workspace) -> None:
-    """Take gaps, and bounds of their speed and acceleration, at the end of the last step as those at the start of this.
+    """Take what is known of the gaps at the end of the last step as that at the start of this one.
 
-    After an event the bounds of the gap's acceleration are not evaluated yet: that is done only for gaps that may
-    close. ``follows_a_step`` is true if no event has come since the last step.
+    From gaps, their rates and bounds, distances past the features, and offsets of the contact points, the search for
+    gaps that close within the step starts. After an event the bounds of the gap's acceleration are not evaluated yet:
+    that is done only for gaps that may close. ``follows_a_step`` is true if no event has come since the last step.
     """
     for contact in ws.contacts:
         contact.gap_at_start, contact.gap_rate_at_start = contact.gap_at_end, contact.gap_rate_at_end
@@ -111,7 +112,7 @@ def _deflate_normal(ws: Workspace, contact: Contact) -> None:
     if contact.mode == Mode.OPEN:
         # a rate that is not a number counts as separating
         separates = not contact.gap_rate_at_end <= ws.tolerance.velocity
-        start_from_zero(normal, 0.0 if separates else round_off, contact.gap_rate_at_end)
+        start_from_zero(normal, slack=0.0 if separates else round_off, rate=contact.gap_rate_at_end)
     elif contact.is_compliant:
         # it has just closed, and opens when it returns to this gap; its distance to the reach grows as the gap closes
         start_from_zero(normal, round_off, -contact.gap_rate_at_end)
@@ -123,7 +124,7 @@ def _deflate_friction(ws: Workspace, contact: Contact) -> None:
     friction = friction_of(ws, contact)
     if contact.mode == Mode.SLIDE and friction.initial <= ws.tolerance.velocity:
         # the growth rate is not known: 0 leaves the guard disarmed until the slip has grown
-        start_from_zero(friction, NEGLIGIBLE * ws.tolerance.velocity, 0.0)
+        start_from_zero(friction, slack=NEGLIGIBLE * ws.tolerance.velocity, rate=0.0)
 
 
 @kernel("void(ws, Contact)")

@@ -59,6 +59,7 @@ def _extrapolate(ws: Workspace, time: float) -> None:
     for i in range(ws.model.n_u):
         # the mean velocity over that time
         ws.floats[velocities + i] += 0.5 * ws.floats[change + i]
+    # the bodies turn these velocities into rates of their coordinates
     evaluate_free_bodies(ws, ws.island.time, ws.step.y_stage.start, of_all_bodies=True)
     for body in ws.bodies:
         rates = coordinate_rates(ws, body)
@@ -94,9 +95,9 @@ def _relative_deviation(ws: Workspace, contact: Contact, deviation: float, force
 def _largest_deviation(ws: Workspace, time: float) -> float:
     """Largest deviation of a gap from the linear model after a ``time`` [s] of impulses, relative to the allowed one.
 
-    Only contacts with a normal force count, as the others may open. Past the end of its features a contact has no true
-    gap. The deviation of a gap that is not a number is infinite. Afterwards bodies and contacts are evaluated at the
-    present state again.
+    Only rigid contacts with a normal force count, as the others may open. Past the end of its features a contact has no
+    true gap. Without any that counts it is 0; a gap that is not a number makes it infinite. Afterwards bodies and
+    contacts are evaluated at the present state again.
     """
     work = _allowed_work(ws)
     for active in ws.actives:
@@ -122,8 +123,9 @@ def _largest_deviation(ws: Workspace, time: float) -> float:
 def find_mean_forces(ws: Workspace, follows: bool) -> None:
     """Write the mean forces of the active contacts over an averaging span [N], and the modes at the end of the span.
 
-    The span is shortened until the gaps at its end agree with the linear model by which the forces are found. Rates and
-    accelerations without contact forces must be written. A span that ``follows`` another one may be longer.
+    The span is shortened until the gaps at its end agree with the linear model by which the forces are found, at most
+    to the time tolerance, whose forces are taken as they are. Rates and accelerations without contact forces must be
+    written. A span that ``follows`` another one may be longer.
     """
     time = find_mean_impulses(ws, averaging_span(ws, follows))
     deviation = _largest_deviation(ws, time)
@@ -141,7 +143,8 @@ def deviation_of_gaps(ws: Workspace) -> float:
     """Largest deviation of a gap under averaged forces from the linear model, relative to the allowed one.
 
     Writes it to ``strayed``, and its contact to ``stray_contact``. If it is above 1, the next step begins by ending the
-    averaging span. The contacts must be evaluated at the end of a step.
+    averaging span. Compliant contacts and those past the end of their features do not count. The contacts must be
+    evaluated at the end of a step.
     """
     work = _allowed_work(ws)
     ws.island.strayed = 0.0
@@ -150,7 +153,8 @@ def deviation_of_gaps(ws: Workspace) -> float:
             continue
         # mean_gap is the gap at the start of the span: an open one may close, and one that opens comes to rest
         deviation = abs(contact.gap - contact.mean_gap) - abs(contact.mean_gap) - contact.mean_gap_change
-        relative = _relative_deviation(ws, contact, max(0.0, deviation), contact.mean_force[0], work)
+        # less than these motions is no deviation; number 0 of the force is the normal one
+        relative = _relative_deviation(ws, contact, max(0.0, deviation), force=contact.mean_force[0], work=work)
         if relative > ws.island.strayed:
             ws.island.strayed, ws.island.stray_contact = relative, contact.index
     return float(ws.island.strayed)

@@ -23,6 +23,7 @@ def deflated(ws: Workspace, i: int, value: float, elapsed: float) -> float:
     guard = ws.guards[i]
     if not guard.is_deflated:
         return value
+    # of a deflated guard, initial is the growth rate at the start
     rate = guard.initial
     separates = i < first_user_guard(ws) and is_of_open_contact(ws, i) and rate > ws.tolerance.velocity
     if separates and rate * elapsed <= NEGLIGIBLE * ws.tolerance.gap:

@@ -170,6 +170,7 @@ def _set_unknowns(ws: Workspace, active: ActiveContact, y: int) -> None:
         active.is_normal_force_unknown = False
         active.normal_force = contact.compliant_force
         if contact.has_traction_law:
+            # writes friction and moment
             apply_traction_law(ws, c, active.force, y)
             return
     elif contact.is_averaged:
@@ -179,7 +180,7 @@ def _set_unknowns(ws: Workspace, active: ActiveContact, y: int) -> None:
         active.friction = contact.mean_force[1], contact.mean_force[2]
         return
     if contact.mode == Mode.STICK:
-        active.static_coefficient = friction_coefficient(ws, c, 0.0)
+        active.static_coefficient = friction_coefficient(ws, c, speed=0.0)
         if active.static_coefficient > 0.0:
             active.sticks = True
             return
@@ -208,9 +209,10 @@ def value_of_normal_guard(ws: Workspace, c: int) -> float:
 
 @kernel("b1(ws, i8)")
 def is_violated(ws: Workspace, c: int) -> bool:
-    """True if the force of the closed contact ``c`` violates its mode by more than round-off of its contact problem.
+    """True if the force of the rigid closed contact ``c`` violates its mode by more than round-off of its problem.
 
-    A normal force violates it if it pulls, friction that holds the contact if it exceeds its static bound.
+    A normal force violates it if it pulls, friction that holds the contact if it exceeds its static bound. For a
+    compliant contact this is no test, because its normal guard is a length.
     """
     contact = ws.contacts[c]
     least = value_of_normal_guard(ws, c)
@@ -256,6 +258,7 @@ def slope(ws: Workspace, t: float, y: int, out: int, may_choose: bool, of_all_bo
     of_bodies = _write_slope_of_bodies(ws, y, out, of_all_bodies)
     lost = _power_of_friction(ws)
     _update_least_guards(ws)
+    # the rates of the energy accounts follow those of coordinates and velocities
     powers = out + ws.model.n_q + ws.model.n_u
     ws.floats[powers + DRIVEN], ws.floats[powers + LOADS] = ws.step.driven_power, ws.step.load_power
     ws.floats[powers + FRICTION_LOSS] = lost

@@ -66,8 +66,9 @@ def _reorient_slips(ws: Workspace) -> bool:
 def _part_before_reversal(ws: Workspace) -> float:
     """Part of the tried step after which a slip reverses, by linear interpolation. It is 1 if none reverses.
 
-    A slip that started from rest and ends against its direction had the wrong direction from the start. Its direction
-    is reversed here, and the part is 0: the step must be tried again from a new slope.
+    The part is at least ``SHRINK``, the largest reduction of a step. A slip that started from rest and ends against its
+    direction had the wrong direction from the start. Its direction is reversed here, and the part is 0: the step must
+    be tried again from a new slope.
     """
     part = 1.0
     for i in range(ws.island.n_grouped):
@@ -176,6 +177,7 @@ def _start_step(ws: Workspace) -> None:
     slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=False, of_all_bodies=True)
     if _reorient_slips(ws):
         slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=False, of_all_bodies=True)
+    # the power on ballistic bodies, which follow a closed form, at the start of the step
     take_off(ws)
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]

@@ -81,9 +81,10 @@ def _acceleration_bound(ws: Workspace, h: float, contact: Contact) -> float:
     """
     # NO_BOUND is negative: no step came before this one, or the gap was far from closing in it
     if contact.acceleration_bound_at_start[0] < 0.0:
-        _evaluate_geometry_at(ws, h, 0.0, contact)
+        _evaluate_geometry_at(ws, h, theta=0.0, contact=contact)
         # the slope at the start holds the accelerations behind the n_q coordinate rates
         contact.acceleration_bound_at_start = fall_of(ws, contact.index, ws.island.slopes.start + ws.model.n_q)
+    # each is a bound, its growth per second of the step, and a bound of the turning rate, which is not needed here
     first, grows_first, _ = contact.acceleration_bound_at_start
     last, grows_last, _ = contact.acceleration_bound_at_end
     start, end = first + h * grows_first, last + h * grows_last
@@ -169,7 +170,7 @@ def _stays_open(ws: Workspace, n: int, h: float, bounds: GapBounds) -> bool:
     # the surfaces cannot move that far in the time
     if too_far(g0, one.past, g1, two.past, span * bounds.speed):
         return True
-    # the bounds hold for features that face each other
+    # the bounds hold for features that face each other; a gap that has closed at an end is not open
     if one.past > 0.0 or two.past > 0.0 or min(g0, g1) < -ws.tolerance.gap:
         return False
     acceleration, turning = bounds.acceleration, bounds.turning
@@ -214,6 +215,7 @@ def _first_closing_of(ws: Workspace, h: float, contact: Contact, high: float, is
         if not _stays_open(ws, n, h, bounds) and n < PARTS and _is_undecided(ws, h, contact, n, speed):
             n_evaluations += 1
             if n_evaluations > _MOST_EVALUATIONS:
+                # counts the evaluation that is refused
                 ws.totals.n_gap_evaluations += 1
                 # this ends the run, so the result does not matter
                 fail_check(ws, Status.GAP_UNDECIDED, contact.index, left.gap, ws.tolerance.gap)
@@ -225,7 +227,7 @@ def _first_closing_of(ws: Workspace, h: float, contact: Contact, high: float, is
             if has_fired(ws, normal_guard(contact.index)):
                 return float(part_end(ws.floats, ws.step.part_ends.start, n).theta)
             continue
-        # the part is decided: the next one begins at its right end
+        # the part is decided: the next one begins at its right end; left is end 0 itself, so this overwrites it
         left.theta, left.gap, left.rate = right.theta, right.gap, right.rate
         left.past, left.offset = right.past, right.offset
         n -= 1
@@ -298,7 +300,7 @@ def first_closing(ws: Workspace, h: float, high: float, needed: int) -> float:
     It need not be the first such time: after each closing, ``high`` becomes its time, and the other gaps are searched
     up to there. Contacts must be evaluated at ``high``, unless the features of some do not face each other. If no gap
     closes, the contacts that the search evaluated within the step are evaluated at ``high`` again: all of them if that
-    is the end of the step, else the contact ``needed`` only.
+    is the end of the step, else only ``needed``, the contact whose guard was located there.
     """
     # the search among features that do not face each other has evaluated the contacts at other times
     found, is_evaluated = 0.0, ws.step.n_not_facing == 0

@@ -14,5 +14,6 @@ def account_for_mean_forces(ws: Workspace) -> None:
     """
     for contact in ws.contacts:
         if contact.is_averaged and not contact.is_compliant:
+            # a force that pushes while the gap opens gives energy, which is a negative loss
             ws.totals.closing_loss -= contact.mean_force[0] * (contact.gap - contact.mean_gap)
             contact.mean_gap = contact.gap

@@ -39,10 +39,11 @@ _NO_BODY = -1
 
 @kernel("b1(ws, i8, i8)")
 def _is_at_rest(ws: Workspace, number: int, frame: int) -> bool:
-    """True if body ``number`` is driven and the ``frame`` on it, given by its offset, does not move."""
-    one = frame_at(ws.floats, frame)
-    moves = dot(one.velocity, one.velocity) + dot(one.spin, one.spin)
-    return ws.bodies[number].n_u == 0 and moves == 0.0
+    """True if body ``number`` is driven and the ``frame`` on it, given by its offset, does not move at all."""
+    motion = frame_at(ws.floats, frame)
+    # zero only if each component is
+    squares = dot(motion.velocity, motion.velocity) + dot(motion.spin, motion.spin)
+    return ws.bodies[number].n_u == 0 and squares == 0.0
 
 
 @kernel("b1(ws, Contact)")
@@ -57,10 +58,12 @@ def _independent_body(ws: Workspace, contact: Contact) -> int:
 
     Such a body acts on nothing else, so it may take a step of its own. It must not be the only body with velocities:
     then an own step would save nothing, as there are no events of others. A body that declares a spin (not negative)
-    may be integrated with another interpolant, so it takes no own step.
+    may be integrated with another interpolant, so it takes no own step. Nor does one on a compliant, averaged or
+    anisotropic contact. ``n_closed`` must be the number of closed contacts of each body.
     """
-    is_rigid = not contact.is_compliant and not contact.is_averaged and not contact.is_anisotropic
-    if contact.mode != Mode.STICK or not is_rigid or contact.past_feature > 0.0:
+    is_plain = not contact.is_compliant and not contact.is_averaged and not contact.is_anisotropic
+    # past_feature is positive past the end of the features in contact, where the contact opens
+    if contact.mode != Mode.STICK or not is_plain or contact.past_feature > 0.0:
         return _NO_BODY
     if not _has_body_at_rest(ws, contact):
         return _NO_BODY
@@ -74,8 +77,8 @@ def _independent_body(ws: Workspace, contact: Contact) -> int:
 def _group_independent_bodies(ws: Workspace) -> int:
     """Let the integrator step the independent bodies only, and group their contacts into islands. Number of bodies.
 
-    Independent is a body that sticks by a single contact to a body at rest. Afterwards the bodies and islands of a
-    common step must be chosen anew.
+    Independent is a body that sticks by a single contact to a body at rest. If there is none, the islands are left as
+    they were. In any case the bodies and islands of a common step must be chosen anew.
     """
     for body in ws.bodies:
         body.n_closed = 0
@@ -86,6 +89,7 @@ def _group_independent_bodies(ws: Workspace) -> int:
     ws.island.n_integrated = ws.island.n_spans = 0
     for contact in ws.contacts:
         number = _independent_body(ws, contact)
+        # group_members groups the contacts that are marked so
         contact.is_in_problem = number != _NO_BODY
         if contact.is_in_problem:
             integrate(ws, number)
@@ -105,18 +109,22 @@ def _extend_range(guard: Guard, value: float, is_first: bool) -> None:
 
 @kernel("void(ws, b1)")
 def _extend_ranges(ws: Workspace, is_first: bool) -> None:
-    """Extend the ranges of the force guards of the grouped contacts by their present values [N].
+    """Extend the ranges of normal force and static margin of the grouped contacts by a sample of an own step [N].
 
-    Also marks contacts that allow an own step: their normal guard stays armed as long as the contact has the features
-    of the first sample, sticks by friction, and its other body is at rest.
+    From the least and the largest sample, :func:`begin_own_steps` finds whether a contact may open or slip within the
+    step. A sample rules the own step out if the features in contact are others than at the first one, or have ended, if
+    friction does not hold the contact, or if its other body moves.
     """
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]
         normal, friction = normal_of(ws, contact), friction_of(ws, contact)
         _extend_range(normal, value_of_normal_guard(ws, contact.index), is_first)
         _extend_range(friction, contact.static_margin, is_first)
+        # here is_armed of the normal guard means that no sample has ruled the own step out: the common step, which
+        # arms guards to fire, writes it again
         if is_first:
             contact.feature, normal.is_armed = int(contact.feature_now), True
+        # past_feature is the distance past the end of the features [m], negative within, 0 if they have no end
         has_same_features = contact.past_feature <= 0.0 and int(contact.feature_now) == contact.feature
         if not has_same_features or not _has_body_at_rest(ws, contact) or not contact.is_held_by_friction:
             normal.is_armed = False
@@ -125,6 +133,7 @@ def _extend_ranges(ws: Workspace, is_first: bool) -> None:
 @kernel("b1(Guard)")
 def _keeps_distance(guard: Guard) -> bool:
     """True if the samples of a guard, ``base`` to ``at_end``, are positive and differ too little for a root between."""
+    # base is the least sample, at_end the largest one
     return guard.base > 0.0 and guard.base >= _LARGEST_DROP * guard.at_end
 
 
@@ -157,6 +166,7 @@ def _store_step(ws: Workspace, body: Body, h: float) -> None:
     They are those of the coordinates and velocities of the body alone, in all stages of the step taken last.
     """
     body.has_own_step, body.own_step_time, body.own_step = True, ws.island.time, h
+    # coordinates, then velocities
     for part in range(2):
         first, n = (body.q, body.n_q) if part == 0 else (ws.model.n_q + body.u, body.n_u)
         for i in range(first, first + n):
@@ -173,6 +183,7 @@ def begin_own_steps(ws: Workspace, usual: float, longest: float) -> None:
     is tried is that of the last own step, or ``usual`` [s]. None exceeds ``longest`` [s]. Afterwards the bodies are
     evaluated at another state. Systems with loads, joints or inner states of laws have no own steps.
     """
+    # loads and joints couple bodies, and an own step stores coordinates and velocities only
     if ws.model.n_loads + ws.model.n_joints + ws.model.n_states > 0 or _group_independent_bodies(ws) == 0:
         return
     h = _try_own_step(ws, usual, longest)
@@ -184,6 +195,7 @@ def begin_own_steps(ws: Workspace, usual: float, longest: float) -> None:
         normal, friction = normal_of(ws, contact), friction_of(ws, contact)
         # the least normal force in the stages of the step is a sample, too
         _extend_range(normal, contact.least_force, is_first=False)
+        # is_armed: no sample has ruled the own step out
         if normal.is_armed and _keeps_distance(normal) and _keeps_distance(friction):
             # the other body is at rest
             number = contact.body_b if ws.bodies[contact.body_b].n_u > 0 else contact.body_a
@@ -201,6 +213,7 @@ def _try_own_step(ws: Workspace, usual: float, longest: float) -> float:
     """
     # the explicit step sets it to zero; it decides whether the next common step is implicit
     stage_time = ws.island.stage_time
+    # the evaluations below lower it to the least force
     for i in range(ws.island.n_grouped):
         ws.contacts[ws.island.grouped[i]].least_force = math.inf
     slope(ws, ws.island.time, ws.island.y.start, ws.island.slopes.start, may_choose=False, of_all_bodies=False)
@@ -208,7 +221,9 @@ def _try_own_step(ws: Workspace, usual: float, longest: float) -> float:
     h = _find_step(ws, usual, longest)
     ws.island.stage_time = stage_time
     if h > 0.0:
+        # the last stage of the step has evaluated its end
         _extend_ranges(ws, is_first=False)
+        # a sample in the middle, too
         dense_state(ws, ws.island.y.start, ws.island.slopes.start, ws.model.n_y, h, 0.5, ws.step.y_stage.start)
         right_hand_side(ws, ws.island.time + 0.5 * h, ws.step.y_stage.start, may_choose=False, of_all_bodies=False)
         _extend_ranges(ws, is_first=False)
@@ -224,6 +239,7 @@ def _has_drifted(ws: Workspace, contact: Contact) -> bool:
     """
     if contact.mode == Mode.OPEN or contact.is_averaged:
         return False
+    # velocity_at_end is gap rate and slip
     rate, gap = abs(contact.velocity_at_end[0]), abs(contact.gap_at_end)
     if contact.is_compliant:
         rate = gap = 0.0
@@ -250,6 +266,7 @@ def end_own_steps(ws: Workspace) -> int:
 
     If any ends, the closed contacts must be grouped anew. A drifted contact takes part in the next projection.
     """
+    # without own steps the common end is infinite
     n_ended, is_end = 0, ws.island.own_steps_end - ws.island.time <= ws.tolerance.time
     if is_end:
         ws.island.own_steps_end = math.inf

@@ -38,7 +38,8 @@ _LEAST_SPEED_RATIO = 3.0
 def _store_displacements(ws: Workspace) -> int:
     """Store the displacements of the contact points from before the jump to now [m]. Number of stretches of the jump.
 
-    A stretch is a part of the displacement that is short compared with the bodies. Impulses act in each of them.
+    A stretch is a part of the displacement that is short compared with the bodies. Impulses act in each of them. Of
+    very long displacements the stretches are longer, as their number is limited.
     """
     longest = 0.0
     for i in range(ws.island.n_grouped):
@@ -67,9 +68,10 @@ def _set_up_problem(ws: Workspace, part: float) -> None:
         evaluate_rates(ws, active.contact)
         evaluate_jacobian(ws, active.contact)
         speed = length(contact.slip)
-        active.static_coefficient = friction_coefficient(ws, active.contact, 0.0)
+        active.static_coefficient = friction_coefficient(ws, active.contact, speed=0.0)
         active.friction_coefficient = slip_coefficient(ws, active.contact, speed)
         sticks = contact.mode == Mode.STICK and contact.release == NO_RELEASE
+        # the impulse of a contact that has lifted off is known to be 0
         active.is_normal_force_unknown = contact.release != Cause.LIFT_OFF
         active.sticks = sticks and active.static_coefficient > 0.0
         # a slip within the velocity tolerance keeps its direction
@@ -191,6 +193,7 @@ def evaluate_force_round_off(ws: Workspace) -> None:
     for i in range(ws.island.n_grouped):
         contact = ws.contacts[ws.island.grouped[i]]
         largest = max(largest, abs(contact.force[0]))
+        # slip acceleration per unit of friction [1/kg], as a measure of the inverse mass
         if contact.slip_per_force > 0.0:
             largest = max(largest, abs(contact.bias[0]) / contact.slip_per_force)
     for i in range(ws.island.n_grouped):
@@ -218,7 +221,7 @@ def jump_contact_points(ws: Workspace, h: float) -> bool:
         ws.step.y_new[i] = ws.island.y[i] + (h * ws.island.slopes[i] if i < ws.model.n_q else 0.0)
     evaluate_bodies(ws, ws.island.time + h, ws.step.y_new.start)
     # any approach at the new point counts
-    if _jumping_contact(ws, h, 0.0) == NO_CONTACT:
+    if _jumping_contact(ws, h, rate=0.0) == NO_CONTACT:
         return False
     n_stretches = _store_displacements(ws)
     for stretch in range(n_stretches):

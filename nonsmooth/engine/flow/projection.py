@@ -64,9 +64,9 @@ class Projected(NamedTuple):
 def project_rates(ws: Workspace, at_event: bool) -> float:
     """Bring gap rates of the active contacts, and slips of sticking ones, to zero. Energy that is removed [J].
 
-    At an event a slip within the velocity tolerance is removed too, because its direction is round-off. The velocities
-    in ``y`` change by the impulses of least kinetic energy, damped, and without friction on sliding contacts. The work
-    of driven bodies is added to the totals. The contacts must have their Jacobians.
+    At an event a slip within the velocity tolerance, whose direction is round-off, is removed too, unless a traction
+    law depends on it. The velocities in ``y`` change by the impulses of least kinetic energy, damped, and without
+    friction on sliding contacts. The work of driven bodies is added to the totals. The contacts need their Jacobians.
     """
     if ws.problem.n_active == 0:
         return 0.0
@@ -378,6 +378,7 @@ def project_joints(ws: Workspace) -> None:
         # joints that are farther apart than steps can lead are not moved
         if iteration == 0 and worst > _allowed_residual(ws):
             break
+        # an iteration that does not even halve the residual makes no progress any more
         if worst <= NEGLIGIBLE * ws.tolerance.gap or worst > 0.5 * before or iteration == _MOST_ITERATIONS - 1:
             break
         # the last iteration moves nothing, so that the bodies are evaluated at their end

@@ -185,6 +185,7 @@ def check_new_springs(ws: Workspace) -> None:
             continue
         ws.run.jumped_energy += _stored_energy(ws, contact, -contact.gap)
         ws.run.jump_time = ws.island.time
+        # the gap of the deepest one is negative: a contact may begin at that depth
         allowed = tolerated - _deepest_other(ws, contact, after=False)
         if contact.gap < -allowed:
             fail_check(ws, Status.GAP_UNEXPLAINED, contact.index, contact.gap, allowed)

@@ -31,6 +31,7 @@ def _rotate(floats: Floats, q: int, v: int, sign: float, out: int) -> None:
     ``sign``, the sign of the quaternion's scalar part, is ``_TO_SPACE`` (from the axes of the body) or ``_TO_BODY``.
     With a the scalar and e the vector part, the result is v + 2 (a e x v + e x (e x v)) / (a^2 + e . e).
     """
+    # all is read before out is written, so that out may be v
     a, axis = sign * floats[q], (floats[q + 1], floats[q + 2], floats[q + 3])
     x, y, z = floats[v], floats[v + 1], floats[v + 2]
     tx, ty, tz = cross(axis, (x, y, z))
@@ -130,6 +131,7 @@ def write_spins_of_stage(ws: Workspace, stage: int, h: float, out: int) -> None:
         body = ws.bodies[number]
         q, u = out + body.q + body.quaternion, out + ws.model.n_q + body.u + body.spin
         start = ws.island.spin_start.start + 3 * number
+        # a spin has 3 numbers, and its slopes of two stages are 3 apart
         stage_part(ws, ws.coefficients.stages.start, start, _slopes_of(ws, number), 3, 3, stage, h, u)
         _rotate(ws.floats, q, u, _TO_BODY, u)
         if stage < LAST_STAGE:
@@ -146,6 +148,7 @@ def write_spin_errors(ws: Workspace, h: float, out: int) -> None:
         number = ws.island.spinning[i]
         body = ws.bodies[number]
         u = out + ws.model.n_q + body.u + body.spin
+        # a spin has 3 numbers, and its slopes of two stages are 3 apart
         weigh_part(ws, ws.coefficients.error_weights.start, _slopes_of(ws, number), 3, 3, h, u)
         _rotate(ws.floats, ws.step.y_new.start + body.q + body.quaternion, u, _TO_BODY, u)
 
@@ -161,5 +164,6 @@ def write_spin_within(ws: Workspace, number: int, early: Vector, late: Vector, o
     if not body.spins_apart or ws.island.stage_time > 0.0:
         return
     u = out + ws.model.n_q + body.u + body.spin
+    # a spin has 3 numbers, and its slopes of two stages are 3 apart
     dense_part(ws.floats, ws.island.spin_start.start + 3 * number, _slopes_of(ws, number), 3, 3, early, late, u)
     _rotate(ws.floats, out + body.q + body.quaternion, u, _TO_BODY, u)

@@ -133,6 +133,7 @@ def _predict_stage(ws: Workspace, h: float, stage: int, out: int) -> None:
     n, stages, predictor = ws.model.n_y, ws.coefficients.implicit_stages.start, ws.coefficients.implicit_predictor.start
     y, slopes = ws.island.y.start, ws.island.slopes.start
     here = slopes + stage * n
+    # all n numbers of the state; the slopes of two stages are n apart, too
     stage_part(ws, stages, y, slopes, n, n, stage, h, ws.step.y_guess.start)
     stage_part(ws, predictor, y, slopes, n, n, stage, h, out)
     for i in range(n):
@@ -237,6 +238,7 @@ def _try_implicit_step(ws: Workspace, h: float) -> float:
     ws.step.has_replaced_slope = True
     for i in range(n):
         ws.step.first_slope[i], ws.island.slopes[i] = ws.island.slopes[i], ws.island.slopes[n + i]
+    # the errors in y_stage are evaluated, so it is free as a work array
     write_implicit_interpolant(ws, ws.island.y.start, ws.step.y_new.start, slopes, n, h, ws.step.y_stage.start)
     return error
 
