@@ -50,6 +50,7 @@ def _write_jam(ws: Workspace, active: ActiveContact) -> bool:
     """
     contact = ws.contacts[active.contact]
     speed = length(contact.slip)
+    # the problem is posed with rates in place of accelerations
     for r in range(3):
         active.free[r] = contact.rate[r]
     # friction of sliding; a contact that does not slip has none, or an unknown one if it sticks
@@ -72,7 +73,8 @@ def _write_jam(ws: Workspace, active: ActiveContact) -> bool:
 def map_impact(ws: Workspace) -> None:
     """Let the user's law that maps velocities find the impulses of the active contacts [N s]. Writes their losses [J].
 
-    The law gets the Delassus matrix, the rates before the impact and the parameters of the contacts.
+    The law gets the Delassus matrix, the rates before the impact and the parameters of the contacts. A law that writes
+    past the end of the impulses is noted in ``run.n_past_map``, which is reported as its error.
     """
     n = len(ws.actives)
     for active in ws.actives:

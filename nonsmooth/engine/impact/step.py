@@ -79,7 +79,10 @@ def reset_attempt(ws: Workspace) -> None:
 
 @kernel("f8(ws, i8)")
 def _relative_error(ws: Workspace, errors: int) -> float:
-    """Largest error of the active contacts, relative to the tolerance [1], from the errors of a state at ``errors``."""
+    """Largest error of the active contacts, relative to the tolerance [1], from the errors of a state at ``errors``.
+
+    It is infinite if an error is not finite. ``errors`` is an offset of the floats.
+    """
     worst = 0.0
     for active in ws.actives:
         # the numbers of an idle contact do not change
@@ -125,7 +128,8 @@ def try_linear_step(ws: Workspace, h: float) -> bool:
     """Take one step of ``h`` to ``y_new`` by the midpoint rule. True if the slope is linear, so that it is exact.
 
     A contact that alone has a load moves so while its slip keeps its direction. The slope at the end shows whether it
-    did. Slopes and forces at the end are left as those of the last stage.
+    did. Slopes and forces at the end are left as those of the last stage. If False, the caller takes an ordinary step,
+    which writes all of them anew.
     """
     n = state_size(ws)
     middle, end = ws.impact.slopes.start + n, ws.impact.slopes.start + LAST_STAGE * n
@@ -145,7 +149,7 @@ def try_linear_step(ws: Workspace, h: float) -> bool:
 def _is_straight(ws: Workspace, active: ActiveContact, middle: int, end: int) -> bool:
     """True if the slope of an active contact is linear over the step: those at the start, ``middle`` and ``end`` agree.
 
-    A component of an impulse is compared with the force: one that is round-off relative to the force is straight.
+    The last two are offsets of the floats. The second difference of the three slopes must be round-off. A component of an impulse is compared with the force: one that is round-off relative to the force is straight.
     """
     force = abs(active.force[0]) + abs(active.force[1]) + abs(active.force[2])
     for component in range(IMPACT_STATE):
@@ -196,6 +200,7 @@ def _try_implicit_step(ws: Workspace, h: float) -> float:
     n, errors, slopes = state_size(ws), ws.impact.y_stage.start, ws.impact.slopes.start
     _begin_implicit_step(ws)
     has_solution = True
+    # the slopes of stages 0 and 1 are that at the start
     for stage in range(2, N_STAGES):
         has_solution = has_solution and _solve_stage(ws, h, stage)
     # a slip that the step has stopped sticks at its end; it is marked even if the step fails, so that it can be undone
@@ -232,7 +237,8 @@ def _begin_implicit_step(ws: Workspace) -> None:
 def _solve_stage(ws: Workspace, h: float, stage: int) -> bool:
     """Find the slope of an implicit stage of a step of ``h``, at the state to which this slope leads. True if found.
 
-    The friction of slips, which is stiff, is solved for. Deformations, which are not, are iterated.
+    The friction of slips, which is stiff, is solved for. Deformations, which are not, are iterated. False if no
+    friction opposes the slips, or if the iteration does not settle.
     """
     n, slopes = state_size(ws), ws.impact.slopes.start
     out = ws.impact.y_new.start if stage == LAST_STAGE else ws.impact.y_stage.start
@@ -283,7 +289,7 @@ def _write_problem(ws: Workspace, ahead: float, y: int, guess: int) -> None:
     stage would end without forces.
     """
     n = state_size(ws)
-    # go to the guessed end, and back below
+    # go to the guessed end for the normal forces, and back below for the slips
     for i in range(n):
         ws.floats[y + i] += ahead * ws.floats[guess + i]
     evaluate_impact_rates(ws, y)
