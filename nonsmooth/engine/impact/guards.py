@@ -177,8 +177,8 @@ def arm_impact_guards(ws: Workspace) -> None:
 def first_fired(ws: Workspace, located: int) -> int:
     """Number of the first guard in their order that has fired, other than ``located``, or ``NO_GUARD``.
 
-    ``located`` is the guard whose root is known already. An armed guard was positive in its phase. One that was not may be round-off about zero, so it fires only if it is
-    clearly negative.
+    ``located`` is the guard whose root is known already. An armed guard was positive in its phase. One that was not may
+    be round-off about zero, so it fires only if it is clearly negative.
     """
     for guard in ws.impact_guards:
         has_fired = (guard.value < 0.0 and guard.is_armed) or guard.value < _VIOLATED

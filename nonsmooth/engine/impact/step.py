@@ -149,7 +149,8 @@ def try_linear_step(ws: Workspace, h: float) -> bool:
 def _is_straight(ws: Workspace, active: ActiveContact, middle: int, end: int) -> bool:
     """True if the slope of an active contact is linear over the step: those at the start, ``middle`` and ``end`` agree.
 
-    The last two are offsets of the floats. The second difference of the three slopes must be round-off. A component of an impulse is compared with the force: one that is round-off relative to the force is straight.
+    The last two are offsets of the floats. The second difference of the three slopes must be round-off. A component of
+    an impulse is compared with the force: one that is round-off relative to the force is straight.
     """
     force = abs(active.force[0]) + abs(active.force[1]) + abs(active.force[2])
     for component in range(IMPACT_STATE):

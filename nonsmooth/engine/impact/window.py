@@ -45,8 +45,9 @@ _NO_ENTRY = -1
 def windowed_impact(ws: Workspace) -> Outcome:
     """Integrate a large impact of the active contacts, of which only those near the wave are evaluated at a time.
 
-    These contacts form a window, which is drawn anew whenever the wave reaches its rim: the outermost layer. Results and
-    outcome are those of :func:`nonsmooth.engine.impact.integration.energetic_impact`. Too many windows are ``ENDLESS``.
+    These contacts form a window, which is drawn anew whenever the wave reaches its rim, the outermost layer. Results
+    and outcome are those of :func:`nonsmooth.engine.impact.integration.energetic_impact`. After too many windows the
+    outcome is ``ENDLESS``.
     """
     # a contact that is left alone may become the variable of integration
     ws.impact.may_be_lone, ws.impact.is_step_implicit = True, False
