@@ -87,8 +87,9 @@ def end_short_bounces(ws: Workspace) -> int:
     """End the bounces that have become shorter than their contact time. Number of islands in which a bounce ends.
 
     The last bounce of a single contact is left out. If several contacts touch, the forces of their island are averaged
-    over a contact time, so that all come to rest together. The contacts must have their modes after the event. Bounces
-    that are not short limit the next step by ``first_step`` [s].
+    over a contact time, so that all come to rest together. If they cannot be averaged, the bounces go on. The contacts
+    must have their modes after the event. Bounces limit the next step by ``first_step`` [s], except fast ones of
+    several contacts (:func:`_short_bounce`).
     """
     ws.island.first_step = math.inf
     group_touching(ws)
@@ -102,6 +103,7 @@ def end_short_bounces(ws: Workspace) -> int:
             _end_bounce(ws, which)
             n_ended += 1
         else:
+            # 1 if the forces are averaged from now on
             n_ended += average_active(ws)
     return n_ended
 

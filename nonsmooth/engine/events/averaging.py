@@ -35,7 +35,7 @@ def average_active(ws: Workspace) -> bool:
 
     This is the fallback for an island whose events accumulate. The contact problem of a single contact always has a
     solution. If the instantaneous forces of a contact failed soon after their last attempt, the wait before the next
-    attempt is doubled.
+    attempt is doubled. Otherwise there is no wait.
     """
     # 0 if there is no contact time over which to average
     time = averaging_time(ws)

@@ -133,6 +133,7 @@ def solve_islands(ws: Workspace, averaging_ends: bool) -> Solution:
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
         if stays_averaged(ws, averaging_ends):
+            # a span of this island that ends here is followed by another one
             agree_on_averaged_modes(ws, averaging_ends)
             accelerate(ws)
             continue

@@ -197,7 +197,7 @@ def has_faded(ws: Workspace) -> bool:
     for active in ws.actives:
         inverse_mass = diagonal_block(ws, active.index).nn
         stored = state_of(ws, active).energy if active.phase != Phase.IDLE else 0.0
-        # energies are quadratic in speeds
+        # energies are quadratic in speeds; the second one is the kinetic energy of a bounce from the slowest speed
         least = max(small * small * active.energy_scale, 0.5 * slowest * slowest / inverse_mass)
         if active.gap_rate < -slow or stored > least:
             return False

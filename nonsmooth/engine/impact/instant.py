@@ -117,7 +117,7 @@ def _write_losses(ws: Workspace) -> None:
         normal = tangential = 0.0
         for r in range(3):
             impulse = active.impulse[r]
-            # the impulses change the rates by G P
+            # the impulses change the rates z by G P, so the mean is half of 2 z + G P
             mean = 0.5 * add_product(ws, 2.0 * active.rate_before[r], active.index, r, ws.impact.impulse.start)
             if r == 0:
                 normal -= impulse * mean

@@ -51,9 +51,11 @@ def try_impact_step(ws: Workspace, h: float) -> float:
     reset_attempt(ws)
     n, slopes = state_size(ws), ws.impact.slopes.start
     for stage in range(1, N_STAGES):
+        # the state of the last stage is that at the end of the step
         out = ws.impact.y_new.start if stage == LAST_STAGE else ws.impact.y_stage.start
         stage_part(ws, ws.coefficients.stages.start, ws.impact.y.start, slopes, n, n, stage, h, out)
         impact_slope(ws, out, slopes + stage * n)
+    # the errors take the place of the state of a stage
     weigh_part(ws, ws.coefficients.error_weights.start, slopes, n, n, h, ws.impact.y_stage.start)
     error = _relative_error(ws, ws.impact.y_stage.start)
     if not error <= 1.0:
@@ -198,6 +200,7 @@ def _try_implicit_step(ws: Workspace, h: float) -> float:
     Returns its error relative to the tolerance [1], infinite if a stage has no solution. The slopes are left so that
     the dense output of the explicit step is the interpolant of this one.
     """
+    # the errors take the place of the state of a stage
     n, errors, slopes = state_size(ws), ws.impact.y_stage.start, ws.impact.slopes.start
     _begin_implicit_step(ws)
     has_solution = True
@@ -211,6 +214,7 @@ def _try_implicit_step(ws: Workspace, h: float) -> float:
         return math.inf
     weigh_part(ws, ws.coefficients.implicit_errors.start, slopes, n, n, h, errors)
     error = _CAUTION * _relative_error(ws, errors)
+    # the errors are not needed any more: their place serves as a work array
     write_implicit_interpolant(ws, ws.impact.y.start, ws.impact.y_new.start, slopes, n, h, errors)
     return error
 

@@ -77,6 +77,7 @@ def _gradient_of_norm(floats: Floats, place: int, n: Vector) -> Vector:
     if wide > 0.0:
         wide *= ((ax / wide) ** q + (by / wide) ** q) ** (1.0 / q)
     high = max(wide, cz)
+    # only along axes without extent: the set does not reach beyond its centre there
     if high == 0.0:
         return 0.0, 0.0, 0.0
     high *= ((wide / high) ** p + (cz / high) ** p) ** (1.0 / p)
