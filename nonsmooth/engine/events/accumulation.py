@@ -87,8 +87,9 @@ def end_short_bounces(ws: Workspace) -> int:
     """End the bounces that have become shorter than their contact time. Number of islands in which a bounce ends.
 
     The last bounce of a single contact is left out. If several contacts touch, the forces of their island are averaged
-    over a contact time, so that all come to rest together. The contacts must have their modes after the event. Bounces
-    that are not short limit the next step by ``first_step`` [s].
+    over a contact time, so that all come to rest together. If they cannot be averaged, the bounces go on. The contacts
+    must have their modes after the event. Bounces limit the next step by ``first_step`` [s], except fast ones of
+    several contacts (:func:`_short_bounce`).
     """
     ws.island.first_step = math.inf
     group_touching(ws)
@@ -102,6 +103,7 @@ def end_short_bounces(ws: Workspace) -> int:
             _end_bounce(ws, which)
             n_ended += 1
         else:
+            # 1 if the forces are averaged from now on
             n_ended += average_active(ws)
     return n_ended
 
@@ -113,6 +115,7 @@ def _short_bounce(ws: Workspace) -> int:
     Forces that are averaged over a contact time may leave a rate, as long as the gap stays within the allowed one over
     that time. In an island of several contacts a faster bounce is not short.
     """
+    # a single contact has no bound of the speed of its bounce
     time, fastest = averaging_time(ws), math.inf
     # the contacts of an averaged island come to rest at the end of the time, up to round-off
     if ws.problem.n_active > 1:
@@ -159,7 +162,8 @@ def _stop_active(ws: Workspace) -> None:
         for r in range(3):
             # accelerations do not matter in no time, and no impulses are known to start from
             active.free[r] = active.force[r] = 0.0
-    inelastic_impulses(ws, 0.0)
+    # approaches are left if it has no exact solution, see `average_slow_islands`
+    inelastic_impulses(ws, time=0.0)
     add_response(ws, ws.problem.forces.start, ws.island.y.start + ws.model.n_q)
     loss, work_before = 0.0, ws.totals.driven_work
     for active in ws.actives:
@@ -168,6 +172,7 @@ def _stop_active(ws: Workspace) -> None:
             impulse, rate = active.force[r], contact.rate[r]
             # the impulse times the mean of the rates before and after is its work
             loss -= 0.5 * impulse * add_product(ws, 2.0 * rate, active.index, r, ws.problem.forces.start)
+            # work of the driven bodies against the impulse, at the rate that they prescribe
             ws.totals.driven_work -= impulse * contact.prescribed_rate[r]
             contact.event_impulse[r] = impulse
     _add_loss(ws, loss, work_before)
@@ -186,7 +191,10 @@ def _fastest_approach(ws: Workspace) -> int:
 
 @kernel("b1(ws, i8)")
 def _is_slow(ws: Workspace, c: int) -> bool:
-    """True if contact ``c`` approaches too slowly for a bounce that is longer than the contact time."""
+    """True if contact ``c`` approaches too slowly for a bounce that is longer than the contact time.
+
+    Its island must be the active one.
+    """
     return -ws.contacts[c].normal_rate <= slow_speed(ws)
 
 
@@ -242,8 +250,9 @@ def stop_slow_islands(ws: Workspace) -> int:
 def average_slow_islands(ws: Workspace) -> bool:
     """Average over time the forces of islands that still approach slowly after they were stopped.
 
-    True if another island approaches: fast, or with forces that cannot be averaged. An inelastic impact has no exact
-    solution if its contacts contradict each other. Then another impact would leave an approach again.
+    True if another island approaches: fast, or with forces that cannot be averaged. The caller then tries a
+    collision. An inelastic impact has no exact solution if its contacts contradict each other. Then another impact
+    would leave an approach again.
     """
     # the free accelerations tell which approaches are slow
     accelerate_touching(ws)
@@ -278,7 +287,7 @@ def stop_creeping(ws: Workspace) -> float:
     """Stop the touching open contacts that approach within the velocity tolerance. Energy that this removes [J].
 
     Such an approach is no collision, but in time the bodies would overlap. The impulses are normal only, because
-    friction is negligible.
+    friction is negligible. The caller adds the energy to the closing loss.
     """
     if not _has_creeping_contact(ws):
         return 0.0
@@ -303,6 +312,7 @@ def stop_creeping(ws: Workspace) -> float:
             # twice the mean of the rates before and after
             rates = add_product(ws, 2.0 * contact.normal_rate, active.index, NORMAL_ROW, ws.problem.forces.start)
             loss -= 0.5 * impulse * rates
+            # work of the driven bodies against the impulse, at the rate that they prescribe
             ws.totals.driven_work -= impulse * contact.prescribed_rate[0]
     return loss
 
@@ -331,7 +341,7 @@ def replace_coincident_contacts(ws: Workspace) -> bool:
     """Replace closed contacts by approaching ones that coincide with them, stop what still approaches, and record that.
 
     True if this was done. False, and nothing is replaced, if an approaching contact coincides with no closed one: it
-    collides. The event names the last contact that replaces another.
+    collides. At least one contact must approach. The event names the last contact that replaces another.
     """
     for contact in ws.contacts:
         if _is_approaching(ws, contact) and closed_coincident(ws, contact.index) == NO_CONTACT:

@@ -35,7 +35,7 @@ def average_active(ws: Workspace) -> bool:
 
     This is the fallback for an island whose events accumulate. The contact problem of a single contact always has a
     solution. If the instantaneous forces of a contact failed soon after their last attempt, the wait before the next
-    attempt is doubled.
+    attempt is doubled. Otherwise there is no wait.
     """
     # 0 if there is no contact time over which to average
     time = averaging_time(ws)
@@ -43,6 +43,7 @@ def average_active(ws: Workspace) -> bool:
         return False
     for active in ws.actives:
         contact = ws.contacts[active.contact]
+        # mean_forces_asked: last time at which instantaneous forces were tried; mean_forces_wait: until the next try
         fails_again = ws.island.time - contact.mean_forces_asked <= max(time, contact.mean_forces_wait)
         contact.mean_forces_wait = max(time, 2.0 * contact.mean_forces_wait) if fails_again else 0.0
         # any mode but OPEN marks the contact as averaged; its first span is a contact time
@@ -93,11 +94,13 @@ def stays_averaged(ws: Workspace, ends: bool) -> bool:
 def end_averaging(ws: Workspace) -> None:
     """End the span of averaged forces before its time, as gaps deviate from its plan: project its closed contacts.
 
-    The projection removes what the forces pushed too much. Their work so far is accounted for.
+    The projection removes what the forces pushed too much. Their work so far is accounted for. What comes after the
+    span is found in the event that follows.
     """
     find_touching(ws)
     account_for_mean_forces(ws)
     ws.totals.closing_loss += project_closed(ws, at_event=True, averaged=True)
+    # no span has an end
     ws.island.averaged_until = math.inf
 
 
@@ -124,7 +127,8 @@ def contact_of_burst(ws: Workspace) -> int:
     """Contact at which evaluations of forces accumulate so that time hardly passes, or ``NO_CONTACT``.
 
     The contact is the one whose slip direction relaxes fastest, if more than once per contact time, or else the one
-    with the most events in its present burst, a short time with several events. Updates the measure of evaluations.
+    with the most events in its present burst, a short time with several events. The forces of its island are then
+    averaged by the caller. Contacts whose forces are averaged already do not count. Updates the measure of evaluations.
     """
     if _update_burst(ws) <= _LARGEST_BURST:
         return NO_CONTACT
@@ -147,8 +151,8 @@ def contact_of_burst(ws: Workspace) -> int:
 def _update_burst(ws: Workspace) -> float:
     """Measure of accumulating evaluations of forces: it grows by 1 with each, and falls by 1 per contact time.
 
-    Updates it to the present time. The contact time is the shortest one of the closed contacts. If it is zero, the
-    measure is 0, as forces cannot be averaged.
+    Updates it to the present time. The contact time is the shortest one of the closed contacts, of which there must be
+    one. If it is zero, the measure is 0, as forces cannot be averaged.
     """
     time = math.inf
     for i in range(ws.island.n_grouped):

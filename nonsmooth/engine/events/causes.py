@@ -43,6 +43,7 @@ def cause_at_start(ws: Workspace, which: int) -> Cause:
     # of an open contact only the gap is a guard
     if contact.mode == Mode.OPEN:
         return _cause_of_closing(contact)
+    # at_end is the value at the end of the last step, which is the start of this one
     # the contact point is past the end of an edge or a face
     if end_of(ws, contact).at_end < 0.0:
         return Cause.FEATURE_END

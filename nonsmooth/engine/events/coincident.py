@@ -76,8 +76,8 @@ def replace_coincident(ws: Workspace, c: int) -> bool:
             contact.mode = ws.contacts[replaced].mode
             has_taken_over = True
         ws.contacts[replaced].mode = Mode.OPEN
-        # nor is it part of the present islands
+        # it leaves its island, too
         ws.contacts[replaced].is_in_problem = False
-        # one that is open is not found again
+        # the next one: an open contact is not found again
         replaced = closed_coincident(ws, c)
     return has_taken_over

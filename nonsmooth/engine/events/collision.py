@@ -163,6 +163,7 @@ def _account_for_impulses(ws: Workspace) -> None:
         for r in range(3):
             impulse = active.impulse[r]
             contact.event_impulse[r] = impulse
+            # work of the driven bodies against the impulse, at the rate that they prescribe
             ws.event.head[DRIVEN_WORK] -= impulse * contact.prescribed_rate[r]
         # the tangents of anisotropic friction are stretched; the record has unit tangents
         if contact.is_anisotropic:
@@ -208,7 +209,8 @@ def resolve_jam(ws: Workspace, which: int) -> Status:
     """
     if ws.options.painleve_policy == Painleve.REFUSE:
         return Status.PARADOX_REFUSED
-    return collide(ws, Cause.JAM, which, 0.0)
+    # seed: the impulses of a jam are found without an integration that it would begin
+    return collide(ws, Cause.JAM, which, seed=0.0)
 
 
 @kernel("Status(ws)")
@@ -222,6 +224,7 @@ def collide_without_approach(ws: Workspace) -> Status:
         contact.has_no_force = False
     which, seed = NO_CONTACT, 0.0
     for active in ws.actives:
+        # the force problem of the island has just failed, and has left its data
         if not active.is_at_rest and reduced_coefficient(ws, active.index) <= 0.0:
             which = active.contact
             ws.contacts[which].has_no_force = True
@@ -252,6 +255,7 @@ def add_closing_contacts(ws: Workspace, speed: float) -> int:
     """
     n_ended = 0
     for contact in ws.contacts:
+        # past_feature > 0: the nearest point is past the end of an edge or a face, so the features do not meet there
         is_apart = not contact.is_touching and not contact.is_compliant and contact.past_feature <= 0.0
         near = min(contact.contact_time * speed, ALLOWED * ws.tolerance.gap)
         is_free = is_apart and contact.gap <= near and not has_own_step(ws, contact.index)

@@ -77,7 +77,8 @@ def _guessed_mode(ws: Workspace, contact: Contact, cause: Cause, which: int) -> 
 def _guess_compliant_mode(ws: Workspace, contact: Contact, cause: Cause, which: int) -> None:
     """Guess the mode of a compliant contact at an event of contact ``which``, and whether its friction is unknown.
 
-    Its normal force is known. A contact with a traction law has a known friction, too, and always slides.
+    Its normal force is known. A contact with a traction law has a known friction, too, and always slides. A contact
+    that does not touch keeps its guess: open, or its mode if its body has an own step (multirate).
     """
     is_cause = contact.index == which
     # its guard has fired, so that it opens: its gap is at the limit up to round-off
@@ -132,6 +133,7 @@ def solve_islands(ws: Workspace, averaging_ends: bool) -> Solution:
     for group in range(ws.island.n_groups):
         activate_group(ws, group)
         if stays_averaged(ws, averaging_ends):
+            # a span of this island that ends here is followed by another one
             agree_on_averaged_modes(ws, averaging_ends)
             accelerate(ws)
             continue
@@ -159,7 +161,8 @@ def _use_guessed_modes(ws: Workspace) -> None:
 def _take_solution(ws: Workspace) -> bool:
     """Store what the solver found for the active contacts. True if anisotropic friction faces the other way now.
 
-    Later steps need the threshold of force and the inverse mass that are stored here.
+    Later steps need the threshold of force and the inverse mass that are stored here. Modes and directions are adopted
+    later, by :func:`adopt_modes`.
     """
     has_turned = False
     for active in ws.actives:

@@ -79,7 +79,10 @@ def begin_event(ws: Workspace) -> None:
 
 @kernel("i8(ws, i8)")
 def _list_contacts(ws: Workspace, which: int) -> int:
-    """List the contacts that take part in an event: all that are or were closed, and ``which``. Number of contacts."""
+    """List the contacts that take part in an event: all that are or were closed, and ``which``. Number of contacts.
+
+    ``which`` is ``NO_CONTACT`` if there is none to add.
+    """
     n = 0
     for contact in ws.contacts:
         # the code of an open contact is 0
@@ -103,6 +106,7 @@ def _write_contact(ws: Workspace, contact: Contact, out: int) -> None:
         ws.floats[out + IMPULSES + r] = contact.event_impulse[r]
     ws.floats[out + SLIP_DIRECTION], ws.floats[out + SLIP_DIRECTION + 1] = contact.direction
     ws.floats[out + CLOSED_WITH], ws.floats[out + FACING] = contact.closing_rate, float(contact.facing)
+    # OPEN if its forces are not averaged
     ws.floats[out + AVERAGED] = float(contact.mode_after_averaging.value)
     # features: offset of the pair of features of a contact that is chosen among many, 0 if it has no choice
     for r in range(CANDIDATE):
@@ -117,7 +121,7 @@ def record_event(ws: Workspace, cause: Cause, which: int, phases: int) -> None:
     run has recorded already: ``n_known_events`` of them are not kept.
     """
     ws.event.n_recorded += 1
-    # all contacts that are or were closed are listed, too
+    # all contacts that are or were closed are listed, too; the number of a user's guard is no contact's
     n_listed = _list_contacts(ws, NO_CONTACT if cause == Cause.GUARD else which)
     ws.output.last_floats, ws.output.last_integers = ws.output.floats_used, ws.output.integers_used
     ws.output.last_cause, ws.output.last_contact, ws.output.last_phases = cause, which, phases
@@ -215,7 +219,10 @@ def begin_sample(ws: Workspace) -> int:
 
 @kernel("void(ws, f8)")
 def record_samples(ws: Workspace, h: float) -> None:
-    """Append the samples within the first ``h`` [s] of the step that was taken, from its interpolant."""
+    """Append the samples within the first ``h`` [s] of the step that was taken, from its interpolant.
+
+    The buffer is emptied early enough to hold the samples of any step. Its end is a safeguard only.
+    """
     while ws.output.next_sample <= ws.island.time + h and ws.output.n_samples < ws.model.sample_capacity:
         theta = (ws.output.next_sample - ws.island.time) / ws.step.h
         # round-off may put the fraction of the step just outside of it

@@ -47,6 +47,7 @@ def _part_before_stop_of(ws: Workspace, contact: Contact, h: float) -> float:
     part, least = _UNKNOWN_PART, 2.0 * ws.tolerance.time
     if decrease > 0.0:
         part = speed / decrease
+        # relaxation: fastest rate of a slip direction [1/s], which limits explicit steps
         # an explicit step may reach the stop; an implicit one that passes it is taken again, shorter
         if _EXPLICIT_PART * part * h * ws.step.relaxation <= LARGEST_EXPLICIT:
             part *= _EXPLICIT_PART
@@ -87,6 +88,7 @@ def stopped_contact(ws: Workspace) -> int:
     If no implicit step is possible, it is a contact that slows down within the velocity tolerance. The direction of so
     slow a slip is stiff, and what is left of it is within the tolerance.
     """
+    # the relaxation rate of slip directions is 0 if no implicit step is possible
     if ws.step.relaxation > 0.0:
         return int(ws.step.halting_contact)
     for contact in ws.contacts:

@@ -42,6 +42,7 @@ def change_clock(ws: Workspace) -> bool:
     The clock is the variable of integration. If it is the normal impulse of one contact, its next event is known in
     closed form. If another contact is loaded before it is done, the impact returns to the state before the change.
     """
+    # contacts that are not idle, other than the present lone one, and the last of them
     n_others, last = 0, NO_CONTACT
     for active in ws.actives:
         if active.phase != Phase.IDLE and active.index != ws.impact.lone_contact:
@@ -58,6 +59,7 @@ def change_clock(ws: Workspace) -> bool:
         # one attempt is made in an impact: the common clock continues for good
         ws.impact.lone_contact, ws.impact.may_be_lone = NO_CONTACT, False
         _restore_state(ws)
+    # guards on the other clock have other scales
     prepare_guards(ws)
     return True
 
@@ -110,6 +112,7 @@ def aim_at_event(ws: Workspace, h: float) -> Aim:
     """
     active = ws.actives[ws.impact.lone_contact]
     direction = ws.contacts[active.contact].direction
+    # own: its Delassus block, row by row; no other contact has a force
     rate, force, own = active.rate, active.force, diagonal_block(ws, active.index).entries
     # slopes of the gap rate, and of the slip along its direction, per pseudo-time
     growth = slip = slip_growth = 0.0

@@ -38,7 +38,7 @@ _LEAST_TOLERANCE = 1e-11
 def account(ws: Workspace, active: ActiveContact) -> None:
     """Add the work of an active contact since the last call [J] to its stored or, in expansion, its returned energy.
 
-    To be called before its phase changes, and at the end.
+    To be called before its phase changes, and at the end. A contact that is idle or held does no work.
     """
     state = state_of(ws, active)
     done = state.work - active.work_accounted
@@ -52,8 +52,11 @@ def account(ws: Workspace, active: ActiveContact) -> None:
 
 @kernel("void(ws, ActiveContact)")
 def lose_energy(ws: Workspace, active: ActiveContact) -> None:
-    """Set the stored energy and the deformation of an active contact to zero: the energy is lost to restitution."""
-    # no account is needed: energy that was stored and is not returned counts as lost
+    """Set the stored energy and the deformation of an active contact to zero: the energy is lost to restitution.
+
+    ``lost`` is the part of the stored energy that would not be returned, so it becomes zero, too.
+    """
+    # no account is needed: the loss to restitution is the account of stored energy less that of returned energy
     state = state_of(ws, active)
     state.deformation = state.energy = state.lost = 0.0
 
@@ -86,7 +89,8 @@ def write_impact_results(ws: Workspace) -> None:
 def is_finished(ws: Workspace) -> bool:
     """True if the impact is over: no contact is in expansion or in compression.
 
-    A compression on the common clock counts only if it has a deformation, or approaches by more than round-off.
+    A compression on the common clock counts only if it has a deformation, or approaches by more than round-off. A held
+    contact stores no energy, so the impact does not wait for it.
     """
     for active in ws.actives:
         # a lone contact, whose impulse is the clock, has an energy in place of a deformation
@@ -101,7 +105,7 @@ def is_finished(ws: Workspace) -> bool:
 def end_trapped(ws: Workspace) -> bool:
     """End the phases of trapped contacts, as their forces move nothing for ever. True if there were any.
 
-    Their energy is lost to restitution.
+    Their energy is lost to restitution. Then no contact is loaded any more, so the impact is over.
     """
     if not _is_trapped(ws):
         return False
@@ -193,7 +197,7 @@ def has_faded(ws: Workspace) -> bool:
     for active in ws.actives:
         inverse_mass = diagonal_block(ws, active.index).nn
         stored = state_of(ws, active).energy if active.phase != Phase.IDLE else 0.0
-        # energies are quadratic in speeds
+        # energies are quadratic in speeds; the second one is the kinetic energy of a bounce from the slowest speed
         least = max(small * small * active.energy_scale, 0.5 * slowest * slowest / inverse_mass)
         if active.gap_rate < -slow or stored > least:
             return False
@@ -211,6 +215,7 @@ def cut_short(ws: Workspace) -> None:
     """
     for active in ws.actives:
         end_phase(ws, active)
+    # an impact that was cut short after too many steps gets another truncation from its caller, see `how_over`
     ws.event.truncation = Truncation.SLOW
 
 

@@ -76,7 +76,7 @@ def _find_rest(ws: Workspace, active: ActiveContact, turns_rate: bool) -> None:
     """
     speed = length(active.slip)
     active.direction = ws.contacts[active.contact].direction
-    active.static_coefficient = friction_coefficient(ws, active.contact, 0.0)
+    active.static_coefficient = friction_coefficient(ws, active.contact, speed=0.0)
     active.friction_coefficient = slip_coefficient(ws, active.contact, speed)
     gets_away = turns_rate and _gets_away(ws, active)
     is_slow = (speed <= active.rest_slip and not gets_away) or active.sticks
@@ -152,14 +152,16 @@ def _refine_starting_slips(ws: Workspace) -> None:
 
     If it fails, the directions are those of before. The forces are found in either case.
     """
+    # the largest acceleration under a contact's own normal force
     ws.problem.acceleration_scale = 0.0
     for active in ws.actives:
-        # Newton's method reads the modes under trial, given normal forces and the largest acceleration
+        # Newton's method reads the modes under trial, given normal forces and that scale
         own = diagonal_block(ws, active.index)
         active.has_given_force = is_loaded(active)
         active.mode_tried = Mode.STICK if active.sticks else Mode.SLIDE
         if active.normal_force <= 0.0:
             active.mode_tried = Mode.OPEN
+        # kept in case Newton's method fails
         active.direction_found = active.direction
         acceleration = max(own.nn, own.t11, own.t22) * abs(active.normal_force)
         ws.problem.acceleration_scale = max(ws.problem.acceleration_scale, acceleration)
@@ -232,14 +234,16 @@ def orient(ws: Workspace) -> None:
         speed = length(active.slip)
         if active.phase != Phase.IDLE and not active.sticks and speed > active.rest_slip:
             ws.contacts[active.contact].direction = unit(active.slip)
+            # NOISE is in every friction guard, so that round-off does not fire it
             guard_of(ws, active, GuardKind.FRICTION).value = NOISE + speed / ws.impact.speed_scale
 
 
 @kernel("b1(ws)")
 def count_slow_step(ws: Workspace) -> bool:
-    """True if friction must be chosen again: a slip next to rest slows down, or has been there for many steps.
+    """True if friction must be chosen again: a slip next to rest slows down, or slips have been there for many steps.
 
-    Next to rest the direction of a slip is stiff, and its speed is below the error. Counts the steps in ``slow_steps``.
+    Next to rest the direction of a slip is stiff, and its speed is below the error. Counts the steps in ``slow_steps``,
+    which is zero again after True, or after a step without such a slip.
     """
     is_slow = False
     for active in ws.actives:

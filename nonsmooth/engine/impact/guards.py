@@ -106,7 +106,8 @@ def _rate_guard(ws: Workspace, active: ActiveContact) -> float:
         return NOISE - rate
     if active.phase == Phase.HELD:
         return NOISE + active.normal_force / _force_scale(ws, active)
-    # faint_rate is the error of rates in a window of a large impact: an approach behind the wave may be such an error
+    # faint_rate is the error of rates in a window of a large impact, 0 without windows: an approach behind the wave, of
+    # a contact that a wave of compression has passed, may be such an error
     has_passed = active.phase == Phase.IDLE and ws.contacts[active.contact].n_waves > 0
     return (ws.impact.faint_rate if has_passed and ws.impact.faint_rate > 0.0 else NOISE) + rate
 
@@ -155,6 +156,7 @@ def _friction_guard(ws: Workspace, active: ActiveContact) -> float:
 @kernel()
 def prepare_guards(ws: Workspace) -> None:
     """Evaluate the guards where a phase begins, and arm the positive ones only."""
+    # length of ws.impact_guards
     ws.impact.n_guards = IMPACT_GUARDS * len(ws.actives)
     for guard in ws.impact_guards:
         guard.is_armed = False
@@ -173,10 +175,10 @@ def arm_impact_guards(ws: Workspace) -> None:
 
 @kernel("i8(ws, i8)")
 def first_fired(ws: Workspace, located: int) -> int:
-    """Number of the first guard that has fired, other than ``located``, or ``NO_GUARD``.
+    """Number of the first guard in their order that has fired, other than ``located``, or ``NO_GUARD``.
 
-    An armed guard was positive in its phase. One that was not may be round-off about zero, so it fires only if it is
-    clearly negative.
+    ``located`` is the guard whose root is known already. An armed guard was positive in its phase. One that was not may
+    be round-off about zero, so it fires only if it is clearly negative.
     """
     for guard in ws.impact_guards:
         has_fired = (guard.value < 0.0 and guard.is_armed) or guard.value < _VIOLATED

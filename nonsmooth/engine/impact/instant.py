@@ -50,6 +50,7 @@ def _write_jam(ws: Workspace, active: ActiveContact) -> bool:
     """
     contact = ws.contacts[active.contact]
     speed = length(contact.slip)
+    # the problem is posed with rates in place of accelerations
     for r in range(3):
         active.free[r] = contact.rate[r]
     # friction of sliding; a contact that does not slip has none, or an unknown one if it sticks
@@ -72,7 +73,8 @@ def _write_jam(ws: Workspace, active: ActiveContact) -> bool:
 def map_impact(ws: Workspace) -> None:
     """Let the user's law that maps velocities find the impulses of the active contacts [N s]. Writes their losses [J].
 
-    The law gets the Delassus matrix, the rates before the impact and the parameters of the contacts.
+    The law gets the Delassus matrix, the rates before the impact and the parameters of the contacts. A law that writes
+    past the end of the impulses is noted in ``run.n_past_map``, which is reported as its error.
     """
     n = len(ws.actives)
     for active in ws.actives:
@@ -115,7 +117,7 @@ def _write_losses(ws: Workspace) -> None:
         normal = tangential = 0.0
         for r in range(3):
             impulse = active.impulse[r]
-            # the impulses change the rates by G P
+            # the impulses change the rates z by G P, so the mean is half of 2 z + G P
             mean = 0.5 * add_product(ws, 2.0 * active.rate_before[r], active.index, r, ws.impact.impulse.start)
             if r == 0:
                 normal -= impulse * mean

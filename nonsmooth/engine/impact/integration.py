@@ -184,10 +184,11 @@ def _attempt(ws: Workspace, h: float) -> Attempt:
         h_again = aimed.h * rejection_factor(ws, error)
         return Attempt(h=aimed.h, error=error, guard=NO_GUARD, is_accepted=False, h_again=h_again)
     switch = _step_to_switch(ws, aimed, is_linear)
-    # the shorter step to the switch has a larger error than the full one
+    # the shorter step to the switch may have a larger error than the full one, if the motion is not smooth in it
     if not switch.error <= TRUSTED:
         h_again = aimed.h * _UNTRUSTED
         return Attempt(h=aimed.h, error=switch.error, guard=NO_GUARD, is_accepted=False, h_again=h_again)
+    # h: also if the step ended at an event, the next one starts from the length that was accurate enough
     return Attempt(h=aimed.h, error=error, guard=switch.guard, is_accepted=True, h_again=aimed.h)
 
 
@@ -231,7 +232,7 @@ def _prepare_after_smooth_step(ws: Workspace, shortest: float) -> None:
     """Write guards, slip directions and first slope of the next step, after one without an event.
 
     The first slope is the last one of the step before. It is evaluated only if forces have changed: friction is chosen
-    anew for a slip that stays next to rest, and contacts end whose forces move nothing.
+    anew for a slip that stays next to rest, which counts as a phase, and contacts end whose forces move nothing.
     """
     if count_slow_step(ws):
         choose_friction(ws, first_step(ws, shortest), turns_rate=False)

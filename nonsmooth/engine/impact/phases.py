@@ -65,7 +65,8 @@ def start_phases(ws: Workspace, probe: float, seed: float) -> None:
 def _start(ws: Workspace, active: ActiveContact, is_without_collision: bool) -> None:
     """Start an active contact: in compression if it approaches, or if the contact problem has no force for it.
 
-    Such a contact needs an impact without collision, and starts with a small deformation. Others start idle.
+    Such a contact needs an impact without collision, and starts with a small deformation, whose energy is neglected.
+    Others start idle.
     """
     active.energy_stored = active.energy_returned = active.work_accounted = 0.0
     active.sticks = active.was_halted = False
@@ -209,6 +210,7 @@ def end_faint(ws: Workspace) -> None:
         is_compressed_again = active.phase == Phase.COMPRESSION and ws.contacts[active.contact].n_waves > 0
         has_passed = active.phase == Phase.EXPANSION or is_compressed_again
         energy = active.normal_force * state_of(ws, active).deformation
+        # energies are quadratic in rates
         is_weak = energy <= faint_rate * faint_rate * active.energy_scale
         # well below the rate at which a phase behind the wave begins, so that the two do not alternate
         if has_passed and is_weak and abs(active.gap_rate) <= _FAINT * faint_rate * ws.impact.speed_scale:

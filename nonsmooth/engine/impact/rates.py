@@ -59,12 +59,14 @@ def evaluate_impact_rates(ws: Workspace, y: int) -> None:
 @kernel("f8(ws, ActiveContact)")
 def gap_rate_slope(ws: Workspace, active: ActiveContact) -> float:
     """Slope of the gap rate of an active contact under the present forces, G f [m/s per pseudo-time]."""
+    # nothing is added to the product: only contact forces change rates in an impact
     return add_product(ws, 0.0, active.index, NORMAL_ROW, ws.problem.forces.start)
 
 
 @kernel("v2(ws, ActiveContact)")
 def slip_slope(ws: Workspace, active: ActiveContact) -> Pair:
     """Slope of the slip velocity of an active contact under the present forces, G f [m/s per pseudo-time]."""
+    # nothing is added to the products: only contact forces change rates in an impact
     forces, a = ws.problem.forces.start, active.index
     return add_product(ws, 0.0, a, FIRST_ROW, forces), add_product(ws, 0.0, a, SECOND_ROW, forces)
 

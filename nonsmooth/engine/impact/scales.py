@@ -83,7 +83,8 @@ def _scale_speeds(ws: Workspace, seed: float) -> float:
 def _deformation_scale(ws: Workspace, active: ActiveContact) -> float:
     """Deformation x of an active contact with F(x) x = its energy scale [m], or ``_NO_SCALE`` if there is none.
 
-    By a secant in the logarithms, because force laws are close to powers of x. It starts from 1 m.
+    By a secant in the logarithms, because force laws are close to powers of x. It starts from 1 m. The last iterate is
+    taken even if it is not accurate: it is a scale only.
     """
     contact, energy, x = ws.contacts[active.contact], active.energy_scale, 1.0
     parameters = at(ws.floats, contact.impact_force_parameters)
@@ -111,10 +112,12 @@ def reached_energy(ws: Workspace, active: ActiveContact) -> float:
 def raise_impulse_scales(ws: Workspace) -> None:
     """Raise the scales of impulse to the energies that were reached, and with them the slips that count as rest.
 
-    Errors grow with the energies. A scale is raised by at least the factor ``_GROWTH``, as each change costs work.
+    Errors grow with the energies. A scale is raised by at least the factor ``_GROWTH``, as each change costs work. The
+    other scales stay.
     """
     has_grown = False
     for active in ws.actives:
+        # an impulse P stands for the energy G_nn P^2, as in `scale_impact`
         energy, inverse_mass = reached_energy(ws, active), diagonal_block(ws, active.index).nn
         if energy > inverse_mass * (_GROWTH * active.impulse_scale) ** 2:
             active.impulse_scale = math.sqrt(energy / inverse_mass)

@@ -96,7 +96,8 @@ def normal_force(ws: Workspace, active: ActiveContact, deformation: float) -> fl
 def efficiency(ws: Workspace, active: ActiveContact, rate: float) -> float:
     """Efficiency of the energy transfer of an active contact at a gap ``rate`` [m/s], Eq. (28) [1].
 
-    It is 1 if the contact is to have no loss, whatever its law.
+    It is 1 if the contact is to have no loss, whatever its law. At rate 0 laws return the part of the stored energy
+    that the contact returns before it opens.
     """
     if active.is_lossless:
         return 1.0
@@ -113,11 +114,17 @@ def expansion_efficiency(ws: Workspace, active: ActiveContact, rate: float) -> f
 
 @kernel("f8(ws, ActiveContact)")
 def returned_part(ws: Workspace, active: ActiveContact) -> float:
-    """Part of the stored energy that an active contact returns before it opens [1]. Below 1 it opens under load."""
-    return efficiency(ws, active, 0.0)
+    """Part of the stored energy that an active contact returns before it opens [1].
+
+    Below 1 it opens under load: while energy, and so force, is left, which is then lost. A loss that is spread over the
+    expansion is in :func:`expansion_efficiency` instead.
+    """
+    # by convention of the laws, their value at rate 0 is this part
+    return efficiency(ws, active, rate=0.0)
 
 
 @kernel("f8(ws, ActiveContact)")
 def least_efficiency(ws: Workspace, active: ActiveContact) -> float:
     """Smaller one of returned part and efficiency of a slow expansion [1]. Below 1 an active contact loses energy."""
+    # _SEPARATES: as slow as an expansion can be, but not rate 0, at which laws return the returned part
     return min(returned_part(ws, active), efficiency(ws, active, _SEPARATES))

@@ -51,9 +51,11 @@ def try_impact_step(ws: Workspace, h: float) -> float:
     reset_attempt(ws)
     n, slopes = state_size(ws), ws.impact.slopes.start
     for stage in range(1, N_STAGES):
+        # the state of the last stage is that at the end of the step
         out = ws.impact.y_new.start if stage == LAST_STAGE else ws.impact.y_stage.start
         stage_part(ws, ws.coefficients.stages.start, ws.impact.y.start, slopes, n, n, stage, h, out)
         impact_slope(ws, out, slopes + stage * n)
+    # the errors take the place of the state of a stage
     weigh_part(ws, ws.coefficients.error_weights.start, slopes, n, n, h, ws.impact.y_stage.start)
     error = _relative_error(ws, ws.impact.y_stage.start)
     if not error <= 1.0:
@@ -79,7 +81,10 @@ def reset_attempt(ws: Workspace) -> None:
 
 @kernel("f8(ws, i8)")
 def _relative_error(ws: Workspace, errors: int) -> float:
-    """Largest error of the active contacts, relative to the tolerance [1], from the errors of a state at ``errors``."""
+    """Largest error of the active contacts, relative to the tolerance [1], from the errors of a state at ``errors``.
+
+    It is infinite if an error is not finite. ``errors`` is an offset of the floats.
+    """
     worst = 0.0
     for active in ws.actives:
         # the numbers of an idle contact do not change
@@ -125,7 +130,8 @@ def try_linear_step(ws: Workspace, h: float) -> bool:
     """Take one step of ``h`` to ``y_new`` by the midpoint rule. True if the slope is linear, so that it is exact.
 
     A contact that alone has a load moves so while its slip keeps its direction. The slope at the end shows whether it
-    did. Slopes and forces at the end are left as those of the last stage.
+    did. Slopes and forces at the end are left as those of the last stage. If False, the caller takes an ordinary step,
+    which writes all of them anew.
     """
     n = state_size(ws)
     middle, end = ws.impact.slopes.start + n, ws.impact.slopes.start + LAST_STAGE * n
@@ -145,7 +151,8 @@ def try_linear_step(ws: Workspace, h: float) -> bool:
 def _is_straight(ws: Workspace, active: ActiveContact, middle: int, end: int) -> bool:
     """True if the slope of an active contact is linear over the step: those at the start, ``middle`` and ``end`` agree.
 
-    A component of an impulse is compared with the force: one that is round-off relative to the force is straight.
+    The last two are offsets of the floats. The second difference of the three slopes must be round-off. A component of
+    an impulse is compared with the force: one that is round-off relative to the force is straight.
     """
     force = abs(active.force[0]) + abs(active.force[1]) + abs(active.force[2])
     for component in range(IMPACT_STATE):
@@ -193,9 +200,11 @@ def _try_implicit_step(ws: Workspace, h: float) -> float:
     Returns its error relative to the tolerance [1], infinite if a stage has no solution. The slopes are left so that
     the dense output of the explicit step is the interpolant of this one.
     """
+    # the errors take the place of the state of a stage
     n, errors, slopes = state_size(ws), ws.impact.y_stage.start, ws.impact.slopes.start
     _begin_implicit_step(ws)
     has_solution = True
+    # the slopes of stages 0 and 1 are that at the start
     for stage in range(2, N_STAGES):
         has_solution = has_solution and _solve_stage(ws, h, stage)
     # a slip that the step has stopped sticks at its end; it is marked even if the step fails, so that it can be undone
@@ -205,6 +214,7 @@ def _try_implicit_step(ws: Workspace, h: float) -> float:
         return math.inf
     weigh_part(ws, ws.coefficients.implicit_errors.start, slopes, n, n, h, errors)
     error = _CAUTION * _relative_error(ws, errors)
+    # the errors are not needed any more: their place serves as a work array
     write_implicit_interpolant(ws, ws.impact.y.start, ws.impact.y_new.start, slopes, n, h, errors)
     return error
 
@@ -232,7 +242,8 @@ def _begin_implicit_step(ws: Workspace) -> None:
 def _solve_stage(ws: Workspace, h: float, stage: int) -> bool:
     """Find the slope of an implicit stage of a step of ``h``, at the state to which this slope leads. True if found.
 
-    The friction of slips, which is stiff, is solved for. Deformations, which are not, are iterated.
+    The friction of slips, which is stiff, is solved for. Deformations, which are not, are iterated. False if no
+    friction opposes the slips, or if the iteration does not settle.
     """
     n, slopes = state_size(ws), ws.impact.slopes.start
     out = ws.impact.y_new.start if stage == LAST_STAGE else ws.impact.y_stage.start
@@ -283,7 +294,7 @@ def _write_problem(ws: Workspace, ahead: float, y: int, guess: int) -> None:
     stage would end without forces.
     """
     n = state_size(ws)
-    # go to the guessed end, and back below
+    # go to the guessed end for the normal forces, and back below for the slips
     for i in range(n):
         ws.floats[y + i] += ahead * ws.floats[guess + i]
     evaluate_impact_rates(ws, y)

@@ -36,7 +36,11 @@ _NOT_FINITE = 0.1
 
 @kernel("f8(ws, f8)")
 def first_step(ws: Workspace, shortest: float) -> float:
-    """First step of an impact, in pseudo-time. Its ``shortest`` compression takes that pseudo-time."""
+    """First step of an impact, in pseudo-time. Its ``shortest`` compression takes that pseudo-time.
+
+    The step of a single contact passes all of its events, because it is shortened to the next one. Other steps begin
+    small, as no error is known yet.
+    """
     return shortest * (_FAR if len(ws.actives) == 1 else float(ws.tolerance.impact) ** _FIRST_POWER)
 
 
@@ -53,7 +57,7 @@ def step_after_switch(ws: Workspace, h: float, shortest: float) -> float:
 
 @kernel("f8(ws)")
 def lone_step(ws: Workspace) -> float:
-    """Step of the lone contact, before it is shortened to the next event."""
+    """Step of the lone contact, in its impulse [N s], before it is shortened to the next event."""
     return _FAR * ws.actives[ws.impact.lone_contact].impulse_scale
 
 

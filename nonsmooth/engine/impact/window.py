@@ -45,8 +45,9 @@ _NO_ENTRY = -1
 def windowed_impact(ws: Workspace) -> Outcome:
     """Integrate a large impact of the active contacts, of which only those near the wave are evaluated at a time.
 
-    These contacts form a window, which is drawn anew whenever the wave reaches its rim. Results and outcome are those
-    of :func:`nonsmooth.engine.impact.integration.energetic_impact`.
+    These contacts form a window, which is drawn anew whenever the wave reaches its rim, the outermost layer. Results
+    and outcome are those of :func:`nonsmooth.engine.impact.integration.energetic_impact`. After too many windows the
+    outcome is ``ENDLESS``.
     """
     # a contact that is left alone may become the variable of integration
     ws.impact.may_be_lone, ws.impact.is_step_implicit = True, False
@@ -82,7 +83,8 @@ def _run_window(ws: Workspace, fastest: float, is_first: bool) -> Outcome:
         return Outcome.INVALID
     if is_first:
         ws.impact.h = first_step(ws, shortest)
-        start_phases(ws, ws.impact.h, 0.0)
+        # seed: the speed of an impact without collision, and this one has an approach
+        start_phases(ws, ws.impact.h, seed=0.0)
     outcome = run_impact(ws, ws.impact.h, shortest, is_windowed=True)
     _store(ws)
     return outcome
@@ -208,6 +210,7 @@ def _load(ws: Workspace) -> None:
     assemble_delassus(ws)
     for active in ws.actives:
         contact = ws.contacts[active.contact]
+        # part of the driven bodies, and part of the velocities
         for r in range(3):
             active.rate_before[r] = contact.prescribed_rate[r] + row(ws, contact.index, r, ws.impact.u.start)
         _load_state(ws, active, contact)

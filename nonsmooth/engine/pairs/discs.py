@@ -32,6 +32,8 @@ def _centre(floats: Floats, frame_place: int, place: int) -> Vector:
 def _offset_in_plane(previous: Vector, current: Vector, tolerance: float) -> float:
     """Distance from the origin at which the segment between two points meets the plane z = 0 [m], -1 if it does not.
 
+    The points are successive centres of the second disc in the axes of the first, whose centre is the origin.
+
     Heights up to ``tolerance`` [m] count as in the plane. For a segment within the plane it is the least distance.
     """
     # part: fraction of the way from the current to the previous point
@@ -53,8 +55,9 @@ def _offset_in_plane(previous: Vector, current: Vector, tolerance: float) -> flo
 def crossing_overlap(ws: Workspace, number: int) -> float:
     """Overlap of the discs of pair ``number`` in the plane of the first, where the second passed through [m], else 0.
 
-    The position of the second centre is stored in the pair for the next evaluation. A pair without a margin has no
-    position yet. Discs that are not parallel count by the centre of the second one only: their rims meet first.
+    The position of the second centre is stored in the pair, as ``between``, for the next evaluation. A pair without a
+    margin counts as one without such a position. Discs that are not parallel count by the centre of the second one
+    only: their rims meet first.
     """
     pair = ws.pairs[number]
     between = minus(_centre(ws.floats, pair.frame_b, pair.part_b), _centre(ws.floats, pair.frame_a, pair.part_a))
@@ -64,6 +67,7 @@ def crossing_overlap(ws: Workspace, number: int) -> float:
     offset = _offset_in_plane(previous, current, pair.allowed)
     if offset < 0.0:
         return 0.0
+    # axis of the second disc; along the axes of the first, its two components in the plane are the sine of the tilt
     normal = to_world(ws.floats, pair.frame_b, pair.part_b, (0.0, 0.0, 1.0))
     tilt = to_part(ws.floats, pair.frame_a, pair.part_a, normal)
     radius_a, radius_b = at(ws.floats, pair.part_a + PART_RINGS)[3], at(ws.floats, pair.part_b + PART_RINGS)[3]

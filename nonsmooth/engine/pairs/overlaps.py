@@ -34,7 +34,8 @@ _LARGEST_DISPLACEMENT = 1e3
 def _write_depths_of_contacts(ws: Workspace) -> None:
     """Write the normal of the deepest closed contact of every pair, and its gap, at most 0 [m].
 
-    By that depth the pair may overlap. Pairs of the same two shapes have one entry, that of their first pair.
+    By that depth the pair may overlap. Pairs of the same two shapes have one entry, that of their first pair, which
+    ``contact.pair`` names. The gaps are those at the end of the last step.
     """
     for pair in ws.pairs:
         pair.is_closed, pair.deepest = False, 0.0
@@ -98,6 +99,7 @@ def _known_separation(ws: Workspace, number: int) -> float:
 @kernel("b1(ws, Pair)")
 def _has_half_space(ws: Workspace, pair: Pair) -> bool:
     """True if the first part of a pair is a half-space."""
+    # its number of circles is -1
     return bool(part_at(ws.floats, pair.part_a).rings < 0.0)
 
 
@@ -126,7 +128,7 @@ def check_pairs(ws: Workspace) -> None:
     """Find the pair that overlaps by most beyond the depth of its closed contacts.
 
     Writes its number to ``run.passed_pair``, or ``NO_PAIR`` if all are within that depth, and its depth and the allowed
-    one [m]. Bodies and contacts must be evaluated.
+    one [m]. If the depth is beyond the tolerances, too, the caller ends the run. Bodies and contacts must be evaluated.
     """
     ws.run.passed_pair, are_depths_known, most = NO_PAIR, False, 0.0
     _add_displacements(ws)
@@ -146,6 +148,7 @@ def check_pairs(ws: Workspace) -> None:
         # the overlap of discs without thickness is no depth that could be compared with that of a closed contact
         if are_discs and group.is_closed:
             continue
+        # least separation that is allowed, and the one found; negative in an overlap
         allowed = group.deepest - pair.allowed
         found = -depth if are_discs else _separation(ws, pair.index, allowed)
         if allowed - found > most:
@@ -157,7 +160,8 @@ def check_pairs(ws: Workspace) -> None:
 def _depth(ws: Workspace, pair: Pair) -> float:
     """Depth of the overlap of a pair after one search [m], negative if it is apart.
 
-    Writes the margin of the pair: the displacement bound up to which it need not be evaluated again.
+    Of discs without thickness it is the overlap of their circles as they passed each other, else 0. Writes the margin
+    of the pair: the displacement bound up to which it need not be evaluated again.
     """
     number = pair.index
     apart = _known_separation(ws, number)

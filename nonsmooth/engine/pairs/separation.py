@@ -44,7 +44,7 @@ def _search(ws: Workspace, number: int, start: Vector, shift: Vector, size: floa
 
     It is the algorithm of Gilbert, Johnson and Keerthi, from the unit vector ``start``. The simplex holds points of the
     difference of the parts. Its point nearest to the origin is an upper bound of the distance, and the separation s(n)
-    a lower one. ``size`` [m] is that of the pair.
+    a lower one. ``size`` [m] is that of the pair. However the search ends, the direction of the largest s(n) is taken.
     """
     n = best = start
     lower, upper, n_corners, far = -math.inf, math.inf, 0, 0.0
@@ -67,7 +67,7 @@ def _search(ws: Workspace, number: int, start: Vector, shift: Vector, size: floa
             break
         point = nearest_point(ws, n_corners)
         norm = math.sqrt(dot(point, point))
-        # the origin is inside but for round-off, or the point is no nearer than before
+        # the origin is inside up to the round-off of doubles, 1e-16, or the point is no nearer than before
         if norm <= 1e-16 * far or norm >= upper:
             break
         upper, n = norm, scaled(1.0 / norm, point)
@@ -131,7 +131,8 @@ def separating_direction(ws: Workspace, number: int, known: Vector) -> Vector:
 def best_direction(ws: Workspace, number: int, known: Vector, enough: float) -> Vector:
     """Unit vector along which the separation of a pair is at least ``enough`` [m], or else the largest one found.
 
-    The search starts from ``known``, or from the direction between the middles if that has length 0.
+    The search starts from ``known``, or from the direction between the middles if that has length 0. Other starts are
+    tried only as long as the separation is less than ``enough``.
     """
     pair, between = ws.pairs[number], _between_middles(ws, number)
     start = _unit(known, between)

@@ -81,7 +81,7 @@ def _try_face(ws: Workspace, i: int, j: int, m: int, best: float) -> float:
         a, b, c = minus(a, foot), minus(b, foot), minus(c, foot)
         of_a, of_b, of_c = dot(normal, cross(b, c)), dot(normal, cross(c, a)), dot(normal, cross(a, b))
         if of_a >= 0.0 and of_b >= 0.0 and of_c >= 0.0:
-            # the normal is not of unit length
+            # the normal is not of unit length: the distance is its length times the height
             if height * height * square >= best:
                 return best
             _clear_weights(ws)
@@ -125,9 +125,11 @@ def _try_tetrahedron(ws: Workspace, size: float) -> float:
 def reduce_to_nearest(ws: Workspace, n: int, size: float) -> int:
     """Reduce the ``n`` corners to those of the face, edge or corner nearest to the origin, and write their weights.
 
-    Returns their number, or 0 if the origin is inside. ``size`` [m] is the largest extent of the simplex.
+    Returns their number, or 0 if the origin is inside: the corners are then left as they are. ``size`` [m] is the
+    largest extent of the simplex.
     """
     _clear_weights(ws)
+    # where the weights begin
     parts = ws.problem.simplex.start + WEIGHTS
     if n == 1:
         ws.floats[parts] = 1.0

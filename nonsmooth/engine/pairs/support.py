@@ -47,10 +47,11 @@ def _farthest_on_circles(floats: Floats, place: int, n: Vector) -> Vector:
     """
     rings = at(floats, place + PART_RINGS)
     x, y, z = n
+    # component of n in the planes of the circles
     across = math.sqrt(x * x + y * y)
     best, found = -math.inf, 0
     for i in range(0, RING * int(part_at(floats, place).rings), RING):
-        # centre and radius of a circle
+        # n times the centre of a circle, and its radius times the component in its plane
         height = rings[i] * x + rings[i + 1] * y + rings[i + 2] * z + rings[i + 3] * across
         if height > best:
             best, found = height, i
@@ -76,6 +77,7 @@ def _gradient_of_norm(floats: Floats, place: int, n: Vector) -> Vector:
     if wide > 0.0:
         wide *= ((ax / wide) ** q + (by / wide) ** q) ** (1.0 / q)
     high = max(wide, cz)
+    # only along axes without extent: the set does not reach beyond its centre there
     if high == 0.0:
         return 0.0, 0.0, 0.0
     high *= ((wide / high) ** p + (cz / high) ** p) ** (1.0 / p)
@@ -89,7 +91,8 @@ def _gradient_of_norm(floats: Floats, place: int, n: Vector) -> Vector:
 def _farthest_of_summands(floats: Floats, place: int, n: Vector) -> Vector:
     """Support point along the unit vector ``n`` of what is added to a part's circles [m], in the axes of the part.
 
-    It is a set of a plug-in, an ellipsoid (powers of 2) or another norm ball, and a ball.
+    It is a set of a plug-in, an ellipsoid (powers of 2) or another norm ball, and a ball. What a part does not have is
+    0: the address ``function`` of the plug-in, the semi-axes, or the radius of the ball.
     """
     part = part_at(floats, place)
     x, y, z = 0.0, 0.0, 0.0
