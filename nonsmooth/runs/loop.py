@@ -144,8 +144,9 @@ class EngineLoop:
     def _call_engine(self) -> int:
         """Call the engine until the run ends; the result is the status.
 
-        Between two calls ``until`` is evaluated and ``progress`` is called. The watch also reports the time to
-        ``progress`` within a long call, and turns Ctrl-C into a KeyboardInterrupt between two steps.
+        Between two calls ``until`` is evaluated and ``progress`` is called. Within a long call the engine asks a watch
+        now and then whether to stop. The watch reports the time to ``progress``, and turns Ctrl-C into a
+        KeyboardInterrupt.
         """
         memory, progress = self.model.memory, self.progress
         t_end = float(memory[owners.Request.t_end])

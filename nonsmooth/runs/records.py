@@ -109,8 +109,9 @@ class Records:
 
         The engine records none there, because the run has started before.
         """
-        # an event: time, four energies, q, u before and after, the rest of the integrated state, and then numbers of
-        # the closed contacts. Impulses are 0. A state has no side of anisotropic friction (FACING), 1 by default
+        # floats of an event: time, four energies, q, u before and after, the rest of the integrated state, totals of
+        # energies, and then numbers of the closed contacts. Impulses are 0. FACING is the side, 1 or -1, from which
+        # anisotropic friction is opposed; a state does not hold it, so it is 1
         closed = np.flatnonzero(state.modes != Mode.OPEN)
         codes = _ALWAYS * np.where(state.modes[closed] == Mode.SLIDE, _SLIDE_CODE, _STICK_CODE)
         head = np.zeros(EVENT_HEAD)
@@ -120,6 +121,7 @@ class Records:
         contacts[:, SLIP_DIRECTION:CLOSED_WITH] = state.slip_directions[closed]
         contacts[:, CLOSED_WITH], contacts[:, FACING] = state.closing_rates[closed], 1.0
         contacts[:, FEATURES:] = state.features[closed]
+        # a row has time, q and u first, then the rest of the integrated state and the totals of energies
         rest = row_of(state)[1 + len(state.q) + len(state.u) :]
         floats = np.concatenate([head, state.q, state.u, state.u, rest, contacts.ravel()])
         # cause, no contact, no phases, not truncated, number of contacts; then number and code of each contact
@@ -139,7 +141,8 @@ class Records:
         floats, _ = self.model.memory.cells
         # the time of the next sample is after the end if none is left out
         expected = floats.item(_NEXT)
-        # a run that is shorter than the accuracy of its times has no step
+        # a sample within round-off before the end may be left out, and so may one within the accuracy of times,
+        # because a run that is shorter than that has no step
         if expected < floats.item(_T) - max(_ROUND_OFF * floats.item(_INTERVAL), floats.item(_RESOLUTION)):
             raise InvalidInput(
                 f"{type(engine).__name__}.advance",
@@ -178,7 +181,7 @@ class Records:
         """
         memory, (floats, integers) = self.model.memory, self.model.memory.cells
         t, interval = floats.item(_T), floats.item(_INTERVAL)
-        # the last sample was an interval before the next one
+        # the index of the next sample is 0 as long as there is none; the last one was an interval before the next
         if integers.item(_INDEX) > 0 and t - (floats.item(_NEXT) - interval) <= _ROUND_OFF * interval:
             return
         row = np.concatenate([[t], memory[owners.Island.y], floats[_ACCOUNTED]])

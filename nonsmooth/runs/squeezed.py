@@ -81,6 +81,7 @@ def squeezed_body(model: LaidOut, status: int) -> str:
     if status not in _STATUSES:
         return ""
     memory = model.memory
+    # writes the points and velocities of bodies, contacts and joints at the last state
     call_entry("evaluate_at", memory)
     contacts = [one for index in range(len(model.active)) for one in _contact(model, index)]
     for one, two in (*itertools.combinations(contacts, 2), *itertools.product(contacts, _joints(model))):

@@ -29,8 +29,10 @@ def has_array(declared: Declaration) -> bool:
 
 def length_of(declared: Declaration, counts: Counts) -> int:
     """Number of entries of the array of a declaration, in a system of the given counts."""
+    # only arrays of parts have a size of their own
     if declared.size is not None:
         return declared.size(counts)
+    # as many numbers for each record; starts of ranges have one entry more, the end of the last range
     return int(declared.numbers * declared.owner.capacity(counts) + declared.has_end)
 
 
