@@ -96,6 +96,7 @@ class Model:
         made = cls.anywhere(system, engine)
         # the memory of a new model holds the default start
         made._check_start()
+        # bodies without any contact, then bodies that overlap and have no contact with each other
         made._pairs_without_contact.warn_of_lone()
         made._pairs_without_contact.warn_of_start(made._laid.places())
         return made

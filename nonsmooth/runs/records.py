@@ -73,7 +73,8 @@ class Records:
     def n_events(self) -> int:
         """Number of events so far, with those of an earlier process, without those that a continued run repeats.
 
-        While a continued run repeats events, the count is less by those that it has yet to repeat.
+        While a continued run repeats events, the count is less by those that it has yet to repeat, and may be negative.
+        So the difference of two counts is the number of events between two contents of the memory.
         """
         _, integers = self.model.memory.cells
         earlier = 0 if self.earlier is None else len(self.earlier[0])
@@ -111,7 +112,8 @@ class Records:
         """
         # floats of an event: time, four energies, q, u before and after, the rest of the integrated state, totals of
         # energies, and then numbers of the closed contacts. Impulses are 0. FACING is the side, 1 or -1, from which
-        # anisotropic friction is opposed; a state does not hold it, so it is 1
+        # anisotropic friction is opposed. A state holds neither it nor the mode after averaging of forces (AVERAGED):
+        # here they are 1 and open
         closed = np.flatnonzero(state.modes != Mode.OPEN)
         codes = _ALWAYS * np.where(state.modes[closed] == Mode.SLIDE, _SLIDE_CODE, _STICK_CODE)
         head = np.zeros(EVENT_HEAD)

@@ -164,6 +164,6 @@ def _joints(model: LaidOut) -> Iterator[_Support]:
             continue
         body, is_second = found
         frames = memory[owners.Joint.frame_a][number], memory[owners.Joint.frame_b][number]
-        # the point of its first row is that of the joint
+        # each row has points of its own; those of the first stand for the joint
         point, velocity = _point_and_velocity(model, frames, is_second, rows[0])
         yield _Support(str(joint), body, point, velocity, rows[:, blocks.AXIS : blocks.AXIS + 3], None)

@@ -140,7 +140,7 @@ def stride_of(storage: Declaration) -> int:
     """
     if storage.size is None:
         return storage.numbers
-    # the size is a function of the counts: the stride is its increase by one active contact
+    # the size is known as a function of the counts only: the stride is its increase by one active contact
     none: Counts = dict.fromkeys(COUNTS, 0)
     return storage.size({**none, "n_slots": 1}) - storage.size(none)
 
