@@ -171,7 +171,8 @@ class EngineLoop:
         run, records, sink = self._run_so_far, self.records, self.sink
         self._n_calls += 1
         before = None if run is None else run.reached
-        # a condition is evaluated at the start, before any step, and after each step: no step at first, then one
+        # the sink wants a checkpoint after at most so many steps. A condition is evaluated at the start, before any
+        # step, and after each step: no step at first, then one
         most_steps = sink.steps() if run is None else min(self._n_calls - 1, 1)
         status = driver.advance(most_steps, pauses_before_end=True)
         # a pause near the end looks like one after most_steps or with full buffers; but with a condition the engine,

@@ -93,9 +93,10 @@ class Records:
         """
         memory, width = self.model.memory, self._width
         _, integers = memory.cells
-        key, n_events, n_samples = integers.item(_N_CALLS), integers.item(_N_EVENTS), integers.item(_N_SAMPLES)
-        if key not in self._parts:
-            self._parts[key] = (
+        call, n_events, n_samples = integers.item(_N_CALLS), integers.item(_N_EVENTS), integers.item(_N_SAMPLES)
+        # floats and integers of events, and samples, under the number of the call
+        if call not in self._parts:
+            self._parts[call] = (
                 memory[owners.Output.event_numbers][: integers.item(_N_FLOATS)].copy(),
                 memory[owners.Output.event_codes][: integers.item(_N_INTEGERS)].copy(),
                 memory[owners.Output.samples][: n_samples * width].reshape(n_samples, width).copy(),

@@ -76,7 +76,8 @@ class StallMonitor:
     def observe(self, status: int) -> None:
         """Count steps and events of the last call of the engine, which ended with a status.
 
-        Its buffers must not be drained yet.
+        Its buffers must not be drained yet. Steps since time passed last: ``_n_short`` is their number, ``_short_time``
+        their time [s]; ``_n_limited_before`` are the counts of limits when they began.
 
         Warns
         -----

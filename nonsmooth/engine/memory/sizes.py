@@ -30,8 +30,8 @@ def ends(count: str) -> Size:
 def matrix_entries(n: Counts) -> int:
     """Number of entries allocated for a matrix of a contact problem: full for three unknowns per contact.
 
-    At most ``MOST_ENTRIES``, because a full matrix of a large system would not fit into memory. Such a problem must fit
-    as a band; if it does not, the run ends with the status ``NO_SLOT``.
+    At most ``MOST_ENTRIES``, because a full matrix of a large system would not fit into memory. A larger problem is
+    stored as a band; if that has too many entries, too, the run ends with the status ``NO_SLOT``.
     """
     return int(min((3 * n["n_slots"]) ** 2, MOST_ENTRIES))
 
