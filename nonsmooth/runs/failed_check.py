@@ -96,13 +96,14 @@ def _lightest(model: LaidOut) -> str:
     ]
     if not inverse_inertias:
         return ""
-    largest, name, unit_of_rate = max(inverse_inertias)
-    ratio = largest / min(inverse_inertias)[0]
+    # the least inertia has the largest inverse; the ratio is that of the largest inertia to the least
+    inverse, name, unit_of_rate = max(inverse_inertias)
+    ratio = inverse / min(inverse_inertias)[0]
     if ratio < _ILL_CONDITIONED:
         return ""
     quantity, unit = ("moment of inertia", "kg m^2") if unit_of_rate == "rad/s" else ("mass", "kg")
     return (
-        f" The {quantity} of {name!r}, {1.0 / largest:.3g} {unit}, is {1.0 / ratio:.1g} of the largest inertia of "
+        f" The {quantity} of {name!r}, {1.0 / inverse:.3g} {unit}, is {1.0 / ratio:.1g} of the largest inertia of "
         f"joined bodies (SI): round-off moves it. Give it {_LEAST_INERTIA:g} of the largest; motions change as little."
     )
 

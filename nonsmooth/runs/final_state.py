@@ -127,6 +127,7 @@ class FinalState(NamedTuple):
         now, contact, places = self.now, owners.Contact, self.places.features
         # y has q, u, the energy accounts, and the inner states of laws
         n_q, n_u, y = now[owners.Model.n_q], now[owners.Model.n_u], now[owners.Island.y]
+        # the place is negative for a contact without a search for features; its row stays zero
         features, searched = np.zeros((len(places), CANDIDATE)), np.flatnonzero(places >= 0)
         features[searched] = now.blocks[places[searched, None] + np.arange(CANDIDATE)]
         state = State(
@@ -180,7 +181,7 @@ class FinalState(NamedTuple):
             self.engine,
             worst_event=(now[run.worst_energy_time], now[run.worst_energy], now[run.worst_energy_ratio]),
             jump=(now[run.jump_time], now[run.jumped_energy]),
-            # friction may return energy that its law stored
+            # energy that friction brought in [J]; not counted if a law stores energy, which it may return
             rubbed=0.0 if self._friction_stores_energy() else solution.friction_gain,
             energy=end.state.energy,
             bodies=dict(zip(self.system.names.bodies, self.system.bodies, strict=True)),
@@ -195,7 +196,10 @@ class FinalState(NamedTuple):
         )
 
     def _verdict(self) -> dict[Measure, float]:
-        """The measures by which the engine judges a run: scalars of the parts that it added to the workspace."""
+        """The measures by which the engine judges a run, such as the largest overlap, with their values at the end.
+
+        They are scalars of the part that the engine added to the workspace. Empty for an engine that added none.
+        """
         # the first part of a checkpoint is the record of scalars, with those of the engine at its end
         own = self.now.parts[0].view(record_with(own_of(self.engine)))[0]
         return {
@@ -229,6 +233,7 @@ class FinalState(NamedTuple):
         """
         now, totals = self.now, owners.Totals
         driven, dissipated, exchanged, loads = integrated[:N_ACCOUNTS].tolist()
+        # kinetic and potential energy at the start, then the same at the end
         return EnergyAccount(
             *self.start_energy,
             *energies(self.system.bodies, self.places.tails, now.blocks),

@@ -59,7 +59,7 @@ class FolderSink(OutputSink):
     _commit: Future[None] | None = None
 
     def steps(self) -> int:
-        """Largest number of steps of the next call of the engine. They take 0.15 s, less than a commit interval."""
+        """Largest number of steps of the next call of the engine: about 0.15 s of them, less than a commit interval."""
         return self._steps
 
     def begin(self, checkpoint: Checkpoint) -> None:

@@ -76,7 +76,8 @@ def _contacts_within(events: Events, begin: float, end: float) -> tuple[Integers
     # the last event before the span shows the contacts at its beginning
     first = max(0, int(np.searchsorted(events.time, begin, side="right")) - 1)
     last = int(np.searchsorted(events.time, end, side="right"))
-    # events.first has the first entry of each event in the list of contacts, then the end of the list
+    # events.first has the first entry of each event in the list of contacts, then the end of the list; without events
+    # the range is empty
     entries = slice(*events.first[[first, max(first, last)]].tolist()) if len(events) else slice(0)
     contacts = events.listed[entries]
     in_fallback = contacts[events.listed_memory[entries, _MODE_AFTER_FALLBACK] != Mode.OPEN]

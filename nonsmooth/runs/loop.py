@@ -144,8 +144,9 @@ class EngineLoop:
     def _call_engine(self) -> int:
         """Call the engine until the run ends; the result is the status.
 
-        Between two calls ``until`` is evaluated and ``progress`` is called. The watch also reports the time to
-        ``progress`` within a long call, and turns Ctrl-C into a KeyboardInterrupt between two steps.
+        Between two calls ``until`` is evaluated and ``progress`` is called. Within a long call the engine asks a watch
+        now and then whether to stop. The watch reports the time to ``progress``, and turns Ctrl-C into a
+        KeyboardInterrupt.
         """
         memory, progress = self.model.memory, self.progress
         t_end = float(memory[owners.Request.t_end])
@@ -170,7 +171,8 @@ class EngineLoop:
         run, records, sink = self._run_so_far, self.records, self.sink
         self._n_calls += 1
         before = None if run is None else run.reached
-        # a condition is evaluated at the start, before any step, and after each step: no step at first, then one
+        # the sink wants a checkpoint after at most so many steps. A condition is evaluated at the start, before any
+        # step, and after each step: no step at first, then one
         most_steps = sink.steps() if run is None else min(self._n_calls - 1, 1)
         status = driver.advance(most_steps, pauses_before_end=True)
         # a pause near the end looks like one after most_steps or with full buffers; but with a condition the engine,

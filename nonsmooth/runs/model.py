@@ -96,6 +96,7 @@ class Model:
         made = cls.anywhere(system, engine)
         # the memory of a new model holds the default start
         made._check_start()
+        # bodies without any contact, then bodies that overlap and have no contact with each other
         made._pairs_without_contact.warn_of_lone()
         made._pairs_without_contact.warn_of_start(made._laid.places())
         return made
@@ -364,7 +365,7 @@ class Model:
     def _states_from(self, start_energy: tuple[float, float]) -> Callable[[Checkpoint], State]:
         """Function that makes the state of a checkpoint, for the sink; its account starts at ``start_energy`` [J]."""
         # kinetic and potential energy; the memory holds the checkpoint, so no event is after it
-        return lambda checkpoint: self._final_state(start_energy, checkpoint, 0).state()
+        return lambda checkpoint: self._final_state(start_energy, checkpoint, n_known_events=0).state()
 
     def _final_state(self, start_energy: tuple[float, float], resumable: Checkpoint, n_known_events: int) -> FinalState:
         """The state of the memory now, ``n_known_events`` events after the checkpoint ``resumable``.
@@ -458,7 +459,8 @@ class Model:
             if 2 * self._blank.size > _LARGEST_UNREAD:
                 _ = solution.end
             has_failed = found.status == "failed"
-            # results that cannot be written are in memory, so the error gets the solution
+            # results that cannot be written are in memory, so the error gets the solution; after a failed write the
+            # sink gets nothing more
             try:
                 if not ending.output_error:
                     loop.sink.finish(solution)
@@ -475,7 +477,7 @@ class Model:
         return solution
 
     def _out_of_memory(self, error: MemoryError) -> RunFailed:
-        """An error without a solution, for which there is no memory."""
+        """The error of a run whose results do not fit into memory. It has no solution, because that would not fit."""
         reached = float(self._laid.memory[owners.Island.time])
         return RunFailed(
             f"At t = {reached:.9g} s the memory ran out: {error}. The results do not fit. Give an output folder, which "

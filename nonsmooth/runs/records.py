@@ -73,7 +73,8 @@ class Records:
     def n_events(self) -> int:
         """Number of events so far, with those of an earlier process, without those that a continued run repeats.
 
-        While a continued run repeats events, the count is less by those that it has yet to repeat.
+        While a continued run repeats events, the count is less by those that it has yet to repeat, and may be negative.
+        So the difference of two counts is the number of events between two contents of the memory.
         """
         _, integers = self.model.memory.cells
         earlier = 0 if self.earlier is None else len(self.earlier[0])
@@ -92,9 +93,10 @@ class Records:
         """
         memory, width = self.model.memory, self._width
         _, integers = memory.cells
-        key, n_events, n_samples = integers.item(_N_CALLS), integers.item(_N_EVENTS), integers.item(_N_SAMPLES)
-        if key not in self._parts:
-            self._parts[key] = (
+        call, n_events, n_samples = integers.item(_N_CALLS), integers.item(_N_EVENTS), integers.item(_N_SAMPLES)
+        # floats and integers of events, and samples, under the number of the call
+        if call not in self._parts:
+            self._parts[call] = (
                 memory[owners.Output.event_numbers][: integers.item(_N_FLOATS)].copy(),
                 memory[owners.Output.event_codes][: integers.item(_N_INTEGERS)].copy(),
                 memory[owners.Output.samples][: n_samples * width].reshape(n_samples, width).copy(),
@@ -109,8 +111,10 @@ class Records:
 
         The engine records none there, because the run has started before.
         """
-        # an event: time, four energies, q, u before and after, the rest of the integrated state, and then numbers of
-        # the closed contacts. Impulses are 0. A state has no side of anisotropic friction (FACING), 1 by default
+        # floats of an event: time, four energies, q, u before and after, the rest of the integrated state, totals of
+        # energies, and then numbers of the closed contacts. Impulses are 0. FACING is the side, 1 or -1, from which
+        # anisotropic friction is opposed. A state holds neither it nor the mode after averaging of forces (AVERAGED):
+        # here they are 1 and open
         closed = np.flatnonzero(state.modes != Mode.OPEN)
         codes = _ALWAYS * np.where(state.modes[closed] == Mode.SLIDE, _SLIDE_CODE, _STICK_CODE)
         head = np.zeros(EVENT_HEAD)
@@ -120,6 +124,7 @@ class Records:
         contacts[:, SLIP_DIRECTION:CLOSED_WITH] = state.slip_directions[closed]
         contacts[:, CLOSED_WITH], contacts[:, FACING] = state.closing_rates[closed], 1.0
         contacts[:, FEATURES:] = state.features[closed]
+        # a row has time, q and u first, then the rest of the integrated state and the totals of energies
         rest = row_of(state)[1 + len(state.q) + len(state.u) :]
         floats = np.concatenate([head, state.q, state.u, state.u, rest, contacts.ravel()])
         # cause, no contact, no phases, not truncated, number of contacts; then number and code of each contact
@@ -139,7 +144,8 @@ class Records:
         floats, _ = self.model.memory.cells
         # the time of the next sample is after the end if none is left out
         expected = floats.item(_NEXT)
-        # a run that is shorter than the accuracy of its times has no step
+        # a sample within round-off before the end may be left out, and so may one within the accuracy of times,
+        # because a run that is shorter than that has no step
         if expected < floats.item(_T) - max(_ROUND_OFF * floats.item(_INTERVAL), floats.item(_RESOLUTION)):
             raise InvalidInput(
                 f"{type(engine).__name__}.advance",
@@ -178,7 +184,7 @@ class Records:
         """
         memory, (floats, integers) = self.model.memory, self.model.memory.cells
         t, interval = floats.item(_T), floats.item(_INTERVAL)
-        # the last sample was an interval before the next one
+        # the index of the next sample is 0 as long as there is none; the last one was an interval before the next
         if integers.item(_INDEX) > 0 and t - (floats.item(_NEXT) - interval) <= _ROUND_OFF * interval:
             return
         row = np.concatenate([[t], memory[owners.Island.y], floats[_ACCOUNTED]])

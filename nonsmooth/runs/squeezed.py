@@ -81,6 +81,7 @@ def squeezed_body(model: LaidOut, status: int) -> str:
     if status not in _STATUSES:
         return ""
     memory = model.memory
+    # writes the points and velocities of bodies, contacts and joints at the last state
     call_entry("evaluate_at", memory)
     contacts = [one for index in range(len(model.active)) for one in _contact(model, index)]
     for one, two in (*itertools.combinations(contacts, 2), *itertools.product(contacts, _joints(model))):
@@ -163,5 +164,6 @@ def _joints(model: LaidOut) -> Iterator[_Support]:
             continue
         body, is_second = found
         frames = memory[owners.Joint.frame_a][number], memory[owners.Joint.frame_b][number]
+        # each row has points of its own; those of the first stand for the joint
         point, velocity = _point_and_velocity(model, frames, is_second, rows[0])
         yield _Support(str(joint), body, point, velocity, rows[:, blocks.AXIS : blocks.AXIS + 3], None)

@@ -76,7 +76,8 @@ class StallMonitor:
     def observe(self, status: int) -> None:
         """Count steps and events of the last call of the engine, which ended with a status.
 
-        Its buffers must not be drained yet.
+        Its buffers must not be drained yet. Steps since time passed last: ``_n_short`` is their number, ``_short_time``
+        their time [s]; ``_n_limited_before`` are the counts of limits when they began.
 
         Warns
         -----
@@ -121,6 +122,7 @@ class StallMonitor:
         """
         memory = self.model.memory
         codes = memory[owners.Output.event_codes][: int(memory[owners.Output.integers_used])].tolist()
+        # the head begins with the cause of the event, and its contact or guard
         at = 0
         while at < len(codes):
             yield codes[at], codes[at + 1]
@@ -137,7 +139,10 @@ class StallMonitor:
         return f"the steps are {step:.2g} s long (mean of the last {self._n_short}); t_end = {t_end:.9g} s {far}."
 
     def _limited_by(self) -> str:
-        """Sentences with the limits of the steps since time passed last, most frequent first, and the last events."""
+        """Sentences with the limits of the steps since time passed last, most frequent first, and the last events.
+
+        If the most frequent limit is the error, a sentence names the coordinate whose error is largest.
+        """
         counts = self._n_limited - self._n_limited_before
         ranked = [i for i in np.argsort(-counts, kind="stable").tolist() if counts[i] > 0][:_N_NAMED]
         limits = ", ".join(f"{LIMITS[i]} ({counts[i]})" for i in ranked)

@@ -44,7 +44,7 @@ def begin(model: LaidOut, blank: Checkpoint, state: State) -> None:
     Raises
     ------
     InvalidInput
-        If too many contacts are near each other, or a closed contact has features that are not.
+        If too many contacts are near each other, or a closed contact has features that are not near each other.
     """
     if model.memory[owners.Model.n_searches] > 0 and np.any(state.modes):
         _check_features(model, blank, state)
@@ -87,7 +87,8 @@ def resume_run(model: LaidOut, blank: Checkpoint, state: State) -> None:
     if not t <= state.time or n_known_events < 0:
         rule = f"must begin before {state.time:.9g} s"
         raise InvalidInput("State.continuation", rule, (t, n_known_events), "It is damaged: take another.")
-    # a resumed run derives again what no checkpoint holds; one that was cut off before its first instant starts anew
+    # a resumed run evaluates again what follows from the state and no checkpoint holds, such as the groups of contacts;
+    # one that was cut off before its first instant starts anew
     memory[owners.Request.is_resumed] = memory[owners.Run.has_started]
 
 

@@ -75,6 +75,7 @@ def check_numbers(model: LaidOut, state: State) -> None:
         if len(wrong) > 0:
             remedy = f"Correct entry {wrong[0]}. A failed run may leave such a state."
             raise InvalidInput(f"State.{name}", "must be finite numbers", float(value[wrong[0]]), remedy)
+    # q has the coordinates of each body in turn
     first = 0
     for body in model.system.bodies:
         check_quaternion(f"State.q of {model.system.name_of(body)!r}", body, state.q[first : first + body.n_q])
@@ -82,12 +83,12 @@ def check_numbers(model: LaidOut, state: State) -> None:
 
 
 def check_closed(model: LaidOut, state: State) -> None:
-    """Check that the closed contacts of a state, which the memory holds, have no gap, as after a change of q.
+    """Check that the closed contacts of a state, which the memory holds, have no gap, as they may after a change of q.
 
     Raises
     ------
     InvalidInput
-        If one has a gap.
+        If one has a gap of more than a thousand gap tolerances, beyond the reach of its law.
     """
     if not np.any(state.modes):
         return
@@ -108,16 +109,18 @@ def check_closed(model: LaidOut, state: State) -> None:
 
 
 def check_candidates(model: LaidOut) -> None:
-    """Check that the features of each contact with a search are features of its shapes.
+    """Check the pair of features that a search has found for each contact, in a state that comes from a file.
 
-    Its kinematics uses the numbers of features as places in a table, and a wrong number would read outside of it.
+    The kinematics of the contact uses the numbers of the features as places in a table, and a wrong number would read
+    outside of it. Contacts without a search, or for which none were found, are left out.
 
     Raises
     ------
     InvalidInput
-        If a feature does not exist.
+        If a feature does not exist, or the distance up to which the pair is valid is negative or not finite.
     """
-    # offsets of the features, 0 for a contact without a search; the first feature number is 0 if none were found
+    # offset of the numbers of a pair, 0 for a contact without a search. The numbers are the kind of the pair, 0 if none
+    # were found; one feature of either shape; behind these, the distance up to which the pair is valid [m]
     places = model.memory.declared(owners.Contact.features)
     numbers = np.flatnonzero(places > 0)
     for number in numbers[model.memory.floats[places[numbers]] != 0.0].tolist():
@@ -125,7 +128,7 @@ def check_candidates(model: LaidOut) -> None:
         search = contact.kinematics.candidates
         assert search is not None
         kind, *features, distance = model.memory.floats[places[number] :][: CANDIDATE + 1].tolist()
-        # numbers of features of both shapes by the kind of the pair
+        # counts has, by kind, how many features each of the shapes has; an unknown kind has none
         pair = zip(features, search.counts.get(kind, (0, 0)), strict=True)
         exist = all(feature.is_integer() and 0 <= feature < count for feature, count in pair)
         if not (exist and 0.0 <= distance < np.inf):

@@ -217,7 +217,7 @@ def real(life: Life, unit: str, sentence: str, **options: Any) -> Any:
 
     The result is Any, so that a type checker takes ``gap: float = real(...)`` for a float.
     """
-    # 0.0 and not 0: the type of the first value is that of a scalar in the record of scalars
+    # 0.0 and not 0: a scalar is stored with the type of its value before any run
     return Declaration(float, life, unit, sentence, **{"begin": 0.0, **options})
 
 

@@ -38,13 +38,18 @@ class Heap:
     """
 
     def __init__(self, memory: Memory) -> None:
-        """Begin without blocks. They will follow all arrays of ``memory``, which :func:`allocate` made."""
+        """Begin to collect the blocks that :meth:`close` appends to the floats of ``memory``.
+
+        :func:`allocate` made ``memory``, with all arrays whose size follows from counts.
+        """
         self._memory = memory
+        # offset of the first block among all floats
         self._first = len(memory.floats)
         self._values = array("d")
-        # starts relative to the first block, and how many numbers from each are written
+        # ranges that change in a run: their offsets from the first block, and the length of each of them
         self._written: list[tuple[np.ndarray, int]] = []
-        # place of the number, offset from which its distance counts, and table
+        # numbers by which a function finds a table of shared parameters, such as those of a mesh: offset of the number
+        # among all floats, the offset that is subtracted from that of the table, and the table
         self._references: list[tuple[int, int, Table]] = []
 
     def block(self, size: int) -> int:
@@ -74,8 +79,8 @@ class Heap:
 
     def refer(self, place: int, start: int, table: Table) -> None:
         """Let :meth:`close` set the number at offset ``place`` to the distance [floats] of a table from ``start``."""
-        # at start begin the parameters of the function that reads the table, which gets their address only;
-        # no table has an offset before close
+        # at start begin the parameters of the function that reads the table. It gets only their address, so the table
+        # must be found from there. Before close no table has an offset
         self._references.append((place, start, table))
 
     def output(self, size: int) -> int:
@@ -88,8 +93,10 @@ class Heap:
         return start
 
     def close(self) -> Memory:
-        """The memory with all blocks behind its arrays, and then the tables, each of them once."""
-        # many contacts may refer to the same table
+        """A new memory with the content of the old one: its arrays, behind them all blocks, then the tables.
+
+        A table that many contacts refer to is there once. Views of the old memory do not show the new one.
+        """
         old, tables = self._memory, {id(table): table for _, _, table in self._references}
         first_table, offsets = self._first + len(self._values), dict[int, int]()
         end = first_table
@@ -135,6 +142,7 @@ def view_of(declared: Declaration, record: np.void, counts: Counts, numbers: np.
     numbers = numbers[start : start + length_of(storage, counts)]
     if issubclass(declared.owner, Part):
         return numbers
+    # entries from one record to the next, position of the declaration in a record, and number of records
     stride, first, n = stride_of(storage), declared.inside[1], declared.owner.capacity(counts)
     if declared.numbers == 1:
         # starts of ranges have one entry more, the end of the last range
@@ -239,7 +247,7 @@ class Memory:
 
         Views as integers with the same bits, so that they can be compared: NaN differs from itself.
         """
-        # arrays that outlive a step come first among the floats and among the integers
+        # arrays that outlive a step come first among the floats and among the integers; blocks end where tables begin
         (floats, *_), (integers, *_) = self._lengths
         parts = self.scalars, self.floats[:floats], self.integers[:integers], self.floats[self.blocks : self.tables]
         return tuple(part.view(np.int64) for part in parts)
@@ -262,6 +270,7 @@ class Memory:
 
     @functools.cached_property
     def _lengths(self) -> tuple[tuple[int, int, int], ...]:
+        """For floats, then for integers: total entries of arrays that outlive a step, of all but late ones, of all."""
         return tuple(lengths_of((*OWNERS, *self.own), of_floats, self._counts) for of_floats in (True, False))
 
 
@@ -273,9 +282,11 @@ def allocate(counts: Mapping[str, int], own: tuple[type[Part], ...] = ()) -> Mem
     """
     values, (n_floats, n_integers) = _laid(tuple(counts.items()), own)
     scalars = np.array([values], record_with(own))
-    # an array without entries has no address. Blocks and tables, still empty, begin behind the arrays
-    memory = Memory(scalars, np.zeros(n_floats), np.zeros(max(n_integers, 1), np.int64), n_floats, n_floats, own=own)
-    # guards behind each block of a kinematics: they change if it writes too many numbers
+    # an array without entries has no address; the floats always have those of the Runge-Kutta pairs
+    floats, integers = np.zeros(n_floats), np.zeros(max(n_integers, 1), np.int64)
+    # blocks and tables, still empty, begin behind the arrays
+    memory = Memory(scalars, floats, integers, blocks=n_floats, tables=n_floats, own=own)
+    # guards behind the block that the kinematics of a contact writes: they change if it writes too many numbers
     memory[Contact.geometry][:, PAIR:] = UNTOUCHED
     memory[Coefficients.stages] = np.ravel(tableau.STAGES)
     memory[Coefficients.error_weights] = tableau.ERROR
@@ -293,8 +304,8 @@ def _laid(
 ) -> tuple[tuple[float, ...], tuple[int, int]]:
     """Values of the record of scalars before any run, and the numbers of floats and of integers.
 
-    The record has the scalars, the counts, and the offset of each array. The result is cached, because systems that
-    differ in their parameters only have the same one, and often follow each other.
+    The record has the scalars, among them the counts, and the offset of each array. The result is cached, because
+    systems that differ in their parameters only have the same one, and often follow each other.
     """
     owners, known = (*OWNERS, *own), dict(counts)
     values = {**scalars_of(owners), **{f"{Model.key}.{name}": number for name, number in counts}}

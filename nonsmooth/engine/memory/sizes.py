@@ -28,14 +28,20 @@ def ends(count: str) -> Size:
 
 
 def matrix_entries(n: Counts) -> int:
-    """Number of entries that are allocated for a matrix of all unknowns of the contacts, three each."""
-    # limited, because a full matrix of a large system would not fit into memory
+    """Number of entries allocated for a matrix of a contact problem: full for three unknowns per contact.
+
+    At most ``MOST_ENTRIES``, because a full matrix of a large system would not fit into memory. A larger problem is
+    stored as a band; if that has too many entries, too, the run ends with the status ``NO_SLOT``.
+    """
     return int(min((3 * n["n_slots"]) ** 2, MOST_ENTRIES))
 
 
 def delassus_blocks(n: Counts) -> int:
-    """Number of Delassus blocks that are allocated, one for each pair of contacts that act on one another."""
-    # limited, because in a large system most pairs do not; the run ends if more are needed
+    """Number of Delassus blocks that are allocated, one for each ordered pair of contacts, at most ``MOST_BLOCKS``.
+
+    In a large system most pairs do not act on one another, and need none. If more blocks are needed, the run ends with
+    the status ``NO_SLOT``.
+    """
     return int(min(n["n_slots"] ** 2, MOST_BLOCKS))
 
 
@@ -45,7 +51,10 @@ def delassus_numbers(n: Counts) -> int:
 
 
 def all_guards(n: Counts) -> int:
-    """Number of guards, functions whose roots are events: three for each active contact, and those of the user."""
+    """Number of guards, functions whose roots are events: three for each active contact, and those of the user.
+
+    Those of a contact are its normal guard, its friction guard, and that of the end of its features.
+    """
     return 3 * n["n_slots"] + n["n_own_guards"]
 
 
@@ -61,7 +70,10 @@ def spans(n: Counts) -> int:
 
 
 def step_part_numbers(n: Counts) -> int:
-    """Number of floats of the list of ends of the parts into which a step is halved in search of a root."""
+    """Number of floats of the list of ends of the parts into which a step is halved in search of a root.
+
+    At most ``PARTS`` parts, side by side, are listed at once; they have one end more.
+    """
     return PART_END * (PARTS + 1)
 
 
@@ -76,13 +88,16 @@ def map_numbers(n: Counts) -> int:
 
 
 def lemke_columns(n: Counts) -> int:
-    """Number of columns of Lemke's tableau: six for each contact, and that of the artificial variable."""
+    """Number of variables in the columns of Lemke's tableau: six for each contact, and the artificial variable.
+
+    The six are four corners of a polygon in place of the friction disc, the normal force, and the slip acceleration.
+    """
     return 6 * n["n_pivoted"] + 1
 
 
 def lemke_numbers(n: Counts) -> int:
-    """Number of entries of Lemke's tableau: six rows for each contact."""
-    # columns: six for each contact, the artificial variable, and the right-hand side
+    """Number of entries of Lemke's tableau, with six rows for each contact."""
+    # columns: those of the variables (:func:`lemke_columns`), and the right-hand side
     return 6 * n["n_pivoted"] * (6 * n["n_pivoted"] + 2)
 
 

@@ -29,8 +29,10 @@ def has_array(declared: Declaration) -> bool:
 
 def length_of(declared: Declaration, counts: Counts) -> int:
     """Number of entries of the array of a declaration, in a system of the given counts."""
+    # only arrays of parts have a size of their own
     if declared.size is not None:
         return declared.size(counts)
+    # as many numbers for each record; starts of ranges have one entry more, the end of the last range
     return int(declared.numbers * declared.owner.capacity(counts) + declared.has_end)
 
 
@@ -138,7 +140,7 @@ def stride_of(storage: Declaration) -> int:
     """
     if storage.size is None:
         return storage.numbers
-    # the size is a function of the counts: the stride is its increase by one active contact
+    # the size is known as a function of the counts only: the stride is its increase by one active contact
     none: Counts = dict.fromkeys(COUNTS, 0)
     return storage.size({**none, "n_slots": 1}) - storage.size(none)
 
