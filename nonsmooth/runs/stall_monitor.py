@@ -152,16 +152,18 @@ class StallMonitor:
 
     def _counted_events(self) -> str:
         """Sentence with the most frequent of the last events and their numbers, or "" if there are none."""
-        names = self.model.system.names
-        # an event is its cause, and its contact or guard; the start has neither
+        # an event is its cause, and its contact or guard
         counted = Counter(event for event in self._last_events if event[0] != Cause.START)
         if not counted:
             return ""
-        named = [
-            f"{CAUSES[cause]} of {(names.guards if cause == Cause.GUARD else names.contacts)[i]!r} ({n})"
-            for (cause, i), n in counted.most_common(_N_NAMED)
-        ]
+        named = [f"{self._words(*event)} ({n})" for event, n in counted.most_common(_N_NAMED)]
         return f"The last {counted.total()} events are: {_enumeration(named, len(counted))}."
+
+    def _words(self, cause: int, which: int) -> str:
+        """An event in words. ``which`` is the number of its contact or guard; -1 for an event of neither."""
+        names = self.model.system.names
+        of_kind = names.guards if cause == Cause.GUARD else names.contacts
+        return f"{CAUSES[cause]} of {of_kind[which]!r}" if which >= 0 else CAUSES[cause]
 
 
 def _largest_error(model: LaidOut) -> str:

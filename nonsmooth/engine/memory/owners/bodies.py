@@ -27,7 +27,7 @@ class Body(Record, key="bodies", capacity="n_bodies", length="model.n_bodies"):
     ballistic_parameters: int = whole(_PARAMETER, "Offset of the parameters of that function.")
     ballistic_out: int = whole(_PARAMETER, "Offset at which that function writes.")
     is_ballistic: bool = question(Life.DERIVED, "It is in ballistic motion in closed form.")
-    spins_apart: bool = question(_REUSED, "Its spin is integrated apart, along its own axes.")
+    spins_apart: bool = question(_REUSED, "Its spin is integrated apart, along axes in space.")
     has_own_step: bool = question(Life.STATE, "It takes a step of its own (multirate).")
     own_step_time: float = real(Life.STATE, "s", "Start of its own step.")
     own_step: float = real(Life.STATE, "s", "Length of its own step.")

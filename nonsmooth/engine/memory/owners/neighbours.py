@@ -70,7 +70,9 @@ class Pair(Record, key="pairs", capacity="n_pairs", length="model.n_pairs"):
     deepest: float = real(Life.STEP, "m", "Least gap of the closed contacts.")
     direction: Vector3 = vector(_REUSED, 3, "1", "Direction in which the parts are farthest apart.")
     normal: Vector3 = vector(Life.STEP, 3, "1", "Normal of the deepest closed contact.")
-    between: Vector3 = vector(_REUSED, 3, "1", "Normal of a plane between two sharp discs.")
+    between: Vector3 = vector(
+        _REUSED, 3, "m", "Centre of the second disc along the axes of the first, if both are flat."
+    )
 
 
 @final

@@ -73,7 +73,9 @@ class Run(Part, key="run"):
     passed_depth: float = real(_OUTPUT, "m", "Depth of that pair.")
     passed_allowed: float = real(_OUTPUT, "m", "Depth that the tolerances allow.")
     n_past_map: int = whole(_OUTPUT, "Number of contacts of an impact law that wrote past its block.")
-    has_too_many_blocks: bool = question(_OUTPUT, "More contacts act on one another than there are blocks for.")
+    has_too_many_blocks: bool = question(
+        _OUTPUT, "A contact problem has more blocks, or a wider band, than the memory holds."
+    )
 
     worst_energy: float = real(_STATE, "J", "Largest unexplained change of energy.")
     worst_energy_ratio: float = real(_STATE, "1", "That change over the energy that the tolerances allow.")
