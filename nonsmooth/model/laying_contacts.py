@@ -99,7 +99,7 @@ def lay_contacts(
         for place, start, shared in kind.tables:
             for begin in starts.tolist():
                 blocks.refer(begin + place, begin + start, shared)
-    _lay_states(memory, contacts, kinds)
+    lay_states(memory, contacts, kinds)
     # three rows of a Jacobian over the velocities of the largest articulation (a group of bodies tied by joints)
     size = 3 * _lay_sides(memory, table, bodies)
     # any unit vector, until a slip has a direction
@@ -122,7 +122,7 @@ def by_kind(contacts: Sequence[Contact]) -> Kinds:
     return list(same.values())
 
 
-def _lay_states(memory: Memory, contacts: Sequence[Contact], kinds: Kinds) -> None:
+def lay_states(memory: Memory, contacts: Sequence[Contact], kinds: Kinds) -> None:
     """Write where the inner states of each contact begin, and the scales of the inner states for the error of a step.
 
     The inner states of friction laws come last in the state, in the order of the contacts.

@@ -9,7 +9,7 @@ import numpy as np
 from nonsmooth.engine.memory import owners
 from nonsmooth.errors import InvalidInput
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.laying_contacts import by_kind, kind_of, lay_law_floats
+from nonsmooth.model.laying_contacts import by_kind, kind_of, lay_law_floats, lay_states
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
 
@@ -29,13 +29,17 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
         If bodies or contacts differ, or the laws need blocks of other sizes.
     """
     _check_same(model.system, system)
-    memory, contacts = model.memory, system.contacts
+    memory, contacts, former = model.memory, system.contacts, model.system.contacts
     kinds = by_kind(contacts)
+    former_kind = {number: k for k, numbers in enumerate(by_kind(former)) for number in numbers}
     for numbers in kinds:
-        before, after = (kind_of(memory, one.contacts[numbers[0]]) for one in (model.system, system))
-        # the new parameters must fit in the places of the old ones, within blocks of the same length
-        if (before.offsets, len(before.block)) != (after.offsets, len(after.block)):
-            _refuse(contacts[numbers[0]], model.system.contacts[numbers[0]])
+        # one contact of each kind that the contacts of this kind had
+        examples = {former_kind[number]: number for number in numbers}.values()
+        before, after = [kind_of(memory, former[number]) for number in examples], kind_of(memory, contacts[numbers[0]])
+        for number, one in zip(examples, before, strict=True):
+            # the new parameters must fit in the places of the old ones, within blocks of the same length
+            if (one.offsets, len(one.block)) != (after.offsets, len(after.block)):
+                _refuse(contacts[number], former[number])
         for declared, value in after.fields.items():
             memory.declared(declared)[numbers] = value
         # the parameters of the geometry come first and stay, as they may refer to tables; those of the laws follow
@@ -45,6 +49,7 @@ def lay_laws(model: LaidOut, system: System) -> LaidOut:
         starts = memory.declared(owners.Contact.geometry_parameters)[numbers]
         places = starts[:, None] + np.arange(first, len(after.block))
         memory.floats[places] = after.block[first:]
+    lay_states(memory, contacts, kinds)
     lay_law_floats(memory, contacts, kinds)
     return replace(model, system=system)
 

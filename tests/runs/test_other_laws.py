@@ -7,10 +7,14 @@ from typing import Any
 import pytest
 
 import nonsmooth as ns
-from bodies import Ball
-from laws import Coulomb, EnergeticImpact, HuntCrossley, NewtonImpact, Stribeck
+from bodies import Ball, Plate
+from laws import Bristle, Coulomb, EnergeticImpact, HuntCrossley, NewtonImpact, Stribeck
+from nonsmooth.interfaces import TangentialLaw
 from nonsmooth.plugins import registry
+from nonsmooth.system.materials import ContactLaws, Materials
 from tests.runs.continued import differences
+
+NORMAL = HuntCrossley(1e5, 0.1)
 
 
 @pytest.mark.parametrize(
@@ -37,6 +41,34 @@ def test_many_contacts_in_a_list() -> None:
     other = ns.with_laws(system, friction=Coulomb(0.05))
     found = ns.assemble(system).with_laws_of(other)
     assert differences(found.run(0.15), ns.simulate(other, 0.15)) == []
+
+
+def _two_balls(*frictions: TangentialLaw) -> ns.System:
+    """A plate and two equal balls that slide on it, each with a law of friction."""
+    plate, *balls = Plate(), Ball(0.01), Ball(0.01)
+    system, laws = ns.System([plate, *balls]), [ContactLaws(NORMAL, law) for law in frictions]
+    materials = Materials({("plate", "one"): laws[0], ("plate", "other"): laws[1]}, default=laws[0])
+    system.contact_all(materials, of={"plate": [plate], "one": balls[:1], "other": balls[1:]})
+    for i, ball in enumerate(balls):
+        system.place(ball, position=(0.1 * i, 0.0, ball.radius), velocity=(0.2, 0.0, 0.0))
+    return system
+
+
+def test_inner_states_keep_the_error_scale_of_their_own_law() -> None:
+    system = _two_balls(Bristle(0.3, 0.4, stiffness=1e3), Bristle(0.3, 0.4, stiffness=1e5))
+    other = ns.with_laws(system, friction=Bristle(0.3, 0.4, stiffness=1e4))
+    found = ns.assemble(system).with_laws_of(other)
+    assert differences(found.run(0.05), ns.simulate(other, 0.05)) == []
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_contacts_that_had_laws_of_different_kinds_cannot_share_one(order: int) -> None:
+    """Whichever comes first: the block of one of them does not fit."""
+    bristle = Bristle(0.3, 0.4)
+    system = _two_balls(*(bristle, Coulomb(0.3))[::order])
+    for law in (bristle, Coulomb(0.2)):
+        with pytest.raises(ns.InvalidInput, match="must be of the kinds of"):
+            ns.assemble(system).with_laws_of(ns.with_laws(system, friction=law))
 
 
 def test_what_differs_in_more_than_laws_is_refused(build: Any) -> None:
