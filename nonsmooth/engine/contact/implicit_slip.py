@@ -74,7 +74,7 @@ def _find_forces(ws: Workspace) -> bool:
     if not ws.problem.acceleration_scale > 0.0:
         # all are zero, or a trial step that is far too long has led to numbers that are not finite
         return False
-    # a single slip by three formulas; all other islands, and a slip that friction stops, by the exchange of modes
+    # a single slip has one unknown; all other islands, and a slip that friction stops, need the exchange of modes
     return _solve_lone_slip(ws) or oppose_slips(ws)
 
 
