@@ -93,7 +93,7 @@ def _write_contact(ws: Workspace, active: ActiveContact) -> None:
     if contact.mode == Mode.SLIDE:
         active.friction_coefficient = slip_coefficient(ws, c, length(contact.slip))
     else:
-        active.friction_coefficient = friction_coefficient(ws, c, 0.0)
+        active.friction_coefficient = friction_coefficient(ws, c, speed=0.0)
     # friction may stop a slip within its kinetic bound; a contact that sticks has the static one
     active.static_coefficient = active.friction_coefficient
     active.mode_tried = active.mode_past = contact.mode

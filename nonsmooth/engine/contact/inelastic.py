@@ -136,7 +136,7 @@ def _solve_from_guess(ws: Workspace) -> bool:
     compliance = min(1.0, 0.5 * _NEGLIGIBLE * ws.tolerance.velocity / largest)
     _set_compliance(ws, compliance)
     has_settled = _step_or_restore(ws, STEPS)
-    _set_compliance(ws, 0.0)
+    _set_compliance(ws, compliance=0.0)
     return has_settled and _is_negligible(ws, compliance)
 
 
@@ -161,5 +161,5 @@ def _reduce_compliance(ws: Workspace) -> bool:
         else:
             # a smaller reduction: two such steps make the one that has failed
             ratio **= 0.5
-    _set_compliance(ws, 0.0)
+    _set_compliance(ws, compliance=0.0)
     return _is_negligible(ws, compliance)

@@ -274,6 +274,7 @@ def _pivot(ws: Workspace, n: int, r: int, s: int) -> None:
     """
     row = _row(ws, n, r)
     pivot = ws.floats[row + s]
+    # row r says: its variable = pivot times the variable of column s + the rest
     for j in range(n + 2):
         ws.floats[row + j] = -ws.floats[row + j] / pivot
     # this column now belongs to the variable that has left
@@ -282,6 +283,7 @@ def _pivot(ws: Workspace, n: int, r: int, s: int) -> None:
         other = _row(ws, n, i)
         t = ws.floats[other + s]
         if i != r and t != 0.0:
+            # entry s of row r is the factor of the variable that has left, which column s holds now
             for j in range(n + 2):
                 ws.floats[other + j] += t * ws.floats[row + j]
             ws.floats[other + s] = t / pivot

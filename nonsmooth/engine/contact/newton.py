@@ -262,6 +262,7 @@ def _subtract_projection(ws: Workspace, active: ActiveContact, factor: float, c1
             z1, z2 = -g[3] / g_t, -g[6] / g_t
             z1 += 1.0 if j == 3 * a + 1 else 0.0
             z2 += 1.0 if j == 3 * a + 2 else 0.0
+            # the part of (z1, z2) across the unit vector is this number times (c2, -c1)
             across = c2 * z1 - c1 * z2
             # growth of the radius mu y_n
             growth = active.friction_coefficient * ((1.0 if j == 3 * a else 0.0) - g[0] / own)

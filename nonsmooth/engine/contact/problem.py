@@ -79,12 +79,12 @@ def write_friction(ws: Workspace, active: ActiveContact) -> None:
     speed = length(contact.slip)
     # only impacts give normal forces; `decouple_normals` makes those of compliant contacts known
     active.has_given_force = False
-    active.static_coefficient = friction_coefficient(ws, active.contact, 0.0)
+    active.static_coefficient = friction_coefficient(ws, active.contact, speed=0.0)
     active.is_at_rest = not speed > ws.tolerance.velocity
     if active.is_at_rest:
         # the slip may begin: its last direction is the first guess
         active.direction = contact.direction
-        active.friction_coefficient = slip_coefficient(ws, active.contact, 0.0)
+        active.friction_coefficient = slip_coefficient(ws, active.contact, speed=0.0)
     else:
         active.direction = unit(contact.slip)
         active.friction_coefficient = slip_coefficient(ws, active.contact, speed)

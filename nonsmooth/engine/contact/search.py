@@ -292,6 +292,7 @@ def _verify_or_open(ws: Workspace) -> bool:
 @kernel("b1(ws)")
 def _open_most_tensile(ws: Workspace) -> bool:
     """Open the closed contacts with the largest tensile forces. True if there are any, False if no force is tensile."""
+    # a tensile force below this threshold is round-off
     worst = -ws.problem.small_force
     for active in ws.actives:
         if active.mode_tried != Mode.OPEN:
@@ -372,7 +373,7 @@ def _keep_if_lawful(ws: Workspace) -> None:
     """Keep the modes under trial if they fulfil the laws. Otherwise restore the solution of :func:`_store_solution`."""
     if not _verify_or_open(ws):
         _restore_guess(ws)
-        # the trial has overwritten them
+        # the trial has overwritten them, and the choice between solutions reads them
         evaluate_accelerations(ws)
 
 

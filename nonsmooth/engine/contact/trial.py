@@ -128,8 +128,7 @@ def check_laws(ws: Workspace, is_lenient: bool) -> bool:
     """
     verdict = _check(ws, is_lenient)
     # no distance inside the cones (inset 0) is needed
-    allowed = _DISTRIBUTED * ws.problem.small_force
-    if verdict == Verdict.REDISTRIBUTABLE and distribute(ws, inset=0.0, allowed=allowed):
+    if verdict == Verdict.REDISTRIBUTABLE and distribute(ws, inset=0.0, allowed=_DISTRIBUTED * ws.problem.small_force):
         # distribution moves normal forces, and with them the friction of sliding contacts
         for active in ws.actives:
             if active.mode_tried == Mode.SLIDE:
