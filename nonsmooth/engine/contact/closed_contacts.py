@@ -38,11 +38,12 @@ from nonsmooth.engine.numerics.linear import band_row, product, solve_three
 
 @kernel("b1(ws, b1)")
 def add_contact_forces(ws: Workspace, may_choose: bool) -> bool:
-    """Find the forces of the active contacts [N], add their responses to ``du``, and add the power of driven bodies.
+    """Find the forces of the active contacts [N], and add their responses to ``du`` and their powers.
 
-    Before: rows, columns and given forces are written, and ``du`` holds the accelerations without contact forces. If
-    ``may_choose``, the null-space force of redundant contacts, which moves no body, is chosen anew; else the one chosen
-    before is added. False if it is chosen anew, and no choice keeps all forces within their bounds; else True.
+    The powers are added to those of driven bodies and loads. Before: rows, columns and given forces are written, and
+    ``du`` holds the accelerations without contact forces. If ``may_choose``, the null-space force of redundant
+    contacts, which moves no body, is chosen anew; else the one chosen before is added. False if it is chosen anew, and
+    no choice keeps all forces within their bounds; else True.
     """
     # an island of one contact needs no matrix, unless its problem is ill-conditioned
     if ws.problem.n_active == 1 and ws.actives[0].is_normal_force_unknown and _add_lone_force(ws):
@@ -100,8 +101,8 @@ def write_rows(ws: Workspace, a: int) -> None:
 def coupling(ws: Workspace, c: int, r: int, d: int, s: int) -> float:
     """Acceleration along row ``r`` of contact ``c`` per unit force in column ``s`` of contact ``d`` [1/kg].
 
-    A column is the direction of an unknown force, to which the bodies' response is stored. It is 0 if the contacts
-    share no movable articulation (set of bodies that joints connect).
+    A column is the direction of an unknown force, to which the bodies' response is stored. The result is 0 if the
+    contacts share no movable articulation (a body, or several that joints connect).
     """
     contact, other = ws.contacts[c], ws.contacts[d]
     total = 0.0
@@ -122,7 +123,7 @@ def coupling(ws: Workspace, c: int, r: int, d: int, s: int) -> float:
 
 @kernel()
 def _add_given_forces(ws: Workspace) -> None:
-    """Add the responses of given forces to ``du``, and their powers: power of driven bodies, and power of loads.
+    """Add the responses to given forces to ``du``, and their powers: power of driven bodies, and power of loads.
 
     Given are the normal forces of compliant contacts, and the forces of the time-stepping fallback. A contact with a
     given normal force that slides has given friction, too; if it sticks, its friction is an unknown.

@@ -297,7 +297,8 @@ def _margin_of_redundant_friction(ws: Workspace, active: ActiveContact) -> float
 def _margin_of_group(ws: Workspace, active: ActiveContact, first: int) -> float:
     """Sum of the bounds less the sum of the friction of all contacts that are redundant together with a contact [N].
 
-    ``first`` is the unknown of its friction along t1.
+    ``first`` is the unknown of its friction along t1. Components along t1 and t2 are summed as if the tangents of all
+    these contacts were parallel.
     """
     # a pair t1, t2 begins before the last unknown
     begin, end = 0, ws.problem.n_unknown - 1

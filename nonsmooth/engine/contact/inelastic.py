@@ -79,8 +79,8 @@ def inelastic_impulses(ws: Workspace, time: float) -> bool:
 def _set_compliance(ws: Workspace, compliance: float) -> None:
     """Add ``compliance`` times the diagonal of G to it: 0 restores the rigid contacts, 1 doubles the diagonal.
 
-    Compliance makes a solution unique and the search for it stable. Both tangents of a contact get the same compliance.
-    A compliant contact gets none along its normal.
+    This artificial compliance makes a solution unique and the search for it stable. Both tangents of a contact get the
+    same. A contact with a compliant normal law gets none along its normal.
     """
     for active in ws.actives:
         own = diagonal_block(ws, active.index)

@@ -101,7 +101,7 @@ def _list_unknowns(ws: Workspace) -> int:
 
 @kernel("v2(ActiveContact, i8)")
 def _corner(active: ActiveContact, number: int) -> Pair:
-    """Unit vector of corner ``number`` of the polygon of a contact, which replaces Coulomb's disc."""
+    """Unit vector along t1, t2 of corner ``number`` of the polygon of a contact, which replaces Coulomb's disc."""
     # corner 0 is opposite to the slip direction, as friction is
     d1, d2 = active.direction
     angle = 2.0 * math.pi * number / CORNERS
@@ -181,7 +181,7 @@ def _tableau_entry(ws: Workspace, i: int, j: int, inverse_mass: float) -> float:
         if is_own and other_corner >= 0:
             return -1.0
         return float(active.friction_coefficient if is_own and other_corner == _NORMAL_FORCE else 0.0)
-    # lambda enters the rows of its corners with factor 1
+    # lambda enters the rows of its own contact's corners with factor 1
     if is_own and other_corner == _SLIP_ACCELERATION:
         return 1.0
     c1, c2 = _corner(active, corner)

@@ -173,6 +173,7 @@ def _solve(ws: Workspace, n: int) -> None:
     # orthogonal decompositions would fill a band
     if band_width(n, ws.problem.half_band) < n:
         copy_numbers(ws.floats, ws.problem.right.start, n, ws.problem.x.start)
+        # if this fails, too, the step is arbitrary; the residuals after it decide
         solve_shifted(ws, n)
     else:
         solve_reduced_for_least_norm(ws, n, max_rank=n)
