@@ -38,18 +38,19 @@ from nonsmooth.engine.numerics.linear import band_row, product, solve_three
 
 @kernel("b1(ws, b1)")
 def add_contact_forces(ws: Workspace, may_choose: bool) -> bool:
-    """Find the forces of the active contacts [N], add their responses to ``du``, and add the power of driven bodies.
+    """Find the forces of the active contacts [N], and add their responses to ``du`` and their powers.
 
-    Before: rows, columns and given forces are written, and ``du`` holds the accelerations without contact forces. If
-    ``may_choose``, the null-space force of redundant contacts, which moves no body, is chosen anew. False if it is, and
-    no choice keeps all forces within their bounds.
+    The powers are added to those of driven bodies and loads. Before: rows, columns and given forces are written, and
+    ``du`` holds the accelerations without contact forces. If ``may_choose``, the null-space force of redundant
+    contacts, which moves no body, is chosen anew; else the one chosen before is added. False if it is chosen anew, and
+    no choice keeps all forces within their bounds; else True.
     """
-    # an island of one contact needs no matrix
+    # an island of one contact needs no matrix, unless its problem is ill-conditioned
     if ws.problem.n_active == 1 and ws.actives[0].is_normal_force_unknown and _add_lone_force(ws):
         return True
     _add_given_forces(ws)
     if not _solve_forces(ws):
-        # the matrix has too many entries, so the run stops
+        # the matrix has too many entries: the run stops, whatever the result
         return True
     keeps_bounds = True
     if ws.problem.is_deficient:
@@ -100,7 +101,8 @@ def write_rows(ws: Workspace, a: int) -> None:
 def coupling(ws: Workspace, c: int, r: int, d: int, s: int) -> float:
     """Acceleration along row ``r`` of contact ``c`` per unit force in column ``s`` of contact ``d`` [1/kg].
 
-    A column is the direction of an unknown force, to which the bodies' response is stored.
+    A column is the direction of an unknown force, to which the bodies' response is stored. The result is 0 if the
+    contacts share no movable articulation (a body, or several that joints connect).
     """
     contact, other = ws.contacts[c], ws.contacts[d]
     total = 0.0
@@ -121,19 +123,22 @@ def coupling(ws: Workspace, c: int, r: int, d: int, s: int) -> float:
 
 @kernel()
 def _add_given_forces(ws: Workspace) -> None:
-    """Add the responses of given forces to ``du``, and their powers: power of driven bodies, and power of loads.
+    """Add the responses to given forces to ``du``, and their powers: power of driven bodies, and power of loads.
 
-    Given are the normal forces of compliant contacts, and the forces of the time-stepping fallback.
+    Given are the normal forces of compliant contacts, and the forces of the time-stepping fallback. A contact with a
+    given normal force that slides has given friction, too; if it sticks, its friction is an unknown.
     """
     for active in ws.actives:
         if active.is_normal_force_unknown:
             continue
         contact = ws.contacts[active.contact]
-        # of a contact that sticks the normal force is given, else the whole force, which row 1 holds
-        force, r = (active.normal_force, NORMAL_ROW) if active.sticks else (1.0, FIRST_ROW)
-        push_response(ws, active.contact, NORMAL_ROW, force, ws.island.du.start)
-        power = force * row(ws, active.contact, r, ws.island.velocities)
-        # power on all coordinates; that on the relative motion is subtracted, for the force in `_add_unknown_forces`
+        # sticks: row 0 and response 0 are those of a unit normal force. Slides: row 1 is the whole force in newtons,
+        # and response 0 is that to it (see `write_rows`), so the factor is 1
+        factor, jacobian_row = (active.normal_force, NORMAL_ROW) if active.sticks else (1.0, FIRST_ROW)
+        push_response(ws, active.contact, NORMAL_ROW, factor, ws.island.du.start)
+        power = factor * row(ws, active.contact, jacobian_row, ws.island.velocities)
+        # power of driven bodies: power on all coordinates, less that on the relative motion. Of the latter, the part of
+        # the friction moment is subtracted here, that of the force in `_add_unknown_forces`
         ws.step.driven_power += power - contact.dissipated_by_spin
         # the work of a compliant normal force counts as that of a load
         if contact.is_compliant:
@@ -143,6 +148,7 @@ def _add_given_forces(ws: Workspace) -> None:
 @kernel("b1(ws)")
 def _solve_forces(ws: Workspace) -> bool:
     """Write the unknown forces to ``x`` [N]. False if the matrix has too many entries: the run then stops."""
+    # the slips have their directions already, so their turns are no unknowns
     n = list_unknowns(ws, with_turns=False)
     if not open_band(ws, n, ws.problem.reduced.start):
         return False
@@ -152,7 +158,7 @@ def _solve_forces(ws: Workspace) -> bool:
     if not solve_unknowns(ws, n):
         for active in ws.actives:
             if not active.sticks and active.is_normal_force_unknown:
-                # the matrix without friction needs the response to the normal
+                # the matrix without friction needs the response to row 0, the normal; response 1 is not in use
                 evaluate_row_response(ws, active.contact, NORMAL_ROW, FIRST_ROW)
         for i in range(n):
             _write_frictionless_row(ws, i, n)
@@ -165,7 +171,7 @@ def _write_row(ws: Workspace, i: int, n: int) -> None:
     """Write row ``i`` of ``n`` of the matrix W^T K V to ``reduced`` [1/kg], and its right-hand side [m/s^2].
 
     V are the directions of the unknown forces, and W^T is the row of a Jacobian. A contact that slides with a diagonal
-    entry that is not positive is marked as singular, for the control of the step.
+    entry that is not positive is marked as singular: the control of the step then halves the step.
     """
     active, r = ws.actives[ws.unknowns[i].contact], ws.unknowns[i].direction
     c, contact = active.contact, ws.contacts[active.contact]
@@ -198,17 +204,20 @@ def _write_frictionless_row(ws: Workspace, i: int, n: int) -> None:
 
 @kernel("void(ws, ActiveContact)")
 def _add_unknown_forces(ws: Workspace, active: ActiveContact) -> None:
-    """Write the forces of a contact that were unknown, in ``x`` [N], and add their responses and powers."""
+    """Write the forces of a contact that were unknown, in ``x`` [N], and add their responses and powers.
+
+    The power of given forces on the relative motion is subtracted here, too, see :func:`_add_given_forces`.
+    """
     c = active.contact
     contact = ws.contacts[c]
-    # of a contact that slides, row 1 is the direction of the whole force
-    first_row = NORMAL_ROW if active.sticks else FIRST_ROW
+    # of a contact that slides, with the one unknown r = 0, row 1 is the direction of the whole force
+    row_offset = NORMAL_ROW if active.sticks else FIRST_ROW
     for i in range(active.first_unknown, active.end_unknown):
         r, force = ws.unknowns[i].direction, ws.problem.x[i]
         active.force[r] = force
         push_response(ws, c, r, force, ws.island.du.start)
         # power of driven bodies: power of the force on all coordinates, less its power on the relative motion
-        ws.step.driven_power += force * row(ws, c, r + first_row, ws.island.velocities)
+        ws.step.driven_power += force * row(ws, c, r + row_offset, ws.island.velocities)
     # the response included this friction already
     if not active.sticks and active.is_normal_force_unknown:
         friction_of_slip(ws, active.index)
@@ -223,8 +232,9 @@ def _add_unknown_forces(ws: Workspace, active: ActiveContact) -> None:
 def _add_lone_force(ws: Workspace) -> bool:
     """Find the force of an island of one rigid contact, and add its response and power, without a matrix.
 
-    False, with nothing done, if the problem is ill-conditioned or the force cannot accelerate the contact. A contact
-    that slides and approaches faster with more force (Painleve's paradox) is marked as singular.
+    False, with nothing done, if the problem is ill-conditioned or the force cannot accelerate the contact: the way with
+    a matrix follows. A contact that slides and approaches faster with more force (Painleve's paradox) is marked as
+    singular: the control of the step then halves the step.
     """
     active = ws.actives[0]
     if active.sticks:
@@ -244,6 +254,7 @@ def _add_lone_force(ws: Workspace) -> bool:
     friction_of_slip(ws, active.index)
     # power of driven bodies: power of the force on all coordinates, less its power on the relative motion
     (t1, t2), (v1, v2) = active.friction, contact.slip
+    # row 1 is the direction of the whole force, per unit of normal force
     on_coordinates = force * row(ws, c, FIRST_ROW, ws.island.velocities)
     ws.step.driven_power += on_coordinates - force * contact.rate[0] - t1 * v1 - t2 * v2
     return True
@@ -253,7 +264,7 @@ def _add_lone_force(ws: Workspace) -> bool:
 def _add_lone_sticking_force(ws: Workspace) -> bool:
     """Find the force of an island of one rigid contact that sticks, by three equations. Adds its response and power.
 
-    False, with nothing done, if the problem is ill-conditioned.
+    False, with nothing done, if the problem is ill-conditioned: the way with a matrix follows.
     """
     active, c = ws.actives[0], ws.actives[0].contact
     contact = ws.contacts[c]
@@ -266,6 +277,7 @@ def _add_lone_sticking_force(ws: Workspace) -> bool:
         coupling(ws, c, SECOND_ROW, c, SECOND_ROW),
     )
     bias, du = contact.bias, ws.island.du.start
+    # right-hand side: minus the acceleration without the force
     y0, y1 = -bias[0] - row(ws, c, NORMAL_ROW, du), -bias[1] - row(ws, c, FIRST_ROW, du)
     y2 = -bias[2] - row(ws, c, SECOND_ROW, du)
     forces = solve_three(row_0, row_1, row_2, (y0, y1, y2), ILL_CONDITIONED)

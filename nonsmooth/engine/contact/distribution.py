@@ -47,7 +47,7 @@ def distribute(ws: Workspace, inset: float, allowed: float) -> bool:
 
     Before: the forces are those of least norm, and ``null`` holds the null space (forces that cause no motion). The
     cones of redundant forces are moved inwards by ``inset`` [N]. Newton's method minimises phi, the half squared
-    distance.
+    distance. If False, the forces are the last ones, as close to the cones as the steps have come.
     """
     n = ws.problem.n_unknown
     phi = _write_excess(ws, n, inset)
@@ -59,7 +59,8 @@ def distribute(ws: Workspace, inset: float, allowed: float) -> bool:
         elif not _find_step(ws, n, inset):
             return False
         slope = 0.0
-        # slope of phi along the step; the forces before the step are stored for the line search
+        # slope of phi along the step: the gradient of phi is the excess over the cones, which `right` holds.
+        # The forces before the step are stored in `sigma` for the line search
         for i in range(n):
             slope += ws.problem.right[i] * ws.problem.x[i]
             ws.problem.sigma[i] = force_of(ws, i)
@@ -78,8 +79,9 @@ def _search_along_step(ws: Workspace, n: int, inset: float, phi: float, slope: f
     """Make the longest step along ``x`` that decreases phi sufficiently. Returns the new phi [N^2], or -1 if none does.
 
     phi is the half squared distance of the forces to the cones. ``sigma`` holds the forces before the step, ``slope``
-    the derivative of phi along it [N^2].
+    the derivative of phi along it [N^2]. If no length does, the forces are those of the shortest one.
     """
+    # 1 is Newton's step itself
     step_length = 1.0
     for _ in range(_HALVINGS):
         for i in range(n):
@@ -98,8 +100,9 @@ def _search_along_step(ws: Workspace, n: int, inset: float, phi: float, slope: f
 def _write_excess(ws: Workspace, n: int, inset: float) -> float:
     """Write the difference between the ``n`` forces and their projections on Coulomb's cones to ``right`` [N].
 
-    Returns phi, half its square [N^2]. The cones of redundant forces are moved inwards by ``inset`` [N]. The unknowns
-    of a contact follow each other: i is its normal force, i + 1 and i + 2 are its friction.
+    Returns phi, half its square [N^2]. The cones of redundant forces are moved inwards by ``inset`` [N]; the disc of
+    friction under a given normal force is not. The unknowns of a contact follow each other: i is its normal force,
+    i + 1 and i + 2 are its friction.
     """
     square = 0.0
     for i in range(n):
@@ -111,6 +114,7 @@ def _write_excess(ws: Workspace, n: int, inset: float) -> float:
         # friction is written along with its normal force
         if unknown.direction != NORMAL_ROW:
             continue
+        # component along the axis, from the apex of the cone; a boolean is 0 or 1
         normal = active.normal_force - inset * active.has_redundant_force
         # for a contact that slides, or whose force is projected on the apex: the tensile part
         ws.problem.right[i] = min(0.0, normal)
@@ -122,6 +126,7 @@ def _write_excess(ws: Workspace, n: int, inset: float) -> float:
             if mu * size <= -normal:
                 ws.problem.right[i + 1], ws.problem.right[i + 2] = t1, t2
             elif size > mu * normal:
+                # the distance to the surface is this excess times sqrt(1 + mu^2)
                 excess = (size - mu * normal) / (1.0 + mu * mu)
                 ws.problem.right[i] = -mu * excess
                 ws.problem.right[i + 1], ws.problem.right[i + 2] = excess * t1 / size, excess * t2 / size
@@ -152,7 +157,7 @@ def _add_hessian(ws: Workspace, n: int, matrix: int, half: int, weight: float, i
     """Add ``weight`` times the Hessian of phi to the band of ``n`` rows and half band ``half`` at ``matrix``.
 
     phi is the half squared distance of the forces to Coulomb's cones. Those of redundant forces are moved inwards by
-    ``inset`` [N].
+    ``inset`` [N]. Contacts are not coupled: each adds to its own rows and columns only.
     """
     for i in range(n):
         unknown = ws.unknowns[i]
@@ -164,7 +169,9 @@ def _add_hessian(ws: Workspace, n: int, matrix: int, half: int, weight: float, i
         # rows of friction are written along with that of the normal force
         if unknown.direction != NORMAL_ROW:
             continue
+        # component along the axis, from the apex of the cone; a boolean is 0 or 1
         normal = active.normal_force - inset * active.has_redundant_force
+        # offsets of the entries of column i in the rows of n, t1 and t2
         row_n = band_row(matrix, i, n, half) + i
         if active.sticks:
             row_1, row_2 = band_row(matrix, i + 1, n, half) + i, band_row(matrix, i + 2, n, half) + i
@@ -178,7 +185,8 @@ def _add_hessian(ws: Workspace, n: int, matrix: int, half: int, weight: float, i
 def _add_hessian_of_disc(ws: Workspace, active: ActiveContact, i: int, line_1: int, line_2: int, weight: float) -> None:
     """Add the Hessian of half the square that :func:`_write_excess_over_disc` returns to two rows of a matrix.
 
-    ``i`` is the unknown of the friction along t1. The rows of i and i + 1 begin at ``line_1`` and ``line_2``.
+    ``i`` is the unknown of the friction along t1. The rows of i and i + 1 begin at ``line_1`` and ``line_2``. Friction
+    inside the disc adds nothing.
     """
     t1, t2 = active.friction
     bound, size = active.static_coefficient * active.normal_force, length(active.friction)
@@ -208,7 +216,8 @@ def _add_hessian_of_cone(
         ws.floats[row_1 + 1] += weight
         ws.floats[row_2 + 2] += weight
     elif size > mu * normal:
-        # the gradient of the distance is (-mu, c) / sqrt(1 + mu^2), and the cone curves across the friction only
+        # the gradient of the distance is (-mu, c) / sqrt(1 + mu^2), and the cone curves across the friction only;
+        # 1 / s is the weight over 1 + mu^2
         s = (1.0 + mu * mu) / weight
         c1, c2 = t1 / size, t2 / size
         curvature = (size - mu * normal) / (s * size)
@@ -236,7 +245,8 @@ def _find_step(ws: Workspace, n: int, inset: float) -> bool:
     # the last n_free rows of the basis span the null space
     n_free, basis = n - ws.problem.rank, ws.problem.basis.start + ws.problem.rank * n
     clear(ws.floats, ws.problem.matrix.start, n * n)
-    _add_hessian(ws, n, ws.problem.matrix.start, n, 1.0, inset)
+    # with half band n the matrix is stored in full
+    _add_hessian(ws, n, ws.problem.matrix.start, half=n, weight=1.0, inset=inset)
     for k in range(n_free):
         vector = basis + k * n
         for i in range(n):
@@ -244,6 +254,7 @@ def _find_step(ws: Workspace, n: int, inset: float) -> bool:
             active, total = ws.actives[ws.unknowns[i].contact], 0.0
             for j in range(active.first_unknown, active.end_unknown):
                 total += ws.problem.matrix[i * n + j] * ws.floats[vector + j]
+            # `sigma` becomes the Hessian times basis vector k
             ws.problem.sigma[i] = total
         for j in range(n_free):
             ws.problem.reduced[k * n_free + j] = product(ws.floats, 0.0, ws.problem.sigma.start, basis + j * n, n)
@@ -252,6 +263,7 @@ def _find_step(ws: Workspace, n: int, inset: float) -> bool:
         ws.problem.x[k] = -product(ws.floats, 0.0, vector, ws.problem.right.start, n)
     if not eliminate(ws.floats, ws.problem.reduced.start, n_free, n_free, ws.problem.x.start, SINGULAR):
         return False
+    # `x` holds the factors of the basis vectors; `sigma` keeps them while `x` becomes their sum
     copy_numbers(ws.floats, ws.problem.x.start, n_free, ws.problem.sigma.start)
     clear(ws.floats, ws.problem.x.start, n)
     for k in range(n_free):
@@ -264,7 +276,8 @@ def _find_step(ws: Workspace, n: int, inset: float) -> bool:
 def _write_step_in_band(ws: Workspace, n: int, inset: float) -> None:
     """Write Newton's step to ``x`` [N], with a penalty on leaving the null space, and project it on that space.
 
-    ``basis`` holds H, whose null space it is: the penalty of a step s is s . H s / 2.
+    ``basis`` holds H, whose null space it is: the penalty of a step s is s . H s / 2. The system is
+    (H + weight (Hessian of phi + a small multiple of I)) s = -weight (gradient of phi).
     """
     half = ws.problem.null_half_band
     weight = _WEIGHT * largest_diagonal(ws.floats, ws.problem.basis.start, n, half)

@@ -29,7 +29,8 @@ _NO_BOUND = 1e30
 def enumerate_modes(ws: Workspace, first: int) -> int:
     """Try the combinations of modes from number ``first`` on. Returns the number after the first that fulfils the laws.
 
-    0 means that none does, that there are too many contacts, or an interrupt. Slips that begin get two guesses of their
+    From there a caller may search for further solutions. 0 means that none fulfils them, that there are more than
+    ``MOST_ENUMERATED`` contacts, or an interrupt. Slips that begin get two guesses of their
     direction: along the acceleration without their friction, and, if Newton's method does not lead from there to a
     solution, from sweeps.
     """
@@ -45,6 +46,7 @@ def enumerate_modes(ws: Workspace, first: int) -> int:
         has_slip = has_slip_that_begins(ws)
         if has_slip:
             _guess_directions(ws)
+            # directions that have not converged fail the laws
             find_slip_directions(ws)
         if verify(ws, is_lenient=False) or (has_slip and _verify_by_sweeps(ws)):
             return number + 1
@@ -70,7 +72,7 @@ def _write_modes(ws: Workspace, number: int) -> bool:
 def _guess_directions(ws: Workspace) -> None:
     """Guess the directions of slips that begin: those of the slip accelerations if contacts at rest had no friction.
 
-    The friction coefficients are restored.
+    The friction coefficients are restored. The forces are overwritten.
     """
     for active in ws.actives:
         active.coefficient_kept = active.friction_coefficient
@@ -88,7 +90,8 @@ def _guess_directions(ws: Workspace) -> None:
 def _verify_by_sweeps(ws: Workspace) -> bool:
     """Guess the directions of slips that begin by sweeps with fixed modes. True if the modes then fulfil the laws.
 
-    Newton's method may have converged to a slip along its friction. Sweeps exclude that.
+    Newton's method may have converged to a slip in the direction of its friction, where the product a_t x d vanishes,
+    too. Where sweeps settle, the slip is against its friction. The static coefficients are restored.
     """
     for active in ws.actives:
         active.is_normal_force_unknown = active.mode_tried != Mode.OPEN

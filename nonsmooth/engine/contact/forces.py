@@ -47,17 +47,19 @@ round-off."""
 def resolve(ws: Workspace) -> None:
     """Find the unknown forces of the active contacts [N]. ``sticks`` and ``is_normal_force_unknown`` give the modes.
 
-    If forces are redundant, those of least norm are found, and the contacts get ``has_redundant_force``.
+    If forces are redundant, those of least norm are found, and the contacts get ``has_redundant_force``. Signs and
+    bounds of the forces are not checked.
     """
+    # the slip directions are given, so their turns are no unknowns
     n = list_unknowns(ws, with_turns=False)
     for active in ws.actives:
         _set_known_forces(ws, active)
     # an interrupt is counted here and noticed by the callers, because forces are needed in any case
     interrupted(ws, n * ws.problem.n_active)
-    # an island of one contact needs no matrix
+    # an island of one contact that sticks (three unknowns) needs no matrix
     if ws.problem.n_active == 1 and n == 3 and _solve_lone_sticking(ws):
         return
-    # False: the band has too many entries, and the run stops
+    # False: the band has too many entries. The unknown forces are left as they are, and the run stops
     if not open_band(ws, n, ws.problem.reduced.start):
         return
     for i in range(n):
@@ -93,6 +95,7 @@ def _set_known_forces(ws: Workspace, active: ActiveContact) -> None:
 def _solve_lone_sticking(ws: Workspace) -> bool:
     """Find the force of an island of one contact that sticks [N]. False, with nothing done, if ill-conditioned."""
     active = ws.actives[0]
+    # the block of the Delassus matrix, row by row; the right-hand side is minus the acceleration without the force
     own = diagonal_block(ws, active.index).entries
     rows = (own[0], own[1], own[2]), (own[3], own[4], own[5]), (own[6], own[7], own[8])
     right = -active.free[0], -active.free[1], -active.free[2]
@@ -117,6 +120,7 @@ def _write_row(ws: Workspace, i: int, n: int) -> None:
     line = band_row(ws.problem.reduced.start, i, n, ws.problem.half_band)
     for block in range(active.first_block, active.end_block):
         other = ws.actives[ws.island.block_column[block]]
+        # row r of the block: its entries for forces of the other contact along n, t1 and t2
         g = at(ws.floats, ws.island.delassus.start + DELASSUS * block + 3 * r)
         out = line + other.first_unknown
         if other.is_normal_force_unknown:
@@ -148,10 +152,11 @@ def _write_frictionless_row(ws: Workspace, i: int, n: int) -> None:
 def solve_unknowns(ws: Workspace, n: int) -> bool:
     """Solve ``reduced . x = right`` for ``n`` unknowns. False if the matrix is ill-conditioned.
 
-    If so, ``matrix`` is cleared, so that its rows without friction can be written for :func:`solve_ill_conditioned`.
+    All forces count as unique at first. If False, ``x`` is undefined, and ``matrix`` is cleared, so that its rows
+    without friction can be written for :func:`solve_ill_conditioned`.
     """
     count_as_unique(ws, n)
-    # one equation is never ill-conditioned
+    # one equation is never ill-conditioned, and its matrix is one number
     if n == 1 and ws.problem.reduced[0] != 0.0:
         ws.problem.x[0] = ws.problem.right[0] / ws.problem.reduced[0]
         return True
@@ -167,7 +172,7 @@ def solve_ill_conditioned(ws: Workspace, n: int) -> None:
 
     ``matrix`` must hold the matrix without sliding friction, and its rank decides. The rank of ``reduced`` would not
     do: near a position in which contacts are redundant, friction alone gives it a small pivot. A matrix that is not
-    stored in full is solved within its band.
+    stored in full is solved within its band. Contacts whose forces are not unique get ``has_redundant_force``.
     """
     is_full = band_width(n, ws.problem.half_band) == n
     # within a band the rank is not known, and elimination decides
@@ -220,7 +225,8 @@ def solve_reduced_for_least_norm(ws: Workspace, n: int, max_rank: int) -> int:
 def eliminate_reduced(ws: Workspace, n: int, least: float) -> bool:
     """Solve ``reduced . x = right`` by elimination. False if a pivot is below ``least`` times the largest entry.
 
-    The elimination works on copies. So ``reduced`` and ``right`` stay, for another attempt.
+    The elimination works on copies in ``matrix`` and ``x``. So ``reduced`` and ``right`` stay, for another attempt
+    after False, which leaves ``x`` undefined.
     """
     matrix, x, half = ws.problem.matrix.start, ws.problem.x.start, ws.problem.half_band
     copy_numbers(ws.floats, ws.problem.right.start, n, x)
@@ -230,7 +236,10 @@ def eliminate_reduced(ws: Workspace, n: int, least: float) -> bool:
 
 @kernel("f8(ws, i8, i8)")
 def null_entry(ws: Workspace, i: int, j: int) -> float:
-    """Entry (i, j) of the projector on the null space [1]. Entries outside its band count as zero."""
+    """Entry (i, j) of the projector on the null space [1]. Entries outside its band count as zero.
+
+    It shows how far unknown forces i and j may change together without a change of the motion.
+    """
     if not ws.problem.is_null_space_banded:
         return ws.problem.null[i * ws.problem.n_unknown + j]
     if abs(i - j) > ws.problem.null_half_band:
@@ -262,7 +271,7 @@ def reduced_coefficient(ws: Workspace, a: int) -> float:
 def evaluate_margins(ws: Workspace) -> None:
     """Write ``static_margin`` of the active contacts [N]: at 0, a contact that sticks starts to slide.
 
-    It is the distance of the friction to the static bound if the contact sticks, and 0 if not.
+    It is the distance of the friction to the static bound if the contact sticks (negative beyond it), and 0 if not.
     """
     for active in ws.actives:
         if not active.sticks:
@@ -288,7 +297,8 @@ def _margin_of_redundant_friction(ws: Workspace, active: ActiveContact) -> float
 def _margin_of_group(ws: Workspace, active: ActiveContact, first: int) -> float:
     """Sum of the bounds less the sum of the friction of all contacts that are redundant together with a contact [N].
 
-    ``first`` is the unknown of its friction along t1.
+    ``first`` is the unknown of its friction along t1. Components along t1 and t2 are summed as if the tangents of all
+    these contacts were parallel.
     """
     # a pair t1, t2 begins before the last unknown
     begin, end = 0, ws.problem.n_unknown - 1
@@ -304,6 +314,7 @@ def _margin_of_group(ws: Workspace, active: ActiveContact, first: int) -> float:
         # contacts are redundant together if their friction changes together in the null space
         coupling = abs(null_entry(ws, first, i)) + abs(null_entry(ws, first, i + 1))
         coupling = coupling + abs(null_entry(ws, first + 1, i)) + abs(null_entry(ws, first + 1, i + 1))
+        # the contact itself always counts
         if coupling > _COUPLED or unknown.contact == active.index:
             bound += other.static_coefficient * other.normal_force
             sum_1 += other.friction[0]
@@ -320,10 +331,12 @@ def _unique_friction(ws: Workspace, active: ActiveContact, first: int) -> float:
     # the block of the projector for t1 and t2; it has rank one if the determinant is small
     p11, p12 = null_entry(ws, first, first), null_entry(ws, first, first + 1)
     p22 = null_entry(ws, first + 1, first + 1)
-    # rows that vanish count as spanning, too: `_margin_of_group` then has this contact alone
+    # rows that vanish count as spanning, too: `_margin_of_group` then has this contact alone. They leave 0 < 0, so the
+    # comparison is negated
     if not p11 * p22 - p12 * p12 < _COUPLED * (p11 + p22) * (p11 + p22):
         return 0.0
     t1, t2 = active.friction
-    # the rows have rank one here; the longer of them gives the direction that is not unique
+    # the rows have rank one here; the longer of them gives the direction that is not unique. Across it, the cross
+    # product with the unit vector is the unique part
     e1, e2 = (p11, p12) if p11 >= p22 else (p12, p22)
     return float(abs(e1 * t2 - e2 * t1) / length((e1, e2)))

@@ -20,7 +20,8 @@ SWEEPS = 20
 def sweep(ws: Workspace, max_sweeps: int) -> bool:
     """Improve the forces of all active contacts by sweeps. True if they have settled within ``max_sweeps``.
 
-    All normal forces count as unknown. ``sticks`` and ``direction`` become those of the forces found.
+    All normal forces count as unknown. ``sticks`` and ``direction`` of contacts at rest become those of the forces
+    found. If False, the forces are those of the last sweep.
     """
     for active in ws.actives:
         # those of compliant contacts, too: G and b make their forces the known ones
@@ -31,6 +32,9 @@ def sweep(ws: Workspace, max_sweeps: int) -> bool:
 
 @kernel("b1(ws, i8)")
 def search_by_sweeps(ws: Workspace, stage: int) -> bool:
-    """Improve the forces of the contact problem by the sweeps of a stage, counted from 0. True if they have settled."""
+    """Improve the forces of the contact problem by the sweeps of a stage, counted from 0. True if they have settled.
+
+    If False, the next stage may continue from these forces.
+    """
     # each stage has ten times as many sweeps as the one before
     return sweep(ws, SWEEPS * 10**stage)

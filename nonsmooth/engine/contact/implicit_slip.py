@@ -44,7 +44,7 @@ def add_forces_at_stage_end(ws: Workspace) -> None:
     and the caller rejects the step.
     """
     is_unsettled = True
-    # each round but the last turns the facing of anisotropic friction, which changes its bound
+    # each round but the last turns a facing (the side from which anisotropic friction is opposed, which sets its bound)
     for _ in range(1 + ws.problem.n_active):
         if not _find_forces(ws):
             break
@@ -53,6 +53,7 @@ def add_forces_at_stage_end(ws: Workspace) -> None:
             break
     # another island of this stage may have set it
     ws.problem.is_unsettled = ws.problem.is_unsettled or is_unsettled
+    # of an unsettled island, whatever the forces are: nothing of the step is kept
     _add_forces(ws)
 
 
@@ -73,6 +74,7 @@ def _find_forces(ws: Workspace) -> bool:
     if not ws.problem.acceleration_scale > 0.0:
         # all are zero, or a trial step that is far too long has led to numbers that are not finite
         return False
+    # a single slip has one unknown; all other islands, and a slip that friction stops, need the exchange of modes
     return _solve_lone_slip(ws) or oppose_slips(ws)
 
 
@@ -85,17 +87,18 @@ def _write_contact(ws: Workspace, active: ActiveContact) -> None:
     """
     c = active.contact
     contact = ws.contacts[c]
-    # without a friction moment
+    # power of a friction moment: only traction laws have one
     contact.dissipated_by_spin = 0.0
+    # a contact that sticks has its static coefficient, that at speed 0
     if contact.mode == Mode.SLIDE:
         active.friction_coefficient = slip_coefficient(ws, c, length(contact.slip))
     else:
-        active.friction_coefficient = friction_coefficient(ws, c, 0.0)
+        active.friction_coefficient = friction_coefficient(ws, c, speed=0.0)
     # friction may stop a slip within its kinetic bound; a contact that sticks has the static one
     active.static_coefficient = active.friction_coefficient
     active.mode_tried = active.mode_past = contact.mode
     active.has_given_force = False
-    # friction may stop the slip, so its direction is found as that of a slip that begins
+    # friction may stop the slip, so its direction is found as that of a slip that begins; without friction none stops
     active.is_at_rest = active.friction_coefficient > 0.0
     active.direction = contact.direction
     for r in range(3):
@@ -114,9 +117,10 @@ def _write_contact(ws: Workspace, active: ActiveContact) -> None:
 def oppose_slips(ws: Workspace) -> bool:
     """Find forces whose friction opposes the slips at the end of a stage, or stops them [N]. True if they are found.
 
-    Before: the free accelerations b hold the slips v0 / tau without contact forces. A slip has ``mode_past`` SLIDE and
-    ``is_at_rest``. If Newton's method finds no directions, all contacts stick at first, and slip directions follow from
-    the friction that exceeds its bound.
+    Before: the free accelerations b hold the slips v0 / tau without contact forces. A slip has ``mode_past`` SLIDE, and
+    ``is_at_rest``, which here means that friction may stop it. If Newton's method finds no directions, all such
+    contacts stick once, and slip directions follow from the friction that exceeds its bound. False if it fails again,
+    or if the exchange of modes does not end.
     """
     has_restarted = False
     # enough for each contact to stop and be released; exchanges that cycle end here
@@ -148,16 +152,17 @@ def _exchange_modes(ws: Workspace) -> bool:
         # the null-space forces chosen for the motion; in an impact they are zero
         shift_forces(ws)
     if ws.problem.is_deficient and _has_stopped_slip(ws):
-        # redundant friction may exceed one bound although other contacts could take the load
-        # forces that count as distributed may exceed their bound by half of this
+        # redundant friction may exceed one bound although other contacts could take the load. Forces that count as
+        # distributed may exceed their bound by half of the excess allowed here. If none are within all bounds, those
+        # that come closest decide
         excess = 2.0 * _DISTRIBUTED * largest
-        distribute(ws, 0.0, _DISTRIBUTED * largest)
+        distribute(ws, inset=0.0, allowed=_DISTRIBUTED * largest)
         for active in ws.actives:
             if active.mode_tried == Mode.SLIDE:
                 friction_of_slip(ws, active.index)
     has_changed = False
     for active in ws.actives:
-        # contacts that stuck before stay so: events release them
+        # contacts that stuck before the step stay so: events release them
         if active.mode_past == Mode.SLIDE and active.is_at_rest:
             has_changed = _exchange_mode(ws, active, excess) or has_changed
     return has_changed
@@ -200,8 +205,8 @@ def _exchange_mode(ws: Workspace, active: ActiveContact, allowed_excess: float) 
 def _solve_lone_slip(ws: Workspace) -> bool:
     """Find the force of an island of one contact that continues to slide to the end of a stage [N].
 
-    False if the island is another one, or if no force is found. The only unknown is the direction d. Newton's method is
-    applied to the acceleration across d, without matrices.
+    False if the island is another one, or if no force is found, as when friction stops the slip. The only unknown is
+    the direction d. Newton's method is applied to the acceleration across d, without matrices.
     """
     active = ws.actives[0]
     g = diagonal_block(ws, active.index)
@@ -245,7 +250,8 @@ def _solve_lone_slip(ws: Workspace) -> bool:
 def _turn_facings(ws: Workspace) -> bool:
     """Set the facing (side from which slip is opposed) of anisotropic friction that stops a slip, by its own force.
 
-    The facing sets its bound. True if a bound changes by this, so that the forces must be found again.
+    The facing sets its bound. It concerns the force along t1, the axis of the law. True if a bound changes by this, so
+    that the forces must be found again.
     """
     has_turned = False
     for active in ws.actives:
@@ -259,7 +265,7 @@ def _add_forces(ws: Workspace) -> None:
     """Add the responses to the forces to ``du``, and the power of driven bodies. Write which contacts stick.
 
     Slips that friction has stopped are set to zero. Contacts at Painleve's paradox (more force means more approach) are
-    marked as singular.
+    marked as singular: the control of the step then halves the step.
     """
     add_response(ws, ws.problem.forces.start, ws.island.du.start)
     for active in ws.actives:

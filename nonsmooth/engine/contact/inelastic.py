@@ -44,7 +44,7 @@ def inelastic_impulses(ws: Workspace, time: float) -> bool:
     They leave no approach, and their friction opposes the slip after the impact. Before: ``rate`` holds velocities,
     ``free`` accelerations without contact forces, and ``force`` the impulses to start from. The impact comes after the
     accelerations have acted for a ``time`` [s]. After: ``force`` holds the impulses, and ``free`` the velocities
-    without them.
+    without them. If False, the impulses have not settled. Coefficients of friction are overwritten.
     """
     for active in ws.actives:
         contact = ws.contacts[active.contact]
@@ -62,7 +62,7 @@ def inelastic_impulses(ws: Workspace, time: float) -> bool:
             active.rigid[r] = diagonal_block(ws, active.index).entries[4 * r]
     has_found = _solve_from_guess(ws)
     if not has_found:
-        # second attempt: rigid contacts, from sweeps
+        # second attempt: rigid contacts, from sweeps; without compliance, nothing is left to improve
         sweep(ws, SWEEPS)
         if step_by_newton(ws, STEPS):
             return True
@@ -79,8 +79,8 @@ def inelastic_impulses(ws: Workspace, time: float) -> bool:
 def _set_compliance(ws: Workspace, compliance: float) -> None:
     """Add ``compliance`` times the diagonal of G to it: 0 restores the rigid contacts, 1 doubles the diagonal.
 
-    Compliance makes a solution unique and the search for it stable. Both tangents of a contact get the same compliance.
-    A compliant contact gets none along its normal.
+    This artificial compliance makes a solution unique and the search for it stable. Both tangents of a contact get the
+    same. A contact with a compliant normal law gets none along its normal.
     """
     for active in ws.actives:
         own = diagonal_block(ws, active.index)
@@ -93,7 +93,10 @@ def _set_compliance(ws: Workspace, compliance: float) -> None:
 
 @kernel("f8(ws)")
 def _largest_velocity(ws: Workspace) -> float:
-    """Largest change of velocity that the impulse of a contact causes at this contact itself [m/s]."""
+    """Largest change of velocity that the impulse of a contact causes at this contact itself [m/s].
+
+    It is the scale of the error that a compliance makes.
+    """
     largest = 0.0
     for active in ws.actives:
         tangential = max(active.rigid[1], active.rigid[2]) * length(active.friction)
@@ -110,7 +113,7 @@ def _is_negligible(ws: Workspace, compliance: float) -> bool:
 
 @kernel("b1(ws, i8)")
 def _step_or_restore(ws: Workspace, max_steps: int) -> bool:
-    """Improve the impulses by Newton steps. True if they settle. Otherwise they are restored."""
+    """Improve the impulses by at most ``max_steps`` Newton steps. True if they settle. Otherwise they are restored."""
     n, forces, kept = 3 * ws.problem.n_active, ws.problem.forces.start, ws.problem.forces_at_start.start
     copy_numbers(ws.floats, forces, n, kept)
     if step_by_newton(ws, max_steps):
@@ -123,7 +126,7 @@ def _step_or_restore(ws: Workspace, max_steps: int) -> bool:
 def _solve_from_guess(ws: Workspace) -> bool:
     """Find the impulses with a negligible compliance, from the given ones. The contacts are rigid again after it.
 
-    False if this fails, or if the compliance is not negligible for the impulses found.
+    False if this fails, if the given impulses are zero, or if the compliance is not negligible for those found.
     """
     largest = _largest_velocity(ws)
     # without impulses to start from there is no scale for the compliance
@@ -133,7 +136,7 @@ def _solve_from_guess(ws: Workspace) -> bool:
     compliance = min(1.0, 0.5 * _NEGLIGIBLE * ws.tolerance.velocity / largest)
     _set_compliance(ws, compliance)
     has_settled = _step_or_restore(ws, STEPS)
-    _set_compliance(ws, 0.0)
+    _set_compliance(ws, compliance=0.0)
     return has_settled and _is_negligible(ws, compliance)
 
 
@@ -141,7 +144,8 @@ def _solve_from_guess(ws: Workspace) -> bool:
 def _reduce_compliance(ws: Workspace) -> bool:
     """Follow the impulses from a large compliance to a negligible one. True if this is reached.
 
-    Each solution starts the search for the next. The contacts are rigid again after it.
+    Each solution starts the search for the next. If one is not found, the next attempt reduces the compliance less, but
+    a ratio above ``_LARGEST_RATIO`` ends the search. The contacts are rigid again after it.
     """
     # 1: the diagonal of G is doubled
     compliance, ratio = 1.0, _REDUCTION
@@ -155,7 +159,7 @@ def _reduce_compliance(ws: Workspace) -> bool:
         if _step_or_restore(ws, STEPS):
             compliance *= ratio
         else:
-            # a smaller reduction
+            # a smaller reduction: two such steps make the one that has failed
             ratio **= 0.5
-    _set_compliance(ws, 0.0)
+    _set_compliance(ws, compliance=0.0)
     return _is_negligible(ws, compliance)

@@ -52,8 +52,9 @@ _NO_ROW = -1
 def search_by_pivots(ws: Workspace, stage: int) -> bool:
     """Find the forces of the problem with polygons in place of Coulomb's discs [N], by Lemke's method.
 
-    True if a further stage is useless: the path ends in a ray, or there are too many contacts. All stages are equal.
-    Between them, the search turns ``direction``, and with it the corners. So ``stage`` is not used.
+    True if a further stage is useless: the path ends in a ray, and the forces are zero, or the tableau has no place for
+    so many contacts, and the forces are as before. All stages are equal. Between them, the search turns ``direction``,
+    and with it the corners. So ``stage`` is not used.
     """
     n_active = ws.problem.n_active
     if n_active > ws.model.n_pivoted:
@@ -64,7 +65,7 @@ def search_by_pivots(ws: Workspace, stage: int) -> bool:
     size, inverse_mass = largest_size(ws.floats, ws.problem.free_accelerations.start, 3 * n_active), 0.0
     for i in range(3 * n_active):
         inverse_mass = max(inverse_mass, ws.problem.matrix[i * 3 * n_active + i])
-    # without accelerations no forces are needed
+    # without accelerations no forces are needed: they stay zero
     if size == 0.0:
         return False
     n = _list_unknowns(ws)
@@ -100,7 +101,7 @@ def _list_unknowns(ws: Workspace) -> int:
 
 @kernel("v2(ActiveContact, i8)")
 def _corner(active: ActiveContact, number: int) -> Pair:
-    """Unit vector of corner ``number`` of the polygon of a contact, which replaces Coulomb's disc."""
+    """Unit vector along t1, t2 of corner ``number`` of the polygon of a contact, which replaces Coulomb's disc."""
     # corner 0 is opposite to the slip direction, as friction is
     d1, d2 = active.direction
     angle = 2.0 * math.pi * number / CORNERS
@@ -128,7 +129,7 @@ def _acceleration_per_unknown(ws: Workspace, line: int, column: int) -> float:
 
 @kernel("i8(ws, i8, i8)")
 def _row(ws: Workspace, n: int, i: int) -> int:
-    """Offset of row ``i`` of the tableau of Lemke's method."""
+    """Offset of row ``i`` of the tableau of Lemke's method with ``n`` unknowns."""
     # a row holds the factors of n unknowns, the factor of the covering variable, and the constant
     return int(ws.problem.tableau.start + i * (n + 2))
 
@@ -156,6 +157,7 @@ def _write_tableau(ws: Workspace, n: int, inverse_mass: float, size: float) -> N
         if corner == _NORMAL_FORCE:
             ws.floats[row + n + 1] = active.free[0] / size
         elif corner >= 0:
+            # b along the corner
             c1, c2 = _corner(active, corner)
             ws.floats[row + n + 1] += c1 * active.free[1] / size
             ws.floats[row + n + 1] += c2 * active.free[2] / size
@@ -175,10 +177,11 @@ def _tableau_entry(ws: Workspace, i: int, j: int, inverse_mass: float) -> float:
     if corner == _NORMAL_FORCE:
         return _acceleration_per_unknown(ws, 3 * a, j) / inverse_mass
     if corner == _SLIP_ACCELERATION:
+        # the friction bound of the contact: each beta_j counts -1, f_n counts mu, other contacts nothing
         if is_own and other_corner >= 0:
             return -1.0
         return float(active.friction_coefficient if is_own and other_corner == _NORMAL_FORCE else 0.0)
-    # lambda enters the rows of its corners with factor 1
+    # lambda enters the rows of its own contact's corners with factor 1
     if is_own and other_corner == _SLIP_ACCELERATION:
         return 1.0
     c1, c2 = _corner(active, corner)
@@ -196,7 +199,8 @@ def _follow_path(ws: Workspace, n: int) -> bool:
     """Follow the path of pivots from no forces to a solution. True if it ends in a ray, so that no solution is found.
 
     The covering variable enters first. After each pivot, the complement of the variable that has left enters. The path
-    ends in a solution if the covering variable leaves.
+    ends in a solution if the covering variable leaves. False, too, if the path is cut short by an interrupt or by the
+    limit of pivots: the search verifies all forces.
     """
     row, column = _first_row(ws, n), n
     # round-off may cause a cycle, which ends here
@@ -229,6 +233,7 @@ def _first_row(ws: Workspace, n: int) -> int:
     first, worst = _NO_ROW, 0.0
     for i in range(n):
         row = _row(ws, n, i)
+        # constant over factor of the covering variable: minus the value of this variable that makes the row zero
         ratio = ws.floats[row + n + 1] / ws.floats[row + n]
         if ratio < worst:
             first, worst = i, ratio
@@ -269,6 +274,7 @@ def _pivot(ws: Workspace, n: int, r: int, s: int) -> None:
     """
     row = _row(ws, n, r)
     pivot = ws.floats[row + s]
+    # row r says: its variable = pivot times the variable of column s + the rest
     for j in range(n + 2):
         ws.floats[row + j] = -ws.floats[row + j] / pivot
     # this column now belongs to the variable that has left
@@ -277,6 +283,7 @@ def _pivot(ws: Workspace, n: int, r: int, s: int) -> None:
         other = _row(ws, n, i)
         t = ws.floats[other + s]
         if i != r and t != 0.0:
+            # entry s of row r is the factor of the variable that has left, which column s holds now
             for j in range(n + 2):
                 ws.floats[other + j] += t * ws.floats[row + j]
             ws.floats[other + s] = t / pivot
@@ -285,7 +292,10 @@ def _pivot(ws: Workspace, n: int, r: int, s: int) -> None:
 
 @kernel("void(ws, i8, f8, f8)")
 def _read_forces(ws: Workspace, n: int, inverse_mass: float, size: float) -> None:
-    """Write the forces of the solved tableau [N]. :func:`_write_tableau` defines the scales."""
+    """Write the forces of the solved tableau [N], which are zero before. :func:`_write_tableau` defines the scales.
+
+    Friction of contacts that slide is not written: it follows from their normal force.
+    """
     for i in range(n):
         unknown = ws.problem.lemke_row[i] - n
         # only variables n to 2 n - 1 are unknowns

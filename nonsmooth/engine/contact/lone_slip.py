@@ -23,8 +23,9 @@ from nonsmooth.engine.numerics.vectors import Vector, cross, dot, length, minus
 def lone_sliding_contact(ws: Workspace, group: int) -> int:
     """Contact of an island if :func:`add_lone_slip_force` can find its force in closed form, or -1.
 
-    It must be alone, rigid, and slide between a free body in space (six velocities, no joint) and one without
-    coordinates. In an implicit stage none qualifies, because the slip is part of the problem.
+    With -1, the general equations are solved. The contact must be alone, rigid, and slide between a free body in space
+    (six velocities, no joint) and one without coordinates. In an implicit stage none qualifies, because the slip is
+    part of the problem.
     """
     first = ws.island.group_start[group]
     c = ws.island.grouped[first]
@@ -35,7 +36,7 @@ def lone_sliding_contact(ws: Workspace, group: int) -> int:
     n_u_a, n_u_b = contact.n_u_a, contact.n_u_b
     if is_special or n_u_a + n_u_b != 6 or min(n_u_a, n_u_b) != 0:
         return NO_CONTACT
-    # the moving body is an articulation of its own, without rows of joints
+    # the moving body is an articulation (set of bodies that joints connect) of its own, without rows of joints
     one, two = ws.articulations[contact.articulation_a], ws.articulations[contact.articulation_b]
     return int(c if one.n_u + two.n_u == 6 and one.n_rows + two.n_rows == 0 else NO_CONTACT)
 
@@ -73,7 +74,8 @@ def add_lone_slip_force(ws: Workspace, c: int) -> bool:
     """Find the force of contact ``c``, which slides alone [N]. Add its response to ``du``, and its power.
 
     Before: ``du`` holds the acceleration without contact forces. Evaluates geometry, rates and bias of the contact. The
-    power is added to that of driven bodies. False, with no force, if it could not accelerate the contact.
+    power is added to that of driven bodies. False, with no force, if it could not accelerate the contact: the general
+    equations are then solved.
     """
     contact = ws.contacts[c]
     evaluate_geometry(ws, c)
@@ -103,7 +105,7 @@ def add_lone_slip_force(ws: Workspace, c: int) -> bool:
     if inverse_mass == 0.0:
         return False
     if inverse_mass < 0.0:
-        # more force means more approach (Painleve's paradox)
+        # more force means more approach (Painleve's paradox): the control of the step halves the step
         ws.island.singular_contact = c
     # along the normal: acceleration of the contact without its force
     free = sign * _dot_at(ws.floats, du, n_1, n_2)
@@ -114,6 +116,7 @@ def add_lone_slip_force(ws: Workspace, c: int) -> bool:
     # without a friction moment, unique, and not sticking
     contact.dissipated_by_spin, contact.has_redundant_force, contact.is_held_by_friction = 0.0, False, False
     contact.force[0], contact.force[1], contact.force[2] = force, -m1 * force, -m2 * force
-    # power of the force on the free body, less the power on the relative motion: that of the driven body
+    # power of the force on the free body, less the power on the relative motion: that of the driven body. The friction
+    # along t1 and t2 is -m1 and -m2 times the normal force
     ws.step.driven_power += force * (rate_along_p - contact.rate[0] + m1 * slip[0] + m2 * slip[1])
     return True

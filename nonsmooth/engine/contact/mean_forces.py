@@ -62,8 +62,8 @@ def averaging_time(ws: Workspace) -> float:
 def has_no_stopping_slip(ws: Workspace) -> bool:
     """True if friction stops no slip of an active contact within a contact time, so that averaging may end.
 
-    The speed that friction takes in that time is the contact time, times the friction, times the slip acceleration per
-    unit of friction.
+    A stop within it is an event that averaging leaves out. The speed that friction takes in that time is the contact
+    time, times the friction, times the slip acceleration per unit of friction.
     """
     for active in ws.actives:
         contact = ws.contacts[active.contact]
@@ -78,9 +78,9 @@ def has_no_stopping_slip(ws: Workspace) -> bool:
 
 @kernel("f8(ws, b1)")
 def averaging_span(ws: Workspace, follows: bool) -> float:
-    """Time of the next step of the active contacts [s]. It is a contact time, unless it ``follows`` another step.
+    """Time of the next step of the time-stepping fallback [s]: a contact time, unless it ``follows`` another such step.
 
-    Then it is the longest that the accuracy of the last step allows.
+    Then it is the longest that the accuracy of the last step allows, up to ``_LONGEST`` contact times.
     """
     least = averaging_time(ws)
     if not follows:
@@ -98,8 +98,8 @@ def averaging_span(ws: Workspace, follows: bool) -> float:
 def set_spans(ws: Workspace) -> None:
     """Write the time that the next step of each contact may take [s], from the gap rates that the last step has left.
 
-    The rates grow with the square of the time. Up to a contact time, a step may in any case be twice as long as the
-    last one, which may have been shortened for other reasons.
+    A gap rate that is left counts as the error of the step. It grows with the square of the time. Up to a contact time,
+    a step may in any case be twice as long as the last one, which may have been shortened for other reasons.
     """
     for contact in ws.contacts:
         if contact.is_averaged:
@@ -111,9 +111,10 @@ def set_spans(ws: Workspace) -> None:
 
 @kernel("void(ws, f8)")
 def _store_span(ws: Workspace, span: float) -> None:
-    """Store the time of a step [s] as ``mean_span``, halved if a contact ends it in another mode than the last one.
+    """Store the time of a step [s] as ``mean_span``, for the length of the next one.
 
-    A step is not halved below a contact time, within which events need not be resolved.
+    It is halved if a contact ends this step in another mode than the last one, but not below a contact time, within
+    which events need not be resolved.
     """
     stored = span
     for active in ws.actives:
@@ -131,12 +132,12 @@ def _store_span(ws: Workspace, span: float) -> None:
 def find_mean_impulses(ws: Workspace, time: float) -> float:
     """Find the impulses of the active contacts over a ``time`` [N s]. Returns the time over which they were found [s].
 
-    Before: the rates of the contacts, and in ``du`` the accelerations without contact forces.
+    It is ``time``, or a contact time if none are found over a longer one. Before: the rates of the contacts, and in
+    ``du`` the accelerations without contact forces.
     """
-    # a step longer than a contact time may have no solution
     if not _solve(ws, time) and time > averaging_time(ws):
         time = averaging_time(ws)
-        # impulses that have not settled are taken as they are
+        # impulses that have not settled are taken as they are: the result says nothing of it
         _solve(ws, time)
     return time
 
@@ -150,12 +151,14 @@ def _solve(ws: Workspace, time: float) -> bool:
     assemble_delassus(ws)
     for active in ws.actives:
         contact = ws.contacts[active.contact]
+        # for `has_no_stopping_slip`
         contact.slip_per_force = tangential_inverse_mass(ws, active)
         for r in range(3):
             active.free[r] = contact.bias[r] + row(ws, active.contact, r, ws.island.du.start)
             # the impulses of the last step are the first guess
             active.force[r] = time * contact.mean_force[r] if contact.is_averaged else 0.0
-        # an open gap may close within the step: its rate at the end must be at least -gap / time
+        # an open gap may close within the step: its rate at the end must be at least -gap / time. The solver multiplies
+        # accelerations by the time
         active.free[NORMAL_ROW] += max(0.0, contact.gap) / (time * time)
     # the normal forces of compliant contacts are known
     decouple_normals(ws)
@@ -168,7 +171,8 @@ def gap_after(ws: Workspace, a: int, time: float) -> float:
     contact = ws.contacts[ws.actives[a].contact]
     # gap rate at the end plus the open gap / time, which `_solve` has added
     rate = acceleration(ws, ws.actives[a], NORMAL_ROW)
-    # subtracted again: of both rates, each counts half
+    # the gap changes by the time times the mean of the rates at start and end. Half of what was added is in it, and is
+    # subtracted again
     closing = max(0.0, contact.gap)
     return float(contact.gap - 0.5 * closing + 0.5 * time * (contact.normal_rate + rate))
 
@@ -177,9 +181,9 @@ def gap_after(ws: Workspace, a: int, time: float) -> float:
 def set_mean_forces(ws: Workspace, time: float) -> None:
     """Spread the impulses of the active contacts over a ``time`` [s] from now on, as mean forces [N].
 
-    Modes and slip directions under trial become those at the end of that time.
+    Before: ``force`` holds impulses [N s]. Modes and slip directions under trial become those at the end of that time.
     """
-    # the first end of a step of any island
+    # the first end of a step of any island, at which its forces are found anew
     ws.island.averaged_until = min(ws.island.averaged_until, ws.island.time + time)
     # no deviation from the planned gaps yet
     ws.island.strayed = 0.0
@@ -193,7 +197,8 @@ def set_mean_forces(ws: Workspace, time: float) -> None:
     _store_span(ws, time)
     for active in ws.actives:
         contact = ws.contacts[active.contact]
-        # a gap that opens comes to rest at the end; without averaging before, the old change is out of date
+        # change that the gap is allowed, as a gap that opens comes to rest only at the end of the step; without
+        # averaging before, the old change is out of date
         opening = time * max(0.0, contact.normal_rate)
         contact.mean_gap_change = opening + (contact.mean_gap_change if contact.is_averaged else 0.0)
         contact.mode_after_averaging = active.mode_tried

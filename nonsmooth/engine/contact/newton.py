@@ -57,7 +57,10 @@ def search_by_newton(ws: Workspace, stage: int) -> bool:
 
 @kernel("b1(ws, i8)")
 def step_by_newton(ws: Workspace, max_steps: int) -> bool:
-    """Improve the forces by Newton steps. True if they settle within ``max_steps``, False after an interrupt, too."""
+    """Improve the forces by Newton steps. True if they settle within ``max_steps``, False after an interrupt, too.
+
+    Forces that have not settled are those of the last step that decreases the natural map, whose zero is the solution.
+    """
     n = 3 * ws.problem.n_active
     square = write_natural_map(ws)
     # the line search compares with a weighted mean of the past squares (Zhang and Hager)
@@ -87,6 +90,7 @@ def _find_step(ws: Workspace) -> bool:
     n = 3 * ws.problem.n_active
     if not _write_jacobian(ws):
         return False
+    # the elimination replaces the right-hand side, minus the natural map, by the step
     for i in range(n):
         ws.problem.x[i] = -ws.problem.right[i]
     return eliminate(ws.floats, ws.problem.matrix.start, n, ws.problem.half_band, ws.problem.x.start, SINGULAR)
@@ -94,7 +98,7 @@ def _find_step(ws: Workspace) -> bool:
 
 @kernel("f8(ws, f8)")
 def _search_along_step(ws: Workspace, mean: float) -> float:
-    """Make the longest step along ``x`` that decreases the squared natural map below its ``mean`` [N^2].
+    """Make the longest step along ``x`` that decreases the squared natural map below its ``mean`` of past steps [N^2].
 
     Returns the squared map there, or -1 if no step does: the forces are then as before. The natural map vanishes if the
     contact laws hold.
@@ -114,8 +118,10 @@ def _search_along_step(ws: Workspace, mean: float) -> float:
 
 @kernel("v2(ws, ActiveContact)")
 def _trial_friction(ws: Workspace, active: ActiveContact) -> Pair:
-    """Friction y_t = f_t - a_t / g of a contact before it is projected on Coulomb's disc [N]."""
-    # a_t: slip acceleration, g: inverse mass
+    """Friction y_t = f_t - a_t / g of a contact before it is projected on Coulomb's disc [N].
+
+    a_t is its slip acceleration, which must be written, and g its tangential inverse mass.
+    """
     g = tangential_inverse_mass(ws, active)
     y1 = active.friction[0] - active.slip_acceleration[0] / g
     return y1, active.friction[1] - active.slip_acceleration[1] / g
@@ -125,8 +131,9 @@ def _trial_friction(ws: Workspace, active: ActiveContact) -> Pair:
 def write_natural_map(ws: Workspace) -> float:
     """Write the natural map to ``right`` [N], and the accelerations of the contacts. Returns its square [N^2].
 
-    It vanishes if the contact laws hold: it is f less the projection of y = f - a / g on Coulomb's cone, where g is the
-    inverse mass. Friction that slides is given by its direction, and needs no projection.
+    It vanishes if the contact laws hold: f_n less max(0, y_n), and f_t less the projection of y_t on the disc of radius
+    mu max(0, y_n), with y = f - a / g and the inverse mass g. Friction that slides is given by its direction, and needs
+    no projection.
     """
     square = 0.0
     for active in ws.actives:
@@ -159,7 +166,7 @@ def write_natural_map(ws: Workspace) -> float:
 def _write_jacobian(ws: Workspace) -> bool:
     """Write the derivative of the natural map to ``matrix`` [1]. False if its band has too many entries.
 
-    Each contact has three rows, n, t1 and t2, whatever its mode.
+    Each contact has three rows, n, t1 and t2, whatever its mode. The accelerations of the contacts must be written.
     """
     n = 3 * ws.problem.n_active
     # the band is computed from the first unknowns
@@ -176,6 +183,7 @@ def _write_jacobian(ws: Workspace) -> bool:
             # so that redundant forces do not make the matrix singular
             ws.floats[_entry(ws, active, NORMAL_ROW, NORMAL_ROW)] += _SHIFT
         else:
+            # derivative of f_n
             ws.floats[_entry(ws, active, NORMAL_ROW, NORMAL_ROW)] = 1.0
         if active.is_at_rest:
             _add_rows_of_rest(ws, active, active.friction_coefficient * max(0.0, y))
@@ -225,6 +233,7 @@ def _add_rows_of_rest(ws: Workspace, active: ActiveContact, radius: float) -> No
             # so that redundant forces do not make the matrix singular
             ws.floats[_entry(ws, active, r, r)] += _SHIFT
         return
+    # f_t less its projection: derivative of f_t first
     for r in range(FIRST_ROW, 3):
         ws.floats[_entry(ws, active, r, r)] = 1.0
     # on a disc of radius 0 the projection is 0, whatever y_t
@@ -247,12 +256,15 @@ def _subtract_projection(ws: Workspace, active: ActiveContact, factor: float, c1
     second = band_row(ws.problem.matrix.start, 3 * a + 2, n, ws.problem.half_band)
     for block in range(active.first_block, active.end_block):
         for s in range(3):
+            # entries 0, 3 and 6 from g on are rows n, t1 and t2 of column s of the block, column j of the matrix
             g, j = at(ws.floats, ws.island.delassus.start + DELASSUS * block + s), 3 * ws.island.block_column[block] + s
             # of y = f - a / g: first -a / g by the force of column j, then f if it is an own force
             z1, z2 = -g[3] / g_t, -g[6] / g_t
             z1 += 1.0 if j == 3 * a + 1 else 0.0
             z2 += 1.0 if j == 3 * a + 2 else 0.0
+            # the part of (z1, z2) across the unit vector is this number times (c2, -c1)
             across = c2 * z1 - c1 * z2
+            # growth of the radius mu y_n
             growth = active.friction_coefficient * ((1.0 if j == 3 * a else 0.0) - g[0] / own)
             ws.floats[first + j] -= factor * c2 * across + c1 * growth
             ws.floats[second + j] += factor * c1 * across - c2 * growth

@@ -52,13 +52,14 @@ def choose_null_space_force(ws: Workspace) -> bool:
         for r in range(3):
             contact.null_space_force[r] = 0.0
     _set_least_norm(ws)
-    # forces of least norm that are far inside are kept, without a null-space force
+    # forces of least norm that are far inside are kept: the null-space force is zero
     if _least_distance(ws) >= _LARGE_DISTANCE * largest:
         return True
     has_found = _choose_farthest(ws, largest)
     if not has_found:
         _set_least_norm(ws)
-        distribute(ws, 0.0, _DISTRIBUTED * largest)
+        # no forces are inside all cones; those closest to the cones themselves (inset 0) are taken
+        distribute(ws, inset=0.0, allowed=_DISTRIBUTED * largest)
         for active in ws.actives:
             ws.contacts[active.contact].slack = _SLACK * largest
     for i in range(n):
@@ -82,7 +83,7 @@ def _set_least_norm(ws: Workspace) -> None:
 def _least_distance(ws: Workspace) -> float:
     """Smallest distance of the redundant forces to their bounds [N]. It is negative if a force exceeds its bound.
 
-    The bounds are a normal force of zero, and Coulomb's disc.
+    The bounds are a normal force of zero, and Coulomb's disc. Without redundant forces it is infinite.
     """
     least = math.inf
     for i in range(ws.problem.n_unknown):
@@ -107,6 +108,7 @@ def _choose_farthest(ws: Workspace, largest: float) -> bool:
     """Find forces as far inside their cones as possible, within a factor of four. False if there are none.
 
     The distance is ``largest`` / 4^n [N]. The number n of quarterings is doubled until forces exist, then bisected.
+    None are looked for beyond ``_QUARTERINGS``. If True, the contact forces are those found.
     """
     # with n = 0 the distance would be the largest force itself: no forces
     feasible, infeasible = 1, 0
@@ -131,7 +133,7 @@ def _choose_at_distance(ws: Workspace, largest: float, n_quarterings: int) -> bo
     """Find forces at least ``largest`` / 4^n_quarterings [N] inside their cones. True if there are any."""
     # from the forces of least norm, along the null space: the motion stays the same
     _set_least_norm(ws)
-    return distribute(ws, 0.25**n_quarterings * largest, _DISTRIBUTED * largest)
+    return distribute(ws, inset=0.25**n_quarterings * largest, allowed=_DISTRIBUTED * largest)
 
 
 @kernel()
@@ -147,6 +149,7 @@ def add_null_space_force(ws: Workspace) -> None:
         ws.problem.sigma[i] = contact.null_space_force[unknown.direction]
     if ws.problem.is_null_space_banded:
         project_on_null(ws, n, ws.problem.sigma.start)
+        # minus -1: add
         subtract_part(ws.floats, ws.problem.x.start, -1.0, ws.problem.sigma.start, n)
         return
     for i in range(n):

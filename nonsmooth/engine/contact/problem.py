@@ -60,7 +60,10 @@ def slip_direction(ws: Workspace, c: int, slip: Pair, rest_speed: float, may_rev
 
 @kernel("void(ws, i8, v2, f8, b1)")
 def follow_slip(ws: Workspace, a: int, slip: Pair, rest_speed: float, may_reverse: bool) -> None:
-    """Set :func:`slip_direction` and friction coefficient of active contact ``a`` for its ``slip`` [m/s]."""
+    """Set direction and coefficient of the friction of active contact ``a`` for its ``slip`` [m/s].
+
+    ``rest_speed`` and ``may_reverse`` are those of :func:`slip_direction`.
+    """
     active = ws.actives[a]
     active.direction = slip_direction(ws, active.contact, slip, rest_speed, may_reverse)
     active.friction_coefficient = slip_coefficient(ws, active.contact, length(slip))
@@ -70,18 +73,18 @@ def follow_slip(ws: Workspace, a: int, slip: Pair, rest_speed: float, may_revers
 def write_friction(ws: Workspace, active: ActiveContact) -> None:
     """Write the friction of an active contact from its slip: coefficients, direction, and whether it is at rest.
 
-    Its normal force counts as not given by a law.
+    It is at rest if its slip is within the velocity tolerance. Its normal force counts as not given by a law.
     """
     contact = ws.contacts[active.contact]
     speed = length(contact.slip)
     # only impacts give normal forces; `decouple_normals` makes those of compliant contacts known
     active.has_given_force = False
-    active.static_coefficient = friction_coefficient(ws, active.contact, 0.0)
+    active.static_coefficient = friction_coefficient(ws, active.contact, speed=0.0)
     active.is_at_rest = not speed > ws.tolerance.velocity
     if active.is_at_rest:
         # the slip may begin: its last direction is the first guess
         active.direction = contact.direction
-        active.friction_coefficient = slip_coefficient(ws, active.contact, 0.0)
+        active.friction_coefficient = slip_coefficient(ws, active.contact, speed=0.0)
     else:
         active.direction = unit(contact.slip)
         active.friction_coefficient = slip_coefficient(ws, active.contact, speed)
@@ -94,7 +97,8 @@ def write_friction(ws: Workspace, active: ActiveContact) -> None:
 def accelerate_freely(ws: Workspace, number: int) -> None:
     """Write the accelerations M^-1 h of body ``number`` without contact forces to ``du``. h are its other forces.
 
-    Those of a body in ballistic motion are stored, and computed again only after its state has changed.
+    Those of a body in ballistic motion (in closed form) are stored, and computed again only after its state has
+    changed: ``version`` counts the evaluations of a body.
     """
     body = ws.bodies[number]
     n_u, du, du_free = body.n_u, ws.island.du.start + body.u, ws.island.du_free.start + body.u
@@ -114,7 +118,8 @@ def accelerate_freely(ws: Workspace, number: int) -> None:
 def free_acceleration(ws: Workspace, of_all_bodies: bool) -> None:
     """Write the accelerations without contact forces to ``du``, those of the joints included.
 
-    These are the accelerations of all bodies, or else of the bodies that are integrated.
+    These are the accelerations of all bodies, or else of the bodies that are integrated. Others have a motion in closed
+    form, or a step of their own.
     """
     for i in range(ws.model.n_bodies if of_all_bodies else ws.island.n_integrated):
         accelerate_freely(ws, i if of_all_bodies else ws.island.integrated[i])
@@ -154,6 +159,7 @@ def write_contact_problem(ws: Workspace) -> None:
     for active in ws.actives:
         contact = ws.contacts[active.contact]
         for r in range(3):
+            # bias: the acceleration at constant velocities of the bodies
             bias, free = contact.bias[r], row(ws, active.contact, r, ws.island.du.start)
             active.free[r] = bias + free
             # of the two parts and not of their sum, which may cancel and leave their round-off
@@ -168,7 +174,8 @@ def solve_contact(ws: Workspace) -> bool:
     """Find modes and forces of the active contacts. True if they are found.
 
     Before: :func:`write_contact_problem` has been called, and ``mode_tried`` holds the past modes, of which some may be
-    unknown. After: ``mode_tried``, ``force`` and ``direction`` describe the solution.
+    unknown: then no past is tried. After: ``mode_tried``, ``force`` and ``direction`` describe the solution; if False,
+    they are those of the last attempt.
     """
     ws.problem.effort = 0.0
     has_past = True
@@ -196,7 +203,7 @@ def solve_contact(ws: Workspace) -> bool:
 def solve_from_rates(ws: Workspace) -> bool:
     """Find modes and forces of a contact problem that the user gives by matrices. True if they are found.
 
-    Before: the Delassus matrix G and the free accelerations b are written.
+    Before: the Delassus matrix G, the free accelerations b, their scale and the slip velocities are written.
     """
     # the user gives the slip velocities, which `rate` holds
     for active in ws.actives:

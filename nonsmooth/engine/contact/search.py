@@ -62,8 +62,8 @@ def find_modes(ws: Workspace, solver: int) -> bool:
 def _find_by_solver(ws: Workspace, solver: int) -> bool:
     """Search with the contacts that have just started to slide kept from sticking, and if that fails, without this.
 
-    They are at rest, and their past mode is sliding. ``was_freed`` marks the contacts that must not stick. True if a
-    solution is found.
+    They are at rest, and their past mode is sliding. ``was_freed`` marks the contacts that must not stick: they have
+    the kinetic coefficient. True if a solution is found.
     """
     has_sliding = False
     for active in ws.actives:
@@ -81,7 +81,8 @@ def _find_by_solver(ws: Workspace, solver: int) -> bool:
 def _search(ws: Workspace, solver: int) -> bool:
     """Search in rounds. After each, contacts found to slide are kept from sticking. True if a solution is found.
 
-    So a contact that exceeds its static bound gets its kinetic coefficient in the next round.
+    So a contact that exceeds its static bound gets its kinetic coefficient in the next round. False if a round frees no
+    contact whose coefficients differ: the next round would be the same.
     """
     # each round but the last frees a contact
     for _ in range(1 + ws.problem.n_active):
@@ -94,7 +95,10 @@ def _search(ws: Workspace, solver: int) -> bool:
 
 @kernel("b1(ws, i8)")
 def _search_round(ws: Workspace, solver: int) -> bool:
-    """Search by the stages of a solver. True if a solution is found. Interrupts and too much effort end the search."""
+    """Search by the stages of a solver. True if a solution is found. Interrupts and too much effort end the search.
+
+    If False, ``mode_found`` holds the last guess, from which the next round frees contacts.
+    """
     n_stages = _n_stages(solver)
     # the forces of the first stage start at zero
     clear(ws.floats, ws.problem.forces_at_start.start, 3 * ws.problem.n_active)
@@ -127,9 +131,10 @@ def _n_stages(solver: int) -> int:
 
 @kernel("b1(ws, i8, i8)")
 def _guess_by_stage(ws: Workspace, solver: int, stage: int) -> bool:
-    """Improve the forces by a stage of a solver, and guess modes from them. True if the forces have settled.
+    """Improve the forces by a stage of a solver, and guess modes from them. True if a further stage is useless.
 
-    The forces go from stage to stage in ``forces_at_start``, because trials overwrite the others.
+    The forces have settled then, or the solver has failed. They go from stage to stage in ``forces_at_start``, because
+    trials overwrite the others.
     """
     n, forces, kept = 3 * ws.problem.n_active, ws.problem.forces.start, ws.problem.forces_at_start.start
     copy_numbers(ws.floats, kept, n, forces)
@@ -144,7 +149,7 @@ def _guess_by_stage(ws: Workspace, solver: int, stage: int) -> bool:
 
 @kernel("b1(ws, i8, i8)")
 def _improve_forces(ws: Workspace, solver: int, stage: int) -> bool:
-    """Run a ``stage`` of a solver. True if a further stage would not change the forces."""
+    """Run a ``stage`` of a solver, counted from 0. True if a further stage would not change the forces."""
     # enumeration has no stages: the last solver is Newton's method
     if solver == GAUSS_SEIDEL:
         return search_by_sweeps(ws, stage)
@@ -211,7 +216,7 @@ def _exclude_sticking(ws: Workspace) -> bool:
 
 @kernel("b1(ws)")
 def _verify_guess(ws: Workspace) -> bool:
-    """Verify the guessed modes in several forms. True if one fulfils the laws."""
+    """Verify the guessed modes in several forms. True if one fulfils the laws: it is then the solution."""
     # the modes that the accelerations show, then the guess itself, then the guess with the forces of the solver
     if _verify_by_acceleration(ws) or _verify_or_open(ws):
         return True
@@ -241,6 +246,7 @@ def _guess_modes_from_accelerations(ws: Workspace) -> bool:
     A contact that does not separate is closed. At rest, it sticks if it has no slip acceleration.
     """
     has_changed = False
+    # redundant contacts may disagree by more than round-off
     small = EQUAL * ws.problem.small_acceleration
     for active in ws.actives:
         # modes of the past are kept, to continue it; the mode of a contact that separates is, too
@@ -286,6 +292,7 @@ def _verify_or_open(ws: Workspace) -> bool:
 @kernel("b1(ws)")
 def _open_most_tensile(ws: Workspace) -> bool:
     """Open the closed contacts with the largest tensile forces. True if there are any, False if no force is tensile."""
+    # a tensile force below this threshold is round-off
     worst = -ws.problem.small_force
     for active in ws.actives:
         if active.mode_tried != Mode.OPEN:
@@ -366,7 +373,7 @@ def _keep_if_lawful(ws: Workspace) -> None:
     """Keep the modes under trial if they fulfil the laws. Otherwise restore the solution of :func:`_store_solution`."""
     if not _verify_or_open(ws):
         _restore_guess(ws)
-        # the trial has overwritten them
+        # the trial has overwritten them, and the choice between solutions reads them
         evaluate_accelerations(ws)
 
 

@@ -51,7 +51,8 @@ def find_slip_directions(ws: Workspace) -> bool:
     """Turn the directions of slips that begin until the slip accelerations oppose the friction (Newton's method).
 
     True if they do, or if no slip begins: the forces are then not computed. Else the forces are those of the final
-    directions in the modes under trial. Their signs and bounds are not checked. False if the steps do not converge.
+    directions in the modes under trial. Their signs and bounds are not checked, nor whether a slip is against its
+    friction or along it. False if the steps do not converge: directions and forces are then those of the last steps.
     """
     if not has_slip_that_begins(ws):
         return True
@@ -91,7 +92,7 @@ def _write_residuals(ws: Workspace, n: int) -> float:
         if unknown.is_turn:
             active = ws.actives[unknown.contact]
             (d1, d2), (a1, a2) = active.direction, slip_acceleration(ws, active)
-            # minus a_t x d, a cross product in the plane
+            # Newton's right-hand side is minus the residual a_t x d, a cross product in the plane
             ws.problem.right[i] = -(a1 * d2 - a2 * d1)
             residual = abs(ws.problem.right[i]) / max(ws.problem.acceleration_scale, abs(a1), abs(a2))
             worst = max(worst, residual)
@@ -129,7 +130,7 @@ def _write_row(ws: Workspace, i: int, n: int) -> None:
         if other.sticks:
             ws.floats[out], ws.floats[out + 1] = g1, g2
             out += 2
-        # what is left is the turn of the direction of the other contact
+        # what is left is the turn of the direction of the other contact: it moves the friction by (e2, -e1) per newton
         if out < end:
             ws.floats[out] = e2 * g1 - e1 * g2
     if unknown.is_turn:
@@ -163,22 +164,27 @@ def _add_turn(ws: Workspace, active: ActiveContact, i: int, n: int) -> None:
 
 @kernel("void(ws, i8)")
 def _solve(ws: Workspace, n: int) -> None:
-    """Solve Newton's system of ``n`` unknowns. A singular one is solved for least norm, or shifted if it is banded."""
+    """Write Newton's step to ``x``. A singular system is solved for least norm, or with a shift if it is banded.
+
+    The system has ``n`` unknowns: forces [N], and turns times mu f_n [N]. ``reduced`` holds its matrix.
+    """
     if eliminate_reduced(ws, n, SINGULAR):
         return
     # orthogonal decompositions would fill a band
     if band_width(n, ws.problem.half_band) < n:
         copy_numbers(ws.floats, ws.problem.right.start, n, ws.problem.x.start)
+        # if this fails, too, the step is arbitrary; the residuals after it decide
         solve_shifted(ws, n)
     else:
-        solve_reduced_for_least_norm(ws, n, n)
+        solve_reduced_for_least_norm(ws, n, max_rank=n)
 
 
 @kernel("void(ws, ActiveContact, f8)")
 def _turn(ws: Workspace, active: ActiveContact, step: float) -> None:
     """Turn the slip direction of a contact by Newton's ``step`` [N], which is the angle times mu f_n.
 
-    If mu f_n is zero, the angle is unknown, and the slip takes the direction of its acceleration.
+    It turns by ``_LARGEST_TURN`` at most. If mu f_n is zero, the angle is unknown, and the slip takes the direction of
+    its acceleration, or keeps its own if there is none.
     """
     d1, d2 = active.direction
     force = active.friction_coefficient * active.normal_force

@@ -54,7 +54,8 @@ class Verdict(IntEnum):
 def find_tried_forces(ws: Workspace) -> None:
     """Find the forces of the active contacts in the modes under trial [N], and count the effort, which is limited.
 
-    In these modes the forces follow from linear equations. No inequality is checked.
+    In these modes the forces follow from linear equations. No inequality is checked. Normal forces that a law gives
+    stay as they are.
     """
     for active in ws.actives:
         is_open = active.mode_tried == Mode.OPEN
@@ -63,7 +64,6 @@ def find_tried_forces(ws: Workspace) -> None:
         active.sticks = active.mode_tried == Mode.STICK and active.static_coefficient > 0.0
         if is_open:
             active.normal_force = 0.0
-    # normal forces given by a law stay as they are
     resolve(ws)
     ws.totals.n_evaluations += 1
     # the cost of an elimination grows with the cube
@@ -74,8 +74,8 @@ def find_tried_forces(ws: Workspace) -> None:
 def evaluate_accelerations(ws: Workspace) -> None:
     """Write the accelerations b + G f of the active contacts [m/s^2], and the thresholds of zero for the contact laws.
 
-    These are the acceleration and the force of the island that count as zero. b is without contact forces, G the
-    Delassus matrix, f the contact forces.
+    These are the acceleration and the force of the island that count as zero, in ``small_acceleration`` and
+    ``small_force``. b is without contact forces, G the Delassus matrix, f the contact forces.
     """
     # round-off of an acceleration is relative to the largest of its terms
     scale = ws.problem.acceleration_scale
@@ -128,7 +128,7 @@ def check_laws(ws: Workspace, is_lenient: bool) -> bool:
     """
     verdict = _check(ws, is_lenient)
     # no distance inside the cones (inset 0) is needed
-    if verdict == Verdict.REDISTRIBUTABLE and distribute(ws, 0.0, _DISTRIBUTED * ws.problem.small_force):
+    if verdict == Verdict.REDISTRIBUTABLE and distribute(ws, inset=0.0, allowed=_DISTRIBUTED * ws.problem.small_force):
         # distribution moves normal forces, and with them the friction of sliding contacts
         for active in ws.actives:
             if active.mode_tried == Mode.SLIDE:
@@ -165,7 +165,8 @@ def _check_contact(ws: Workspace, active: ActiveContact, is_lenient: bool) -> Ve
     # a closed contact keeps its gap; a number that is not finite is a violation, too
     if not abs(active.normal_acceleration) <= _allowed_acceleration(ws):
         return Verdict.VIOLATED
-    # if more force means more approach (Painleve's paradox), the balance is unstable
+    # if more force means more approach (Painleve's paradox), the balance is unstable; of a slip that begins, as at
+    # rest, this is not checked
     slips = active.mode_tried == Mode.SLIDE and not active.is_at_rest
     if slips and reduced_coefficient(ws, active.index) <= 0.0:
         return Verdict.VIOLATED
@@ -181,7 +182,7 @@ def _check_contact(ws: Workspace, active: ActiveContact, is_lenient: bool) -> Ve
 
 @kernel("f8(ws)")
 def _allowed_acceleration(ws: Workspace) -> float:
-    """Acceleration of a contact at rest that counts as zero [m/s^2]."""
+    """Acceleration of a closed contact that counts as zero [m/s^2]: along the normal, or tangential if it sticks."""
     # redundant contacts may disagree by more than round-off
     small = ws.problem.small_acceleration
     return float(EQUAL * small if ws.problem.is_deficient else small)
@@ -219,7 +220,7 @@ def guess_modes_from_forces(ws: Workspace) -> None:
 
     A projection decides: f - a / g is projected on Coulomb's cone, where g is the inverse mass of the contact. Forces
     of the solution are their own projections (Alart and Curnier 1991). A projection on the apex means open, on the
-    inside of the cone sticking, on its surface sliding.
+    inside of the cone sticking, on its surface sliding. The accelerations are overwritten.
     """
     for active in ws.actives:
         for r in range(3):
@@ -245,9 +246,12 @@ def guess_modes_from_forces(ws: Workspace) -> None:
 
 @kernel("f8(ws, ActiveContact)")
 def tangential_inverse_mass(ws: Workspace, active: ActiveContact) -> float:
-    """Larger slip acceleration of a contact per unit of its own friction along t1 or t2 [1/kg]. It is a scale only."""
+    """Larger slip acceleration of a contact per unit of its own friction along t1 or t2 [1/kg]. It is a scale only.
+
+    A contact that cannot slip gets its normal inverse mass instead.
+    """
     # TODO: the larger diagonal entry depends on the choice of the tangents; the larger eigenvalue would not
     own = diagonal_block(ws, active.index)
     largest = max(own.t11, own.t22)
-    # a contact that cannot slip gets its normal inverse mass, because callers divide by the result
+    # not zero, because callers divide by the result
     return float(largest if largest > 0.0 else own.nn)

@@ -20,8 +20,9 @@ from nonsmooth.engine.native.kernel import ActiveContact, Workspace, kernel
 def _link_contacts(ws: Workspace) -> None:
     """List the active contacts at each movable articulation of their two bodies: these contacts act on each other.
 
-    The lists are linked. Entry a of ``link_next`` is the first side of contact a, entry ``n_active`` + a the second,
-    and -1 ends a list. Counts and marks of the rows of the Delassus matrix are cleared.
+    The lists are linked: ``first_linked`` of the articulation is the first entry, and ``link_next`` leads from each
+    entry to the next. Entry a is the first side of contact a, entry ``n_active`` + a the second, and -1 ends a list.
+    Counts and marks of the rows of the Delassus matrix are cleared.
     """
     for active in ws.actives:
         active.block_mark = -1
@@ -44,8 +45,8 @@ def _link_contacts(ws: Workspace) -> None:
 def _add_block(ws: Workspace, active: ActiveContact, column: int, is_written: bool) -> None:
     """Count one more block in the row of a contact of the Delassus matrix. Write its column only if ``is_written``.
 
-    The ``column`` is the contact that the block couples with. The block on the diagonal is stored apart, for a quick
-    access.
+    The ``column`` is the contact that the block couples with. The number of the block on the diagonal is stored apart,
+    for a quick access.
     """
     if is_written:
         block = active.first_block + active.n_blocks
@@ -86,7 +87,7 @@ def link_active(ws: Workspace) -> None:
     They follow the blocks of the islands before. If the workspace has too few, each row gets one block only, and
     ``has_too_many_blocks`` is set: the run stops.
     """
-    # the first island: its blocks begin at 0
+    # the first island: its blocks begin at 0. Of others, `first_block` is `end_block` of the contact before
     if ws.problem.first_grouped == 0:
         ws.island.block_start[0] = 0
     _link_contacts(ws)

@@ -24,7 +24,8 @@ from nonsmooth.engine.numerics.vectors import Pair
 def assemble_delassus(ws: Workspace) -> None:
     """Write the blocks of the Delassus matrix G of the active contacts: accelerations per unit of contact force [1/kg].
 
-    Before: their Jacobians, and the responses of the bodies to unit forces, are written.
+    Before: their Jacobians, and the responses of the bodies to unit forces, are written, and the list of the blocks
+    that are not zero.
     """
     for active in ws.actives:
         contact = ws.contacts[active.contact]
@@ -53,7 +54,10 @@ def _write_block(ws: Workspace, contact: Contact, other: Contact, out: int) -> N
 
 @kernel("void(ws, i8, i8, i8, i8)")
 def _add_products(ws: Workspace, jacobian: int, response: int, n_u: int, out: int) -> None:
-    """Add the products of three Jacobian rows and three responses, of ``n_u`` numbers each, to the block at ``out``."""
+    """Add the products of three Jacobian rows and three responses, of ``n_u`` numbers each, to the block at ``out``.
+
+    ``jacobian`` and ``response`` are the offsets of the first of each. The block is stored row by row.
+    """
     for r in range(3):
         for s in range(3):
             ws.floats[out + 3 * r + s] += product(ws.floats, 0.0, jacobian + r * n_u, response + s * n_u, n_u)
@@ -69,7 +73,8 @@ def diagonal_block(ws: Workspace, a: int) -> Any:
 def add_product(ws: Workspace, total: float, a: int, r: int, x: int) -> float:
     """``total`` plus a row of the Delassus matrix G, times the vector at ``x`` of three numbers per active contact.
 
-    The row is ``r`` (n, t1, t2) of active contact ``a``. Only its blocks that are not zero are stored.
+    The row is ``r`` (n, t1, t2) of active contact ``a``. Only its blocks that are not zero are stored. With forces at
+    ``x`` the product is an acceleration [m/s^2], with impulses a velocity [m/s].
     """
     active = ws.actives[a]
     for block in range(active.first_block, active.end_block):
@@ -113,8 +118,9 @@ def write_dense(ws: Workspace) -> None:
 def add_response(ws: Workspace, f: int, du: int) -> None:
     """Add the accelerations of the bodies under the contact forces at ``f`` to ``du``: K (W f_n + N f_t).
 
-    K is the inverse mass matrix, W and N are the directions of normals and tangents. With impulses at ``f``, these are
-    changes of the velocities.
+    K is the inverse mass matrix, W and N are the directions of normals and tangents. ``f`` is the offset of three
+    numbers (n, t1, t2) per active contact, ``du`` that of the accelerations of all bodies. With impulses at ``f``,
+    these are changes of the velocities.
     """
     for active in ws.actives:
         contact = ws.contacts[active.contact]

@@ -37,14 +37,20 @@ def _find_root(ws: Workspace, number: int) -> int:
 
 @kernel("i8(ws, Contact)")
 def _movable_articulation(ws: Workspace, contact: Contact) -> int:
-    """Articulation of a contact that is movable: the first such one, or simply the first if both bodies are driven."""
+    """Articulation of a contact that is movable: the first such one, or simply the first if none is.
+
+    An articulation is a body, or several that joints connect. Its set is the island of the contact.
+    """
     a, b = contact.articulation_a, contact.articulation_b
     return int(b if ws.articulations[a].n_u == 0 and ws.articulations[b].n_u > 0 else a)
 
 
 @kernel("void(ws, i8)")
 def activate_group(ws: Workspace, group: int) -> None:
-    """Make the contacts of island ``group`` the active contacts ``ws.actives``, with which the solvers work."""
+    """Make the contacts of island ``group`` the active contacts ``ws.actives``, with which the solvers work.
+
+    Their other numbers (forces, modes under trial) are those of the island before, until they are written.
+    """
     first = ws.island.group_start[group]
     ws.problem.first_grouped = first
     ws.problem.n_active = ws.island.group_start[group + 1] - first
@@ -90,7 +96,8 @@ def _join_articulations(ws: Workspace) -> None:
 def _number_islands(ws: Workspace) -> None:
     """Give each marked contact (``is_in_problem``) the number of its island, and write the islands' sizes.
 
-    The sizes are in ``group_start``, which :func:`_list_islands` replaces by the starts.
+    ``root.group`` is the island of a set of articulations, once its first contact is met. The sizes are in
+    ``group_start``, which :func:`_list_islands` replaces by the starts.
     """
     n_groups = n_grouped = 0
     for contact in ws.contacts:
@@ -114,7 +121,7 @@ def _list_islands(ws: Workspace) -> None:
     """Write the marked contacts to ``grouped``, island after island, and the starts of the islands to ``group_start``.
 
     This is a counting sort. Before, ``group_start`` holds the sizes of the islands. ``group_next`` is the next free
-    entry of each.
+    entry of each. One more start, behind the last island, is the number of all its contacts.
     """
     # the starts follow from the sizes, from the last island backwards
     end = ws.island.n_grouped
@@ -132,7 +139,10 @@ def _list_islands(ws: Workspace) -> None:
 
 @kernel()
 def group_closed(ws: Workspace) -> None:
-    """Sort the closed contacts into islands. Contacts of bodies with a step of their own (multirate) belong to none."""
+    """Sort the closed contacts into islands, for the forces of the smooth motion.
+
+    Contacts of bodies with a step of their own (multirate) belong to none.
+    """
     for contact in ws.contacts:
         # a body with an own step moves along a step that is known already
         contact.is_in_problem = contact.mode != Mode.OPEN and not has_own_step(ws, contact.index)

@@ -29,6 +29,7 @@ def _write_breadth_first_order(ws: Workspace, start: int) -> None:
     """Write the numbers of the active contacts to ``order``: breadth first from contact ``start``, for a narrow band.
 
     Of the new neighbours of a contact, those with few neighbours come first. ``rank`` only marks contacts that are met.
+    All contacts are met, because those of an island are connected.
     """
     for active in ws.actives:
         active.rank = _UNRANKED
@@ -36,7 +37,7 @@ def _write_breadth_first_order(ws: Workspace, start: int) -> None:
     ws.actives[start].rank = 0
     n_ordered = 1
     for i in range(ws.problem.n_active):
-        # only if the contacts met so far act on no others
+        # never in an island, which is connected: the contacts met so far act on no others
         if i >= n_ordered:
             return
         active = ws.actives[ws.problem.order[i]]
@@ -51,7 +52,10 @@ def _write_breadth_first_order(ws: Workspace, start: int) -> None:
 
 @kernel("void(ws, ActiveContact, i8, i8)")
 def _insert(ws: Workspace, active: ActiveContact, first: int, end: int) -> None:
-    """Insert a contact into ``order`` between ``first`` and ``end``, where contacts are sorted by neighbour count."""
+    """Insert a contact into ``order`` between ``first`` and ``end``, where contacts are sorted by neighbour count.
+
+    Contacts with more neighbours move on by one entry. ``end`` is the first free entry.
+    """
     position = end
     while position > first and _n_neighbours(ws.actives[ws.problem.order[position - 1]]) > _n_neighbours(active):
         ws.problem.order[position] = ws.problem.order[position - 1]
@@ -61,7 +65,7 @@ def _insert(ws: Workspace, active: ActiveContact, first: int, end: int) -> None:
 
 @kernel("i8(ws)")
 def _bandwidth(ws: Workspace) -> int:
-    """Largest difference of rank (position in an order) between contacts that act on each other."""
+    """Largest difference of ``rank`` (position in an order) between contacts that act on each other."""
     bandwidth = 0
     for active in ws.actives:
         for block in range(active.first_block, active.end_block):
@@ -102,6 +106,7 @@ def order_active(ws: Workspace) -> None:
     if bandwidth >= listed or 9 * bandwidth + 7 >= 3 * n_active:
         return
     for i in range(n_active):
+        # `active` still holds the contacts in the former order
         last = ws.problem.first_grouped + n_active - 1
         ws.island.grouped[last - i] = ws.problem.active[ws.problem.order[i]]
     for active in ws.actives:
