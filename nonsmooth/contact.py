@@ -14,7 +14,7 @@ from nonsmooth.contact_result import MODES, ContactResult
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Heap, Memory, allocate
 from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.memory.solvers import ENUMERATION, MOST_ENUMERATED, solver_number
+from nonsmooth.engine.memory.solvers import MOST_ENUMERATED, Solver, solver_of
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import entry_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
@@ -72,7 +72,7 @@ def solve_contact(
         the two bounds.
     """
     check_kind("solve_contact: solver", solver, str, 'For example "auto".')
-    number = solver_number(solver)
+    number = solver_of(solver)
     check_kind("solve_contact: friction", friction, Collection, "Give one friction law per contact.")
     h = floats("solve_contact: force", force)
     n_u, n = h.size, len(friction)
@@ -100,7 +100,7 @@ def solve_contact(
             "solve_contact: friction", "must have a law for at least one contact", n, "Give one per contact."
         )
     check_friction("solve_contact: friction", friction)
-    if number == ENUMERATION and n > MOST_ENUMERATED:
+    if number == Solver.ENUMERATION and n > MOST_ENUMERATED:
         raise InvalidInput(
             "solve_contact: solver",
             f"enumerates at most {MOST_ENUMERATED} contacts",
@@ -158,7 +158,7 @@ def _culprit(memory: Memory, friction: Sequence[FrictionLaw]) -> str:
     )
 
 
-def _memory(friction: Sequence[FrictionLaw], solver: int) -> Memory:
+def _memory(friction: Sequence[FrictionLaw], solver: Solver) -> Memory:
     n = len(friction)
     bound = [bind(law.coefficient, "scalar", law.parameters(), type(law).__name__) for law in friction]
     memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_pivoted": n})

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.memory.solvers import GAUSS_SEIDEL, LEMKE, NEWTON
+from nonsmooth.engine.memory.solvers import Solver
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engine.numerics.linear import SINGULAR
 from nonsmooth.model.delassus import read_delassus
@@ -148,7 +148,7 @@ class ContactResult:
         while number := int(call_entry("enumerate_modes", trial, number)):
             if self._differs(trial, small):
                 return False
-        for solver in (LEMKE, GAUSS_SEIDEL, NEWTON):
+        for solver in (Solver.LEMKE, Solver.GAUSS_SEIDEL, Solver.NEWTON):
             if call_entry("find_modes", trial, solver) == 1 and self._differs(trial, small):
                 return False
         return True

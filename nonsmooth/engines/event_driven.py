@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, final
 
 from nonsmooth.engine.memory.modes import POLICIES
 from nonsmooth.engine.memory.owners import Island, Options, Tolerance
-from nonsmooth.engine.memory.solvers import SOLVERS, pivoted_contacts, solver_number
+from nonsmooth.engine.memory.solvers import SOLVERS, pivoted_contacts, solver_of
 from nonsmooth.interfaces.engine import Engine
 from nonsmooth.parameters import parameter
 
@@ -58,13 +58,13 @@ class EventDriven(Engine):
 
     def counts(self, n_slots: int) -> Mapping[str, int]:
         """Return for how many contacts Lemke's tableau is laid out."""
-        return {"n_pivoted": pivoted_contacts(solver_number(self.solver), n_slots)}
+        return {"n_pivoted": pivoted_contacts(solver_of(self.solver), n_slots)}
 
     def settings(self, time_scale: float) -> Mapping[Any, float]:
         """Return tolerances and first steps."""
         step = min(self.largest_step, time_scale / self.steps_per_period)
         return {
-            Options.solver: solver_number(self.solver),
+            Options.solver: solver_of(self.solver),
             Options.painleve_policy: POLICIES.index(self.painleve),
             Tolerance.relative: self.tolerance,
             Tolerance.impact: self.impact_tolerance,

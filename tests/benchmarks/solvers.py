@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory, allocate
 from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.memory.solvers import ENUMERATION, MOST_ENUMERATED, SOLVERS
+from nonsmooth.engine.memory.solvers import MOST_ENUMERATED, SOLVERS, Solver
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import call_entry, entry_addresses
 from nonsmooth.model.delassus import write_delassus
@@ -63,7 +63,7 @@ def feet(n: int, random: np.random.Generator) -> Problem:
     return Problem(jacobian @ np.diag([1.0, 1.0, 1.0, 3.0, 2.5, 2.0]) @ jacobian.T, jacobian @ free)
 
 
-def lay_out(problem: Problem, solver: int) -> Memory:
+def lay_out(problem: Problem, solver: Solver) -> Memory:
     """Return the engine's memory with the problem in it."""
     n = len(problem.bias) // 3
     memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_pivoted": n})
@@ -80,7 +80,7 @@ def lay_out(problem: Problem, solver: int) -> Memory:
     return memory
 
 
-def measure(problem: Problem, solver: int, repetitions: int) -> tuple[float, bool]:
+def measure(problem: Problem, solver: Solver, repetitions: int) -> tuple[float, bool]:
     """Return the least time of a solve [s] and whether it was solved."""
     memory = lay_out(problem, solver)
     n = len(problem.bias) // 3
@@ -108,8 +108,8 @@ def main() -> None:
             random = np.random.default_rng(n)
             drawn = [make(n, random) for _ in range(chosen.problems)]
             line, first = f"{n:8d} ", 0.0
-            for solver in range(len(SOLVERS)):
-                if solver == ENUMERATION and n > min(6, MOST_ENUMERATED):
+            for solver in Solver:
+                if solver == Solver.ENUMERATION and n > min(6, MOST_ENUMERATED):
                     line += f"{'-':>32}"
                     continue
                 results = [measure(problem, solver, chosen.repetitions) for problem in drawn]

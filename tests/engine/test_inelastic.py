@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from laws import Coulomb
 from nonsmooth.contact import _memory
 from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.solvers import Solver
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.model.delassus import write_delassus
 from tests.benchmarks.solvers import bodies
@@ -47,7 +48,7 @@ def wedged_balls(n: int, random: np.random.Generator) -> tuple[Floats, Floats]:
 def impact(delassus: Floats, rates: Floats, at_hand: Floats | float = 0.0) -> tuple[bool, Floats]:
     """Return whether impulses are found from those at hand, and them, shape [n, 3]."""
     n = len(rates) // 3
-    memory = _memory([Coulomb(FRICTION)] * n, 0)
+    memory = _memory([Coulomb(FRICTION)] * n, Solver.AUTO)
     write_delassus(memory, delassus)
     memory[owners.Tolerance.velocity] = REST
     memory[owners.Problem.free_accelerations][: 3 * n] = rates

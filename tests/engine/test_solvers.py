@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 import nonsmooth as ns
 from laws import Coulomb, Frictionless, Unilateral
-from nonsmooth.engine.memory.solvers import MOST_ENUMERATED, SOLVERS, solver_number
+from nonsmooth.engine.memory.solvers import MOST_ENUMERATED, SOLVERS, solver_of
 
 Floats = NDArray[np.float64]
 NAMED = SOLVERS[1:]
@@ -281,7 +281,7 @@ def test_an_unknown_solver_is_refused_with_the_names_there_are() -> None:
     for call in (
         lambda: problem.solve("lemkee"),
         lambda: ns.EventDriven(solver="lemkee"),
-        lambda: solver_number("lemkee"),
+        lambda: solver_of("lemkee"),
     ):
         with pytest.raises(ns.UnknownName, match="'lemke'"):
             call()

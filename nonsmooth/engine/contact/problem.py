@@ -14,8 +14,8 @@ from nonsmooth.engine.bodies.kinematics import row
 from nonsmooth.engine.contact.search import find_modes
 from nonsmooth.engine.contact.trial import verify
 from nonsmooth.engine.delassus.delassus import add_response, assemble_delassus
-from nonsmooth.engine.memory import solvers
 from nonsmooth.engine.memory.modes import Mode
+from nonsmooth.engine.memory.solvers import ENUMERATED_AT_LAST, MOST_PIVOTED, Solver
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, at, call_scalar, entry_point, kernel
 from nonsmooth.engine.numerics.arrays import copy_numbers
 from nonsmooth.engine.numerics.linear import multiply
@@ -189,14 +189,14 @@ def solve_contact(ws: Workspace) -> bool:
     # of several solutions, the one that continues the past is taken
     if has_past and verify(ws, is_lenient=False):
         return True
-    if ws.options.solver != solvers.AUTO:
+    if ws.options.solver != Solver.AUTO:
         return find_modes(ws, ws.options.solver)
     # the fastest solver first; the last two are for few contacts only
-    if find_modes(ws, solvers.NEWTON) or find_modes(ws, solvers.GAUSS_SEIDEL):
+    if find_modes(ws, Solver.NEWTON) or find_modes(ws, Solver.GAUSS_SEIDEL):
         return True
-    if ws.problem.n_active <= solvers.MOST_PIVOTED and find_modes(ws, solvers.LEMKE):
+    if ws.problem.n_active <= MOST_PIVOTED and find_modes(ws, Solver.LEMKE):
         return True
-    return ws.problem.n_active <= solvers.ENUMERATED_AT_LAST and find_modes(ws, solvers.ENUMERATION)
+    return ws.problem.n_active <= ENUMERATED_AT_LAST and find_modes(ws, Solver.ENUMERATION)
 
 
 @entry_point("b1(ws)")

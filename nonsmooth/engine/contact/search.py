@@ -27,7 +27,7 @@ from nonsmooth.engine.contact.newton import search_by_newton
 from nonsmooth.engine.contact.slip_directions import find_slip_directions
 from nonsmooth.engine.contact.trial import EQUAL, check_laws, evaluate_accelerations, guess_modes_from_forces, verify
 from nonsmooth.engine.memory.modes import Mode
-from nonsmooth.engine.memory.solvers import ENUMERATION, GAUSS_SEIDEL, LEMKE
+from nonsmooth.engine.memory.solvers import Solver
 from nonsmooth.engine.native.kernel import ActiveContact, Workspace, entry_point, kernel
 from nonsmooth.engine.native.watch import interrupted
 from nonsmooth.engine.numerics.arrays import clear, copy_numbers
@@ -42,8 +42,8 @@ _EQUALLY_TENSILE = 1e-6
 # --- the search -------------------------------------------------------------------------------------------------------
 
 
-@entry_point("b1(ws, i8)")
-def find_modes(ws: Workspace, solver: int) -> bool:
+@entry_point("b1(ws, Solver)")
+def find_modes(ws: Workspace, solver: Solver) -> bool:
     """Find modes and forces of the active contacts by one solver. True if they are found, and fulfil the laws.
 
     ``mode_past`` holds the past modes. Contacts that have just started to slide must not stick again at the static
@@ -51,15 +51,15 @@ def find_modes(ws: Workspace, solver: int) -> bool:
     preferred.
     """
     # enumeration needs no exclusions: it tries all modes
-    has_found = enumerate_modes(ws, first=0) > 0 if solver == ENUMERATION else _find_by_solver(ws, solver)
+    has_found = enumerate_modes(ws, first=0) > 0 if solver == Solver.ENUMERATION else _find_by_solver(ws, solver)
     if has_found:
         _prefer_sticking(ws)
         _prefer_closed(ws)
     return has_found
 
 
-@kernel("b1(ws, i8)")
-def _find_by_solver(ws: Workspace, solver: int) -> bool:
+@kernel("b1(ws, Solver)")
+def _find_by_solver(ws: Workspace, solver: Solver) -> bool:
     """Search with the contacts that have just started to slide kept from sticking, and if that fails, without this.
 
     They are at rest, and their past mode is sliding. ``was_freed`` marks the contacts that must not stick: they have
@@ -77,8 +77,8 @@ def _find_by_solver(ws: Workspace, solver: int) -> bool:
     return _search(ws, solver)
 
 
-@kernel("b1(ws, i8)")
-def _search(ws: Workspace, solver: int) -> bool:
+@kernel("b1(ws, Solver)")
+def _search(ws: Workspace, solver: Solver) -> bool:
     """Search in rounds. After each, contacts found to slide are kept from sticking. True if a solution is found.
 
     So a contact that exceeds its static bound gets its kinetic coefficient in the next round. False if a round frees no
@@ -93,8 +93,8 @@ def _search(ws: Workspace, solver: int) -> bool:
     return False
 
 
-@kernel("b1(ws, i8)")
-def _search_round(ws: Workspace, solver: int) -> bool:
+@kernel("b1(ws, Solver)")
+def _search_round(ws: Workspace, solver: Solver) -> bool:
     """Search by the stages of a solver. True if a solution is found. Interrupts and too much effort end the search.
 
     If False, ``mode_found`` holds the last guess, from which the next round frees contacts.
@@ -120,17 +120,17 @@ def _search_round(ws: Workspace, solver: int) -> bool:
     return False
 
 
-@kernel("i8(i8)")
-def _n_stages(solver: int) -> int:
+@kernel("i8(Solver)")
+def _n_stages(solver: Solver) -> int:
     """Number of stages of a solver. Each starts from the forces and directions that the one before has found."""
     # enumeration has no stages
-    if solver == GAUSS_SEIDEL:
+    if solver == Solver.GAUSS_SEIDEL:
         return gauss_seidel.STAGES
-    return lemke.STAGES if solver == LEMKE else newton.STAGES
+    return lemke.STAGES if solver == Solver.LEMKE else newton.STAGES
 
 
-@kernel("b1(ws, i8, i8)")
-def _guess_by_stage(ws: Workspace, solver: int, stage: int) -> bool:
+@kernel("b1(ws, Solver, i8)")
+def _guess_by_stage(ws: Workspace, solver: Solver, stage: int) -> bool:
     """Improve the forces by a stage of a solver, and guess modes from them. True if a further stage is useless.
 
     The forces have settled then, or the solver has failed. They go from stage to stage in ``forces_at_start``, because
@@ -147,13 +147,13 @@ def _guess_by_stage(ws: Workspace, solver: int, stage: int) -> bool:
     return has_settled
 
 
-@kernel("b1(ws, i8, i8)")
-def _improve_forces(ws: Workspace, solver: int, stage: int) -> bool:
+@kernel("b1(ws, Solver, i8)")
+def _improve_forces(ws: Workspace, solver: Solver, stage: int) -> bool:
     """Run a ``stage`` of a solver, counted from 0. True if a further stage would not change the forces."""
     # enumeration has no stages: the last solver is Newton's method
-    if solver == GAUSS_SEIDEL:
+    if solver == Solver.GAUSS_SEIDEL:
         return search_by_sweeps(ws, stage)
-    if solver == LEMKE:
+    if solver == Solver.LEMKE:
         return search_by_pivots(ws, stage)
     return search_by_newton(ws, stage)
 

@@ -17,11 +17,23 @@ comes last, and for few contacts only: its time grows like 3^n.  Any other name 
 
 from __future__ import annotations
 
+from enum import IntEnum
+
 from nonsmooth.errors import UnknownName
 
-AUTO, ENUMERATION, LEMKE, GAUSS_SEIDEL, NEWTON = range(5)
-SOLVERS = ("auto", "enumeration", "lemke", "gauss_seidel", "newton")
-"""Names by number."""
+
+class Solver(IntEnum):
+    """A solver of the contact problem, or the rule that chooses among them."""
+
+    AUTO = 0
+    ENUMERATION = 1
+    LEMKE = 2
+    GAUSS_SEIDEL = 3
+    NEWTON = 4
+
+
+SOLVERS = tuple(one.name.lower() for one in Solver)
+"""Names of the solvers."""
 MOST_ENUMERATED = 8
 """Most contacts of enumeration: 3^8 = 6561 combinations of modes."""
 ENUMERATED_AT_LAST = 5
@@ -30,8 +42,8 @@ MOST_PIVOTED = 16
 """Most contacts for which "auto" may try Lemke; its tableau is allocated for no more."""
 
 
-def solver_number(name: str) -> int:
-    """Number of a solver of the contact problem, by which the engine knows it.
+def solver_of(name: str) -> Solver:
+    """Solver of a name.
 
     Raises
     ------
@@ -40,10 +52,10 @@ def solver_number(name: str) -> int:
     """
     if name not in SOLVERS:
         raise UnknownName("solver", name, SOLVERS)
-    return SOLVERS.index(name)
+    return Solver[name.upper()]
 
 
-def pivoted_contacts(solver: int, n_contacts: int) -> int:
+def pivoted_contacts(solver: Solver, n_contacts: int) -> int:
     """Number of contacts for which Lemke's tableau is allocated, of a system with ``n_contacts`` at most."""
     # "auto" tries Lemke for few contacts only, and the other solvers never do
-    return n_contacts if solver == LEMKE else min(n_contacts, MOST_PIVOTED) if solver == AUTO else 0
+    return n_contacts if solver == Solver.LEMKE else min(n_contacts, MOST_PIVOTED) if solver == Solver.AUTO else 0

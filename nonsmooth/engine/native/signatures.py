@@ -17,6 +17,7 @@ from numba.extending import lower_builtin
 
 from nonsmooth.engine.memory.declare import Part
 from nonsmooth.engine.memory.modes import ENUMERATIONS
+from nonsmooth.engine.memory.solvers import Solver
 from nonsmooth.engine.native.numba_names import AbstractTemplate, AttributeTemplate, infer_getattr, signature
 from nonsmooth.engine.native.types import FLOATS, INTEGERS, type_of_number
 from nonsmooth.engine.native.views import WORKSPACE, Workspace, types_of
@@ -39,7 +40,7 @@ _TYPES: dict[str, Any] = {
     "f8": types.float64,
     "i8": types.int64,
     "b1": types.boolean,
-    **{kind.__name__: type_of_result(kind) for kind in ENUMERATIONS},
+    **{kind.__name__: type_of_result(kind) for kind in (*ENUMERATIONS, Solver)},
     **types_of,
     "v2": types.UniTuple(types.float64, 2),
     "v3": types.UniTuple(types.float64, 3),

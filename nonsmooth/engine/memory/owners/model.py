@@ -20,6 +20,7 @@ from nonsmooth.engine.memory.entry_points import ENTRY_POINTS
 from nonsmooth.engine.memory.layout import N_STAGES
 from nonsmooth.engine.memory.modes import Painleve
 from nonsmooth.engine.memory.sizes import ends, fixed, per
+from nonsmooth.engine.memory.solvers import Solver
 
 _PARAMETER = Life.PARAMETER
 
@@ -70,7 +71,7 @@ class Options(Part, key="options"):
 
     impact_map: int = address(_PARAMETER, "Address of the impact law that maps velocities, or 0.")
     painleve_policy: Painleve = one_of(Painleve, _PARAMETER, "What to do if sliding has no contact force.")
-    solver: int = whole(_PARAMETER, "Solver of the contact problem.")
+    solver: Solver = one_of(Solver, _PARAMETER, "Solver of the contact problem.")
     widest_margin: float = real(_PARAMETER, "m", "Largest margin of the neighbour list.")
 
 
