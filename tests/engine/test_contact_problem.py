@@ -14,6 +14,7 @@ from laws import Coulomb, Unilateral
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Memory, allocate
 from nonsmooth.engine.memory.modes import Mode
+from nonsmooth.engine.memory.solvers import Solver
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import call_entry, entry_addresses
 from nonsmooth.model.delassus import write_delassus
@@ -224,7 +225,7 @@ def test_directions_are_found_beside_contacts_with_next_to_no_force(decades: int
         random = np.random.default_rng(seed)
         problem = bodies(n, random)
         normal = np.append(1.0, 10.0 ** random.uniform(-decades, 0.0, n - 1))
-        memory = lay_out(problem, 0)
+        memory = lay_out(problem, Solver.AUTO)
         memory[owners.ActiveContact.has_given_force][:n] = 1
         memory[owners.ActiveContact.mode_tried][:n] = Mode.SLIDE
         forces = memory[owners.ActiveContact.force][:n]
