@@ -131,13 +131,16 @@ class LaidOut:
     def rates(self) -> tuple[np.ndarray, np.ndarray]:
         """Gaps [m] and relative velocities [m/s] at the current state, shapes [n_contacts] and [n_contacts, 3].
 
-        The velocities are along n, t1, t2. Both are NaN for contacts that are not active. Evaluates bodies and
-        contacts.
+        The velocities are along n, t1, t2. Both are NaN for contacts that are not active, which are not on the
+        neighbour list. Evaluates bodies and contacts.
         """
-        gaps, active = self.gaps(), self.active
+        # evaluates the contacts, whose rates are read below, so it comes first
+        gaps = self.gaps()
+        active = self.active
         # of the contacts that are not active
         gaps[np.delete(np.arange(len(gaps)), active)] = np.nan
         rates = np.full((len(gaps), 3), np.nan)
+        # the memory holds the active contacts only, in the order of the list
         rates[active] = self.memory[owners.Contact.rate][: len(active)]
         return gaps, rates
 

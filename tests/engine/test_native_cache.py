@@ -153,10 +153,10 @@ def test_a_cache_that_cannot_be_written_to_is_read(
     assert stat.S_IMODE(writable.stat().st_mode) == 0o700
     assert stat.S_IMODE(writable.parent.stat().st_mode) == 0o700
     assert _is_filled()
-    shutil.copy(filled / "update_at_event.code", writable / "touch.code")
-    (filled / "touch.code").unlink()
+    shutil.copy(filled / "update_at_event.code", writable / "find_touching.code")
+    (filled / "find_touching.code").unlink()
     assert not _is_filled("find_touching")
-    assert "touch.code is damaged" in capsys.readouterr().err
+    assert "find_touching.code is damaged" in capsys.readouterr().err
 
 
 @needs_users

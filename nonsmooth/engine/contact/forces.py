@@ -284,10 +284,13 @@ def evaluate_margins(ws: Workspace) -> None:
 
 @kernel("f8(ws, ActiveContact)")
 def _margin_of_redundant_friction(ws: Workspace, active: ActiveContact) -> float:
-    """Smaller of two distances of friction that is not unique to its bounds [N], Eq. (38)."""
+    """Margin [N] by which friction that the accelerations do not determine stays within Coulomb's bounds, Eq. (38).
+
+    Negative if no choice of the undetermined part obeys the bounds. It is the smaller one of two margins.
+    """
     # the unknown of its friction along t1 comes after that of its normal force, if there is one (a boolean is 0 or 1)
     first = active.first_unknown + active.is_normal_force_unknown
-    # the unique part of its own friction obeys its own bound
+    # the part of its own friction that all solutions share obeys its own bound
     margin = active.static_coefficient * active.normal_force - _unique_friction(ws, active, first)
     # the friction of all contacts that are redundant together obeys the sum of their bounds
     return float(min(_margin_of_group(ws, active, first), margin))

@@ -78,7 +78,8 @@ def _guess_compliant_mode(ws: Workspace, contact: Contact, cause: Cause, which: 
     """Guess the mode of a compliant contact at an event of contact ``which``, and whether its friction is unknown.
 
     Its normal force is known. A contact with a traction law has a known friction, too, and always slides. A contact
-    that does not touch keeps its guess: open, or its mode if its body has an own step (multirate).
+    that does not touch keeps the guess of the caller: open; or its mode, if its body has an own step (multirate), which
+    this event does not interrupt.
     """
     is_cause = contact.index == which
     # its guard has fired, so that it opens: its gap is at the limit up to round-off

@@ -77,6 +77,7 @@ def write_impact_results(ws: Workspace) -> None:
         state = state_of(ws, active)
         for r in range(3):
             active.impulse[r] = state.impulse[r]
+        # the work of the last phase is not yet in the energies stored and returned; the dissipated one is in the state
         account(ws, active)
         active.energy_dissipated = state.dissipated
     evaluate_impact_rates(ws, ws.impact.y.start)
