@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from nonsmooth.binding.compile import bind
-from nonsmooth.binding.law_failure import first_without_value, law_functions, without_value
+from nonsmooth.binding.law_failure import first_without_value, without_value
+from nonsmooth.binding.law_functions import law_functions
 from nonsmooth.checks import check_kind, floats
 from nonsmooth.contact_result import MODES, ContactResult
 from nonsmooth.engine.memory import owners

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.binding.compile import bind
-from nonsmooth.binding.law_failure import first_without_value, law_functions, without_value
+from nonsmooth.binding.law_failure import first_without_value, without_value
+from nonsmooth.binding.law_functions import law_functions
 from nonsmooth.checks import check_kind, floats, is_finite
 from nonsmooth.contact import check_friction
 from nonsmooth.engine.impact.integration import Outcome

@@ -17,7 +17,7 @@ import numpy as np
 
 from nonsmooth.binding.bounds import FRAMES, try_out
 from nonsmooth.binding.compile import bind, parameter_names, parameter_place, vector_place
-from nonsmooth.binding.law_failure import LawFunction, law_functions
+from nonsmooth.binding.law_functions import LawFunction, law_functions
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import CANDIDATE, FORCE_AND_MOMENT, FRAME, PAIR
 from nonsmooth.engine.memory.memory import Heap, Memory, output_block

@@ -14,7 +14,8 @@ import numpy as np
 
 from nonsmooth.binding import interpreted
 from nonsmooth.binding.compile import parameter_names
-from nonsmooth.binding.law_failure import REMEDY, Finding, first_without_value, law_functions, without_value
+from nonsmooth.binding.law_failure import REMEDY, Finding, first_without_value, without_value
+from nonsmooth.binding.law_functions import law_functions
 from nonsmooth.binding.source import described, raised
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
