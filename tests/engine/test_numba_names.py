@@ -115,6 +115,16 @@ def test_a_kernel_that_allocates_does_not_compile(name: str, tmp_path: Path) -> 
         assert re.search("NRT required but not enabled|Only accept returning of array", done.stderr)
 
 
+def test_no_signature_of_a_kernel_has_an_array() -> None:
+    """Numba counts references to arrays, which makes loops ten times slower. Tuples may hide one."""
+    importlib.import_module("nonsmooth.engine.events.event_loop")
+    assert len(KERNELS) > 300
+    for kernel in KERNELS:
+        named = [kernel.signature.return_type, *kernel.signature.args]
+        parts = [part for one in named for part in (one, *getattr(one, "types", ()))]
+        assert not any(isinstance(part, (types.Array, types.List)) for part in parts), kernel.signature
+
+
 def _with_array(x: float) -> float:
     numbers = np.zeros(3)
     numbers[1] = x
