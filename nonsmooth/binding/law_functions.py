@@ -30,7 +30,7 @@ class LawFunction(NamedTuple):
     Attributes
     ----------
     address, parameters : declaration
-        Fields of a contact: the address of the function, and the place of its parameters among the floats.
+        Fields of a contact: the address of the function, and the offset of its parameters among the floats.
     law : Component
         The law, or the kinematics.
     function : callable

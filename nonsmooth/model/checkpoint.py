@@ -224,7 +224,7 @@ def _check_values(memory: Memory) -> None:
     counts = counts_in(memory.record)
     for one in _CHECKED:
         numbers = np.atleast_1d(np.asarray(memory[one]))
-        # behind the active contacts there are none whose numbers mean anything
+        # the numbers behind those of the active contacts have no meaning
         if one.owner is owners.Contact:
             numbers = numbers[: memory[owners.Island.n_contacts]]
         least, end = _bounds(one, counts)

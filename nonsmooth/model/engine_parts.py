@@ -101,7 +101,7 @@ def laid_own(engine: Engine, counts: Mapping[str, int]) -> tuple[type[Part], ...
 def _check_length(thing: str, declared: Declaration, counts: Mapping[str, int]) -> None:
     """Check that the counts of a system give an array its length. ``thing`` is the array in messages.
 
-    The length is a function of the plug-in that takes the counts by name, so it may ask for an unknown one. A scalar
+    The length is a function of the plug-in that takes the counts by name, so it may use an unknown name. A scalar
     has no length.
     """
     if declared.size is None:

@@ -123,7 +123,7 @@ def _lay_body(
     fields |= {"n_q": body.n_q, "n_u": body.n_u, "tail": out + n_of_frames}
     # where quaternion and spin begin among its coordinates and velocities, -1 without one
     fields |= {"quaternion": body.quaternion, "spin": body.spin}
-    # the closed form of ballistic motion knows neither joints nor loads
+    # the closed form of ballistic motion is without joints and loads
     if body.flight is not None and not is_tied:
         ballistic = _function(blocks, body.flight, "body", body, available, n, start)
         # it writes q and u after a time

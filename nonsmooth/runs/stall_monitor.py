@@ -60,7 +60,7 @@ class StallMonitor:
     model: LaidOut
     start: Checkpoint
     _last_events: deque[_Event] = field(default_factory=lambda: deque(maxlen=_N_LAST_EVENTS))
-    # number and time [s] of the steps since time passed last
+    # number and sum [s] of the steps shorter than the limit since the last longer one
     _n_short: int = 0
     _short_time: float = 0.0
     _has_warned: bool = False

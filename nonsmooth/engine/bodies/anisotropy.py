@@ -64,7 +64,7 @@ def _projected_axis(ws: Workspace, contact: Contact, t1: Vector, t2: Vector) -> 
     axis of the body's frame that is farthest from it is used instead, because it turns with the body too.
     """
     law, axis = at(ws.floats, contact.anisotropy), at(ws.floats, contact.anisotropy + _AXIS)
-    # the parameters say which body carries the axis: 0 the first, 1 the second
+    # the first parameter is the body that carries the axis: 0 the first, 1 the second
     rotation = frame_at(ws.floats, contact.frame_a if law[_SIDE] == 0.0 else contact.frame_b).rotation
     world = (
         rotation[0] * axis[0] + rotation[1] * axis[1] + rotation[2] * axis[2],

@@ -74,7 +74,7 @@ def evaluate_if_changed(ws: Workspace, t: float, y: int, number: int) -> None:
 
     At the time and state of its last evaluation it keeps its version, so that its contacts are not evaluated again.
     Loads add to the forces in its output block. So the block is written again even then, except for a body with a
-    ballistic motion in closed form, which has neither loads nor joints.
+    ballistic motion in closed form, which is for bodies without loads and joints.
     """
     body = ws.bodies[number]
     if _is_evaluated_at(ws, t, y, body):

@@ -274,7 +274,7 @@ def _pivot(ws: Workspace, n: int, r: int, s: int) -> None:
     """
     row = _row(ws, n, r)
     pivot = ws.floats[row + s]
-    # row r says: its variable = pivot times the variable of column s + the rest
+    # row r: its variable = pivot times the variable of column s + the rest
     for j in range(n + 2):
         ws.floats[row + j] = -ws.floats[row + j] / pivot
     # this column now belongs to the variable that has left

@@ -137,7 +137,7 @@ def find_mean_impulses(ws: Workspace, time: float) -> float:
     """
     if not _solve(ws, time) and time > averaging_time(ws):
         time = averaging_time(ws)
-        # impulses that have not settled are taken as they are: the result says nothing of it
+        # impulses that have not converged are taken as they are, and the caller gets no sign of it
         _solve(ws, time)
     return time
 

@@ -108,7 +108,7 @@ def _choose_farthest(ws: Workspace, largest: float) -> bool:
     """Find forces as far inside their cones as possible, within a factor of four. False if there are none.
 
     The distance is ``largest`` / 4^n [N]. The number n of quarterings is doubled until forces exist, then bisected.
-    None are looked for beyond ``_QUARTERINGS``. If True, the contact forces are those found.
+    The search ends after ``_QUARTERINGS``. If True, the contact forces are those found.
     """
     # with n = 0 the distance would be the largest force itself: no forces
     feasible, infeasible = 1, 0

@@ -5,7 +5,7 @@ found by a disjoint-set forest of articulations (R. E. Tarjan, J. ACM 22 (1975) 
 articulations joins their sets, and ``root`` leads from an articulation to the representative of its set. This needs
 one pass through the contacts. A search through the graph of contacts would need its edges, which are not known yet.
 
-Islands are numbered in the order of their first contacts. Names in the code say ``group`` for an island.
+Islands are numbered in the order of their first contacts. An island is called ``group`` in names of the code.
 """
 
 from __future__ import annotations

@@ -221,7 +221,7 @@ def stop_slow_islands(ws: Workspace) -> int:
     impact would be cut short too. All stops are recorded as one event, of the fastest contact of the last island. The
     contacts get provisional modes.
     """
-    # the free accelerations tell which approaches are slow
+    # which approaches are slow depends on the free accelerations
     accelerate_touching(ws)
     accelerate_by_compliance(ws)
     group_touching(ws)
@@ -254,7 +254,7 @@ def average_slow_islands(ws: Workspace) -> bool:
     collision. An inelastic impact has no exact solution if its contacts contradict each other. Then another impact
     would leave an approach again.
     """
-    # the free accelerations tell which approaches are slow
+    # which approaches are slow depends on the free accelerations
     accelerate_touching(ws)
     accelerate_by_compliance(ws)
     group_touching(ws)

@@ -48,7 +48,7 @@ def collide(ws: Workspace, cause: Cause, which: int, seed: float) -> Status:
     starts from rest and needs a speed ``seed`` [m/s] to begin with. ``which`` is the contact that is recorded.
     """
     begin_event(ws)
-    # the end of an impact needs free accelerations: they tell which rates are too slow to bounce
+    # the end of an impact needs free accelerations: which rates are too slow to bounce depends on them
     accelerate_touching(ws)
     accelerate_by_compliance(ws)
     group_touching(ws)

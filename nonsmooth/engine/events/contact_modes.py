@@ -51,7 +51,7 @@ def guess_modes(ws: Workspace, cause: Cause, which: int) -> None:
         contact.mode_agreed = contact.mode if has_own_step(ws, contact.index) else Mode.OPEN
         if contact.is_compliant:
             _guess_compliant_mode(ws, contact, cause, which)
-        # averaged forces may leave a gap rate, and go on in spite of it
+        # forces of the time-stepping fallback may leave a gap rate, and continue in spite of it
         elif contact.is_touching and (contact.normal_rate <= ws.tolerance.velocity or contact.is_averaged):
             contact.is_in_problem = True
             contact.mode_agreed = _guessed_mode(ws, contact, cause, which)

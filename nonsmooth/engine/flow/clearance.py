@@ -183,7 +183,7 @@ def _expected_closing(ws: Workspace, c: int, du: int) -> float:
 
 @kernel("b1(ws, Contact, f8)")
 def _will_be_doubtful(ws: Workspace, contact: Contact, h: float) -> bool:
-    """Return 1 if the gap of a contact may close within the time ``h`` as far as the speeds at its start tell."""
+    """True if the gap of a contact may close within the time ``h`` [s], by the speeds at its start."""
     faces = contact.mode == Mode.OPEN and contact.past_feature_at_start <= 0.0
     return faces and normal_of(ws, contact).at_end <= 2.0 * h * contact.speed_at_start
 

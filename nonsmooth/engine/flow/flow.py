@@ -310,7 +310,7 @@ def _power_of_friction(ws: Workspace) -> float:
 def _update_least_guards(ws: Workspace) -> None:
     """Update ``least_force``, the least normal guard of each closed contact in the stages of the step [N or m].
 
-    It tells the search for events whether to evaluate forces within the step. So does ``has_doubtful_force``: it
+    The search for events evaluates forces within the step if it is true. So does ``has_doubtful_force``: it
     becomes true if a normal guard or a slip guard is negative at this stage, or if a contact sticks, as the distance to
     its static bound is not evaluated here.
     """

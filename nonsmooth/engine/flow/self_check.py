@@ -108,7 +108,7 @@ def check_gaps(ws: Workspace) -> None:
     """
     if ws.model.n_pairs > 0:
         check_pairs(ws)
-    # the pair that overlaps most beyond the depth of its closed contacts, or -1
+    # the pair whose overlap exceeds the depth of its closed contacts most, or -1
     if ws.run.passed_pair >= 0:
         allowed = ws.run.passed_allowed + _allowed_overlap(ws, ws.run.passed_pair)
         if ws.run.passed_depth > allowed:
@@ -170,7 +170,7 @@ def check_new_springs(ws: Workspace) -> None:
     closes deeper than all others of its bodies ends the run.
     """
     for contact in ws.contacts:
-        # rigid, or neither closes nor opens
+        # rigid, or a spring that stays open or stays closed
         if not contact.is_compliant or (contact.mode == Mode.OPEN) == (contact.mode_agreed == Mode.OPEN):
             continue
         if contact.mode != Mode.OPEN:

@@ -251,7 +251,7 @@ def count_slow_step(ws: Workspace) -> bool:
             continue
         (v1, v2), (growth_1, growth_2) = active.slip, slip_slope(ws, active)
         is_slow = True
-        # a slip that slows down needs no patience: this step makes the count exceed it
+        # a slip that slows down is stopped at once: this step makes the count exceed its limit
         if v1 * growth_1 + v2 * growth_2 < 0.0:
             ws.impact.slow_steps = _PATIENCE
     ws.impact.slow_steps = ws.impact.slow_steps + 1 if is_slow else 0

@@ -196,7 +196,7 @@ def _attempt(ws: Workspace, h: float) -> Attempt:
 def _step_to_switch(ws: Workspace, aimed: Aim, is_linear: bool) -> Switch:
     """Shorten an accepted step to the first guard that fires in it. It is kept if it ends where it was aimed.
 
-    ``is_linear`` tells that it was taken by the midpoint rule, which has no interpolant.
+    ``is_linear`` is true for a step of the midpoint rule, which has no interpolant.
     """
     # the last stage of the step has left the forces at its end
     write_impact_guards(ws, ws.impact.y_new.start)

@@ -1,6 +1,6 @@
 """The field table: one declaration for every number of the engine.
 
-A declaration says what a number is: its type, unit, life, and one sentence. Its owner is the class that declares it.
+A declaration has the type, unit and life of a number, and one sentence. Its owner is the class that declares it.
 Everything else follows from it: the compiled records and those of plain mode, allocation, checkpoints, the identity
 of a model, the poison of a debug run, and the page of the internals.
 

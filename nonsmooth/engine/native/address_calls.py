@@ -127,7 +127,7 @@ def _compiled_support_at(typingctx: Any, floats: Any, place: Any, x: Any, y: Any
 
 
 def _compiled_support(floats: Any, place: int, x: float, y: float, z: float) -> Any:
-    """Compiled half of :func:`call_support`. `Shared` compiles a function; an intrinsic alone is none."""
+    """Compiled half of :func:`call_support`. `Shared` compiles functions, so the intrinsic is called by one."""
     return _compiled_support_at(floats, place, x, y, z)
 
 

@@ -50,7 +50,7 @@ class Store:
     """
 
     def __init__(self, name: str) -> None:
-        """Name the file. Nothing is read before it is asked for."""
+        """Name the file. The file is read when its content is needed."""
         self._name = f"{name}.code"
         self._content: bytes | None = None
 
@@ -108,7 +108,7 @@ class Store:
     def _sound(self) -> bytes | None:
         """Content of the first undamaged file that nobody else can have written, or None: the function is compiled.
 
-        The folders are tried in their order. A notice says why a file that exists is passed over.
+        The folders are tried in their order. A notice gives the reason if a file that exists is not used.
         """
         # the first of the pair: all folders that may be read
         for folder in folders()[0]:
@@ -131,5 +131,5 @@ class Store:
         return None
 
     def _checksum(self, content: bytes) -> bytes:
-        """Checksum of the name and the content of a file, so that neither damage nor an exchange goes unnoticed."""
+        """Checksum of the name and the content of a file, so that damage and an exchange of files are noticed."""
         return hashlib.sha256(self._name.encode() + content).digest()

@@ -14,7 +14,7 @@ _Entry = TypeVar("_Entry")
 
 def own_name(function: Callable[..., Any]) -> str:
     """Name by which Python calls the step function of a plug-in's engine: ``module.qualname``."""
-    # its dots tell it from the names of entry points
+    # its dots distinguish it from the names of entry points
     return f"{function.__module__}.{function.__qualname__}"
 
 

@@ -41,7 +41,7 @@ def _first_missing(attributes: Mapping[Any, Iterable[str]]) -> str:
 
 
 def _refusal(missing: object) -> ImportError:
-    """Error for a version of numba with which the engine cannot be compiled at all. ``missing`` says what it lacks."""
+    """Error for a version of numba with which the engine cannot be compiled at all. It lacks ``missing``."""
     return ImportError(
         f"The compiled engine does not work with numba {numba.__version__}: {missing}. "
         f"Install numba{SUPPORTED}, or set NONSMOOTH_PLAIN=1 to run the engine as plain Python, which is slow."

@@ -51,7 +51,7 @@ def entry_address(function: Callable[..., Any], signature: Any, key: str) -> int
     ``key`` names its file. With an empty key nothing is kept on disk.
     """
     with uncollected():
-        # each kernel is compiled with the types that it declares, before a caller asks for other ones. Code from a file
+        # each kernel is compiled with the types that it declares, before a caller needs other ones. Code from a file
         # includes that of its kernels
         if not key or not is_stored(key):
             for kernel in callees_of(function):

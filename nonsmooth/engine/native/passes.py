@@ -36,7 +36,7 @@ class Number(private.FunctionPass):
         """Do nothing. The base class requires this method of each pass, and numba makes a pass without arguments."""
 
     def run_pass(self, state: Any) -> bool:
-        """Set the random number of the function that numba compiles. True tells numba that it has changed."""
+        """Set the random number of the function that numba compiles. True means that it has changed."""
         # 48 bits: the same number twice is next to impossible
         state.func_id.unique_id = secrets.randbits(48)
         return True
@@ -54,7 +54,7 @@ class _Typing:
         return getattr(self._context, name)
 
     def resolve_function_type(self, function: Any, arguments: Any, keywords: Any) -> Any:
-        """Signature of a call of ``function`` with the given types of arguments. Numba asks for it at every call.
+        """Signature of a call of ``function`` with the given types of arguments. Numba needs it at every call.
 
         Signatures of built-in functions and operators are kept for all kernels.
         """
@@ -127,7 +127,7 @@ class _RawLibrary(_RolledLibrary):
         """Do nothing: the code is optimised in the entry point that includes it."""
 
     def _finalize_final_module(self) -> None:
-        """Tell numba that the library is complete, without making machine code of it."""
+        """Mark the library as complete for numba, without making machine code of it."""
         self._finalized = True
 
     @property
@@ -136,7 +136,7 @@ class _RawLibrary(_RolledLibrary):
         return self
 
     def set_env(self, name: str, environment: Any) -> None:
-        """Do nothing. Numba would write the environment of Python objects into machine code, of which there is none."""
+        """Do nothing. There is no machine code, into which numba would write the environment of Python objects."""
 
 
 class _OneFunction:
@@ -235,7 +235,7 @@ def _compiler(numba_passes: Callable[[Any], private.PassManager], lowering: type
     @final
     class Passes(private.CompilerBase):
         def define_pipelines(self) -> list[private.PassManager]:
-            """Numba's passes, with those of ``own`` in their places. Numba asks for a list of pipelines to be tried."""
+            """Numba's passes, with those of ``own`` in their places. Numba wants a list of pipelines to be tried."""
             passes = numba_passes(self.state)
             passes.passes = [(own.get(kind, kind), name) for kind, name in passes.passes]
             # after the first pass: all later ones use the number

@@ -80,7 +80,7 @@ class _Replace(AbstractTemplate):
     key = "result._replace"
 
     def generic(self, args: Any, keywords: Any) -> Any:
-        """Signature of a call, by the names in ``keywords``. Numba asks for it wherever a kernel calls ``_replace``.
+        """Signature of a call, by the names in ``keywords``. Numba needs it if a kernel calls ``_replace``.
 
         ``this`` is the type of the named tuple: that of the result, and of the receiver of the call. Each value that is
         passed is converted to the type of its field. ``pysig`` lets numba put keywords in the order of the fields.

@@ -45,7 +45,7 @@ def is_stored(key: str) -> bool:
 def entry_address(function: Callable[..., Any], signature: Any, key: str) -> int:
     """Address of the C function of an entry point, which is compiled or loaded from numba's files.
 
-    ``key`` names the file. Numba does not tell whether it has the file. So the entry point is first compiled while
+    ``key`` names the file. Numba gives no sign whether it has the file. So the entry point is first compiled while
     kernels cannot be. This succeeds if there is a file, and fails at the first call of a kernel otherwise. Then its
     kernels are compiled, each with the types that it declares, and the entry point again.
     """
@@ -89,7 +89,7 @@ def _address(function: Callable[..., Any], signature: Any, key: str, **options: 
     """Address of a C function, kept in a file of numba's if it has a key and is defined in a file.
 
     The function is compiled, or loaded from its file; without a file each process compiles it. ``options`` are further
-    ones of the compiler. A notice tells the user, once, why compiling takes long.
+    ones of the compiler. A notice gives the reason, once, why compiling takes long.
     """
     say(
         f"numba {numba.__version__} lacks a name that fast compilation needs ({MISSING}): "

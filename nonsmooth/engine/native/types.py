@@ -59,10 +59,10 @@ FLOATS, INTEGERS, SCALARS = Pointer("Floats", float), Pointer("Integers", int), 
 
 @register_model(Pointer)
 class _PointerModel(models.PrimitiveModel):
-    """How a :class:`Pointer` is stored, which numba asks of each type: as one LLVM pointer."""
+    """Storage of a :class:`Pointer`, which numba needs of each type: one LLVM pointer."""
 
     def __init__(self, manager: Any, pointer: Pointer) -> None:
-        """Tell numba the llvmlite type of the pointer."""
+        """Give numba the llvmlite type of the pointer."""
         super().__init__(manager, pointer, stored_type(pointer.kind).as_pointer())
 
 

@@ -135,7 +135,7 @@ class Record(View):
     members = (*_POINTERS, ("index", types.int64))
 
     def __init__(self, name: str) -> None:
-        """Take the fields, which say where each number is. Numba compares types by their names."""
+        """Take the fields, which have the place of each number. Numba compares types by their names."""
         self.arguments, self.fields = (name,), _FIELDS[name]
         super().__init__(name=f"Record({name})")
 
@@ -199,7 +199,7 @@ class Sequence(types.IterableType):
 
     @property
     def iterator_type(self) -> Any:
-        """Type of the iterator of a loop over the records. Numba asks for it where a kernel has such a loop."""
+        """Type of the iterator of a loop over the records. Numba needs it if a kernel has such a loop."""
         return Iterator(self)
 
 
@@ -232,7 +232,7 @@ class Workspace(View):
         super().__init__(name=f"Workspace({', '.join(names[N_SCALARS:])})")
 
     def can_convert_to(self, context: Any, other: Any) -> Any:
-        """Let kernels of all engines take the workspace of one with parts of its own. Numba asks this at a call."""
+        """Let kernels of all engines take the workspace of one with parts of its own. Numba needs this at a call."""
         # the numbers of ``own`` come last: all others have the same positions. None forbids the conversion
         return private.Conversion.safe if other is WORKSPACE else None
 
@@ -256,10 +256,10 @@ def _as_other(context: Any, builder: Any, given: Workspace, other: Workspace, va
 
 
 class _Model(models.StructModel):
-    """How values of the types above are stored, which numba asks of each type: as a struct of their members."""
+    """Storage of values of the types above, which numba needs of each type: a struct of their members."""
 
     def __init__(self, manager: Any, kind: Any) -> None:
-        """Tell numba the names and types of the members."""
+        """Give numba the names and types of the members."""
         super().__init__(manager, kind, list(kind.members))
 
 
@@ -302,7 +302,7 @@ def _type_getitem(context: Any) -> Any:
     """Types of ``array[index]`` for the pointers, arrays and sequences of the workspace."""
 
     def typer(array: Any, index: Any) -> Any:
-        """Signature for an array and an index of these types. None tells numba to try other rules than this one."""
+        """Signature for an array and an index of these types. With None, numba tries its other rules."""
         is_known = isinstance(array, (Pointer, Row, Sequence)) and isinstance(index, types.Integer)
         return array.dtype(array, types.int64) if is_known else None
 
@@ -314,7 +314,7 @@ def _type_setitem(context: Any) -> Any:
     """Types of ``array[index] = value`` for the pointers and arrays of the workspace. Records are not replaced."""
 
     def typer(array: Any, index: Any, value: Any) -> Any:
-        """Signature for arguments of these types. None tells numba to try other rules than this one."""
+        """Signature for arguments of these types. With None, numba tries its other rules."""
         # numba converts the value to the type of the entries
         is_known = isinstance(array, (Pointer, Row)) and isinstance(index, types.Integer)
         return types.void(array, types.int64, array.dtype) if is_known else None
@@ -365,7 +365,7 @@ def _record(context: Any, builder: Any, sequence: Sequence, value: Any, index: A
 
 @type_callable(len)
 def _type_len(context: Any) -> Any:
-    """Type of ``len(sequence)``: an integer. None tells numba to try other rules than this one."""
+    """Type of ``len(sequence)``: an integer. With None, numba tries its other rules."""
     return lambda sequence: types.int64 if isinstance(sequence, Sequence) else None
 
 
@@ -392,7 +392,7 @@ def _iterate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
 def _next(context: Any, builder: Any, signature: Any, args: Any, found: Any) -> None:
     """Write the code of one pass of a loop: set ``found`` to the next record, or to invalid after the last.
 
-    Numba ends the loop when ``found`` is invalid. Records are not counted by references, as `UNTRACKED` says.
+    Numba ends the loop when ``found`` is invalid. Records are not counted by references, which `UNTRACKED` means.
     """
     (kind,) = signature.args
     iterator = _members(context, builder, kind, args[0])
@@ -418,7 +418,7 @@ def copy_fields(typingctx: Any, source: Any, target: Any) -> Any:
             # a field that begins within the storage of another one is copied with that one
             if field.first == 0 and name in target.fields:
                 places = (record.place(context, builder, args[i], name) for i, record in enumerate((source, target)))
-                # a boolean is copied as an integer: it may be a view of an address, of which it says if it is not 0
+                # a boolean is copied as an integer: it may be a view of an address, and means that this is not 0
                 kind = pointer_to(field.kind).kind
                 for one, other in zip(*(_each(builder, field, place) for place in places), strict=True):
                     store(builder, kind, other, load(builder, kind, one))

@@ -122,7 +122,7 @@ def _between_middles(ws: Workspace, number: int) -> Vector:
 @kernel("v3(ws, i8, v3)")
 def separating_direction(ws: Workspace, number: int, known: Vector) -> Vector:
     """Unit vector along which a pair is farthest apart, by one search from ``known``. Parts that overlap need more."""
-    # a known direction of length 0 is none: the search then starts from the direction between the middles
+    # a direction of length 0 means that none is known: the search starts from the direction between the middles
     pair = ws.pairs[number]
     return _search(ws, number, _unit(known, _between_middles(ws, number)), (0.0, 0.0, 0.0), pair.size)
 
