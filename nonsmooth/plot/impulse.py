@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from nonsmooth.charts import marker
 from nonsmooth.plot.asked import Contacts, axes_of, contacts_of, part_of
-from nonsmooth.plot.lines import COLOURS, beside, over_time, title_of
+from nonsmooth.plot.lines import beside, over_time, title_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -15,7 +16,6 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 _WHERE = "nonsmooth.plot.impulses"
-_MARKERS = "osD^v<>p"
 
 
 def impulses(
@@ -46,12 +46,9 @@ def impulses(
     size = (events.listed_impulse[:, 0], np.hypot(*events.listed_impulse[:, 1:].T))[which]
     for place, number in enumerate(numbers):
         struck = (events.listed == number) & (size > 0.0)
-        colour, marker = COLOURS[place % len(COLOURS)], _MARKERS[place % len(_MARKERS)]
-        ax.vlines(times[struck], 0.0, size[struck], color=colour, linewidth=0.9)
-        ax.plot(
-            times[struck], size[struck], linestyle="none", marker=marker, color=colour, markersize=4, fillstyle="none",
-            label=solution.system.contacts[number].name,
-        )  # fmt: skip
+        style, name = marker(place), solution.system.contacts[number].name
+        ax.vlines(times[struck], 0.0, size[struck], color=style["color"], linewidth=0.9)
+        ax.plot(times[struck], size[struck], markersize=4, label=name, **style)
     over_time(ax, solution)
     ax.set_ylim(bottom=0.0)
     ax.set_ylabel(f"{part} impulse [N s]")

@@ -17,7 +17,7 @@ from collections.abc import Callable
 
 from nonsmooth import simulate
 from scenarios.ball_box.scenario import BallBox
-from scenarios.newtons_cradle.scenario import NewtonsCradle
+from scenarios.newtons_cradle import NewtonsCradle
 from tests.benchmarks.spheres import MuJoCoBox, PyBulletBox, own_depth
 
 CHAINS = (10, 30, 100, 300, 1000)

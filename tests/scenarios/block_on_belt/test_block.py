@@ -10,7 +10,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import nonsmooth as ns
-from scenarios.block_on_belt.scenario import BlockOnBelt
+from scenarios.block_on_belt import BlockOnBelt
 
 FINE = ns.EventDriven(tolerance=1e-12)
 OTHER = {"mass": 2.0, "stiffness": 30.0, "static_force": 5.0, "decay": 1.2, "belt_speed": 0.5, "t_end": 8.0}
@@ -118,7 +118,7 @@ def test_reports_and_figures(tmp_path: Path) -> None:
     solution = ns.simulate(scenario.build(), scenario.t_end)
     coordinates, end = scenario.coordinates(solution), scenario.final(solution)
     assert [coordinates["elongation"][-1], coordinates["elongation_rate"][-1]] == pytest.approx([*end["q"], *end["u"]])
-    drawn = {**scenario.figures(solution), **BlockOnBelt.gallery(None)}
+    drawn = {**scenario.figures(solution), **BlockOnBelt.gallery(ns.run_scenario)}
     assert sorted(drawn) == ["limit_cycle", "portrait"]
     for name, figure in drawn.items():
         assert len(figure.axes) == 2

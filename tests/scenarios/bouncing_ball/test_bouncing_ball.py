@@ -156,7 +156,7 @@ def test_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The gallery, here over fewer runs, and the figures of two runs can be drawn, with words at all axes."""
     pytest.importorskip("matplotlib")
     monkeypatch.setattr(figures, "RUNS", 30)
-    drawn = dict(BouncingBall.gallery(None))
+    drawn = dict(BouncingBall.gallery(ns.run_scenario))
     for name, start in (("table", {"t_end": 1.0}), ("rest", {"gamma": 0.0, "height": 0.05, "t_end": 1.0})):
         scenario, solution = _run(**start)
         drawn |= {f"{name}_{stem}": figure for stem, figure in scenario.figures(solution).items()}

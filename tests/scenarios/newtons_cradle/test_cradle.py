@@ -11,7 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import nonsmooth as ns
-from scenarios.newtons_cradle.scenario import NewtonsCradle
+from scenarios.newtons_cradle import NewtonsCradle
 
 EXACT = ns.EventDriven(impact_tolerance=1e-11)
 
@@ -125,8 +125,8 @@ def test_losses(restitution: float) -> None:
 @pytest.mark.parametrize(
     ("wrong", "words"),
     [
-        ({"n_balls": 2.5}, ("NewtonsCradle.n_balls", "whole number", "2.5")),
-        ({"n_strikers": 5.0}, ("NewtonsCradle.n_strikers", "less than the number of balls 5", "5.0")),
+        ({"n_balls": 2.5}, ("NewtonsCradle.n_balls", "an integer", "2.5")),
+        ({"n_strikers": 5.0}, ("NewtonsCradle.n_strikers", "less than the number of balls 5", "5")),
         ({"n_balls": 1.0}, ("NewtonsCradle.n_balls", ">= 2", "1.0")),
         ({"mass_ratio": -1.0}, ("NewtonsCradle.mass_ratio", "> 0", "-1.0")),
         ({"speed": float("nan")}, ("NewtonsCradle.speed", "finite", "nan")),
@@ -146,12 +146,12 @@ def test_figures(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     scenario = NewtonsCradle(n_balls=4.0)
     solution = ns.simulate(scenario.build(), scenario.t_end)
-    drawn = {**scenario.figures(solution), **NewtonsCradle.gallery(None)}
+    drawn = {**scenario.figures(solution), **NewtonsCradle.gallery(ns.run_scenario)}
     assert sorted(drawn) == ["velocities", "velocities_hertz", "velocities_linear"]
     for name, figure in drawn.items():
-        axis = figure.axes[0]
-        assert axis.get_title()
+        (axis,) = figure.axes
+        assert figure.get_suptitle()
         assert axis.get_xlabel()
         assert axis.get_ylabel()
-        assert len(axis.get_legend().get_texts()) == (1 if name == "velocities" else 3)
+        assert len(figure.legends[0].get_texts()) == (1 if name == "velocities" else 3)
         figure.savefig(tmp_path / f"{name}.png")

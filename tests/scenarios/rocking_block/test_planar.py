@@ -12,8 +12,7 @@ from scipy.integrate import solve_ivp
 
 import nonsmooth as ns
 from nonsmooth.engine.memory.modes import Cause
-from scenarios.rocking_block import housner
-from scenarios.rocking_block.scenario import RockingBlock
+from scenarios.rocking_block import RockingBlock, housner
 
 FINE = ns.EventDriven(tolerance=1e-12, impact_tolerance=1e-12)
 GRAVITY = 9.81
@@ -195,11 +194,11 @@ def test_reports_and_figures(tmp_path: Path) -> None:
     coordinates = block.coordinates(solution)
     assert coordinates["tilt"][0] == block.tilt
     assert [coordinates[name][-1] for name in ("x", "z", "tilt")] == pytest.approx(block.final(solution)["q"])
-    drawn = {**block.figures(solution), **RockingBlock.gallery(None)}
+    drawn = {**block.figures(solution), **RockingBlock.gallery(ns.run_scenario)}
     assert sorted(drawn) == ["corners", "rocking", "velocity_ratio"]
     for name, figure in drawn.items():
         axis = figure.axes[0]
-        assert axis.get_title()
+        assert figure.get_suptitle()
         assert axis.get_xlabel()
         assert axis.get_ylabel()
         figure.savefig(tmp_path / f"{name}.png")

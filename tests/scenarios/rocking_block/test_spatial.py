@@ -10,9 +10,7 @@ import pytest
 
 import nonsmooth as ns
 from nonsmooth.engine.memory.modes import Cause
-from scenarios.rocking_block import housner
-from scenarios.rocking_block.scenario import RockingBlock
-from scenarios.rocking_block.spatial import RockingBlock3D
+from scenarios.rocking_block import RockingBlock, RockingBlock3D, housner
 
 FINE = ns.EventDriven(tolerance=1e-12, impact_tolerance=1e-12)
 
@@ -81,7 +79,7 @@ def test_figures(tmp_path: Path) -> None:
     solution = ns.simulate(block.build(), block.t_end)
     coordinates = block.coordinates(solution)
     assert [coordinates[name][-1] for name in "xyz"] == pytest.approx(block.final(solution)["q"][:3])
-    drawn = {**block.figures(solution), **RockingBlock3D.gallery(None)}
+    drawn = {**block.figures(solution), **RockingBlock3D.gallery(ns.run_scenario)}
     assert sorted(drawn) == ["spatial"]
     assert len(drawn["spatial"].axes) == 2
     assert all(axis.get_title() and axis.get_xlabel() and axis.get_ylabel() for axis in drawn["spatial"].axes)
