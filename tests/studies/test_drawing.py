@@ -11,7 +11,7 @@ import pytest
 
 import nonsmooth as ns
 from nonsmooth import studies
-from scenarios.bouncing_ball.scenario import BouncingBall
+from scenarios.bouncing_ball import BouncingBall
 from scenarios.dumbbell.scenario import DumbbellScenario
 from tests.studies.ball import T_END, drop
 

@@ -19,7 +19,7 @@ from nonsmooth.parameters import parameter
 from nonsmooth.studies import status
 from nonsmooth.studies.records.asked import Asked
 from nonsmooth.studies.store import Store
-from scenarios.bouncing_ball.scenario import BouncingBall
+from scenarios.bouncing_ball import BouncingBall
 from scenarios.dumbbell.scenario import DumbbellScenario
 from tests.studies.ball import RECORD, T_END, draws, drop, shaken
 

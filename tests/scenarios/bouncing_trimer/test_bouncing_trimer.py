@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
 from nonsmooth.engine.memory.modes import Cause
-from scenarios.bouncing_ball.scenario import BouncingBall
+from scenarios.bouncing_ball import BouncingBall
 from scenarios.bouncing_trimer import figures
 from scenarios.bouncing_trimer.motion import Motion, repetition, summary
 from scenarios.bouncing_trimer.scenario import GRAVITY, BouncingTrimer

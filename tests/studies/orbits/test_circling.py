@@ -16,7 +16,7 @@ from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.orbits.following import continuation
 from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit, orbit
 from nonsmooth.studies.orbits.symmetries import Spin, Turn
-from scenarios.bouncing_ball.scenario import BouncingBall
+from scenarios.bouncing_ball import BouncingBall
 from scenarios.dumbbell.scenario import DumbbellScenario
 
 pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of runs take minutes in plain mode")
