@@ -82,21 +82,18 @@ def _paths(ax: Axes, scenario: BouncingBall, solution: Solution) -> None:
     times, heights = _motion(scenario, solution, begin)
     table, hits = np.linspace(begin, solution.t_end, 1200), scenario.impact_times(solution)
     hits = hits[hits >= begin]
-    ball = "ball, lowest point"
-    ax.plot((times - begin) / unit, 1e3 * heights, label=ball, **charts.line(0))
-    ax.plot(
-        (table - begin) / unit, 1e3 * scenario.table(table), label="table", **(charts.line(1) | {"color": "tab:blue"})
-    )
-    ax.plot((hits - begin) / unit, 1e3 * scenario.table(hits), "o", color="tab:red", ms=4, mfc="none", label="impact")
+    curves = ("ball, lowest point", times, heights), ("table", table, scenario.table(table))
+    for place, (label, t, z) in enumerate(curves):
+        ax.plot((t - begin) / unit, 1e3 * z, label=label, **charts.line(place))
+    ax.plot((hits - begin) / unit, 1e3 * scenario.table(hits), markersize=4, label="impact", **charts.marker(2))
     ax.set_ylabel("height [mm]")
 
 
 def _motion(scenario: BouncingBall, solution: Solution, begin: float) -> tuple[Floats, Floats]:
     """Return times [s] and heights of the ball's lowest point [m] from a time on, at samples, events and the end."""
     events = solution.events
-    inside = solution.t > (events.time[0] if len(events) else math.inf)
-    times = np.concatenate([events.time, solution.t[inside], [solution.t_end]])
-    heights = np.concatenate([events.q[:, 2], solution.q[inside, 2], solution.q_end[2:3]]) - scenario.radius
+    times = np.concatenate([events.time, solution.t, [solution.t_end]])
+    heights = np.concatenate([events.q[:, 2], solution.q[:, 2], solution.q_end[2:3]]) - scenario.radius
     order = np.argsort(times, kind="stable")
     order = order[times[order] >= begin]
     return times[order], heights[order]

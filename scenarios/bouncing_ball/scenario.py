@@ -57,11 +57,7 @@ class BouncingBall(Scenario):
     frequency: float = parameter(25.0, doc="frequency f of the table", unit="Hz", above=0.0, usual=(1.0, 1e3))
     restitution: float = parameter(0.8, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0)
     orbit: int = parameter(
-        1,
-        doc="table periods n that a flight of the orbit takes on which it starts",
-        minimum=1,
-        maximum=100,
-        integer=True,
+        1, doc="table periods n of a flight on the orbit on which it starts", minimum=1, maximum=100, integer=True
     )
     start_phase: float | None = parameter(
         None,
