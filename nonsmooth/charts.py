@@ -65,15 +65,16 @@ def panels(
     return figure, axes
 
 
-def legend(figure: Figure, columns: int = 3) -> None:
-    """Put one legend below all panels, with each label once; none if nothing has a label."""
+def legend(figure: Figure, columns: int = 3, note: str = "") -> None:
+    """Put one legend below all panels, with each label once, under a note; none if nothing has a label."""
     entries: dict[str, Any] = {}
     for ax in figure.axes:
         for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
             entries.setdefault(label, handle)
     if entries:
         place: dict[str, Any] = {"loc": "outside lower center", "ncols": columns, "fontsize": 8, "frameon": False}
-        figure.legend(list(entries.values()), list(entries), **place)
+        found = figure.legend(list(entries.values()), list(entries), title=note or None, title_fontsize=7, **place)
+        found.get_title().set_color("0.25")
 
 
 def histories(

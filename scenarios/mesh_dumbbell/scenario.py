@@ -20,8 +20,8 @@ from nonsmooth.rotations import rotation
 from nonsmooth.run_scenario import run_scenario
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.dumbbell.modes import GRAVITY
-from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.dumbbell import DumbbellScenario
+from scenarios.dumbbell.scenario import GRAVITY
 from scenarios.mesh_dumbbell.ball import ball
 
 Floats = NDArray[np.float64]

@@ -12,7 +12,7 @@ import pytest
 import nonsmooth as ns
 from nonsmooth import studies
 from scenarios.bouncing_ball import BouncingBall
-from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.dumbbell import DumbbellScenario
 from tests.studies.ball import T_END, drop
 
 pytest.importorskip("zarr", "3.1.3")

@@ -20,7 +20,7 @@ from nonsmooth.studies import status
 from nonsmooth.studies.records.asked import Asked
 from nonsmooth.studies.store import Store
 from scenarios.bouncing_ball import BouncingBall
-from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.dumbbell import DumbbellScenario
 from tests.studies.ball import RECORD, T_END, draws, drop, shaken
 
 pytest.importorskip("zarr", "3.1.3")

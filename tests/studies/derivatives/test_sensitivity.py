@@ -18,7 +18,7 @@ from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.derivatives.forward import NotDifferentiable, sensitivity
 from nonsmooth.studies.derivatives.passage import passage
 from nonsmooth.studies.derivatives.slope import CENTRAL
-from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.dumbbell import DumbbellScenario
 from scenarios.rocking_block import RockingBlock
 
 Floats = NDArray[np.float64]
