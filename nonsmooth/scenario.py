@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
+from abc import ABCMeta
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -84,11 +85,13 @@ def _fields(name: str, declared: Mapping[str, inspect.Parameter], t_end: float) 
 
 def _class_of(function: Callable[..., System], members: Mapping[str, Any], fields: Mapping[str, Any]) -> Any:
     """Return the frozen dataclass, which pickle and messages find under the function's name."""
-    namespace = {name: getattr(function, name) for name in ("__module__", "__qualname__", "__doc__")}
+    namespace: dict[str, Any] = {name: getattr(function, name) for name in ("__module__", "__qualname__", "__doc__")}
+    namespace |= members
+    namespace |= {name: field for name, (_, field) in fields.items()}
     namespace["__annotations__"] = {name: annotation for name, (annotation, _) in fields.items()}
     # inspect.getsource finds the text of the function, by which a study knows what it ran
     namespace["__wrapped__"] = staticmethod(function)
-    made = type(Scenario)(function.__name__, (Scenario,), namespace | members | {n: f for n, (_, f) in fields.items()})
+    made: Any = ABCMeta(function.__name__, (Scenario,), namespace)
     made = dataclasses.dataclass(frozen=True)(made)
     # else help() shows the function's own, in which the defaults are fields
     made.__signature__ = inspect.Signature([*inspect.signature(made.__init__).parameters.values()][1:])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -139,7 +139,7 @@ def sweep(
         [table periods].
     """
     found: list[Floats] = []
-    start: dict[str, float] = {}
+    start: dict[str, Any] = {}
     for gamma in gammas:
         one = dataclasses.replace(scenario, gamma=float(gamma), t_end=(settle + keep) * scenario.period, **start)
         solution = run(one)

@@ -116,8 +116,8 @@ def slip_velocity(trace: Trace, title: str) -> Figure:
     curves = {"slip velocity of ball 1, along y": slip}
     figure, ax = _panel(trace, curves, title, "slip velocity of ball 1 [mm/s]")
     on_plate = np.column_stack([clock[:-1], np.diff(clock)])[trace.touching[:-1, 0]]
-    style = {"color": "0.9", "linewidth": 0.0, "antialiased": False, "label": "ball 1 on the plate"}
-    ax.broken_barh(on_plate, (0.0, 1.0), transform=ax.get_xaxis_transform(), **style)
+    style: dict[str, Any] = {"color": "0.9", "linewidth": 0.0, "antialiased": False, "label": "ball 1 on the plate"}
+    ax.broken_barh(on_plate.tolist(), (0.0, 1.0), transform=ax.get_xaxis_transform(), **style)
     double = np.flatnonzero(trace.struck.all(axis=1))
     ax.plot(clock[double + 1], slip[double + 1], label="after a double impact", **portraits.IMPACT)
     ax.axhline(0.0, color="0.6", linewidth=0.8)

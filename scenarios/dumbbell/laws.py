@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -74,9 +74,16 @@ def drifts_of_all(scenario: DumbbellScenario) -> Figure:
         system = with_laws(scenario.build(), impact=law)
         solution = simulate(system, scenario.t_end, sample_interval=scenario.sample_interval)
         t, moved, speed = _drift(scenario, solution)
-        style = charts.line(place) | {"color": f"C{place}"}
-        over_time.plot(t, moved, label=name, **style)
-        bar = bars.barh(place, speed, color=style["color"], height=0.6)
+        dashes, marker = ("-", "--", ":")[place % 3], ("", "o", "s")[place // 3]
+        style: dict[str, Any] = {
+            "linestyle": dashes,
+            "marker": marker,
+            "markevery": 0.1,
+            "markersize": 4,
+            "linewidth": 1.5,
+        }
+        over_time.plot(t, moved, label=name, color=f"C{place}", **style)
+        bar = bars.barh(place, speed, color=f"C{place}", height=0.6)
         bars.bar_label(bar, [f"{speed:+.2f}" if round(speed, 2) else "0"], padding=4, fontsize=8)
         settles = scenario.summarise(solution)["attractor"] in ("drift", "rest")
         names.append(name if settles else f"{name} (not periodic)")

@@ -87,7 +87,8 @@ def spatial(scenario: RockingBlock3D, solution: Solution) -> Figure:
     title = f"A block released on a corner rocks from corner to corner ({words})"
     figure, (plan, time) = charts.panels(1, 2, title, (9.6, 4.4), width_ratios=(1.0, 1.5))
     lean = scenario.lean(solution)
-    charts.portrait({"upright axis, from its start (dot)": lean.T}, "x component [1]", "y component [1]", ax=plan)
+    axis = {"from the start (dot)": (lean[:, 0], lean[:, 1])}
+    charts.portrait(axis, "x component [1]", "y component [1]", ax=plan)
     plan.plot(*lean[-1], marker="s", color="tab:red", linestyle="none", label="end")
     plan.set_aspect("equal", adjustable="datalim")
     plan.set_title("upright axis, seen from above", fontsize=10)

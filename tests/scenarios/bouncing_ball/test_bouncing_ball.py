@@ -86,7 +86,7 @@ def _by_map(scenario: BouncingBall, count: int) -> Any:
         ({"gamma": 2.5, "speed": 0.25}, 12),
     ],
 )
-def test_impact_times_against_a_map(start: dict[str, float], count: int) -> None:
+def test_impact_times_against_a_map(start: dict[str, Any], count: int) -> None:
     """On orbits, beyond the doubling, and in chaos as long as it lets errors stay small."""
     scenario, solution = _run(t_end=3.0, **start)
     np.testing.assert_allclose(scenario.impact_times(solution)[:count], _by_map(scenario, count), rtol=0, atol=1e-9)
@@ -137,7 +137,7 @@ def test_summary_knows_the_orbit() -> None:
         ({"restitution": 1.2}, ("BouncingBall.restitution", "<= 1", "1.2")),
     ],
 )
-def test_wrong_input(wrong: dict[str, float], words: tuple[str, ...]) -> None:
+def test_wrong_input(wrong: dict[str, Any], words: tuple[str, ...]) -> None:
     """The message names the parameter, the rule and the value."""
     with pytest.raises(ns.InvalidInput) as caught:
         BouncingBall(**wrong)

@@ -43,7 +43,7 @@ def test_mass_and_inertia() -> None:
 @pytest.mark.parametrize("gamma", [0.0, 0.7, 1.1])
 def test_level_trimer_is_a_ball(gamma: float) -> None:
     """Dropped level, three equal impacts at once do what one ball does: the same impact times to 1e-9 s."""
-    start = {"gamma": gamma, "frequency": 50.0, "restitution": 0.8, "height": 4e-3, "t_end": 0.25}
+    start: dict[str, Any] = {"gamma": gamma, "frequency": 50.0, "restitution": 0.8, "height": 4e-3, "t_end": 0.25}
     exact = ns.EventDriven(impact_tolerance=1e-12)
     solution = ns.simulate(BouncingTrimer(tilt=0.0, **start).build(), 0.25, engine=exact)
     ball = BouncingBall(**start)
