@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from nonsmooth.charts import COLOURS, line
-from nonsmooth.plot.asked import axes_of, pyplot
+from nonsmooth.plot.arguments import axes_of, pyplot
 from nonsmooth.plot.lines import beside
 from nonsmooth.studies.derivatives.coordinates import coordinate_number, unit
 from nonsmooth.studies.derivatives.forward import Sensitivity

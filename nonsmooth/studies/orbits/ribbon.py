@@ -14,7 +14,7 @@ from nonsmooth.checks import floats, is_finite
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput
-from nonsmooth.plot.asked import axes_of
+from nonsmooth.plot.arguments import axes_of
 from nonsmooth.plot.lines import beside
 from nonsmooth.progress import Display
 from nonsmooth.runs.model import Model

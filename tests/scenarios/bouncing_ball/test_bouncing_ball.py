@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -143,19 +142,3 @@ def test_wrong_input(wrong: dict[str, Any], words: tuple[str, ...]) -> None:
         BouncingBall(**wrong)
     for word in words:
         assert word in str(caught.value)
-
-
-@pytest.mark.slow
-def test_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The gallery, here over fewer runs, and the figures of two runs can be drawn, with words at all axes."""
-    pytest.importorskip("matplotlib")
-    monkeypatch.setattr(figures, "RUNS", 30)
-    drawn = dict(BouncingBall.gallery(ns.run_scenario))
-    for name, start in (("table", {"t_end": 1.0}), ("rest", {"gamma": 0.0, "height": 0.05, "t_end": 1.0})):
-        scenario, solution = _run(**start)
-        drawn |= {f"{name}_{stem}": figure for stem, figure in scenario.figures(solution).items()}
-    assert sorted(drawn) == ["bifurcation", "motions", "rest_motion", "table_motion"]
-    for name, figure in drawn.items():
-        assert all(axis.get_ylabel() for axis in figure.axes)
-        assert figure.axes[-1].get_xlabel()
-        figure.savefig(tmp_path / f"{name}.png")

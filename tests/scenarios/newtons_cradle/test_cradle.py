@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -138,20 +137,3 @@ def test_wrong_input(wrong: dict[str, Any], words: tuple[str, ...]) -> None:
         NewtonsCradle(**wrong)
     for word in words:
         assert word in str(caught.value)
-
-
-@pytest.mark.slow
-def test_figures(tmp_path: Path) -> None:
-    """One figure of a run, two of the gallery, with title, axes and one line per row of balls."""
-    pytest.importorskip("matplotlib")
-    scenario = NewtonsCradle(n_balls=4)
-    solution = ns.simulate(scenario.build(), scenario.t_end)
-    drawn = {**scenario.figures(solution), **NewtonsCradle.gallery(ns.run_scenario)}
-    assert sorted(drawn) == ["velocities", "velocities_hertz", "velocities_linear"]
-    for name, figure in drawn.items():
-        (axis,) = figure.axes
-        assert figure.get_suptitle()
-        assert axis.get_xlabel()
-        assert axis.get_ylabel()
-        assert len(figure.legends[0].get_texts()) == (1 if name == "velocities" else 3)
-        figure.savefig(tmp_path / f"{name}.png")
