@@ -47,6 +47,7 @@ _PERIODS = MappingProxyType({"drift": 3.0, "jump": 3.0, "flutter": 4.0, "free": 
 """Plate periods of motion that are drawn."""
 _SPANS = MappingProxyType({"drift": 600.0, "jump": 8.0, "flutter": 8.0})
 """Plate periods of path that are drawn."""
+_ANGLES = ("theta", "beta", "gamma")
 
 
 def of_paper(kind: type[DumbbellScenario], run: Run) -> dict[str, Figure]:
@@ -64,9 +65,6 @@ def of_paper(kind: type[DumbbellScenario], run: Run) -> dict[str, Figure]:
     figures["fig12_impact_laws"] = laws.drift_by_law(pairs)
     figures["fig13_all_impact_laws"] = laws.drifts_of_all(scenarios["energetic turned"])
     return figures
-
-
-_ANGLES = ("theta", "beta", "gamma")
 
 
 def of_run(scenario: DumbbellScenario, solution: Solution) -> dict[str, Figure]:

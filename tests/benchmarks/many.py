@@ -33,7 +33,7 @@ def chains() -> None:
     print(f"{'balls':>8}{'impact steps':>14}" + "".join(f"{name:>11}" for name in columns) + f"{'energy':>10}")
     last: tuple[float, ...] = ()
     for n in CHAINS:
-        scenario = NewtonsCradle(n_balls=float(n))
+        scenario = NewtonsCradle(n_balls=n)
         strike = scenario.distance / scenario.speed
         runs, seconds = [], []
         for t_end in (strike * (1.0 - 1e-6), strike * (1.0 + 1e-6)):
