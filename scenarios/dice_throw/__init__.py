@@ -1,1 +1,5 @@
 """Dice, thrown."""
+
+from scenarios.dice_throw.scenario import DiceThrow
+
+__all__ = ["DiceThrow"]

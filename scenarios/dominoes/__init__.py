@@ -1,1 +1,5 @@
 """Dominoes."""
+
+from scenarios.dominoes.scenario import Dominoes
+
+__all__ = ["Dominoes"]

@@ -16,7 +16,7 @@ import time
 from collections.abc import Callable
 
 from nonsmooth import simulate
-from scenarios.ball_box.scenario import BallBox
+from scenarios.ball_box import BallBox
 from scenarios.newtons_cradle import NewtonsCradle
 from tests.benchmarks.spheres import MuJoCoBox, PyBulletBox, own_depth
 

@@ -125,7 +125,7 @@ def test_the_table_has_every_event_exactly(solution: ns.Solution, tmp_path: Path
 
 @pytest.mark.slow
 def test_results_take_a_tenth_of_what_dense_ones_would(tmp_path: Path) -> None:
-    from scenarios.dice_throw.scenario import DiceThrow
+    from scenarios.dice_throw import DiceThrow
 
     dice = DiceThrow()
     solution = ns.simulate(dice.build(), dice.t_end, sample_interval=dice.sample_interval, output=tmp_path)

@@ -14,7 +14,7 @@ from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.model import broad_phase
 from nonsmooth.model.assembly import assemble
 from nonsmooth.model.contact_table import ContactTable
-from scenarios.ball_box.scenario import BallBox
+from scenarios.ball_box import BallBox
 
 
 @pytest.fixture(scope="module")

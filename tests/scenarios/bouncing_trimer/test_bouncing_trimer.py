@@ -15,7 +15,7 @@ from nonsmooth.engine.memory.modes import Cause
 from scenarios.bouncing_ball import BouncingBall
 from scenarios.bouncing_trimer import figures
 from scenarios.bouncing_trimer.motion import Motion, repetition, summary
-from scenarios.bouncing_trimer.scenario import GRAVITY, BouncingTrimer
+from scenarios.bouncing_trimer import GRAVITY, BouncingTrimer
 from scenarios.bouncing_trimer.survey import survey
 
 

@@ -6,7 +6,7 @@ import pytest
 
 import nonsmooth as ns
 from nonsmooth.engine.native.kernel import PLAIN
-from scenarios.dice_throw.scenario import DiceThrow
+from scenarios.dice_throw import DiceThrow
 
 
 @pytest.mark.slow

@@ -14,7 +14,7 @@ from scipy.integrate import solve_ivp
 import nonsmooth as ns
 from scenarios.disc_ball import figures
 from scenarios.disc_ball.closed_forms import one_after_the_other, symmetric
-from scenarios.disc_ball.scenario import DiscBall
+from scenarios.disc_ball import DiscBall
 
 EXACT = ns.EventDriven(impact_tolerance=1e-11)
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from scenarios.dominoes.scenario import Dominoes
+from scenarios.dominoes import Dominoes
 
 
 @pytest.mark.slow

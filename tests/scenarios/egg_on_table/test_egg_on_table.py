@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 
 import nonsmooth as ns
 from nonsmooth.engine.native.kernel import PLAIN
-from scenarios.egg_on_table.scenario import GRAVITY, EggOnTable
+from scenarios.egg_on_table import GRAVITY, EggOnTable
 
 Array = NDArray[np.float64]
 pytestmark = pytest.mark.skipif(PLAIN, reason="a minute in plain mode")

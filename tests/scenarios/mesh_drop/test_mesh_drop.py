@@ -10,7 +10,7 @@ import pytest
 import nonsmooth as ns
 from bodies.meshes.repair import MeshRepaired
 from nonsmooth.engine.native.kernel import PLAIN
-from scenarios.mesh_drop.scenario import MeshDrop
+from scenarios.mesh_drop import MeshDrop
 from tests.bodies.meshes import parts
 
 pytestmark = pytest.mark.skipif(PLAIN, reason="full runs take minutes in plain mode")

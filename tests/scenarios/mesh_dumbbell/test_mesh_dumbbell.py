@@ -10,7 +10,7 @@ import pytest
 import nonsmooth as ns
 from nonsmooth.engine.native.kernel import PLAIN
 from scenarios.mesh_dumbbell.ball import ball
-from scenarios.mesh_dumbbell.scenario import MeshDumbbell
+from scenarios.mesh_dumbbell import MeshDumbbell
 
 
 @pytest.mark.parametrize("subdivisions", [0, 1, 2])
