@@ -57,7 +57,7 @@ def _timed(task: Callable[[], object]) -> float:
 def boxes() -> None:
     """Print balls in a box beside the other engines."""
     for n, width, t_end in BOXES:
-        scenario = BallBox(n_balls=float(n), box_width=width, t_end=t_end)
+        scenario = BallBox(n_balls=n, box_width=width, t_end=t_end)
         began = time.perf_counter()
         system = scenario.build()
         built = time.perf_counter() - began

@@ -57,6 +57,6 @@ def test_energy_and_order(restitution: float) -> None:
 def test_wrong_input() -> None:
     """Parts of beads and negative heights are refused."""
     with pytest.raises(ns.InvalidInput, match=r"BeadColumn\.n_beads must be an integer"):
-        BeadColumn(n_beads=2.5)
+        BeadColumn(**dict[str, Any](n_beads=2.5))
     with pytest.raises(ns.InvalidInput, match=r"BeadColumn\.height"):
         BeadColumn(height=-1.0)

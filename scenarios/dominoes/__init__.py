@@ -1,5 +1,0 @@
-"""Dominoes."""
-
-from scenarios.dominoes.scenario import Dominoes
-
-__all__ = ["Dominoes"]
