@@ -163,7 +163,10 @@ class Dominoes(Scenario):
             first, source = strikes[0] if len(strikes) > 0 else None, "fall of a body about its edge, by quadrature"
             found.append(Criterion.near("first strike [s]", first, self.first_strike(), 1e-9, source))
         if len(speeds) >= 12 and self.restitution == 0.0:
-            name, source = "speed of the wave over that one domino before", "Stronge 1987: the wave tends to a steady one"
+            name, source = (
+                "speed of the wave over that one domino before",
+                "Stronge 1987: the wave tends to a steady one",
+            )
             found.append(Criterion.near(name, speeds[-1] / speeds[-2], 1.0, 5e-3, source))
         return tuple(found)
 
