@@ -1,5 +1,0 @@
-"""Dice, thrown."""
-
-from scenarios.dice_throw.scenario import DiceThrow
-
-__all__ = ["DiceThrow"]
