@@ -109,7 +109,7 @@ class EggOnTable(Scenario):
         return np.asarray(np.sum(u[:, 3:] * np.array(self.body().inertia) * n, axis=1) * heights)
 
     def upright_spin(self) -> float:
-        """Return the spin of the upright egg [rad/s], from constant A Omega h: A b / (C a) times the spin at the start."""
+        """Return the spin of the upright egg by constant A Omega h [rad/s]: A b / (C a) times the spin at the start."""
         across, _, along = self.body().inertia
         height = math.hypot(self.semi_across * math.sin(self.tilt), self.semi_long * math.cos(self.tilt))
         start = across * math.sin(self.tilt) ** 2 + along * math.cos(self.tilt) ** 2
