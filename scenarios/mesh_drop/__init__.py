@@ -1,4 +1,4 @@
-"""A part, given as a mesh, is dropped on flat ground."""
+"""A part, given as a mesh, that falls on flat ground (scenario.py), and its figures (figures.py)."""
 
 from scenarios.mesh_drop.scenario import MeshDrop
 
