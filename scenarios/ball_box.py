@@ -96,7 +96,7 @@ class BallBox(Scenario):
         return ContactLaws(Unilateral(), Coulomb(friction) if friction > 0.0 else Frictionless(), impact)
 
     def places(self) -> Floats:
-        """Return the balls' centres at the start [m], shape [n_balls, 3]: layers of a shaken square grid."""
+        """Return the balls' centres at the start [m], shape [n_balls, 3]: a square grid in layers, shifted at random."""
         random = np.random.default_rng(self.seed)
         n, r = self.n_balls, self.radius
         a_side = max(1, min(int(self.box_width / (2.2 * r)), math.ceil(n ** (1.0 / 3.0))))
@@ -138,22 +138,21 @@ class BallBox(Scenario):
 
     def _kinetic(self, u: Floats) -> Floats:
         weights = 0.5 * self.mass * np.array([1.0, 1.0, 1.0, *(3 * [0.4 * self.radius**2])])
-        energy: Floats = np.sum(u.reshape(len(u), -1, 6) ** 2 * weights, axis=(1, 2))
-        return energy
+        return np.asarray(np.sum(u.reshape(len(u), -1, 6) ** 2 * weights, axis=(1, 2)))
 
     def closed_contacts(self, solution: Solution) -> NDArray[np.int64]:
-        """Return how many contacts are closed after each event, shape [n_events]."""
+        """Return the number of closed contacts after each event, shape [n_events]."""
         events = solution.events
         event = np.repeat(np.arange(len(events)), np.diff(events.first))
         return np.bincount(event, weights=events.codes >> 6 & 1, minlength=len(events)).astype(np.int64)
 
     @property
     def fall_energy(self) -> float:
-        """Energy of the fall [J], what all balls lose in height if they end on the floor."""
+        """Potential energy that the balls lose on their fall to the floor [J]."""
         return float(self.mass * _GRAVITY * np.sum(self.places()[:, 2] - self.radius))
 
     def settled(self, solution: Solution) -> float | None:
-        """Return the first sample after which the kinetic energy stays below 1e-6 of that of the fall [s], or None."""
+        """Return the time from which the kinetic energy is below 1e-6 of the energy of the fall [s], or None."""
         moving = np.flatnonzero(self.kinetic_energy(solution) > 1e-6 * self.fall_energy)
         last = int(moving[-1]) + 1 if len(moving) > 0 else 0
         return float(solution.t[last]) if last < len(solution.t) else None
@@ -169,7 +168,7 @@ class BallBox(Scenario):
         return {"q": q.ravel().tolist(), "u": u.ravel().tolist()}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return the counts, the share of energy still in motion, when it settled and how high the pile is."""
+        """Return events, impacts and contacts, the kinetic energy over that of the fall, settling time, and height."""
         return {
             "events": len(solution.events),
             "impacts": solution.counters.impacts,
@@ -238,9 +237,9 @@ def _pile(scenario: BallBox, solution: Solution) -> Figure:
 
 def _history(runs: Mapping[str, tuple[BallBox, Solution]]) -> Figure:
     """Draw the kinetic energy, over that of the fall, and the number of closed contacts over time."""
-    energies = {name: (run.t, one.kinetic_energy(run) / one.fall_energy) for name, (one, run) in runs.items()}
-    closed = {}
+    energies, closed = {}, {}
     for name, (scenario, solution) in runs.items():
+        energies[name] = solution.t, scenario.kinetic_energy(solution) / scenario.fall_energy
         counts = scenario.closed_contacts(solution)
         closed[name] = np.append(solution.events.time, solution.t_end), np.append(counts, counts[-1])
     panels = {"kinetic energy /\nenergy of the fall": energies, "closed contacts": closed}

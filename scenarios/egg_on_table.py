@@ -47,7 +47,10 @@ class EggOnTable(Scenario):
     samples: ClassVar[int] = 8000
     coordinate_units: ClassVar[Mapping[str, str]] = {
         **dict.fromkeys(("x", "y", "z", "gap"), "m"),
-        **{"tilt": "rad", "spin": "rad/s", "slip": "m/s", "jellett": "kg m^3/s"},
+        "tilt": "rad",
+        "spin": "rad/s",
+        "slip": "m/s",
+        "jellett": "kg m^3/s",
     }
     units: ClassVar[Mapping[str, str]] = {"upright": "s", "tilt": "rad", "spin": "rad/s", "energy_lost": "J"}
 

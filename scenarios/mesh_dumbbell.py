@@ -38,7 +38,7 @@ _CORNERS = np.array([np.roll((0.0, a, b * _GOLDEN), k) for k in (0, 2, 1) for a 
 @final
 @dataclass(frozen=True)
 class MeshDumbbell(Scenario):
-    """The dumbbell of the paper with polyhedra for balls, from the start of a mode, on the same plate.
+    """The dumbbell of the paper with polyhedra in place of balls, from the start of a mode, on the same plate.
 
     Mass and inertia are those of the body with balls, so that only the surface differs.
     """
@@ -78,7 +78,7 @@ class MeshDumbbell(Scenario):
         meshes.set_start(body, *system.start(dumbbell))
         return meshes
 
-    def beside(self) -> Solution:
+    def with_balls(self) -> Solution:
         """Return a run of the same scenario with balls, with samples at the same times."""
         return simulate(self.exact.build(), self.t_end, sample_interval=self.sample_interval)
 
@@ -92,9 +92,9 @@ class MeshDumbbell(Scenario):
         depth = -np.min(rows @ corners.T, axis=1) if meshes else np.full(len(q), radius)
         return np.asarray(centers - depth[:, None] - scenario.plate_height(t)[:, None])
 
-    def delays(self, solution: Solution, beside: Solution) -> list[float]:
+    def delays(self, solution: Solution, balls: Solution) -> list[float]:
         """Return the times of the first impacts less the times of the dumbbell with balls [s]."""
-        own, other = (one.events.time[one.events.cause == Cause.IMPACT][:_COMPARED] for one in (solution, beside))
+        own, other = (one.events.time[one.events.cause == Cause.IMPACT][:_COMPARED] for one in (solution, balls))
         n = min(len(own), len(other))
         return [float(x) for x in own[:n] - other[:n]]
 
@@ -105,21 +105,21 @@ class MeshDumbbell(Scenario):
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
         """Return triangles of a ball, contacts, impacts, impacts with balls, delays [s], distance at the end [m]."""
-        beside = self.beside()
+        balls = self.with_balls()
         return {
             "triangles": 20 * 4**self.subdivisions,
             "contacts": len(self.build().contacts),
             "impacts": solution.counters.impacts,
-            "impacts_of_balls": beside.counters.impacts,
-            "delays": self.delays(solution, beside),
-            "distance_at_end": float(math.dist(solution.q_end[:3], beside.q_end[:3])),
+            "impacts_of_balls": balls.counters.impacts,
+            "delays": self.delays(solution, balls),
+            "distance_at_end": float(math.dist(solution.q_end[:3], balls.q_end[:3])),
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
         """Return the deepest point below the plate over the radius, and the delay of the second impact."""
         lowest = float(np.min(self.gaps(solution.t, solution.q, meshes=True)))
         found = [Criterion("gap over the radius", lowest / self.exact.radius, -1e-7, math.inf, "unilateral contact")]
-        delays = self.delays(solution, self.beside())
+        delays = self.delays(solution, self.with_balls())
         if len(delays) > 1:
             source = "a polyhedron is no ball: milliseconds with a thousand triangles, more with fewer"
             found.append(Criterion("delay of the second impact [s]", abs(delays[1]), 1e-5, 1e-2, source))
@@ -127,13 +127,13 @@ class MeshDumbbell(Scenario):
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return the gaps of both dumbbells over time."""
-        return {"gaps": _gaps([(self, solution)], self.beside())}
+        return {"gaps": _gaps([(self, solution)], self.with_balls())}
 
     @classmethod
     def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return the gaps for balls of 80 and of 1280 triangles."""
         scenarios = [cls(subdivisions=1), cls(subdivisions=3)]
-        return {"gaps": _gaps([(one, run(one)) for one in scenarios], scenarios[0].beside())}
+        return {"gaps": _gaps([(one, run(one)) for one in scenarios], scenarios[0].with_balls())}
 
 
 def ball_of_triangles(radius: float, subdivisions: int) -> Triangles:
@@ -155,16 +155,13 @@ def ball_of_triangles(radius: float, subdivisions: int) -> Triangles:
     return Triangles(radius * points, faces, f"of {len(faces)} triangles")
 
 
-def _gaps(runs: Sequence[tuple[MeshDumbbell, Solution]], beside: Solution) -> Figure:
+def _gaps(runs: Sequence[tuple[MeshDumbbell, Solution]], balls: Solution) -> Figure:
     """Draw the gaps of both balls over time, and their largest difference from the gaps with balls."""
-    exact = runs[0][0].gaps(beside.t, beside.q, meshes=False)
-    curves = {"balls": (beside.t, exact)}
+    exact = runs[0][0].gaps(balls.t, balls.q, meshes=False)
+    curves = {"balls": (balls.t, exact)}
     differences, worst = {}, []
     for scenario, solution in runs:
-        own, label = (
-            scenario.gaps(solution.t, solution.q, meshes=True),
-            f"{20 * 4**scenario.subdivisions} triangles each",
-        )
+        own, label = scenario.gaps(solution.t, solution.q, meshes=True), f"{20 * 4**scenario.subdivisions} triangles"
         curves[label] = solution.t, own
         n = min(len(own), len(exact))
         apart = 1e3 * np.max(np.abs(own[:n] - exact[:n]), axis=1)

@@ -33,8 +33,8 @@ _SAMPLES = 40000
 class BouncingTrimer(Scenario):
     """Three equal balls at the corners of an equilateral triangle, dropped a little tilted on a plate A sin(2 pi f t).
 
-    The source gives centimetric steel beads and 25 to 100 Hz; sizes and coefficients here are assumed.  What holds
-    the balls together has no mass and touches nothing.
+    The source gives centimetric steel beads and 25 to 100 Hz; sizes and coefficients here are assumed.  The links
+    between the balls have no mass and no contacts.
 
     References
     ----------
@@ -48,8 +48,10 @@ class BouncingTrimer(Scenario):
         **dict.fromkeys(("turning", "tilt"), "rad"),
     }
     units: ClassVar[Mapping[str, str]] = {
-        **{"drift": "m/s", "wandering": "m/s", "rotation": "rad/s", "turning": "rad/s"},
-        **{"largest_gap": "m", "largest_tilt": "rad"},
+        **dict.fromkeys(("drift", "wandering"), "m/s"),
+        **dict.fromkeys(("rotation", "turning"), "rad/s"),
+        "largest_gap": "m",
+        "largest_tilt": "rad",
     }
     words: ClassVar[Mapping[str, tuple[str, ...]]] = {"attractor": NAMES}
 
@@ -63,14 +65,14 @@ class BouncingTrimer(Scenario):
     )
     radius: float = parameter(5e-3, doc="radius of the balls", unit="m", above=0.0, usual=(1e-4, 1.0), assumed=True)
     spacing: float = parameter(
-        0.02, doc="distance between their centres", unit="m", above=0.0, usual=(2e-4, 10.0), assumed=True
+        0.02, doc="distance between the centres of two balls", unit="m", above=0.0, usual=(2e-4, 10.0), assumed=True
     )
     density: float = parameter(
         7800.0, doc="density of the balls", unit="kg/m^3", above=0.0, usual=(10.0, 3e4), assumed=True
     )
     height: float = parameter(1e-3, doc="height of the lowest ball over the plate at the start", unit="m", minimum=0.0)
     tilt: float = parameter(0.02, doc="tilt of the triangle at the start", unit="rad", minimum=-1.5, maximum=1.5)
-    direction: float = parameter(0.3, doc="azimuth of the axis of that tilt", unit="rad", minimum=-7.0, maximum=7.0)
+    direction: float = parameter(0.3, doc="azimuth of the axis of the tilt", unit="rad", minimum=-7.0, maximum=7.0)
     contact_time: float = parameter(
         2e-5,
         doc="contact time T_c that ends an accumulation",

@@ -31,8 +31,8 @@ class DiscBall(Scenario):
     """Bernoulli's problem: a frictionless disc flies into two equal balls at rest that touch each other, no gravity.
 
     All centres stay in the plane of x and y; y is the axis of symmetry, and the disc comes from below.  With
-    ``offset`` 0 it reaches both balls at once, whatever its direction.  Bodies that do not turn make no
-    difference between a disc and a ball, so that spheres stand for both.
+    ``offset`` 0 it reaches both balls at once, whatever its direction.  No body turns, so that a sphere moves as the
+    disc does.
 
     References
     ----------
@@ -80,7 +80,7 @@ class DiscBall(Scenario):
 
     @property
     def half_angle(self) -> float:
-        """Angle alpha between the lines of centres and the axis when the disc touches both [rad]."""
+        """Angle alpha between the axis and a line of centres, for a disc that touches both balls [rad]."""
         return half_angle(self.radius_ratio)
 
     @property
@@ -90,7 +90,7 @@ class DiscBall(Scenario):
 
     @property
     def direction(self) -> Floats:
-        """Unit vector of the disc's velocity before, shape [2]."""
+        """Unit vector of the disc's velocity before the strike, shape [2]."""
         return np.array([math.sin(self.incidence), math.cos(self.incidence)])
 
     def build(self) -> System:

@@ -34,7 +34,7 @@ def test_more_triangles_are_nearer() -> None:
         scenario = MeshDumbbell(subdivisions=subdivisions, t_end=0.05)
         solution = ns.simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval)
         summary = scenario.summarise(solution)
-        np.testing.assert_array_equal(scenario.beside().t, solution.t)
+        np.testing.assert_array_equal(scenario.with_balls().t, solution.t)
         late.append(summary["delays"][1])
         assert summary["distance_at_end"] < 2e-3
         gaps = scenario.gaps(solution.t, solution.q, meshes=True)
