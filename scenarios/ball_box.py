@@ -96,7 +96,7 @@ class BallBox(Scenario):
         return ContactLaws(Unilateral(), Coulomb(friction) if friction > 0.0 else Frictionless(), impact)
 
     def places(self) -> Floats:
-        """Return the balls' centres at the start [m], shape [n_balls, 3]: a square grid in layers, shifted at random."""
+        """Return the balls' centres at the start [m], shape [n_balls, 3]: square layers, shifted at random."""
         random = np.random.default_rng(self.seed)
         n, r = self.n_balls, self.radius
         a_side = max(1, min(int(self.box_width / (2.2 * r)), math.ceil(n ** (1.0 / 3.0))))
