@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from nonsmooth.engine.memory.modes import AFTER, BEFORE, CODE, DURING
-from nonsmooth.solution.files import replacing
+from nonsmooth.storage.files import replacing
 
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution

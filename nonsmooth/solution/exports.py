@@ -14,7 +14,7 @@ from nonsmooth.export.glb import Glb
 from nonsmooth.export.movie import Movie
 from nonsmooth.export.vtk import Vtk
 from nonsmooth.solution.csv_format import Csv
-from nonsmooth.solution.files import prepare, replacing
+from nonsmooth.storage.files import prepare, replacing
 
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution

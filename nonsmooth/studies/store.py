@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.results.lock import Lock, check_no_links
-from nonsmooth.solution.files import FileError, content_of, replacing
+from nonsmooth.storage.files import FileError, content_of, replacing
 from nonsmooth.studies.work import Block
 
 _JOURNAL, _LOCK = "failures", ".lock"

@@ -11,7 +11,7 @@ import pytest
 from nonsmooth.errors import InvalidInput
 from nonsmooth.results import zarr_folder
 from nonsmooth.results.zarr_folder import ZarrFolder
-from nonsmooth.solution.files import FileError
+from nonsmooth.storage.files import FileError
 from nonsmooth.solution.variable import Variable
 
 

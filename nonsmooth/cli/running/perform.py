@@ -20,7 +20,7 @@ from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.solution.draw_graph import draw
 from nonsmooth.solution.events_table import save_events
-from nonsmooth.solution.files import FileError
+from nonsmooth.storage.files import FileError
 from nonsmooth.solution.solution import Solution
 
 Told = Callable[[float, float, int], None]
