@@ -164,18 +164,16 @@ class ArrayFolder:
             low, high = max(start, first), min(end, first + layout.chunk)
             content = rows[low - start : high - start]
             if len(content) < layout.chunk:
-                tail = self._tail(name, number)
+                tail = self._tail(name, number) if low > first else layout.blank()
                 tail[low - first : high - first] = content
                 self._tails[name], content = (number, tail), tail
             self._waiting[self._place(name, number)] = layout.encoded(content.astype(layout.blank().dtype, copy=False))
-        self._arrays[name] = replace(layout, shape=(max(end, layout.shape[0]), *layout.shape[1:]))
+        self._arrays[name] = replace(layout, shape=(max(end, layout.shape[0]), *rows.shape[1:]))
 
     def _tail(self, name: str, number: int) -> NDArray[Any]:
-        """The chunk of an array that its next rows go to."""
-        layout, (tail_number, tail) = self._arrays[name], self._tails.get(name, (-1, np.zeros(0)))
-        if tail_number == number:
-            return tail
-        return self.chunk(name, number) if number * layout.chunk < layout.shape[0] else layout.blank()
+        """The chunk of an array that has rows, and gets more."""
+        tail_number, tail = self._tails.get(name, (-1, np.zeros(0)))
+        return tail if tail_number == number else self.chunk(name, number)
 
     def read(self, name: str, start: int = 0, stop: int | None = None) -> NDArray[Any]:
         """Rows of an array that is written, all by default.
@@ -275,14 +273,14 @@ class ArrayFolder:
     def _group(self) -> bytes:
         """Metadata of the group and of all arrays."""
         entries = {name: one.metadata() for name, one in self._arrays.items()}
+        attributes = {**self.attributes, "format_version": FORMAT_VERSION}
         content = {
             "zarr_format": 3,
             "node_type": "group",
-            "attributes": {**self.attributes, "format_version": FORMAT_VERSION},
+            "attributes": attributes,
             "consolidated_metadata": {"kind": "inline", "must_understand": False, "metadata": entries},
         }
-        content["attributes"] = {**content["attributes"], "checksum": _checksum(content)}
-        return _json(content)
+        return _json({**content, "attributes": {**attributes, "checksum": _checksum(content)}})
 
     def spell_out(self, names: Iterable[str]) -> None:
         """Write the metadata of some arrays by themselves as well, for readers that look there.
@@ -331,4 +329,3 @@ def _checksum(content: Mapping[str, Any]) -> int:
 
 def _json(content: Mapping[str, Any]) -> bytes:
     return json.dumps(content, allow_nan=False).encode()
-

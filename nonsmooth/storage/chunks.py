@@ -119,7 +119,8 @@ class ArrayLayout:
 
         codec = VLenUTF8() if self.dtype == TEXT else Blosc("lz4", _LEVEL, _SHUFFLE)
         content = bytes(codec.encode(np.ascontiguousarray(chunk)))
-        return content + google_crc32c.value(content).to_bytes(_CHECKSUM, "little")
+        checksum: int = google_crc32c.value(content)
+        return content + checksum.to_bytes(_CHECKSUM, "little")
 
     def decoded(self, content: bytes) -> NDArray[Any]:
         """Chunk of which these are the bytes.
