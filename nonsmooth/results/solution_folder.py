@@ -1,4 +1,4 @@
-"""SolutionFolder: the solution of a run on disk. It grows with the run, and holds where a run that was cut off resumes."""
+"""SolutionFolder: the solution of a run on disk, which grows with the run, and the state from which it is resumed."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ from nonsmooth.solution.variables import (
     of_system,
     stored_events,
 )
-from nonsmooth.storage.array_folder import ArrayFolder
+from nonsmooth.storage.array_folder import ArrayFolder, is_marked
 from nonsmooth.storage.files import content_of, writing
 from nonsmooth.storage.lock import WRITER, check_no_links, locked
 from nonsmooth.system.system import System
@@ -100,8 +100,7 @@ class SolutionFolder:
             _check_may_be_emptied(output)
             attributes = attributes_of(output, engine, request)
             arrays = ArrayFolder(path, attributes)
-            # the folder is now marked as that of a run, and may be emptied, also by a later run if this one is cut off
-            ArrayFolder(path, attributes | {"status": ""}).commit(safely=False)
+            arrays.mark()
             _empty(path)
             for one in (
                 *of_system(system),
@@ -413,8 +412,11 @@ class SolutionFolder:
         except OSError as error:
             raise InvalidInput(str(path), "must be there", error.strerror, "It is damaged.") from error
         if zlib.crc32(content) != entry.get("checksum"):
-            rule, remedy = "must be as it was written", "It is damaged: take it from a copy, or run again."
-            raise InvalidInput(str(path), rule, "a file with another checksum", remedy)
+            rule, remedy = (
+                f"must have the checksum in {attribute!r}",
+                "It is damaged: take it from a copy, or run again.",
+            )
+            raise InvalidInput(str(path), rule, "a file with another one", remedy)
         return state_from(content, str(path))
 
 
@@ -456,7 +458,7 @@ def check_ours(path: Path) -> None:
         raise InvalidInput(str(path), "must be a folder that a run has made", what, "Name another folder.")
     with writing(path):
         names = sorted(one.name for one in path.iterdir()) if path.exists() else []
-    if names not in ([], [WRITER]) and _status(path) is None:
+    if names not in ([], [WRITER]) and not is_marked(path) and _status(path) is None:
         raise InvalidInput(
             str(path),
             "must be a folder that a run has made, as it would be emptied",
@@ -467,13 +469,13 @@ def check_ours(path: Path) -> None:
 
 def _check_may_be_emptied(output: Output) -> None:
     """Raise InvalidInput if another run has ended there that this one must not replace."""
-    if not output.overwrite and _status(output.solution):
+    if not output.overwrite and _status(output.solution) is not None:
         rule, remedy = "must be a folder that is empty or new", "Another run has ended there meanwhile: name another."
         raise InvalidInput(str(output.folder), rule, "a folder with results", remedy)
 
 
 def _status(path: Path) -> str | None:
-    """Status of the run in a folder, "" if it was cut off before its first commit, None if there is no run."""
+    """Status of the run in a folder, None if there is no run, also if it was cut off before its first commit."""
     try:
         attributes = _arrays(path).attributes
     except InvalidInput:
@@ -482,11 +484,11 @@ def _status(path: Path) -> str | None:
 
 
 def _empty(path: Path) -> None:
-    """Remove all but the lock and the metadata, which say that the folder is that of a run."""
-    kept = {"zarr.json", WRITER}
+    """Remove all but the lock and the mark; the metadata first, without which the rest is no solution."""
     with writing(path):
+        (path / "zarr.json").unlink(missing_ok=True)
         for one in path.iterdir():
-            if one.name in kept:
+            if one.name == WRITER:
                 continue
             if one.is_dir() and not one.is_symlink():
                 shutil.rmtree(one)

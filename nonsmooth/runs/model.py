@@ -41,10 +41,10 @@ from nonsmooth.runs.run_arguments import check_calls, check_steps, check_times, 
 from nonsmooth.runs.so_far import Until
 from nonsmooth.runs.start import begin, continue_run, resume_run, write_first_sample, write_request
 from nonsmooth.runs.state_checks import check_arrays, check_closed, check_numbers
-from nonsmooth.storage.files import FileError
 from nonsmooth.solution.request import RunRequest
 from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import Floats, State
+from nonsmooth.storage.files import FileError
 from nonsmooth.system.system import System
 
 _LARGEST_UNREAD = 1 << 20

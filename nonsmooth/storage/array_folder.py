@@ -44,7 +44,7 @@ _ENTRIES = 2**14
 """Numbers of a chunk of an array that grows: its last chunk is written anew with every commit."""
 _AT_ONCE = 16
 """Files for which the disk is waited for at once."""
-_NAME = re.compile(r"\w+")
+_NAME = re.compile(r"[^\s./\\][^/\\]*")
 _DAMAGED = "It is damaged: take it from a copy, or run again."
 
 
@@ -85,14 +85,13 @@ class ArrayFolder:
         try:
             attributes = dict(content["attributes"])
             checksum, version = attributes.pop("checksum", None), attributes.pop("format_version", None)
-            entries = content["consolidated_metadata"]["metadata"]
             if checksum != _checksum(content):
                 # versions before and after this one may have none, or another one
                 _check_version(path, version if isinstance(version, int) else 0)
                 raise ValueError("the checksum is not that of what was written")
             _check_version(path, version)
             found = cls(path, attributes)
-            for name, entry in entries.items():
+            for name, entry in content["consolidated_metadata"]["metadata"].items():
                 found._arrays[_checked(name)] = ArrayLayout.of(entry)
         except (ValueError, KeyError, TypeError, AttributeError) as error:
             raise InvalidInput(
@@ -237,13 +236,27 @@ class ArrayFolder:
         """
         self.flush(safely)
         self.file(_GROUP, self._group())
-        self.flush(safely)
+        self.flush(safely, counts=True)
 
-    def flush(self, safely: bool) -> None:
-        """Write the files that were put since the last time; errors as :meth:`commit`."""
+    def mark(self) -> None:
+        """Note at once that nonsmooth has made the folder, so that it may be emptied even before the first commit.
+
+        Raises
+        ------
+        FileError
+            If that is not possible.
+        """
+        self.file(f"{WRITER}/{_GROUP}", _MARK)
+        self.flush(safely=False)
+
+    def flush(self, safely: bool, *, counts: bool = False) -> None:
+        """Write the files that were put since the last time; errors as :meth:`commit`.
+
+        If a file makes others count, or replaces one that counts, it is written beside its place first.  Any other
+        gets its name at once, because to rename a file makes the system wait for the disk.
+        """
         files, self._waiting = self._waiting, {}
-        # a file that replaces no other one gets its name at once: to replace a file makes the system wait for the disk
-        parts = {path: part_of(path) if path.exists() else path for path in files}
+        parts = {path: part_of(path) if counts or path.exists() else path for path in files}
         try:
             for path, content in files.items():
                 with writing(path):
@@ -290,10 +303,25 @@ class ArrayFolder:
         FileError
             If that is not possible.
         """
-        self.file(f"{WRITER}/{_GROUP}", _json({"zarr_format": 3, "node_type": "group", "attributes": {}}))
         for name in names:
             self.file(f"{name}/{_GROUP}", _json(self._arrays[name].metadata()))
         self.flush(safely=False)
+
+
+def _json(content: Mapping[str, Any]) -> bytes:
+    return json.dumps(content, allow_nan=False).encode()
+
+
+_MARK = _json({"zarr_format": 3, "node_type": "group", "attributes": {"title": "lock and states of nonsmooth"}})
+"""Metadata of the folder of the writer, by which a folder is known as one that nonsmooth has made."""
+
+
+def is_marked(path: Path) -> bool:
+    """True if nonsmooth has made a folder of arrays."""
+    try:
+        return content_of(path / WRITER / _GROUP) == _MARK
+    except OSError:
+        return False
 
 
 def _checked(name: str) -> str:
@@ -302,10 +330,10 @@ def _checked(name: str) -> str:
     Raises
     ------
     InvalidInput
-        If it has other characters than letters, digits and underscores, or is that of the writer's own folder.
+        If it cannot be that of a folder, or is that of the writer's own folder.
     """
     if not _NAME.fullmatch(name) or name == WRITER:
-        rule = "must have a name of letters, digits and underscores"
+        rule = "must have a name that a folder can have, of letters, digits and underscores"
         raise InvalidInput("variable", rule, name, "Rename it.")
     return name
 
@@ -325,7 +353,3 @@ def _checksum(content: Mapping[str, Any]) -> int:
     """CRC-32 of the metadata of a group, in a canonical form without the checksum itself."""
     attributes = {name: value for name, value in content["attributes"].items() if name != "checksum"}
     return zlib.crc32(json.dumps({**content, "attributes": attributes}, sort_keys=True).encode())
-
-
-def _json(content: Mapping[str, Any]) -> bytes:
-    return json.dumps(content, allow_nan=False).encode()

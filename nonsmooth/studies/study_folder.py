@@ -1,4 +1,4 @@
-"""StudyFolder: a study on disk. An array for each record over the runs; the chunk of the status commits a chunk of runs.
+"""StudyFolder: a study on disk. An array for each record over the runs; the status commits a chunk of runs.
 
 One process writes.  Of a chunk of runs the records and the messages of runs without records come first, the status
 last, as :mod:`nonsmooth.storage.array_folder` says: a chunk with a status is complete, any other is written anew.
@@ -81,6 +81,7 @@ class StudyFolder:
                 return
             _clear(path)
             arrays = ArrayFolder(path, dict(attributes))
+            arrays.mark()
             for name, layout in variables.items():
                 arrays.declare(name, layout)
             status = variables[_STATUS]
@@ -164,7 +165,7 @@ class StudyFolder:
         self._arrays.write(_FAILURE, first, np.array([block.texts.get(first + i, "") for i in range(n)], object))
         self._arrays.flush(safely=True)
         self._arrays.write(_STATUS, first, block.arrays[_STATUS])
-        self._arrays.flush(safely=True)
+        self._arrays.flush(safely=True, counts=True)
 
     def read(self, name: str) -> NDArray[Any]:
         """An array; the runs that are not done have its fill value.

@@ -11,7 +11,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
 import nonsmooth as ns
@@ -201,7 +200,7 @@ def test_a_lock_alone_makes_no_folder_ours(tmp_path: Path) -> None:
     # of a run that was cut off before its first commit
     request = RunRequest(1.0, 0.0, 0.1, has_default_samples=True, is_conditional=False)
     SolutionFolder.created(Output(tmp_path), balls(), ns.EventDriven(), request, n_states=0).close()
-    with pytest.raises(ns.InvalidInput, match="must hold a solution"):
+    with pytest.raises(ns.InvalidInput, match="must be a folder of results, but it is 'not there'"):
         ns.open_solution(tmp_path)
     assert ns.simulate(balls(), 0.01, output=tmp_path).status == "done"
 

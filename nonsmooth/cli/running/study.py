@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from nonsmooth.cli.telling.messages import say, tell
 from nonsmooth.studies.executors.executor import Executor
-from nonsmooth.studies.study_folder import StudyFolder
 from nonsmooth.studies.study import Study
+from nonsmooth.studies.study_folder import StudyFolder
 from nonsmooth.studies.summary import summary
 
 if TYPE_CHECKING:
