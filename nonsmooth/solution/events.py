@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, LISTED
 from nonsmooth.engine.memory.layout import BOOKED
-from nonsmooth.engine.memory.modes import AFTER, BEFORE, CAUSES, CODE, DURING, word
+from nonsmooth.engine.memory.modes import AFTER, BEFORE, CAUSES, CODE, DURING, Cause, word
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -22,6 +22,8 @@ ReadRows: TypeAlias = Callable[[str, int, int | None], NDArray[Any]]
 """Reads rows from one to another of a column by its name; the stop None is the end."""
 _BLOCK = 2**14
 """Events of a block that is read at once."""
+_LISTED = ("listed", "codes", "listed_impulse", "listed_memory")
+"""Columns with a row for each contact that is listed with an event."""
 
 
 @dataclass(frozen=True)
@@ -160,15 +162,27 @@ class Events:
         found = vars(self).get(name)
         return self._read(name, start, stop) if found is None else np.asarray(found[start:stop])
 
-    @property
-    def n_integrated(self) -> int:
-        """Number of energies and inner states in a row of :attr:`integrated`."""
-        return int(self._rows("integrated", 0, 0).shape[1])
+    def blocks(self) -> Iterator[Events]:
+        """These events in blocks, one after another, at least one: of a long run only one block is in memory."""
+        n = len(self)
+        if n <= _BLOCK:
+            yield self
+            return
+        for start in range(0, n, _BLOCK):
+            yield self._block(start, min(start + _BLOCK, n))
 
-    def blocks(self, *names: str) -> Iterator[tuple[NDArray[Any], ...]]:
-        """Blocks of some columns with a row for each event, one block after another, so that few are in memory."""
-        for start in range(0, len(self), _BLOCK):
-            yield tuple(self._rows(name, start, min(start + _BLOCK, len(self))) for name in names)
+    def _block(self, start: int, stop: int) -> Events:
+        """The events from one to another."""
+        first = self.first[start : stop + 1]
+        listed = int(first[0]), int(first[-1])
+
+        def read(name: str, low: int, high: int | None) -> NDArray[Any]:
+            if name == "first":
+                return np.asarray((first - first[0])[low:high])
+            begin, end = listed if name in _LISTED else (start, stop)
+            return self._rows(name, begin + low, end if high is None else begin + high)
+
+        return Events.lazy(stop - start, self.n_contacts, read)
 
     @classmethod
     def joined(cls, parts: Sequence[Events]) -> Events:
@@ -240,6 +254,11 @@ class Events:
     def causes(self) -> list[str]:
         """Return the causes in words."""
         return [CAUSES[code] for code in self.cause]
+
+    def triggers(self, contacts: Sequence[str], guards: Sequence[str]) -> list[str]:
+        """Return the name of the contact, or of the guard, that caused each event; "" at the start."""
+        pairs = zip(self.cause.tolist(), self.contact.tolist(), strict=True)
+        return ["" if i < 0 else (guards if cause == Cause.GUARD else contacts)[i] for cause, i in pairs]
 
     def words(self, which: str) -> list[str]:
         """Return the mode words ``before``, ``during`` or ``after`` every event."""

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from nonsmooth.engine.memory.layout import FRICTION_LOSS
@@ -23,21 +21,20 @@ def friction_gain(track: Track, events: Events) -> float:
     Impacts are left out, because some impact laws add energy by their definition.  Events are read block by block, as
     those of a long run are in its output folder and would not fit into memory.
     """
-    place = track.y.shape[1] - events.n_integrated + FRICTION_LOSS
-    blocks, booked, gain, last, n_samples = events.blocks("time", "integrated", "booked"), 0.0, 0.0, math.nan, 0
-    time, sampled = track.time[:-1], track.y[:-1, place]
-    for event_time, integrated, accounted in blocks:
+    gain, last, n_samples, booked, time = 0.0, np.zeros(0), 0, 0.0, track.time[:-1]
+    for block in events.blocks():
+        place = track.y.shape[1] - block.integrated.shape[1] + FRICTION_LOSS
         # samples before the last event of the block; samples at the time of events are after these
-        stop = int(np.searchsorted(time, event_time[-1], side="left"))
-        order = np.argsort(np.concatenate([event_time, time[n_samples:stop]]), kind="stable")
-        loss = np.concatenate([integrated[:, FRICTION_LOSS], sampled[n_samples:stop]])[order]
-        gain, last, n_samples, booked = gain + _decrease(last, loss), loss[-1], stop, accounted[-1, _FRICTION]
+        stop = int(np.searchsorted(time, block.time[-1])) if len(block) else 0
+        order = np.argsort(np.concatenate([block.time, time[n_samples:stop]]), kind="stable")
+        loss = np.concatenate([block.integrated[:, FRICTION_LOSS], track.y[n_samples:stop, place]])[order]
+        gain, last, n_samples = gain + _decrease(last, loss), loss[-1:], stop
+        booked = float(block.booked[-1, _FRICTION]) if len(block) else 0.0
     # the final state holds the sum of both; what was accounted at events is taken off again
     end = track.y[-1, place] + track.booked[-1, _FRICTION] - booked
-    return gain + _decrease(last, np.append(sampled[n_samples:], end))
+    return gain + _decrease(last, np.append(track.y[n_samples:-1, place], end))
 
 
-def _decrease(last: float, loss: Floats) -> float:
-    """Sum of the decreases of a loss from one value to the next [J]; NaN is no value before the first."""
-    steps = np.diff(loss, prepend=last if last == last else loss[0])
-    return float(-np.sum(np.minimum(steps, 0.0)))
+def _decrease(last: Floats, loss: Floats) -> float:
+    """Sum of the decreases of a loss [J] from one value to the next; ``last`` is the value before the first, if any."""
+    return float(-np.sum(np.minimum(np.diff(loss, prepend=last), 0.0)))

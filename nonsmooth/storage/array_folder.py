@@ -155,7 +155,7 @@ class ArrayFolder:
         """
         layout = self.layout(name)
         if not layout.shape:
-            self._waiting[self._place(name, 0)] = layout.encoded(np.array([rows.item()], layout.blank().dtype))
+            self._waiting[self._place(name, 0)] = layout.encoded(np.array([rows.item()], layout.numbers))
             return
         end = start + len(rows)
         for number in range(start // layout.chunk, -(-end // layout.chunk) if rows.size else 0):
@@ -166,8 +166,8 @@ class ArrayFolder:
                 tail = self._tail(name, number) if low > first else layout.blank()
                 tail[low - first : high - first] = content
                 self._tails[name], content = (number, tail), tail
-            self._waiting[self._place(name, number)] = layout.encoded(content.astype(layout.blank().dtype, copy=False))
-        self._arrays[name] = replace(layout, shape=(max(end, layout.shape[0]), *rows.shape[1:]))
+            self._waiting[self._place(name, number)] = layout.encoded(content.astype(layout.numbers, copy=False))
+        self._arrays[name] = replace(layout, shape=(max(end, *layout.shape[:1]), *rows.shape[1:]))
 
     def _tail(self, name: str, number: int) -> NDArray[Any]:
         """The chunk of an array that has rows, and gets more."""
@@ -186,12 +186,11 @@ class ArrayFolder:
         if not layout.shape:
             return self.chunk(name, 0)
         stop = layout.shape[0] if stop is None else stop
-        numbers = range(start // layout.chunk, -(-stop // layout.chunk)) if 0 not in layout.shape[1:] else ()
-        first = start // layout.chunk * layout.chunk
-        parts = [self.chunk(name, number)[max(0, start - first) if number == numbers[0] else 0 :] for number in numbers]
-        if not parts:
-            return np.zeros((stop - start, *layout.shape[1:]), layout.blank().dtype)
-        return np.concatenate(parts)[: stop - start]
+        if start == stop or 0 in layout.shape[1:]:
+            return np.zeros((stop - start, *layout.shape[1:]), layout.numbers)
+        first = start // layout.chunk
+        rows = np.concatenate([self.chunk(name, number) for number in range(first, -(-stop // layout.chunk))])
+        return rows[start - first * layout.chunk : stop - first * layout.chunk]
 
     def chunk(self, name: str, number: int) -> NDArray[Any]:
         """A whole chunk of an array.
@@ -203,7 +202,8 @@ class ArrayFolder:
         """
         layout, path = self.layout(name), self._place(name, number)
         try:
-            return layout.decoded(content_of(path)).reshape(layout.blank().shape if layout.shape else ())
+            chunk = layout.decoded(content_of(path))
+            return chunk if layout.shape else chunk.reshape(())
         except (OSError, ValueError) as error:
             raise InvalidInput(str(path), "must be a whole chunk", f"{error}", _DAMAGED) from error
 

@@ -106,10 +106,14 @@ class ArrayLayout:
         """Name of the file of a chunk."""
         return ".".join(["c", *(str(number) for _ in self.shape[:1]), *("0" for _ in self.shape[1:])])
 
+    @property
+    def numbers(self) -> np.dtype[Any]:
+        """Type of the array in memory."""
+        return np.dtype(object if self.dtype == TEXT else self.dtype)
+
     def blank(self) -> NDArray[Any]:
         """A chunk of fill values."""
-        dtype = object if self.dtype == TEXT else self.dtype
-        return np.full((self.chunk, *self.shape[1:]), self.fill, dtype)
+        return np.full((self.chunk, *self.shape[1:]), self.fill, self.numbers)
 
     def encoded(self, chunk: NDArray[Any]) -> bytes:
         """Bytes of a whole chunk."""
@@ -135,16 +139,16 @@ class ArrayLayout:
         from numcodecs.blosc import Blosc
         from numcodecs.vlen import VLenUTF8
 
-        packed, blank = content[:-_CHECKSUM], self.blank()
+        packed, shape = content[:-_CHECKSUM], (self.chunk, *self.shape[1:])
         if google_crc32c.value(packed) != int.from_bytes(content[-_CHECKSUM:], "little"):
             raise ValueError("the checksum is not that of what was written")
         if self.dtype == TEXT:
-            return np.asarray(VLenUTF8().decode(packed)).reshape(blank.shape)
+            return np.asarray(VLenUTF8().decode(packed)).reshape(shape)
         # checked before it is unpacked: a few bytes may become all of the memory, and Blosc reads as many as they say
-        size, length = (int.from_bytes(packed[part], "little") for part in (_SIZE, _LENGTH))
-        if (size, length) != (blank.nbytes, len(packed)):
-            raise ValueError(f"it has {size} bytes packed to {length}, and not {blank.nbytes} packed to {len(packed)}")
+        found = tuple(int.from_bytes(packed[part], "little") for part in (_SIZE, _LENGTH))
+        if found != (size := math.prod(shape) * self.numbers.itemsize, len(packed)):
+            raise ValueError(f"it has {found[0]} bytes packed to {found[1]}, and not {size} packed to {len(packed)}")
         try:
-            return np.frombuffer(Blosc().decode(packed), blank.dtype).reshape(blank.shape).copy()
+            return np.frombuffer(Blosc().decode(packed), self.numbers).reshape(shape).copy()
         except RuntimeError as error:
             raise ValueError(str(error)) from error

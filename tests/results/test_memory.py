@@ -12,6 +12,8 @@ import pytest
 import nonsmooth as ns
 from nonsmooth.runs import folder_sink
 from nonsmooth.runs.so_far import RunSoFar
+from nonsmooth.solution import events
+from nonsmooth.solution.events_table import events_table
 from tests.results.runs import balls
 from tests.runs.continued import differences
 
@@ -32,6 +34,7 @@ print(len(solution.events), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
 @pytest.fixture
 def small(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let a run drop what is written after few events."""
+    monkeypatch.setattr(events, "_BLOCK", 7)
     for name, value in (("_LARGEST_SIZE", 10_000), ("_COMMIT_INTERVAL", 0.0), ("_FIRST_COMMIT", 0.0)):
         monkeypatch.setattr(folder_sink, name, value)
     monkeypatch.setattr(folder_sink, "_MOST_STEPS", 64)
@@ -68,6 +71,7 @@ def test_a_run_whose_events_were_dropped_is_the_same(tmp_path: Path) -> None:
     assert "time" not in vars(run.recorded.earlier), "read before it is used"
     assert differences(whole, run) == []
     assert repr(run) == repr(whole)
+    assert events_table(run) == events_table(whole)
     assert run.friction_gain == pytest.approx(whole.friction_gain, abs=1e-18)
     np.testing.assert_array_equal(run.events.first, whole.events.first)
     ns.simulate(balls(), 0.1, output=tmp_path / "until", until=until)
