@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING, Any, final
 
 from nonsmooth.checks import check_kind, path_of
 from nonsmooth.engines.event_driven import EventDriven
-from nonsmooth.errors import InvalidInput, NonsmoothWarning, UnknownName
+from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.interfaces import Engine, Scenario
 from nonsmooth.progress import Display, Pace, RunsDone
+from nonsmooth.results.output import OtherVersions
 from nonsmooth.studies.budget import Budgeted
 from nonsmooth.studies.definition import differing
 from nonsmooth.studies.displays import display_of
@@ -42,10 +43,6 @@ _CHUNKS, _LARGEST = 40, 1000
 _UNLIMITED = 1 << 62
 _LOOK = 2
 """Samples of the first look at a run, which tells what there is to record."""
-
-
-class OtherVersions(NonsmoothWarning):
-    """A study that goes on with other versions than it began with."""
 
 
 @final

@@ -21,12 +21,11 @@ import nonsmooth as ns
 from laws import Coulomb
 from nonsmooth.interfaces import FrictionLaw
 from nonsmooth.model.checkpoint import Difference
-from nonsmooth.results.output import Output
+from nonsmooth.results.output import OtherVersions, Output
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.results.state_file import state_bytes, state_from
 from nonsmooth.runs import folder_sink
 from nonsmooth.runs.identity import digest
-from nonsmooth.runs.resuming import OtherVersions
 from nonsmooth.runs.so_far import RunSoFar
 from nonsmooth.solution.state import Continuation
 from nonsmooth.storage.lock import locked

@@ -39,6 +39,7 @@ def _add(folder: ArrayFolder, one: Variable, *, grows: bool) -> None:
 
 def test_rows_appended_in_any_portions_come_back(tmp_path: Path) -> None:
     import xarray
+    import zarr
 
     draw = np.random.default_rng(1)
     values = draw.normal(size=(200, 5))
@@ -63,6 +64,8 @@ def test_rows_appended_in_any_portions_come_back(tmp_path: Path) -> None:
     for one in _variables(values):
         np.testing.assert_array_equal(read.read(one.name), one.values)
     assert str(read.read("text")) == "two\nlines"
+    np.testing.assert_array_equal(zarr.open_group(folder.path)["y"], values)
+    np.testing.assert_array_equal(zarr.open_array(folder.path / "y"), values)
     for consolidated in (True, False):
         with xarray.open_zarr(folder.path, consolidated=consolidated) as data:
             np.testing.assert_array_equal(data["y"], values)
