@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import shutil
 import zlib
 from collections.abc import Callable, Mapping
 from functools import partial
@@ -21,6 +20,7 @@ from nonsmooth.interfaces import Engine
 from nonsmooth.results.damage import naming_damage
 from nonsmooth.results.description import MESSAGE, UNFINISHED, attributes_of, energies, system_variable
 from nonsmooth.results.output import Output
+from nonsmooth.results.overwriting import arrays_of_run, check_ours, check_replaceable, empty
 from nonsmooth.results.state_file import state_bytes, state_from
 from nonsmooth.solution.events import Events
 from nonsmooth.solution.request import RunRequest
@@ -37,8 +37,8 @@ from nonsmooth.solution.variables import (
     of_system,
     stored_events,
 )
-from nonsmooth.storage.array_folder import ArrayFolder, is_marked
-from nonsmooth.storage.files import content_of, writing
+from nonsmooth.storage.array_folder import ArrayFolder
+from nonsmooth.storage.files import content_of
 from nonsmooth.storage.lock import WRITER, check_no_links, locked
 from nonsmooth.system.system import System
 
@@ -90,18 +90,17 @@ class SolutionFolder:
             If it cannot be written.
         """
         path = output.solution
-        check_ours(path)
         # first without the lock, for which a process that has just ended would have to wait
-        _check_may_be_emptied(output)
+        check_ours(path)
+        check_replaceable(output)
         # from here on nobody else writes there: results of another run that has begun meanwhile are not removed
         lock = locked(path)
         try:
-            check_free(output)
-            _check_may_be_emptied(output)
+            check_replaceable(output)
             attributes = attributes_of(output, engine, request)
             arrays = ArrayFolder(path, attributes)
             arrays.mark()
-            _empty(path)
+            empty(path, (*_STATES, _LAST))
             for one in (
                 *of_system(system),
                 *of_memory(),
@@ -127,7 +126,7 @@ class SolutionFolder:
         InvalidInput
             If there is none, another version wrote it, or it is damaged.
         """
-        arrays, remedy = _arrays(output.solution), "Name a folder that `run` wrote."
+        arrays, remedy = arrays_of_run(output.solution), "Name a folder that `run` wrote."
         for name in ("coordinate", "velocity", *_LENGTHS.values()):
             if name not in arrays.names:
                 raise InvalidInput(str(arrays.path), "must hold a solution", f"no {name!r}", remedy)
@@ -420,79 +419,9 @@ class SolutionFolder:
         return state_from(content, str(path))
 
 
-def _arrays(path: Path) -> ArrayFolder:
-    return ArrayFolder.opened(path, "must be a folder of results", "Name a folder that `run` wrote.")
-
-
 def _variables(events: Events, rows: Floats, n_q: int, n_u: int) -> list[Variable]:
     """Events and samples as arrays."""
     n_states = rows.shape[1] - 1 - n_q - n_u - N_ACCOUNTS - BOOKED
     t, q, u, *rest = np.split(rows, np.cumsum([1, n_q, n_u, N_ACCOUNTS, n_states]), axis=1)
     samples = [*of_samples(t[:, 0], q, u), *of_rest_of_samples(*rest)]
     return [*samples, *of_events(events), *of_rest_of_events(events)]
-
-
-def check_free(output: Output) -> None:
-    """Raise InvalidInput if a run that was cut off can be resumed in a folder, which new results would replace."""
-    if _status(output.solution) == UNFINISHED:
-        raise InvalidInput(
-            str(output.folder),
-            "must not hold a run that is under way or was cut off",
-            UNFINISHED,
-            f"`nonsmooth resume {output.folder}` continues it; remove {output.solution} to give it up.",
-        )
-
-
-def check_ours(path: Path) -> None:
-    """Check that a folder of arrays is new, empty or made by a run, so that it may be emptied.
-
-    Raises
-    ------
-    InvalidInput
-        If it holds anything else.
-    FileError
-        If it cannot be read.
-    """
-    if path.is_symlink() or (path.exists() and not path.is_dir()):
-        what = "a link" if path.is_symlink() else "a file"
-        raise InvalidInput(str(path), "must be a folder that a run has made", what, "Name another folder.")
-    with writing(path):
-        names = sorted(one.name for one in path.iterdir()) if path.exists() else []
-    if names not in ([], [WRITER]) and not is_marked(path) and _status(path) is None:
-        raise InvalidInput(
-            str(path),
-            "must be a folder that a run has made, as it would be emptied",
-            f"a folder with {', '.join(map(repr, names[:3]))}",
-            "Name another folder.",
-        )
-
-
-def _check_may_be_emptied(output: Output) -> None:
-    """Raise InvalidInput if another run has ended there that this one must not replace."""
-    if not output.overwrite and _status(output.solution) is not None:
-        rule, remedy = "must be a folder that is empty or new", "Another run has ended there meanwhile: name another."
-        raise InvalidInput(str(output.folder), rule, "a folder with results", remedy)
-
-
-def _status(path: Path) -> str | None:
-    """Status of the run in a folder, None if there is no run, also if it was cut off before its first commit."""
-    try:
-        attributes = _arrays(path).attributes
-    except InvalidInput:
-        return None
-    return str(attributes["status"]) if "versions" in attributes else None
-
-
-def _empty(path: Path) -> None:
-    """Remove all but the lock and the mark; the metadata first, without which the rest is no solution."""
-    with writing(path):
-        (path / "zarr.json").unlink(missing_ok=True)
-        for one in path.iterdir():
-            if one.name == WRITER:
-                continue
-            if one.is_dir() and not one.is_symlink():
-                shutil.rmtree(one)
-            else:
-                one.unlink()
-        for name in (*_STATES, _LAST):
-            (path / name).unlink(missing_ok=True)
