@@ -63,7 +63,6 @@ class ArrayFolder:
     def __init__(self, path: Path, attributes: dict[str, Any]) -> None:
         self.path, self.attributes = path, attributes
         self._arrays: dict[str, ArrayLayout] = {}
-        self._tails: dict[str, tuple[int, NDArray[Any]]] = {}
         self._waiting: dict[Path, bytes] = {}
 
     @classmethod
@@ -125,7 +124,6 @@ class ArrayFolder:
             If its name cannot be that of a folder.
         """
         self._arrays[_checked(name)] = layout
-        self._tails.pop(name, None)
 
     def add(
         self, name: str, dimensions: tuple[str, ...], values: NDArray[Any], attributes: Mapping[str, Any], grows: bool
@@ -163,16 +161,11 @@ class ArrayFolder:
             low, high = max(start, first), min(end, first + layout.chunk)
             content = rows[low - start : high - start]
             if len(content) < layout.chunk:
-                tail = self._tail(name, number) if low > first else layout.blank()
-                tail[low - first : high - first] = content
-                self._tails[name], content = (number, tail), tail
+                # an earlier commit wrote the rows of the chunk before these
+                content = self.chunk(name, number) if low > first else layout.blank()
+                content[low - first : high - first] = rows[low - start : high - start]
             self._waiting[self._place(name, number)] = layout.encoded(content.astype(layout.numbers, copy=False))
         self._arrays[name] = replace(layout, shape=(max(end, *layout.shape[:1]), *rows.shape[1:]))
-
-    def _tail(self, name: str, number: int) -> NDArray[Any]:
-        """The chunk of an array that has rows, and gets more."""
-        tail_number, tail = self._tails.get(name, (-1, np.zeros(0)))
-        return tail if tail_number == number else self.chunk(name, number)
 
     def read(self, name: str, start: int = 0, stop: int | None = None) -> NDArray[Any]:
         """Rows of an array that is written, all by default.
@@ -202,7 +195,7 @@ class ArrayFolder:
         """
         layout, path = self.layout(name), self._place(name, number)
         try:
-            chunk = layout.decoded(content_of(path))
+            chunk = layout.decoded(self._waiting[path] if path in self._waiting else content_of(path))
             return chunk if layout.shape else chunk.reshape(())
         except (OSError, ValueError) as error:
             raise InvalidInput(str(path), "must be a whole chunk", f"{error}", _DAMAGED) from error
@@ -215,7 +208,6 @@ class ArrayFolder:
         for name, one in self._arrays.items():
             if one.dimensions[:1] == (dimension,):
                 self._arrays[name] = replace(one, shape=(min(length, one.shape[0]), *one.shape[1:]))
-        self._tails.clear()
 
     def remove(self, name: str) -> None:
         """Remove an array; its files go at once.  A name of no array removes nothing."""
