@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from nonsmooth.datasets import Told, dataset
 from nonsmooth.histories.arrays import Floats
-from nonsmooth.histories.states import States
+from nonsmooth.histories.old_states import States
 from nonsmooth.histories.times import of_one, read_times, spoken
 from nonsmooth.interfaces import Body
 from nonsmooth.queries.places import BodyFrames

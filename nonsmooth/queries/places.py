@@ -62,10 +62,16 @@ class BodyFrames:
         self._n, self._width = len(body.frames), FRAME + 6 * body.n_u
         self._out = np.zeros(self._n * self._width + body.n_q + body.n_u + body.n_u**2 + 2)
 
-    def at(self, t: float, q: Vector, u: Vector) -> list[Place]:
-        """Return the places of all frames at a time [s], for coordinates and velocities."""
+    def motion(self, t: float, q: Vector, u: Vector) -> Vector:
+        """Motion of all frames at a time [s], for coordinates and velocities, shape [n_frames, FRAME].
+
+        The order of the numbers is that of :mod:`nonsmooth.engine.memory.blocks`.
+        """
         self._out[:] = 0.0
-        # a driven body has none, and an empty array no address of its own
+        # a driven body has no coordinates, and an empty array has no address of its own
         self._call(t, np.append(q, 0.0), np.append(u, 0.0), self._out)
-        blocks = self._out[: self._n * self._width].reshape(self._n, self._width)
-        return [(block[:3].copy(), block[3:12].reshape(3, 3).copy()) for block in blocks]
+        return self._out[: self._n * self._width].reshape(self._n, self._width)[:, :FRAME].copy()
+
+    def at(self, t: float, q: Vector, u: Vector) -> list[Place]:
+        """Places of all frames at a time [s], for coordinates and velocities."""
+        return [(frame[:3], frame[3:12].reshape(3, 3)) for frame in self.motion(t, q, u)]

@@ -18,7 +18,7 @@ from nonsmooth.model.part_pairs import unchecked_contacts
 from nonsmooth.notices import say
 from nonsmooth.solution.end import Counters, End
 from nonsmooth.solution.energy import EnergyAccount
-from nonsmooth.solution.events import Events, words
+from nonsmooth.solution.events import Events
 from nonsmooth.solution.gains import friction_gain
 from nonsmooth.solution.graph import TransitionGraph, transition_graph
 from nonsmooth.solution.recorded import Recorded
@@ -36,9 +36,12 @@ if TYPE_CHECKING:
     from nonsmooth.histories.contact_impulses import ContactImpulses
     from nonsmooth.histories.contact_motion import ContactMotion
     from nonsmooth.histories.energies import Energies
+    from nonsmooth.histories.history import History
     from nonsmooth.histories.joint_forces import JointForces
     from nonsmooth.histories.poses import Poses
-    from nonsmooth.histories.states import States
+    from nonsmooth.histories.request import Part
+    from nonsmooth.histories.old_states import States
+    from nonsmooth.histories.variables import Variable
     from nonsmooth.queries.result import DistanceHistory
 
 
@@ -229,7 +232,7 @@ class Solution:
         for word, duration in zip(self.events.words("after"), durations, strict=True):
             shares[word] = shares.get(word, 0.0) + (float(duration) / total if total > 0.0 else 0.0)
         impacts = np.isin(self.events.cause, (Cause.IMPACT, Cause.PAINLEVE, Cause.JAM))
-        for word in words(self.events.during[impacts]):
+        for word in self.events.spelled(self.events.during[impacts]):
             shares.setdefault(word, 0.0)
         return dict(sorted(shares.items(), key=lambda item: -item[1]))
 
@@ -286,7 +289,7 @@ class Solution:
         self._check_recorded("mode_words")
         row = np.atleast_1d(read_times("Solution.mode_words", self, times))
         index = np.searchsorted(self.events.time, row, side="right") - 1
-        return words(self.events.codes_after(index))
+        return self.events.spelled(self.events.codes_after(index))
 
     def at(self, times: ArrayLike | None = None) -> States:
         """Return the states at times: coordinates, velocities, modes, inner states of laws.
@@ -305,9 +308,17 @@ class Solution:
         InvalidInput
             If a time is not within the run, or contacts have been declared since.
         """
-        from nonsmooth.histories.states import States
+        from nonsmooth.histories.old_states import States
 
         return States.of(self, times)
+
+    def history(
+        self, *names: str | Variable, times: ArrayLike | None = None, of: Part | Sequence[Part] | None = None
+    ) -> History:
+        """Return variables over time."""
+        from nonsmooth.histories.reading import read_history
+
+        return read_history(self, names, times, of)
 
     def poses(self, body: Body | str, times: ArrayLike | None = None) -> Poses:
         """Return origins and axes of all frames of a body, or of that of a name, at times, those of :meth:`at`.

@@ -1,0 +1,220 @@
+"""Contacts over time: contacts near each other with their gaps, and closed contacts with their forces.
+
+A contact is evaluated at the times at which it is near or closed.  So these readings are entries, one for each contact
+and time, which are spread over all contacts at the end.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.blocks import GAP, NORMAL, POINT_A, TANGENT, TRACTION_MOMENT
+from nonsmooth.engine.memory.modes import Mode
+from nonsmooth.histories.arrays import Floats, Integers
+from nonsmooth.histories.cones import beyond_cones
+from nonsmooth.histories.request import Request
+from nonsmooth.model.laid_out import LaidOut
+
+
+@final
+@dataclass(frozen=True)
+class NearContacts:
+    """Gaps and velocities of the contacts near each other, open ones too; one entry for each contact and time.
+
+    Attributes
+    ----------
+    request : Request
+        Run, times and contacts.
+    first : array
+        First entry of each time, then the number of entries m, shape [n + 1].
+    contact : array
+        Number of the contact of each entry, shape [m].
+    gap : array
+        Gap [m], negative for a compliant contact that is pressed in, shape [m].
+    normal_velocity : array
+        Rate of the gap [m/s], shape [m].
+    slip_speed : array
+        Speed of the second body relative to the first, tangential [m/s], shape [m].
+    """
+
+    request: Request
+    first: Integers
+    contact: Integers
+    gap: Floats
+    normal_velocity: Floats
+    slip_speed: Floats
+
+    @classmethod
+    def of(cls, request: Request) -> NearContacts:
+        """Evaluate the contacts near each other at the times of a request."""
+        memory, contact = request.replay.laid.memory, owners.Contact
+        chosen = np.zeros(len(request.solution.system.contacts), dtype=bool)
+        chosen[request.contacts] = True
+        found: list[tuple[Integers, Floats]] = []
+
+        def keep(_: int) -> None:
+            n = int(memory[owners.Island.n_contacts])
+            numbers, rates = memory[contact.declared][:n], memory[contact.rate][:n]
+            gaps, slips = memory[contact.geometry][:n][:, GAP], _slips(memory, np.arange(n))
+            kept = chosen[numbers]
+            found.append((numbers[kept], np.column_stack([gaps, rates[:, 0], np.hypot(*slips.T)])[kept]))
+
+        request.replay.visit_near(request.times, request.y, keep)
+        first, numbers, floats = _joined(found, np.zeros((0, 3)))
+        return cls(request, first, numbers, *floats.T)
+
+    def spread(self, values: NDArray[Any]) -> NDArray[Any]:
+        """Values of the entries, shape [m], over all times and contacts, shape [n, n_contacts]; NaN without an entry."""
+        return _spread(self.request, self.first, self.contact, values, np.nan)
+
+
+@final
+@dataclass(frozen=True)
+class ClosedContacts:
+    """Forces of the closed contacts, one entry for each contact and time at which it is closed.
+
+    Forces and moments act on the second body of the contact, in world axes.  The first body has the opposite ones.
+
+    Attributes
+    ----------
+    request : Request
+        Run, times and contacts.
+    first : array
+        First entry of each time, then the number of entries m, shape [n + 1].
+    contact : array
+        Number of the contact of each entry, shape [m].
+    mode : array
+        1 stick, 2 slide, shape [m].
+    gap : array
+        Gap [m], negative for a compliant contact that is pressed in, shape [m].
+    contact_point : array
+        Contact points on the first and the second body [m], shape [m, 2, 3].
+    contact_normal : array
+        Unit normal from the first to the second body, shape [m, 3].
+    normal_force : array
+        Normal force [N], shape [m].
+    friction_force : array
+        Friction force [N], shape [m, 3].
+    friction_moment : array
+        Moment of a traction law that resists spin [N m], shape [m, 3].
+    slip_velocity : array
+        Tangential velocity of the second body relative to the first [m/s], shape [m, 3].
+    """
+
+    request: Request
+    first: Integers
+    contact: Integers
+    mode: Integers
+    gap: Floats
+    contact_point: Floats
+    contact_normal: Floats
+    normal_force: Floats
+    friction_force: Floats
+    friction_moment: Floats
+    slip_velocity: Floats
+
+    @classmethod
+    def of(cls, request: Request) -> ClosedContacts:
+        """Evaluate the closed contacts of all times of a request; the entries have all contacts, chosen or not."""
+        replay, row = request.replay, request.times
+        read, at = _ClosedReader(replay.laid), replay.closed(row)
+        found = len(row) * [read.none]
+
+        def keep(i: int) -> None:
+            found[at[i]] = read()
+
+        replay.visit(row[at], keep)
+        first, integers, floats = _joined(found, read.none[1])
+        gap, points, normal, force, friction, moment, slip = np.split(floats, [1, 7, 10, 11, 14, 17], axis=1)
+        return cls(
+            request,
+            first,
+            integers[:, 0],
+            integers[:, 1],
+            gap[:, 0],
+            points.reshape(-1, 2, 3),
+            normal,
+            force[:, 0],
+            friction,
+            moment,
+            slip,
+        )
+
+    @property
+    def beyond_cone(self) -> NDArray[np.bool_]:
+        """True for entries outside of their friction cone, at the present slip speed of sliding contacts; shape [m].
+
+        If a run averages forces over a span, the forces at an instant within the span need not lie in the cone.
+        """
+        speed = np.where(self.mode == Mode.SLIDE, np.linalg.norm(self.slip_velocity, axis=1), np.nan)
+        contacts = self.request.solution.system.contacts
+        return beyond_cones(contacts, self.contact, self.first, self.normal_force, self.friction_force, speed)
+
+    def spread(self, values: NDArray[Any], *, if_open: float) -> NDArray[Any]:
+        """Values of the entries, shape [m, ...], over all times and contacts, shape [n, n_contacts, ...]."""
+        return _spread(self.request, self.first, self.contact, values, if_open)
+
+
+def _joined(parts: list[tuple[Integers, Floats]], none: Floats) -> tuple[Integers, Integers, Floats]:
+    """First entry of each time, and integers and floats of all entries, from those of each time."""
+    first = np.concatenate([[0], np.cumsum([len(numbers) for numbers, _ in parts], dtype=np.int64)])
+    integers = np.concatenate([numbers for numbers, _ in parts]) if parts else np.zeros(0, np.int64)
+    return first, integers, np.concatenate([none, *(floats for _, floats in parts)])
+
+
+def _spread(request: Request, first: Integers, contact: Integers, values: NDArray[Any], default: float) -> NDArray[Any]:
+    """Entries as an array over the times and contacts of a request, with a default for contacts without an entry."""
+    # a contact may be chosen twice
+    chosen, columns = np.unique(request.contacts, return_inverse=True)
+    place = np.full(len(request.solution.system.contacts), -1)
+    place[chosen] = np.arange(len(chosen))
+    table = np.full((len(request.times), len(chosen), *values.shape[1:]), default, dtype=values.dtype)
+    kept, times = place[contact] >= 0, np.repeat(np.arange(len(request.times)), np.diff(first))
+    table[times[kept], place[contact[kept]]] = values[kept]
+    return table if np.array_equal(columns, np.arange(len(columns))) else table[:, columns]
+
+
+def _slips(memory: Any, slots: Integers) -> Floats:
+    """Slip velocities of active contacts along two unit tangents [m/s], shape [n, 2].
+
+    The two axes of anisotropic friction are no unit vectors; such a contact has its slip along tangents apart.
+    """
+    contact = owners.Contact
+    oriented = memory[contact.is_anisotropic][slots, None] == 1
+    return np.where(oriented, memory[contact.slip_of_tangents][slots], memory[contact.rate][slots, 1:])
+
+
+@final
+class _ClosedReader:
+    """Reader of the closed contacts in the memory of the engine."""
+
+    none = np.zeros((0, 2), dtype=np.int64), np.zeros((0, 20))
+
+    def __init__(self, laid: LaidOut) -> None:
+        self._memory, self._n = laid.memory, int(laid.memory[owners.Model.n_slots])
+
+    def __call__(self) -> tuple[Integers, Floats]:
+        """Number and mode of each closed contact, and its twenty floats, in the order of the numbers."""
+        memory, contact, n = self._memory, owners.Contact, self._n
+        slots = memory[owners.Island.grouped][: int(memory[owners.Island.n_grouped])]
+        if len(slots) == 0:
+            return self.none
+        slots = slots[np.argsort(memory[contact.declared][slots])]
+        blocks, forces = memory[contact.geometry][slots], memory[contact.force][slots]
+        axes = memory[contact.axes][:n].reshape(n, 3, 3)[slots]
+        normal, tangent, slip = blocks[:, NORMAL : NORMAL + 3], blocks[:, TANGENT : TANGENT + 3], _slips(memory, slots)
+        floats = np.empty((len(slots), 20))
+        floats[:, 0], floats[:, 1:7], floats[:, 7:10] = blocks[:, GAP], blocks[:, POINT_A : POINT_A + 6], normal
+        floats[:, 10] = forces[:, 0]
+        floats[:, 11:14] = np.einsum("ir,irx->ix", forces[:, 1:], axes[:, 1:])
+        floats[:, 14:17] = 0.0
+        for i in np.flatnonzero(memory[contact.traction_function][slots]).tolist():
+            start = int(memory[contact.traction_out][slots[i]]) + TRACTION_MOMENT
+            floats[i, 14:17] = memory.floats[start : start + 3] @ axes[i, [1, 2, 0]]
+        floats[:, 17:] = slip[:, :1] * tangent + slip[:, 1:] * np.cross(normal, tangent)
+        return np.column_stack([memory[contact.declared][slots], memory[contact.mode][slots]]), floats
