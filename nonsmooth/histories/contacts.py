@@ -69,7 +69,7 @@ class NearContacts:
         return cls(request, first, numbers, *floats.T)
 
     def spread(self, values: NDArray[Any]) -> NDArray[Any]:
-        """Values of the entries, shape [m], over all times and contacts, shape [n, n_contacts]; NaN without an entry."""
+        """Values of the entries, shape [m], over times and contacts, shape [n, n_contacts]; NaN without an entry."""
         return _spread(self.request, self.first, self.contact, values, np.nan)
 
 
@@ -186,7 +186,7 @@ def _slips(memory: Any, slots: Integers) -> Floats:
     """
     contact = owners.Contact
     oriented = memory[contact.is_anisotropic][slots, None] == 1
-    return np.where(oriented, memory[contact.slip_of_tangents][slots], memory[contact.rate][slots, 1:])
+    return np.asarray(np.where(oriented, memory[contact.slip_of_tangents][slots], memory[contact.rate][slots, 1:]))
 
 
 @final

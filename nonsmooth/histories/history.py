@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, final
 
@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from nonsmooth.errors import UnknownName
 from nonsmooth.histories.arrays import Floats
-from nonsmooth.histories.labelled import LabelledArray, to_dataset
 
 if TYPE_CHECKING:
     import xarray
@@ -24,6 +23,37 @@ _SIDES: Mapping[str, tuple[str, ...]] = {
     "side": ("first", "second"),
 }
 """Labels of axes that are the same in every system."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class LabelledArray:
+    """An array with its name, unit, and names of its axes, in memory and on disk.
+
+    Attributes
+    ----------
+    name : str
+        Name of the array.
+    dimensions : tuple of str
+        Name of each axis.
+    values : array
+        Numbers or words.
+    attributes : mapping
+        What it is, ``long_name``, its unit, ``units``, and other attributes of the CF conventions.  Without ``units``
+        another array has the unit of each column, or the unit depends on a law.
+    """
+
+    name: str
+    dimensions: tuple[str, ...]
+    values: NDArray[Any]
+    attributes: Mapping[str, Any]
+
+    @classmethod
+    def of(
+        cls, name: str, dimensions: tuple[str, ...], values: NDArray[Any], description: str, unit: str = "", **more: Any
+    ) -> LabelledArray:
+        """Labelled array from its description and unit."""
+        return cls(name, dimensions, values, {**({"units": unit} if unit else {}), "long_name": description, **more})
 
 
 @final
@@ -123,6 +153,27 @@ class History(Mapping[str, NDArray[Any]]):
         labels = [LabelledArray(axis, (axis,), np.array(names, dtype=str), {}) for axis, names in self.labels.items()]
         arrays = [LabelledArray(one.name, self.axes[one.name], one.values, one.attributes) for one in self.arrays]
         return to_dataset(arrays, [time, *labels, *self.along], self.attributes)
+
+
+def to_dataset(
+    arrays: Iterable[LabelledArray], coordinates: Iterable[LabelledArray], attributes: Mapping[str, Any]
+) -> xarray.Dataset:
+    """Arrays as one dataset of xarray.
+
+    Parameters
+    ----------
+    arrays, coordinates : iterable of LabelledArray
+        Variables and coordinates of the dataset.
+    attributes : mapping
+        Attributes of the dataset.
+    """
+    import xarray
+
+    variables, labels = (
+        {one.name: (one.dimensions, one.values, dict(one.attributes)) for one in several}
+        for several in (arrays, coordinates)
+    )
+    return xarray.Dataset(variables, coords=labels, attrs=dict(attributes))
 
 
 def spoken(time: Floats, over: str) -> str:

@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.errors import InvalidInput, UnknownName
-from nonsmooth.histories.history import History
-from nonsmooth.histories.labelled import LabelledArray
-from nonsmooth.histories.request import Part, Request, numbers_of, read_times
+from nonsmooth.histories.history import History, LabelledArray
+from nonsmooth.histories.request import Parts, Request, numbers_of, read_times
 from nonsmooth.histories.variables import VARIABLES, Variable
 from nonsmooth.system.labels import labels
 
@@ -27,7 +26,7 @@ def read_history(
     solution: Solution,
     names: Sequence[str | Variable],
     times: ArrayLike | None = None,
-    of: Part | Sequence[Part] | None = None,
+    of: Parts | None = None,
 ) -> History:
     """History of variables of a run (:meth:`nonsmooth.Solution.history`)."""
     rows = [_row(name) for name in names]

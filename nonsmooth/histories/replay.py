@@ -25,8 +25,8 @@ from nonsmooth.model.laid_out import LaidOut
 
 if TYPE_CHECKING:
     from nonsmooth.interfaces import Engine
+    from nonsmooth.solution.recorded import Track
     from nonsmooth.solution.solution import Solution
-    from nonsmooth.solution.track import Track
     from nonsmooth.system.system import System
 
 _ACCOUNTED = (

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 Part: TypeAlias = Contact | Body | Tie | str | int
 """A contact, body or joint: the object, its name, or its number in the system, from 0."""
+Parts: TypeAlias = Part | Sequence[Part] | Integers
+"""A part, or several of them."""
 
 
 @final
@@ -42,6 +44,11 @@ class Request:
     solution: Solution
     times: Floats
     parts: Mapping[str, tuple[int, ...]]
+
+    @classmethod
+    def complete(cls, solution: Solution, times: Floats) -> Request:
+        """Request for all parts of the system."""
+        return cls(solution, times, numbers_of("", solution.system, (), None))
 
     @property
     def replay(self) -> StateReplay:
@@ -97,11 +104,11 @@ def read_times(where: str, solution: Solution, times: ArrayLike | None) -> Float
 
 
 def numbers_of(
-    where: str, system: System, kinds: Sequence[str], of: Part | Sequence[Part] | None
+    where: str, system: System, kinds: Sequence[str], of: Parts | None
 ) -> dict[str, tuple[int, ...]]:
     """Numbers of the chosen parts of a system by their kind, "contact", "body" or "joint".
 
-    Each part counts for its own kind; a kind without a chosen part is complete.
+    Each part counts for its own kind.  A kind of which no part is chosen is complete, unless the choice is empty.
 
     Parameters
     ----------
@@ -111,7 +118,7 @@ def numbers_of(
         The system.
     kinds : sequence of str
         Kinds that may be chosen.
-    of : Part or sequence of Part, optional
+    of : Parts, optional
         The chosen parts; a number counts for the only kind.
 
     Raises
@@ -129,7 +136,8 @@ def numbers_of(
     for part in several:
         for kind, number in _found(where, system, {kind: known[kind] for kind in kinds}, part):
             chosen[kind].append(number)
-    return {kind: tuple(chosen[kind]) or tuple(range(len(known[kind]))) for kind in known}
+    is_complete = of is None or len(several) > 0
+    return {kind: tuple(chosen[kind] or range(is_complete * len(known[kind]))) for kind in known}
 
 
 def _found(where: str, system: System, known: Mapping[str, Sequence[object]], part: object) -> list[tuple[str, int]]:

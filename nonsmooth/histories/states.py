@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.blocks import POSITION, ROTATION, SPIN, VELOCITY
+from nonsmooth.engine.memory.blocks import FRAME, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.histories.arrays import Floats, Integers
@@ -102,7 +102,7 @@ class Frames:
         solution, bodies = request.solution, request.bodies
         n_q = solution.q.shape[1]
         q, u = request.y[:, request.columns("n_q")], request.y[:, n_q + request.columns("n_u")]
-        parts, i_q, i_u = [], 0, 0
+        parts, i_q, i_u = [np.zeros((len(request.times), 0, FRAME))], 0, 0
         for body in bodies:
             frames = BodyFrames(body, solution.system.gravity)
             own = q[:, i_q : i_q + body.n_q], u[:, i_u : i_u + body.n_u]
@@ -184,7 +184,18 @@ class Energies:
 
         request.replay.visit(request.times, keep, forces=False)
         start = account.kinetic_start + account.potential_start
-        return cls(*table, start=start, coordinate_rate=rates[:, request.columns("n_q")])
+        kinetic, potential, driven, loads, restitution, friction, closing = table
+        return cls(
+            kinetic,
+            potential,
+            driven,
+            loads,
+            restitution,
+            friction,
+            closing,
+            start,
+            rates[:, request.columns("n_q")],
+        )
 
     @property
     def loss(self) -> Floats:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from nonsmooth.errors import InvalidInput, MissingPackagesError
 from nonsmooth.histories.arrays import Floats
-from nonsmooth.histories.times import read_times
+from nonsmooth.histories.request import read_times
 from nonsmooth.system.asked import contact_number
 from nonsmooth.system.contact import Contact
 

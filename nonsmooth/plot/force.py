@@ -13,7 +13,6 @@ from nonsmooth.plot.lines import draw_lines
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from nonsmooth.histories.contact_history import ContactHistory
     from nonsmooth.solution.solution import Solution
 
 _WHERE = "nonsmooth.plot.forces"
@@ -52,17 +51,10 @@ def forces(
     numbers = contacts_of(_WHERE, solution, contacts)
     # at the end of a mode forces that are not unique may be off their bounds, which is why it ends
     row = times_of(_WHERE, solution, times, before=False)
-    borne, ax = solution.contact_forces(row), axes_of(ax)
-    values = np.column_stack([(_normal, _friction)[which](borne.history(number)) for number in numbers])
-    draw_lines(ax, solution, numbers, row, values)
+    name = ("normal_force", "friction_force")[which]
+    history, ax = solution.history("mode", name, times=row, of=numbers), axes_of(ax)
+    size = np.linalg.norm(history[name], axis=2) if which else history[name]
+    draw_lines(ax, solution, numbers, row, np.where(history["mode"] > 0, size, np.nan))
     ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
     ax.set_ylabel(("normal force [N]", "friction [N]")[which])
     return ax
-
-
-def _normal(history: ContactHistory) -> np.ndarray:
-    return np.where(history.mode > 0, history.normal_force, np.nan)
-
-
-def _friction(history: ContactHistory) -> np.ndarray:
-    return np.where(history.mode > 0, np.linalg.norm(history.friction_force, axis=1), np.nan)

@@ -48,7 +48,7 @@ def gaps(
     """
     numbers, row = contacts_of(_WHERE, solution, contacts), times_of(_WHERE, solution, times)
     ax, declared = axes_of(ax), solution.system.contacts
-    draw_lines(ax, solution, numbers, row, solution.contact_motion(row, numbers).gap)
+    draw_lines(ax, solution, numbers, row, solution.history("gap", times=row, of=numbers)["gap"])
     ax.axhline(0.0, color="0.4", linewidth=0.8)
     # what a closed contact is apart by round-off is no motion to be seen
     least, (low, high) = _SEEN * min(declared[number].size for number in numbers), ax.get_ylim()

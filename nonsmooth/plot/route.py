@@ -59,7 +59,8 @@ def path(
     if frame not in range(len(one.frames)):
         rule = f"must be below {len(one.frames)}, the number of frames"
         raise InvalidInput(f"{_WHERE}: frame", rule, frame, "Count from 0.")
-    origin = solution.poses(one, times_of(_WHERE, solution, times)).origin[:, frame]
+    row = times_of(_WHERE, solution, times)
+    origin = solution.history("position", times=row, of=one)["position"][:, frame]
     across, up = (origin[:, _AXES.index(letter)] for letter in plane)
     name, ax = solution.system.name_of(one), axes_of(ax)
     ax.plot(across, up, color="black", linewidth=1.2, label=name if frame == 0 else f"{name}, frame {frame}")

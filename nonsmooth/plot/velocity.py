@@ -46,8 +46,8 @@ def velocities(
     """
     which = part_of(_WHERE, part, ("normal", "slip"))
     numbers, row = contacts_of(_WHERE, solution, contacts), times_of(_WHERE, solution, times)
-    motion, ax = solution.contact_motion(row, numbers), axes_of(ax)
-    draw_lines(ax, solution, numbers, row, (motion.normal_velocity, motion.slip_speed)[which])
+    name, ax = ("normal_velocity", "slip_speed")[which], axes_of(ax)
+    draw_lines(ax, solution, numbers, row, solution.history(name, times=row, of=numbers)[name])
     ax.axhline(0.0, color="0.4", linewidth=0.8)
     ax.set_ylabel(("normal velocity [m/s]", "slip speed [m/s]")[which])
     return ax

@@ -339,7 +339,7 @@ class SolutionFolder:
             state=_LAST,
             t_end=solution.t_end,
             counters=json.dumps(vars(solution.counters) | {"limits": dict(solution.counters.limits)}),
-            cause=solution.cause,
+            cause=solution.end.cause,
             verdict=json.dumps([{**vars(one), "value": value} for one, value in solution.end.verdict.items()]),
             **energies(solution.state),
         )

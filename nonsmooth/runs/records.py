@@ -21,9 +21,8 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.solution.events import Events
-from nonsmooth.solution.recorded import Recorded
+from nonsmooth.solution.recorded import Recorded, row_of
 from nonsmooth.solution.state import Floats, Integers, State
-from nonsmooth.solution.track import row_of
 
 _START_PART, _END_PART = -1, -2
 """Keys of the parts before the first call and after the last one. The others have the number of their call."""

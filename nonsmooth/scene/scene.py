@@ -1,20 +1,26 @@
-"""Scene: what is seen of a system."""
+"""Scene: what is seen of a system, the times at which it is drawn, and the bodies for which arrows are drawn."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import final
+from typing import TYPE_CHECKING, final
 
 import numpy as np
 
 from nonsmooth.histories.arrays import Floats
+from nonsmooth.histories.replay import replay_of
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.look import Look
 from nonsmooth.queries.places import BodyFrames
 from nonsmooth.system.contact import Tie
 from nonsmooth.system.system import System
 
+if TYPE_CHECKING:
+    from nonsmooth.solution.solution import Solution
+
+_FEWEST = 600
+"""A run with fewer times is also drawn between its samples, so that ballistic motion is seen as a curve."""
 _SPECK = 1e-2
 """Part of its distance from the origin of the frame below which the size of a shape, or of a gap, is not seen."""
 
@@ -163,3 +169,22 @@ def _spans(looks: Sequence[Look], point: Floats) -> bool:
     low, high = seen.min(axis=0), seen.max(axis=0)
     room = _SPECK * np.max(high - low)
     return bool(np.all((point >= low - room) & (point <= high + room)))
+
+
+def knots(solution: Solution, most: int) -> Floats:
+    """Times between which a run is drawn along straight lines [s], shape [n].
+
+    These are all instants of events and at most ``most`` others, if possible samples.
+    """
+    samples = solution.t
+    chosen = samples[:: max(1, -(-len(samples) // most))] if len(samples) > 0 else samples
+    instants = np.unique(solution.events.time)
+    found = np.unique(np.concatenate([chosen, samples[-1:], instants, [solution.t_end]]))
+    if len(found) < min(_FEWEST, most) and replay_of(solution).is_flow:
+        found = np.union1d(found, np.linspace(found[0], found[-1], min(_FEWEST, most)))
+    return np.asarray(found)
+
+
+def sides(system: System) -> Floats:
+    """1 for each contact, or -1 if only its first body moves: arrows show forces on bodies that move; shape [n]."""
+    return np.array([-1.0 if c.second.n_u == 0 < c.first.n_u else 1.0 for c in system.contacts])

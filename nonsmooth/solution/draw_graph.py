@@ -6,9 +6,8 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from nonsmooth.engine.memory.modes import CAUSES
-from nonsmooth.solution.graph import Mode, TransitionGraph
-from nonsmooth.solution.graph_groups import grouped
 from nonsmooth.solution.graph_layout import Point, places_of
+from nonsmooth.solution.modes import ContactModes, TransitionGraph, grouped
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -48,7 +47,7 @@ def draw(graph: TransitionGraph, most: int = _MOST_MODES) -> Figure:
     """Return a figure of the modes visited most and the transitions between them.
 
     Modes that last stand inside, impacts around them; the wider an arrow, the more often its transition.  Modes of more
-    contacts than a word can be read of are grouped (:func:`nonsmooth.solution.graph_groups.grouped`).
+    contacts than a word can be read of are grouped (:func:`nonsmooth.solution.modes.grouped`).
 
     Parameters
     ----------
@@ -124,11 +123,11 @@ def _title(graph: TransitionGraph, whole: TransitionGraph, shown: TransitionGrap
 def _draw_nodes(
     axis: Axes,
     graph: TransitionGraph,
-    places: dict[Mode, Point],
-    words: dict[Mode, str],
+    places: dict[ContactModes, Point],
+    words: dict[ContactModes, str],
     numbered: bool,
     inch: float,
-) -> dict[Mode, Any]:
+) -> dict[ContactModes, Any]:
     """Draw the nodes; an inch is so many units of the places."""
     from matplotlib.patches import Ellipse
 
@@ -157,14 +156,16 @@ def _percent(share: float) -> str:
     return f"{100.0 * share:.1f} %" if share >= 5e-4 or share == 0.0 else "< 0.1 %"
 
 
-def _draw_edges(axis: Axes, graph: TransitionGraph, places: dict[Mode, Point], nodes: dict[Mode, Any]) -> None:
+def _draw_edges(
+    axis: Axes, graph: TransitionGraph, places: dict[ContactModes, Point], nodes: dict[ContactModes, Any]
+) -> None:
     from matplotlib.lines import Line2D
     from matplotlib.patches import FancyArrowPatch
 
     most = max(graph.counts.values(), default=1)
     seen = [cause for cause in CAUSES if any(edge[2] == cause for edge in graph.counts)]
     letters = dict(zip(seen, _LETTERS, strict=False)) if len(seen) > 1 else {}
-    parallel: dict[tuple[Mode, Mode], int] = {}
+    parallel: dict[tuple[ContactModes, ContactModes], int] = {}
     for (one, other, cause), n in sorted(graph.counts.items(), key=lambda item: -item[1]):
         bend = _BEND * (1 + parallel.get((one, other), 0))
         parallel[one, other] = parallel.get((one, other), 0) + 1
@@ -220,7 +221,9 @@ def _draw_edges(axis: Axes, graph: TransitionGraph, places: dict[Mode, Point], n
         axis.figure.legend(handles=lines, loc="outside lower center", ncols=4, fontsize=8, frameon=False)
 
 
-def _list_words(panel: Axes, graph: TransitionGraph, words: dict[Mode, str], visits: dict[Mode, int]) -> None:
+def _list_words(
+    panel: Axes, graph: TransitionGraph, words: dict[ContactModes, str], visits: dict[ContactModes, int]
+) -> None:
     """Write out what the numbers in the nodes stand for, and how often the run came there."""
     rows = []
     for number, (mode, n) in enumerate(visits.items(), 1):

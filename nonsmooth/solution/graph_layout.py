@@ -9,7 +9,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.solution.graph import Mode, TransitionGraph
+from nonsmooth.solution.modes import ContactModes, TransitionGraph
 
 Array: TypeAlias = NDArray[np.float64]
 Point: TypeAlias = tuple[float, float]
@@ -19,7 +19,7 @@ _WIDE = 1.25
 _STARTS, _ROUNDS = 16, 300
 
 
-def places_of(graph: TransitionGraph) -> dict[Mode, Point]:
+def places_of(graph: TransitionGraph) -> dict[ContactModes, Point]:
     """Place the modes so that distances on paper are as near as can be to numbers of transitions between them.
 
     The weighted squares of the differences are minimised by majorisation (de Leeuw), from several circles; of the
@@ -71,7 +71,7 @@ def _crossings(points: Array, lines: Sequence[tuple[int, int]]) -> int:
     )
 
 
-def _steps_between(modes: Sequence[Mode], graph: TransitionGraph) -> Array:
+def _steps_between(modes: Sequence[ContactModes], graph: TransitionGraph) -> Array:
     """Return how many transitions apart the modes are, either way, shape [n, n]; unconnected ones one more than any."""
     n = len(modes)
     steps = np.full((n, n), np.inf)

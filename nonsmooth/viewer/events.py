@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.memory.modes import AFTER, BEFORE, CODE, DURING
-from nonsmooth.histories.contact_impulses import ContactImpulses
+from nonsmooth.histories.impulses import Impulses
+from nonsmooth.histories.request import Request
 
 if TYPE_CHECKING:
     from nonsmooth.solution.events import Events
@@ -59,9 +60,9 @@ def event_arrays(
 ) -> dict[str, tuple[str, NDArray[Any]]]:
     """Return the arrays of events; ``times`` are the knots, which hold all instants [s]."""
     # also of an engine that records no contacts, and so no events
-    events, impulses = solution.events, ContactImpulses.of(solution)
-    sign = side[impulses.contact][:, None]
-    push, rub = sign * impulses.normal_impulse[:, None] * impulses.normal, sign * impulses.friction_impulse
+    events, impulses = solution.events, Impulses.recorded(Request.complete(solution, times))
+    sign = side[impulses.impulse_contact][:, None]
+    push, rub = sign * impulses.normal_impulse[:, None] * impulses.impulse_normal, sign * impulses.friction_impulse
     return {
         "event_time": ("f8", events.time),
         "event_knot": ("i4", np.searchsorted(times, events.time)),
@@ -70,7 +71,7 @@ def event_arrays(
         "event_first": ("i4", events.first),
         "event_contact": ("i4", events.listed),
         "event_codes": ("i2", events.codes),
-        "event_point": ("f4", np.nan_to_num(impulses.points.mean(axis=1))),
+        "event_point": ("f4", np.nan_to_num(impulses.impulse_point.mean(axis=1))),
         "event_push": ("f4", np.nan_to_num(push)),
         "event_rub": ("f4", np.nan_to_num(rub)),
     }

@@ -17,6 +17,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress
+from nonsmooth.solution.modes import mode_shares
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.bouncing_ball import orbits
@@ -178,7 +179,7 @@ class BouncingBall(Scenario):
         """
         flights = self.flights(solution)
         closings = solution.events.time[solution.events.cause == Cause.CLOSING]
-        resting = sum(share for word, share in solution.modes.items() if word == "{1,0,0}")
+        resting = sum(share for word, share in mode_shares(solution).items() if word == "{1,0,0}")
         return {
             "impacts": solution.counters.impacts,
             "last_flight": float(flights[-1]) if len(flights) > 0 else None,

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from nonsmooth.interfaces import Criterion
+from nonsmooth.solution.modes import mode_shares
 from nonsmooth.solution.solution import Solution
 
 _PERIODS = {"drift": 1.0, "jump": 1.0, "flutter": 2.0}
@@ -39,7 +40,7 @@ def criteria(
     name = f"plate periods after which the {mode} repeats"
     found = [Criterion.near(name, period, _PERIODS[mode], 0.0, paper)]
     if mode == "drift":
-        share = float(solution.modes.get(_RESTS, 0.0))
+        share = float(mode_shares(solution).get(_RESTS, 0.0))
         found.append(
             Criterion(f"share of time in {_RESTS}", share, 0.5, 1.0, f"{paper}: ball 1 rests most of the cycle")
         )

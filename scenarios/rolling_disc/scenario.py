@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from bodies import DiscBody, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.errors import InvalidInput
-from nonsmooth.histories.old_states import States
+from nonsmooth.histories.states import States
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.simulate import Progress, simulate
