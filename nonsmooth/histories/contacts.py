@@ -1,7 +1,7 @@
-"""Contacts over time: contacts near each other with their gaps, and closed contacts with their forces.
+"""Contacts over time: gaps and velocities of all contacts, and forces of the closed contacts.
 
-A contact is evaluated at the times at which it is near or closed.  So these readings are entries, one for each contact
-and time, which are spread over all contacts at the end.
+Forces are solved for at the times at which a contact is closed.  They are kept as entries, one for each closed contact
+and time, and spread over all contacts at the end.
 """
 
 from __future__ import annotations
@@ -24,27 +24,18 @@ from nonsmooth.model.laid_out import LaidOut
 @final
 @dataclass(frozen=True)
 class NearContacts:
-    """Gaps and velocities of the contacts near each other, open ones too; one entry for each contact and time.
+    """Gaps and velocities of contacts, open ones too; NaN while the bodies of a contact are far apart.
 
     Attributes
     ----------
-    request : Request
-        Run, times and contacts.
-    first : array
-        First entry of each time, then the number of entries m, shape [n + 1].
-    contact : array
-        Number of the contact of each entry, shape [m].
     gap : array
-        Gap [m], negative for a compliant contact that is pressed in, shape [m].
+        Gap [m], negative for a compliant contact that is pressed in, shape [n, n_contacts].
     normal_velocity : array
-        Rate of the gap [m/s], shape [m].
+        Rate of the gap [m/s], shape [n, n_contacts].
     slip_speed : array
-        Speed of the second body relative to the first, tangential [m/s], shape [m].
+        Tangential speed of the second body relative to the first [m/s], shape [n, n_contacts].
     """
 
-    request: Request
-    first: Integers
-    contact: Integers
     gap: Floats
     normal_velocity: Floats
     slip_speed: Floats
@@ -52,25 +43,20 @@ class NearContacts:
     @classmethod
     def of(cls, request: Request) -> NearContacts:
         """Evaluate the contacts near each other at the times of a request."""
-        memory, contact = request.replay.laid.memory, owners.Contact
-        chosen = np.zeros(len(request.solution.system.contacts), dtype=bool)
-        chosen[request.contacts] = True
-        found: list[tuple[Integers, Floats]] = []
+        memory, contact, chosen = request.replay.laid.memory, owners.Contact, request.contacts
+        table = np.empty((3, len(request.times), len(chosen)))
+        here = np.empty((3, len(request.solution.system.contacts)))
 
-        def keep(_: int) -> None:
-            n = int(memory[owners.Island.n_contacts])
-            numbers, rates = memory[contact.declared][:n], memory[contact.rate][:n]
-            gaps, slips = memory[contact.geometry][:n][:, GAP], _slips(memory, np.arange(n))
-            kept = chosen[numbers]
-            found.append((numbers[kept], np.column_stack([gaps, rates[:, 0], np.hypot(*slips.T)])[kept]))
+        def keep(i: int) -> None:
+            active = slice(int(memory[owners.Island.n_contacts]))
+            rates = memory[contact.rate][active]
+            slip = np.hypot(*_slips(memory, active).T)
+            here[:] = np.nan
+            here[:, memory[contact.declared][active]] = memory[contact.geometry][active][:, GAP], rates[:, 0], slip
+            table[:, i] = here[:, chosen]
 
         request.replay.visit_near(request.times, request.y, keep)
-        first, numbers, floats = _joined(found, np.zeros((0, 3)))
-        return cls(request, first, numbers, *floats.T)
-
-    def spread(self, values: NDArray[Any]) -> NDArray[Any]:
-        """Values of the entries, shape [m], over times and contacts, shape [n, n_contacts]; NaN without an entry."""
-        return _spread(self.request, self.first, self.contact, values, np.nan)
+        return cls(*table)
 
 
 @final
@@ -129,7 +115,8 @@ class ClosedContacts:
             found[at[i]] = read()
 
         replay.visit(row[at], keep)
-        first, integers, floats = _joined(found, read.none[1])
+        first = np.concatenate([[0], np.cumsum([len(numbers) for numbers, _ in found], dtype=np.int64)])
+        integers, floats = (np.concatenate([read.none[i], *(part[i] for part in found)]) for i in range(2))
         gap, points, normal, force, friction, moment, slip = np.split(floats, [1, 7, 10, 11, 14, 17], axis=1)
         return cls(
             request,
@@ -157,29 +144,17 @@ class ClosedContacts:
 
     def spread(self, values: NDArray[Any], *, if_open: float) -> NDArray[Any]:
         """Values of the entries, shape [m, ...], over all times and contacts, shape [n, n_contacts, ...]."""
-        return _spread(self.request, self.first, self.contact, values, if_open)
+        # a contact may be chosen twice
+        chosen, columns = np.unique(self.request.contacts, return_inverse=True)
+        place = np.full(len(self.request.solution.system.contacts), -1)
+        place[chosen] = np.arange(len(chosen))
+        table = np.full((len(self.first) - 1, len(chosen), *values.shape[1:]), if_open, dtype=values.dtype)
+        times, kept = np.repeat(np.arange(len(self.first) - 1), np.diff(self.first)), place[self.contact] >= 0
+        table[times[kept], place[self.contact[kept]]] = values[kept]
+        return table if np.array_equal(columns, np.arange(len(columns))) else table[:, columns]
 
 
-def _joined(parts: list[tuple[Integers, Floats]], none: Floats) -> tuple[Integers, Integers, Floats]:
-    """First entry of each time, and integers and floats of all entries, from those of each time."""
-    first = np.concatenate([[0], np.cumsum([len(numbers) for numbers, _ in parts], dtype=np.int64)])
-    integers = np.concatenate([numbers for numbers, _ in parts]) if parts else np.zeros(0, np.int64)
-    return first, integers, np.concatenate([none, *(floats for _, floats in parts)])
-
-
-def _spread(request: Request, first: Integers, contact: Integers, values: NDArray[Any], default: float) -> NDArray[Any]:
-    """Entries as an array over the times and contacts of a request, with a default for contacts without an entry."""
-    # a contact may be chosen twice
-    chosen, columns = np.unique(request.contacts, return_inverse=True)
-    place = np.full(len(request.solution.system.contacts), -1)
-    place[chosen] = np.arange(len(chosen))
-    table = np.full((len(request.times), len(chosen), *values.shape[1:]), default, dtype=values.dtype)
-    kept, times = place[contact] >= 0, np.repeat(np.arange(len(request.times)), np.diff(first))
-    table[times[kept], place[contact[kept]]] = values[kept]
-    return table if np.array_equal(columns, np.arange(len(columns))) else table[:, columns]
-
-
-def _slips(memory: Any, slots: Integers) -> Floats:
+def _slips(memory: Any, slots: Integers | slice) -> Floats:
     """Slip velocities of active contacts along two unit tangents [m/s], shape [n, 2].
 
     The two axes of anisotropic friction are no unit vectors; such a contact has its slip along tangents apart.

@@ -66,23 +66,24 @@ def _labelled(row: Variable, values: NDArray[Any], single: bool) -> LabelledArra
 
 def _names(request: Request, axes: set[str]) -> tuple[dict[str, tuple[str, ...]], tuple[LabelledArray, ...]]:
     """Names along the axes, and the units of coordinates and velocities."""
-    system = request.solution.system
+    system, names = request.solution.system, request.solution.system.names
     found: dict[str, tuple[str, ...]] = {}
     if "contact" in axes:
-        found["contact"] = tuple(system.names.contacts[number] for number in request.parts["contact"])
+        found["contact"] = tuple(names.contacts[number] for number in request.parts["contact"])
     if "joint" in axes:
-        found["joint"] = tuple(system.names.joints[number] for number in request.parts["joint"])
+        found["joint"] = tuple(names.joints[number] for number in request.parts["joint"])
     if "frame" in axes:
         found["frame"] = tuple(
-            name if len(body.frames) == 1 else f"{name} frame {frame}"
-            for body in request.bodies
-            for name in [system.name_of(body)]
-            for frame in range(len(body.frames))
+            names.bodies[number] + (f" frame {frame}" if n_frames > 1 else "")
+            for number in request.parts["body"]
+            for n_frames in [len(system.bodies[number].frames)]
+            for frame in range(n_frames)
         )
     along = []
     for axis, known, size in (("coordinate", "coordinates", "n_q"), ("velocity", "velocities", "n_u")):
         if axis in axes:
-            rows = [getattr(labels(system), known)[column] for column in request.columns(size)]
+            every = getattr(labels(system), known)
+            rows = [every[column] for column in request.columns(size)]
             found[axis] = tuple(name for _, name, _ in rows)
             units = np.array([unit for *_, unit in rows], dtype=str)
             along.append(LabelledArray.of(f"{axis}_units", (axis,), units, f"unit of the {axis}"))

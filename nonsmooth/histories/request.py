@@ -103,9 +103,7 @@ def read_times(where: str, solution: Solution, times: ArrayLike | None) -> Float
     return found
 
 
-def numbers_of(
-    where: str, system: System, kinds: Sequence[str], of: Parts | None
-) -> dict[str, tuple[int, ...]]:
+def numbers_of(where: str, system: System, kinds: Sequence[str], of: Parts | None) -> dict[str, tuple[int, ...]]:
     """Numbers of the chosen parts of a system by their kind, "contact", "body" or "joint".
 
     Each part counts for its own kind.  A kind of which no part is chosen is complete, unless the choice is empty.

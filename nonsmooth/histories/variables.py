@@ -71,11 +71,6 @@ def _row(name: str, unit: str, axes: tuple[str, ...], description: str, reading:
     return Variable(name, unit, axes, description, reading.of, attrgetter(name), over)
 
 
-def _near(name: str, unit: str, description: str) -> Variable:
-    """Row of a number of the contacts near each other."""
-    return Variable(name, unit, _CONTACT, description, NearContacts.of, lambda near: near.spread(getattr(near, name)))
-
-
 def _closed(name: str, unit: str, axes: tuple[str, ...], description: str, if_open: float) -> Variable:
     """Row of an array of the closed contacts."""
     return Variable(
@@ -116,9 +111,9 @@ _ROWS = (
     _row("loss", "J", (), "all losses since the start", Energies),
     _row("unexplained_energy", "J", (), "change of energy that no work and no loss explains", Energies),
     # contacts, open ones too; NaN if the bodies are far apart
-    _near("gap", "m", "gap, negative for a compliant contact that is pressed in"),
-    _near("normal_velocity", "m/s", "rate of the gap, positive if the bodies separate"),
-    _near("slip_speed", "m/s", "tangential speed of the second body relative to the first"),
+    _row("gap", "m", _CONTACT, "gap, negative for a compliant contact that is pressed in", NearContacts),
+    _row("normal_velocity", "m/s", _CONTACT, "rate of the gap, positive if the bodies separate", NearContacts),
+    _row("slip_speed", "m/s", _CONTACT, "tangential speed of the second body relative to the first", NearContacts),
     # closed contacts; the last argument is the value while the contact is open
     _closed("normal_force", "N", (), "normal force", 0.0),
     _closed("friction_force", "N", _XYZ, "friction force on the second body", 0.0),
