@@ -11,7 +11,7 @@ import pytest
 
 import nonsmooth as ns
 from nonsmooth.plugins import registry
-from nonsmooth.solution.events_table import save_events
+from nonsmooth.solution.csv_tables import save_events
 from tests.results.runs import balls
 from tests.runs.continued import differences
 
