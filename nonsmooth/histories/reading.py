@@ -53,7 +53,7 @@ def read_history(
 def _row(name: str | Variable) -> Variable:
     if isinstance(name, Variable):
         return name
-    if name not in VARIABLES:
+    if not isinstance(name, str) or name not in VARIABLES:
         remedy = "nonsmooth.histories.variables.variables() lists them with their units."
         raise UnknownName(f"{_WHERE}: variable", str(name), VARIABLES, remedy=remedy)
     return VARIABLES[name]

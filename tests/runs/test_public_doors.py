@@ -141,11 +141,10 @@ def test_what_is_of_no_kind_is_refused_by_name(door: str, tmp_path: Path, monkey
         ("run: sample_interval", "a"),
         ("Output", 3),
         ("Solution.of", Ball(0.02)),
-        ("Solution.poses", "ball 3"),
-        ("Solution.mode_words", [-1.0, 5.0]),
-        ("ContactForces.history", "plate - ball 2"),
-        ("ContactForces.history", 1),
-        ("ContactForces.history", -1),
+        ("Solution.history: of", "ball 3"),
+        ("Solution.history: of", 3),
+        ("Solution.history: of", -1),
+        ("Solution.history: times", [-1.0, 5.0]),
     ],
 )
 def test_what_looks_right_and_is_not_is_refused(

@@ -52,9 +52,9 @@ def test_modes_and_impulses_are_those_that_the_engine_recorded() -> None:
 
 
 ASKED: dict[str, Callable[[ns.Solution], Any]] = {
-    "Solution.history: modes": lambda run: run.history("mode"),
-    "Solution.history: modes ": lambda run: run.history("mode_word", times=0.05),
-    "Solution.history: impulses": lambda run: run.history("normal_impulse"),
+    "Solution.history": lambda run: run.history("mode"),
+    "Solution.history(?#words)": lambda run: run.history("mode_word", times=0.05),
+    "Solution.history(?#impulses)": lambda run: run.history("normal_impulse"),
     "nonsmooth.solution.modes.mode_shares": modes.mode_shares,
     "nonsmooth.solution.modes.transitions": modes.transitions,
     "nonsmooth.solution.modes.transition_graph": modes.transition_graph,
