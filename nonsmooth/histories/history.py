@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.datasets import described
 from nonsmooth.errors import UnknownName
 from nonsmooth.histories.arrays import Floats
 
@@ -53,7 +54,7 @@ class LabelledArray:
         cls, name: str, dimensions: tuple[str, ...], values: NDArray[Any], description: str, unit: str = "", **more: Any
     ) -> LabelledArray:
         """Labelled array from its description and unit."""
-        return cls(name, dimensions, values, {**({"units": unit} if unit else {}), "long_name": description, **more})
+        return cls(name, dimensions, values, {**described(description, unit), **more})
 
 
 @final
