@@ -118,19 +118,9 @@ class ClosedContacts:
         first = np.concatenate([[0], np.cumsum([len(numbers) for numbers, _ in found], dtype=np.int64)])
         integers, floats = (np.concatenate([read.none[i], *(part[i] for part in found)]) for i in range(2))
         gap, points, normal, force, friction, moment, slip = np.split(floats, [1, 7, 10, 11, 14, 17], axis=1)
-        return cls(
-            request,
-            first,
-            integers[:, 0],
-            integers[:, 1],
-            gap[:, 0],
-            points.reshape(-1, 2, 3),
-            normal,
-            force[:, 0],
-            friction,
-            moment,
-            slip,
-        )
+        contact, mode = integers.T
+        points, force, gap = points.reshape(-1, 2, 3), force[:, 0], gap[:, 0]
+        return cls(request, first, contact, mode, gap, points, normal, force, friction, moment, slip)
 
     @property
     def beyond_cone(self) -> NDArray[np.bool_]:

@@ -11,7 +11,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.histories.history import History, LabelledArray
 from nonsmooth.histories.request import read_times
 from nonsmooth.interfaces import Body
-from nonsmooth.queries.bodies import BodyPair
+from nonsmooth.queries.distance import BodyPair
 from nonsmooth.system.asked import body_number
 
 if TYPE_CHECKING:

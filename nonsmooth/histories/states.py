@@ -184,18 +184,10 @@ class Energies:
 
         request.replay.visit(request.times, keep, forces=False)
         start = account.kinetic_start + account.potential_start
-        kinetic, potential, driven, loads, restitution, friction, closing = table
-        return cls(
-            kinetic,
-            potential,
-            driven,
-            loads,
-            restitution,
-            friction,
-            closing,
-            start,
-            rates[:, request.columns("n_q")],
-        )
+        kinetic, potential, driven, loads, *losses = table
+        restitution, friction, closing = losses
+        rates = rates[:, request.columns("n_q")]
+        return cls(kinetic, potential, driven, loads, restitution, friction, closing, start, rates)
 
     @property
     def loss(self) -> Floats:

@@ -15,6 +15,7 @@ from nonsmooth.checks import check_kind
 from nonsmooth.engine.memory.modes import AFTER, BEFORE, CODE, DURING, Mode
 from nonsmooth.errors import MissingPackagesError, UnknownName
 from nonsmooth.export.table import Series, table
+from nonsmooth.histories.variables import VARIABLES
 from nonsmooth.solution.files import replacing
 from nonsmooth.solution.modes import triggers
 
@@ -23,27 +24,11 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 _FORCES = (
-    "mode",
-    "normal_force",
-    "friction_force",
-    "friction_moment",
-    "gap",
-    "contact_point",
-    "contact_normal",
+    "mode", "normal_force", "friction_force", "friction_moment", "gap", "contact_point", "contact_normal",
     "slip_velocity",
-)
+)  # fmt: skip
 """Variables of the series "forces"."""
-_ENERGIES = (
-    "kinetic_energy",
-    "potential_energy",
-    "driven_work",
-    "load_work",
-    "restitution_loss",
-    "friction_loss",
-    "closing_loss",
-    "loss",
-    "unexplained_energy",
-)
+_ENERGIES = [name for name, row in VARIABLES.items() if row.unit == "J"]
 """Variables of the series "energies"."""
 _EVENT_ENERGIES = ("driven_work", "restitution_loss", "friction_loss", "closing_loss")
 _HEAD = ("time [s]", "cause", "contact or guard", "phases", *(f"{name} [J]" for name in _EVENT_ENERGIES), "modes")

@@ -22,23 +22,10 @@ _LONGEST_LINE = 110
 _FOOT = 0.62
 """Height of the caption [inches]."""
 _COLOURS = (
-    "#000000",
-    "#d55e00",
-    "#0072b2",
-    "#009e73",
-    "#e69f00",
-    "#aa3377",
-    "#56b4e9",
-    "#999999",
-    "#6b4c1e",
-    "#f0e442",
-    "#99cc00",
-    "#882255",
-    "#44aa99",
-    "#332288",
-    "#ddcc77",
-)
-"""One for each cause, with letters besides, as nobody tells so many apart."""
+    "#000000", "#d55e00", "#0072b2", "#009e73", "#e69f00", "#aa3377", "#56b4e9", "#999999", "#6b4c1e", "#f0e442",
+    "#99cc00", "#882255", "#44aa99", "#332288", "#ddcc77",
+)  # fmt: skip
+"""Colour of each cause; letters tell similar colours apart."""
 _LETTERS = "abcdefghijklmno"
 _BEND = 0.16
 

@@ -81,9 +81,7 @@ class Solution:
         known = self.recorded.engine.records_contacts or not self.system.contacts
         return self.history("q", "u", "law_state", *["mode"] * known, times=times)
 
-    def history(
-        self, *names: str | Variable, times: ArrayLike | None = None, of: Parts | None = None
-    ) -> History:
+    def history(self, *names: str | Variable, times: ArrayLike | None = None, of: Parts | None = None) -> History:
         """Quantities over time: ``solution.history("gap", "normal_force")["gap"]`` is an array [n, n_contacts].
 
         At the instant of an event it is the state after the last event there.  Between stored states, the engine
