@@ -9,10 +9,9 @@ from numpy.typing import ArrayLike
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.histories.history import History, LabelledArray
-from nonsmooth.histories.request import read_times
+from nonsmooth.histories.request import numbers_of, read_times
 from nonsmooth.interfaces import Body
 from nonsmooth.queries.distance import BodyPair
-from nonsmooth.system.asked import body_number
 
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
@@ -56,10 +55,11 @@ def distances(
     InvalidInput, NoDistance, MissingPackagesError
         As of :func:`nonsmooth.distance`; or the system has no such body, or a time is outside of the run.
     """
-    system, names = solution.system, tuple(solution.system.names.bodies)
-    bodies = [system.bodies[body_number(_WHERE, body, system)] for body in (first, second)]
-    if bodies[0] is bodies[1]:
-        raise InvalidInput(_WHERE, "needs two different bodies", bodies[0], "Name the other body.")
+    system = solution.system
+    numbers = numbers_of(_WHERE, system, ["body"], [first, second])["body"]
+    if numbers[0] == numbers[1]:
+        raise InvalidInput(_WHERE, "needs two different bodies", first, "Name the other body.")
+    bodies = [system.bodies[number] for number in numbers]
     pair = BodyPair(bodies[0].frames, bodies[1].frames, by)
     given = read_times(_WHERE, solution, times)
     row = np.atleast_1d(given)
@@ -71,6 +71,5 @@ def distances(
         shape, kind = (len(row), *(3 for _ in axes)), str if name == "how" else float
         values = np.array([getattr(one, name) for one in found], dtype=kind).reshape(shape)
         arrays.append(LabelledArray.of(name, axes, values if given.ndim else values[0], description, unit))
-    numbers = [next(i for i, one in enumerate(system.bodies) if one is body) for body in bodies]
-    whose = {f"{side}_body": names[number] for side, number in zip(("first", "second"), numbers, strict=True)}
+    whose = {f"{side}_body": system.names.bodies[i] for side, i in zip(("first", "second"), numbers, strict=True)}
     return History.of(given, tuple(arrays), {}, attributes=whose)

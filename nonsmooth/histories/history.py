@@ -18,11 +18,7 @@ if TYPE_CHECKING:
 
 _N_NAMED = 6
 """Largest number of labels of an axis that a printed history lists."""
-_SIDES: Mapping[str, tuple[str, ...]] = {
-    "axis": ("x", "y", "z"),
-    "column": ("x", "y", "z"),
-    "side": ("first", "second"),
-}
+_SIDES: Mapping[str, tuple[str, ...]] = {"axis": (*"xyz",), "column": (*"xyz",), "side": ("first", "second")}
 """Labels of axes that are the same in every system."""
 
 

@@ -1,4 +1,4 @@
-"""Pairs of bodies that may be near each other, by sweep and prune of their boxes, and the pairs that a system declares."""
+"""Pairs of bodies that may be near each other, by sweep and prune of boxes, and pairs that a system declares."""
 
 from __future__ import annotations
 

@@ -15,6 +15,7 @@ from nonsmooth.checks import check_kind
 from nonsmooth.datasets import described
 from nonsmooth.engine.memory.layout import BOOKED, N_ACCOUNTS
 from nonsmooth.errors import InvalidInput
+from nonsmooth.histories.history import LabelledArray
 from nonsmooth.interfaces import Engine
 from nonsmooth.results.damage import naming_damage
 from nonsmooth.results.description import MESSAGE, UNFINISHED, attributes_of, energies, system_variable
@@ -27,7 +28,6 @@ from nonsmooth.solution.files import FileError, content_of
 from nonsmooth.solution.request import RunRequest
 from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
-from nonsmooth.solution.variable import Variable
 from nonsmooth.solution.variables import (
     GROWING,
     events_of,
@@ -373,7 +373,7 @@ class SolutionFolder:
         self.attributes[_OWN] = " ".join(coordinates)
         for name, values in arrays.items():
             attributes = described(f"coordinate of the scenario: {name}", unit_of(name))
-            self._arrays.add(Variable(name, ("time",), values, attributes), grows=True)
+            self._arrays.add(LabelledArray(name, ("time",), values, attributes), grows=True)
         self._arrays.commit()
         self._arrays.spell_out(coordinates)
 
@@ -397,7 +397,7 @@ class SolutionFolder:
             lengths[variable.dimensions[0]] = first + len(variable.values)
         return lengths
 
-    def _variables(self, events: Events, rows: Floats) -> list[Variable]:
+    def _variables(self, events: Events, rows: Floats) -> list[LabelledArray]:
         n_states = rows.shape[1] - 1 - self._n_q - self._n_u - N_ACCOUNTS - BOOKED
         parts = np.cumsum([1, self._n_q, self._n_u, N_ACCOUNTS, n_states])
         t, q, u, *rest = np.split(rows, parts, axis=1)

@@ -25,9 +25,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.errors import InvalidInput
+from nonsmooth.histories.history import LabelledArray
 from nonsmooth.packing import CODEC, packed, unpacked, with_checksum, without_checksum
 from nonsmooth.solution.files import FileError, content_of, remove_link
-from nonsmooth.solution.variable import Variable
 
 _GROUP = {"zarr_format": 2}
 _CONSOLIDATED = ".zmetadata"
@@ -105,7 +105,7 @@ class ZarrFolder:
         self._arrays[name] = _Array(dimensions, dtype.str, tuple(shape[1:]), chunks[0], attributes)
         self._lengths[name] = shape[0]
 
-    def add(self, variable: Variable, *, grows: bool) -> None:
+    def add(self, variable: LabelledArray, *, grows: bool) -> None:
         """Add an array, or put another one in the place of one; what it holds counts from the next commit on.
 
         Raises

@@ -18,7 +18,6 @@ from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.events import Events
 from nonsmooth.solution.recorded import Recorded, Track
 from nonsmooth.solution.state import State
-from nonsmooth.system.asked import body_number
 from nonsmooth.system.system import System
 
 if TYPE_CHECKING:
@@ -71,7 +70,9 @@ class Solution:
 
     def of(self, body: Body | str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Samples of q and u of a body or its name, shapes [n, body.n_q] and [n, body.n_u]."""
-        number = body_number("Solution.of", body, self.system)
+        from nonsmooth.histories.request import numbers_of
+
+        (number,) = numbers_of("Solution.of", self.system, ["body"], [body])["body"]
         one, before = self.system.bodies[number], self.system.bodies[:number]
         i_q, i_u = sum(other.n_q for other in before), sum(other.n_u for other in before)
         return self.q[:, i_q : i_q + one.n_q], self.u[:, i_u : i_u + one.n_u]

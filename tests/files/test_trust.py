@@ -22,10 +22,10 @@ import pytest
 import nonsmooth as ns
 from nonsmooth.cli.main import main
 from nonsmooth.files import yaml_text
+from nonsmooth.histories.history import LabelledArray
 from nonsmooth.plugins import registry
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
-from nonsmooth.solution.variable import Variable
 
 ROOT = Path(__file__).resolve().parents[2]
 MARK = "it_ran"
@@ -127,7 +127,7 @@ def _as_file(name: str, text: str) -> str:
 def _as_folder(text: str) -> str:
     """Put a system into a folder of results in place of the one that ran."""
     folder = SolutionFolder.opened(Output(Path("run")))
-    folder._arrays.add(Variable("system", (), np.array(text), {}), grows=False)
+    folder._arrays.add(LabelledArray("system", (), np.array(text), {}), grows=False)
     folder._arrays.commit()
     return "run"
 

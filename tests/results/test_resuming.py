@@ -18,6 +18,7 @@ import pytest
 
 import nonsmooth as ns
 from laws import Coulomb
+from nonsmooth.histories.history import LabelledArray
 from nonsmooth.interfaces import FrictionLaw
 from nonsmooth.model.checkpoint import Difference
 from nonsmooth.results.lock import Lock
@@ -29,7 +30,6 @@ from nonsmooth.runs.identity import digest
 from nonsmooth.runs.resuming import OtherVersions
 from nonsmooth.runs.so_far import RunSoFar
 from nonsmooth.solution.state import Continuation
-from nonsmooth.solution.variable import Variable
 from tests.results.runs import balls
 from tests.runs.continued import differences
 
@@ -219,7 +219,7 @@ def test_a_foreign_folder_runs_no_file_and_no_pickle(tmp_path: Path) -> None:
     text = f'[bodies.ball]\ntype = "{tmp_path / "evil.py"}:Ball"\n'
     _cut_off(tmp_path, balls(), 0.2)
     folder = SolutionFolder.opened(Output(tmp_path))
-    folder._arrays.add(Variable("system", (), np.array(text), {}), grows=False)
+    folder._arrays.add(LabelledArray("system", (), np.array(text), {}), grows=False)
     folder._arrays.commit()
     with pytest.raises(ns.InvalidInput, match="must name what an installed package has registered"):
         ns.resume(tmp_path)

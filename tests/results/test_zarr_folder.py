@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from nonsmooth.errors import InvalidInput
+from nonsmooth.histories.history import LabelledArray
 from nonsmooth.results import zarr_folder
 from nonsmooth.results.zarr_folder import ZarrFolder
 from nonsmooth.solution.files import FileError
-from nonsmooth.solution.variable import Variable
 
 
 @pytest.fixture(autouse=True)
@@ -20,11 +20,11 @@ def _small_chunks(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(zarr_folder, "_ENTRIES", 12)
 
 
-def _variables(values: np.ndarray) -> list[Variable]:
+def _variables(values: np.ndarray) -> list[LabelledArray]:
     return [
-        Variable("x", ("time",), values[:, 0], {"units": "m"}),
-        Variable("y", ("time", "part"), values, {"units": "m/s"}),
-        Variable("code", ("time",), (values[:, 0] > 0.0).astype(np.uint8), {"units": "1"}),
+        LabelledArray("x", ("time",), values[:, 0], {"units": "m"}),
+        LabelledArray("y", ("time", "part"), values, {"units": "m/s"}),
+        LabelledArray("code", ("time",), (values[:, 0] > 0.0).astype(np.uint8), {"units": "1"}),
     ]
 
 
@@ -34,8 +34,8 @@ def test_rows_appended_in_any_portions_come_back(tmp_path: Path) -> None:
     draw = np.random.default_rng(1)
     values = draw.normal(size=(200, 5))
     folder = ZarrFolder(tmp_path / "a.zarr", {"title": "a"})
-    folder.add(Variable("label", ("part",), np.array(["a", "bcd", "", "é", "f"]), {}), grows=False)
-    folder.add(Variable("text", (), np.array("two\nlines"), {}), grows=False)
+    folder.add(LabelledArray("label", ("part",), np.array(["a", "bcd", "", "é", "f"]), {}), grows=False)
+    folder.add(LabelledArray("text", (), np.array("two\nlines"), {}), grows=False)
     for one in _variables(values[:0]):
         folder.add(one, grows=True)
     n = 0

@@ -1,1 +1,0 @@
-from nonsmooth.histories.history import LabelledArray as Variable  # noqa
