@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from nonsmooth.errors import UnknownName
 from nonsmooth.histories.arrays import Floats, Integers
-from nonsmooth.plot.asked import axes_of, times_of
+from nonsmooth.plot.arguments import axes_of, times_of
 from nonsmooth.plot.lines import beside
 from nonsmooth.system.labels import labels
 

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from nonsmooth.errors import InvalidInput
 from nonsmooth.histories.request import numbers_of
 from nonsmooth.interfaces import Body
-from nonsmooth.plot.asked import axes_of, times_of
+from nonsmooth.plot.arguments import axes_of, times_of
 from nonsmooth.plot.lines import beside
 
 if TYPE_CHECKING:
