@@ -1,4 +1,4 @@
-"""Where the frames of bodies are: as a user says, or as their motion and coordinates put them."""
+"""Places of the frames of bodies: from a pose that a user gives, or from their motion and coordinates."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ HERE: Place = (np.zeros(3), np.eye(3))
 
 
 def read_place(thing: str, pose: Any) -> Place:
-    """Return a place from a position [m], or a position and a unit quaternion (scalar first).
+    """Place from a position [m], or from a position and a unit quaternion (scalar first).
 
     Raises
     ------
     InvalidInput
-        If it is neither, a number is not finite, or the quaternion not of unit length.
+        The pose is neither of them, a number is not finite, or the quaternion has no unit length.
     """
     try:
         parts = tuple(pose)
@@ -46,14 +46,14 @@ def read_place(thing: str, pose: Any) -> Place:
 
 @final
 class BodyFrames:
-    """The frames of a body, wherever its coordinates put them.
+    """The frames of a body as functions of its coordinates.
 
     Parameters
     ----------
     body : Body
         The body.
     gravity : sequence of float
-        Gravity vector of its system [m/s^2], which a body may ask for.
+        Gravity vector of its system [m/s^2], which a body may use.
     """
 
     def __init__(self, body: Body, gravity: Sequence[float] = (0.0, 0.0, -9.81)) -> None:

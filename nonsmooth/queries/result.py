@@ -1,4 +1,4 @@
-"""What a query answers."""
+"""DistanceResult: the distance of two bodies or shapes."""
 
 from __future__ import annotations
 
@@ -8,30 +8,29 @@ from typing import final
 from nonsmooth.interfaces.solid import Vector
 
 EXACT, PLANES = "exact", "planes"
-"""Ways in which a distance is found, beside the names of libraries."""
+"""Methods that find a distance, apart from the names of libraries."""
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class DistanceResult:
-    """How far two bodies or shapes are from each other.
+    """Distance of two bodies or shapes, with bounds, nearest points and normal.
 
     Attributes
     ----------
     gap : float
-        Their distance, or, if they overlap, minus a way that parts them [m].
+        Distance; if they overlap, minus the length of a translation that separates them [m].
     lower, upper : float
-        What the gap is between [m]; of library answers to the error that the library states.
+        Bounds of the gap [m]; for a library, the gap less and plus the error that it states.
     first, second : Vector
-        The point of either that is nearest to, or deepest in, the other one, in the world [m], shape [3].
+        Point of each that is nearest to, or deepest in, the other one, in world axes [m], shape [3].
     normal : Vector
         Unit vector from the first to the second, shape [3].
     how : str
-        "exact" by the contact kinematics of the pair, whose least gap of features that face is proved by what stands in
-        ``lower``; "planes" by solids, between planes that part them or show how far they overlap; or the name of the
-        library that told it.
+        Method: "exact", the contact kinematics of the pair, proved by ``lower``; "planes", solids between planes that
+        separate them or bound their overlap; or the name of a library.
     shapes : tuple of int
-        Number of the shape of either body that is meant, counted through all of its frames.
+        Number of the shape of each body, counted through all of its frames.
     """
 
     gap: float
@@ -45,11 +44,11 @@ class DistanceResult:
 
     @property
     def error(self) -> float:
-        """How far the gap may be off [m]."""
+        """Largest possible error of the gap [m]."""
         return max(self.upper - self.gap, self.gap - self.lower)
 
     def exchanged(self) -> DistanceResult:
-        """Return the same with the first in place of the second."""
+        """The same distance with the two exchanged."""
         return DistanceResult(
             self.gap, self.lower, self.upper, self.second, self.first, -self.normal, self.how, self.shapes[::-1]
         )

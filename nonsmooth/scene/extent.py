@@ -12,22 +12,22 @@ from nonsmooth.histories.arrays import Floats
 from nonsmooth.scene.scene import Part, Scene
 
 _ROUND = 1.0
-"""How far a sheet goes beyond what moves, measured by the size of what moves: it is seen to stand on something."""
+"""Margin of a sheet around the moving bodies, relative to their size, so that they are seen to stand on it."""
 _STILL = 1e-9
-"""Change of a pose, relative to the extent, that is round-off."""
+"""Change of a pose relative to the extent, below which it is round-off."""
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class Extent:
-    """The box of all that is seen at any time, of sheets the point that is nearest to the rest.
+    """Box of all visible parts over a run; a sheet, which is unbounded, counts by its point nearest to the others.
 
     Attributes
     ----------
     low, high : array
-        Its corners [m], shape [3].
+        Corners of the box [m], shape [3].
     reach : float
-        How far what moves goes from the origin of its frame [m].
+        Largest radius of a moving body about the origin of its frame [m].
     """
 
     low: Floats
@@ -36,7 +36,7 @@ class Extent:
 
     @classmethod
     def of(cls, scene: Scene, origin: Floats, axes: Floats) -> Extent:
-        """Return that of frames, whose origins and axes are those of :meth:`Scene.places`."""
+        """Extent of a scene, with origins and axes of its frames as :meth:`Scene.places` returns them."""
         bodies = scene.system.bodies
         sheets = [part for part in scene.parts if part.look.sheet]
         solids = [part for part in scene.parts if not part.look.sheet]
@@ -48,7 +48,7 @@ class Extent:
         for part in solids:
             vertices, here = part.look.vertices, origin[:, part.frame]
             own = float(np.max(np.linalg.norm(vertices, axis=1), initial=0.0))
-            # it is within a ball about the origin and within its own box as that is turned
+            # bounded by the sphere about the origin of the frame and by the box of the vertices, rotated
             edges = vertices.min(axis=0, initial=0.0), vertices.max(axis=0, initial=0.0)
             centre = here + axes[:, part.frame] @ (0.5 * (edges[0] + edges[1]))
             half = np.abs(axes[:, part.frame]) @ (0.5 * (edges[1] - edges[0]))
@@ -64,31 +64,31 @@ class Extent:
 
     @property
     def unit(self) -> float:
-        """The length that lines and arrows are measured by [m]."""
+        """Unit of length of lines and arrows [m]."""
         return min(self.reach, 0.5 * float(np.linalg.norm(self.high - self.low)))
 
 
 def nearest(part: Part, origin: Floats, axes: Floats, place: Floats) -> Floats:
-    """Return the point of a sheet at each time that is nearest to a place [m], shape [n, 3]."""
+    """Point of a sheet nearest to a place at each time [m], shape [n, 3]."""
     normal = axes[:, part.frame, :, 2]
     height = np.einsum("ij,ij->i", place - origin[:, part.frame], normal) - part.look.vertices[0, 2]
     return np.asarray(place - height[:, None] * normal)
 
 
 def outlines(scene: Scene, origin: Floats, axes: Floats, extent: Extent) -> list[Floats]:
-    """Return for each sheet the corners of what is drawn of it, in order, in the axes of its frame [m], shape [n, 2].
+    """Corners of the drawn part of each sheet, in order, in the axes of its frame [m], shape [n, 2].
 
-    It goes as far as the run at any time, and some way on, but not behind another sheet that stays where it is beside
-    it and holds all that moves: walls meet at their edges.
+    It contains the run at all times, with a margin.  It ends at another sheet that does not move relative to it and
+    has all moving bodies in front of it: walls meet at their edges.
 
     Parameters
     ----------
     scene : Scene
         The scene.
     origin, axes : array
-        Of its frames, from :meth:`Scene.places`.
+        Origins and axes of the frames, from :meth:`Scene.places`.
     extent : Extent
-        Of all of it.
+        Extent of the scene.
     """
     sheets = [part for part in scene.parts if part.look.sheet]
     moving = {part.frame for part in scene.parts if scene.system.bodies[part.body].n_u > 0 and not part.look.sheet}
@@ -110,14 +110,14 @@ def outlines(scene: Scene, origin: Floats, axes: Floats, extent: Extent) -> list
 
 
 def _holds(part: Part, origin: Floats, axes: Floats, moving: list[int]) -> bool:
-    """Tell whether the origins of frames stay in front of a sheet."""
+    """True if the origins of the frames stay in front of a sheet."""
     normal = axes[:, part.frame, :, 2]
     height = np.einsum("nfi,ni->nf", origin[:, moving] - origin[:, part.frame, None], normal)
     return bool(np.all(height >= part.look.vertices[0, 2]))
 
 
 def _taken(scene: Scene, origin: Floats, axes: Floats, extent: Extent) -> tuple[Floats, Floats]:
-    """Return middles [m] and radii [m] of balls that hold all that is seen, shapes [n, m, 3] and [m]."""
+    """Centres [m] and radii [m] of spheres that contain all visible parts, shapes [n, m, 3] and [m]."""
     middle = 0.5 * (extent.low + extent.high)
     places, radii = list[Floats](), list[float]()
     for part in scene.parts:
@@ -129,14 +129,14 @@ def _taken(scene: Scene, origin: Floats, axes: Floats, extent: Extent) -> tuple[
 
 
 def _rectangle(part: Part, origin: Floats, axes: Floats, places: Floats, radii: Floats) -> Floats:
-    """Return the corners of what balls take up at any time, seen along the normal of a sheet."""
+    """Corners of the rectangle in a sheet that contains the projections of spheres at all times [m], shape [4, 2]."""
     flat = (places - origin[:, part.frame, None]) @ axes[:, part.frame, :, :2]
     (a, b), (c, d) = (flat - radii[:, None]).min(axis=(0, 1)), (flat + radii[:, None]).max(axis=(0, 1))
     return np.array([(a, b), (c, b), (c, d), (a, d)])
 
 
 def _cut(corners: Floats, normal: Floats, level: float) -> Floats:
-    """Return the part of a convex polygon where ``corners @ normal + level`` is positive, or all of it if none is."""
+    """Part of a convex polygon with positive ``corners @ normal + level``; the whole polygon if there is none."""
     heights = corners @ normal + level
     kept = list[Floats]()
     for a, b, p, q in zip(corners, np.roll(corners, -1, axis=0), heights, np.roll(heights, -1), strict=True):

@@ -1,4 +1,4 @@
-"""The page: one HTML file with the player and a run in it."""
+"""The page: one HTML file with the player and a run, whose arrays are packed as text."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 TYPES = {"f8": "<f8", "f4": "<f4", "i4": "<i4", "i2": "<i2", "u1": "|u1"}
-"""Types of numbers that the player reads."""
+"""Types of numbers by their names in the player."""
 _KNOTS = Rule("most times that are drawn, besides the instants of events", "1", minimum=2.0, maximum=1e6)
 _MOST_KINDS = 4
-"""Kinds of bodies that a title names."""
+"""Largest number of kinds of bodies in a title."""
 _POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:"
 _PAGE = """<!DOCTYPE html>
 <html lang="en">
@@ -48,7 +48,7 @@ _PAGE = """<!DOCTYPE html>
 
 
 def page(solution: Solution, title: str, most_knots: int) -> str:
-    """Return the page of a run."""
+    """Page of a run as HTML."""
     check_number("to_html: most_knots", most_knots, _KNOTS)
     told, arrays = record(solution, title or _named(solution.system.names.bodies), int(most_knots))
     told["directory"], text = pack(arrays)
@@ -65,17 +65,17 @@ def page(solution: Solution, title: str, most_knots: int) -> str:
 
 
 def _named(bodies: Sequence[str]) -> str:
-    """Return a title made of the names of bodies; those that differ by their number alone are counted."""
+    """Title from the names of bodies; bodies whose names differ by a number only are counted."""
     kinds = Counter(re.sub(r" \d+$", "", name) for name in bodies)
     words = [kind if count == 1 else f"{count}\u00a0\u00d7\u00a0{kind}" for kind, count in kinds.items()]
     return ", ".join(words[:_MOST_KINDS] + ["…"] * (len(words) > _MOST_KINDS))
 
 
 def pack(arrays: Mapping[str, tuple[str, NDArray[Any]]]) -> tuple[list[dict[str, Any]], str]:
-    """Return a directory of arrays, given by name with their types, and the text that holds them.
+    """Directory of arrays and the text with their numbers; the arrays have names and types.
 
-    An array of n numbers of b bytes becomes b rows of n bytes, of which the high ones change little: gzip finds more
-    in them.  Equal arrays give equal text.
+    An array of n numbers of b bytes is stored as b rows of n bytes.  The rows of high bytes change little, so that gzip
+    packs them well.  Equal arrays give equal text.
     """
     directory, blocks, at = [], list[bytes](), 0
     for name, (kind, array) in arrays.items():

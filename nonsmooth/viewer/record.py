@@ -1,4 +1,4 @@
-"""Everything of a run that the player shows, as words and arrays."""
+"""Record of a run for the player: words and arrays."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ Arrays = dict[str, tuple[str, NDArray[Any]]]
 
 FORMAT = "nonsmooth-view/1"
 _WHOLE = 32767
-"""What stands for 1 in the components of a quaternion."""
+"""Integer that represents the component 1 of a quaternion."""
 _ROOM = 250_000
-"""Poses at most; with more bodies there are fewer knots between events."""
+"""Largest number of poses; more bodies have fewer knots between events."""
 
 
 def record(solution: Solution, title: str, most_knots: int) -> tuple[dict[str, Any], Arrays]:
-    """Return the words and the arrays of a run."""
+    """Words and arrays of a run."""
     system, scene = solution.system, Scene.of(solution.system)
     times = knots(solution, max(2, min(most_knots, _ROOM // max(1, scene.n_frames))))
     states = solution.at(times)
@@ -75,7 +75,7 @@ def record(solution: Solution, title: str, most_knots: int) -> tuple[dict[str, A
 
 
 def _turns(axes: Floats) -> Floats:
-    """Return unit quaternions, scalar last, shape [n, n_frames, 4]."""
+    """Unit quaternions, scalar last, shape [n, n_frames, 4]."""
     from scipy.spatial.transform import Rotation
 
     n, n_frames = axes.shape[:2]
@@ -83,7 +83,7 @@ def _turns(axes: Floats) -> Floats:
 
 
 def _geometry(scene: Scene, sheets: list[Floats]) -> tuple[Arrays, list[dict[str, Any]]]:
-    """Return the arrays of all looks, and where in them each part stands; ``sheets`` are outlines."""
+    """Arrays of all looks, and the ranges of each part in them; ``sheets`` are outlines."""
     looks = [part.look for part in scene.parts]
     firsts = np.cumsum([0, *(len(look.vertices) for look in looks)])
     parts = list[dict[str, Any]]()
@@ -106,7 +106,7 @@ def _geometry(scene: Scene, sheets: list[Floats]) -> tuple[Arrays, list[dict[str
 
 
 def _energies(solution: Solution, times: Floats) -> Arrays:
-    """Return the account at the knots, and what it was before the events of each instant."""
+    """Energy account at the knots, and before the events of each instant."""
     losses, works = ("restitution_loss", "friction_loss", "closing_loss"), ("driven_work", "load_work")
     found = solution.history("kinetic_energy", "potential_energy", *losses, *works, times=times)
     kinetic, potential, restitution, friction, closing, driven, loads = found.values()
@@ -121,7 +121,7 @@ def _energies(solution: Solution, times: Floats) -> Arrays:
 
 
 def _forces(solution: Solution, times: Floats) -> Arrays:
-    """Return the forces of closed contacts at the knots, none where the engine cannot be asked for them."""
+    """Forces of closed contacts at the knots; empty arrays if the engine gives no forces."""
     if not replay_of(solution).is_flow:
         none, nowhere = np.zeros(0), np.zeros((0, 3))
         return {
