@@ -50,7 +50,7 @@ class Arrows:
 def arrows(solution: Solution) -> Iterator[Arrows]:
     """Give the arrows of each contact that takes part in an impact; they show what bodies that move get."""
     # also of an engine that records no contacts, and so no events
-    found = Impulses.recorded(Request.complete(solution, np.zeros(0)))
+    found = Impulses.recorded(Request(solution, np.zeros(0)))
     side = sides(solution.system)[found.impulse_contact][:, None]
     push = side * (found.normal_impulse[:, None] * found.impulse_normal + found.friction_impulse)
     size = np.linalg.norm(push, axis=1)

@@ -42,7 +42,7 @@ class Marks:
         """
         if not replay_of(solution).is_flow:
             return cls(len(times) * (len(WORDS) * (np.zeros((0, 3)),),))
-        request = Request.complete(solution, times)
+        request = Request(solution, times)
         forces, impulses = ClosedContacts.of(request), Impulses.of(request)
         points = forces.contact_point.mean(axis=1)
         struck = (impulses.normal_impulse > 0.0) & np.all(np.isfinite(impulses.impulse_point), axis=(1, 2))

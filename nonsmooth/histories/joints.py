@@ -42,7 +42,7 @@ class Joints:
     def of(cls, request: Request) -> Joints:
         """Solve for the forces at the times of a request."""
         joints = _readers(request.replay.laid)
-        chosen = [joints[number] for number in request.parts["joint"]]
+        chosen = [joints[number] for number in request.numbers("joint")]
         table = np.zeros((3, len(request.times), len(chosen), 3))
 
         def keep(i: int) -> None:

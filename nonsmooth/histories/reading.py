@@ -69,13 +69,13 @@ def _names(request: Request, axes: set[str]) -> tuple[dict[str, tuple[str, ...]]
     system, names = request.solution.system, request.solution.system.names
     found: dict[str, tuple[str, ...]] = {}
     if "contact" in axes:
-        found["contact"] = tuple(names.contacts[number] for number in request.parts["contact"])
+        found["contact"] = tuple(names.contacts[number] for number in request.numbers("contact"))
     if "joint" in axes:
-        found["joint"] = tuple(names.joints[number] for number in request.parts["joint"])
+        found["joint"] = tuple(names.joints[number] for number in request.numbers("joint"))
     if "frame" in axes:
         found["frame"] = tuple(
             names.bodies[number] + (f" frame {frame}" if n_frames > 1 else "")
-            for number in request.parts["body"]
+            for number in request.numbers("body")
             for n_frames in [len(system.bodies[number].frames)]
             for frame in range(n_frames)
         )

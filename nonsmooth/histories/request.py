@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeAlias, final
 
 import numpy as np
@@ -29,7 +29,7 @@ Parts: TypeAlias = Part | Sequence[Part] | Integers
 @final
 @dataclass(frozen=True)
 class Request:
-    """A run, times within it, and numbers of contacts, bodies and joints of its system.
+    """A run, times within it, and chosen contacts, bodies and joints of its system.
 
     Attributes
     ----------
@@ -37,18 +37,17 @@ class Request:
         The run.
     times : array
         Times within the run [s], in any order, shape [n].
-    parts : mapping of str to tuple of int
-        Numbers of the parts of each kind, "contact", "body" and "joint".
+    chosen : mapping of str to sequence of int
+        Numbers of the chosen parts by their kind, "contact", "body" or "joint"; a kind that is not there is complete.
     """
 
     solution: Solution
     times: Floats
-    parts: Mapping[str, tuple[int, ...]]
+    chosen: Mapping[str, Sequence[int]] = field(default_factory=dict)
 
-    @classmethod
-    def complete(cls, solution: Solution, times: Floats) -> Request:
-        """Request for all parts of the system."""
-        return cls(solution, times, numbers_of("", solution.system, (), None))
+    def numbers(self, kind: str) -> Sequence[int]:
+        """Numbers of the parts of a kind."""
+        return self.chosen[kind] if kind in self.chosen else range(len(_parts(self.solution.system, kind)))
 
     @property
     def replay(self) -> StateReplay:
@@ -63,19 +62,19 @@ class Request:
     @property
     def contacts(self) -> Integers:
         """Numbers of the contacts."""
-        return np.array(self.parts["contact"], dtype=np.int64)
+        return np.array(self.numbers("contact"), dtype=np.int64)
 
     @property
     def bodies(self) -> list[Body]:
         """The bodies."""
-        return [self.solution.system.bodies[number] for number in self.parts["body"]]
+        return [self.solution.system.bodies[number] for number in self.numbers("body")]
 
     def columns(self, of: str) -> Integers:
         """Columns of the bodies among the coordinates, ``of="n_q"``, or the velocities, ``of="n_u"``, of all bodies."""
         sizes = [getattr(body, of) for body in self.solution.system.bodies]
         first = np.cumsum([0, *sizes])
         return np.concatenate(
-            [np.zeros(0, np.int64), *(np.arange(first[number], first[number + 1]) for number in self.parts["body"])]
+            [np.zeros(0, np.int64), *(np.arange(first[number], first[number + 1]) for number in self.numbers("body"))]
         )
 
 
@@ -103,7 +102,7 @@ def read_times(where: str, solution: Solution, times: ArrayLike | None) -> Float
     return found
 
 
-def numbers_of(where: str, system: System, kinds: Sequence[str], of: Parts | None) -> dict[str, tuple[int, ...]]:
+def numbers_of(where: str, system: System, kinds: Sequence[str], of: Parts | None) -> dict[str, Sequence[int]]:
     """Numbers of the chosen parts of a system by their kind, "contact", "body" or "joint".
 
     Each part counts for its own kind.  A kind of which no part is chosen is complete, unless the choice is empty.
@@ -126,16 +125,16 @@ def numbers_of(where: str, system: System, kinds: Sequence[str], of: Parts | Non
     InvalidInput
         An object is no part of the system, a number is too large, or the kind of a number is not clear.
     """
-    known: dict[str, Sequence[object]] = {"contact": system.contacts, "body": system.bodies, "joint": system.joints}
-    chosen: dict[str, list[int]] = {kind: [] for kind in known}
+    known = {kind: _parts(system, kind) for kind in kinds}
+    chosen: dict[str, list[int]] = {kind: [] for kind in kinds}
     several = of if isinstance(of, (list, tuple, range, np.ndarray)) else [] if of is None else [of]
     if len(several) and not kinds:
         raise InvalidInput(where, "must be left out", of, "No variable that was asked for belongs to a part.")
     for part in several:
-        for kind, number in _found(where, system, {kind: known[kind] for kind in kinds}, part):
+        for kind, number in _found(where, system, known, part):
             chosen[kind].append(number)
     is_complete = of is None or len(several) > 0
-    return {kind: tuple(chosen[kind] or range(is_complete * len(known[kind]))) for kind in known}
+    return {kind: chosen[kind] or range(is_complete * len(known[kind])) for kind in kinds}
 
 
 def _found(where: str, system: System, known: Mapping[str, Sequence[object]], part: object) -> list[tuple[str, int]]:
@@ -165,4 +164,9 @@ def _found(where: str, system: System, known: Mapping[str, Sequence[object]], pa
 
 
 _PLURALS = {"contact": "contacts", "body": "bodies", "joint": "joints"}
-"""Attribute of ``System.names`` with the names of a kind of parts."""
+"""Attribute of a system, and of its names, with the parts of a kind."""
+
+
+def _parts(system: System, kind: str) -> Sequence[object]:
+    found: Sequence[object] = getattr(system, _PLURALS[kind])
+    return found

@@ -18,12 +18,12 @@ it.  Its attributes are the numbers that a new variable can be made of:
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from operator import attrgetter
 from typing import Any, final
 
+import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.histories.contacts import ClosedContacts, NearContacts
@@ -84,7 +84,6 @@ def _closed(name: str, unit: str, axes: tuple[str, ...], description: str, if_op
 
 
 _CONTACT, _JOINT, _FRAME, _XYZ, _SIDES = ("contact",), ("joint",), ("frame",), ("axis",), ("side",)
-_NAN = math.nan
 _ROWS = (
     # states
     _row("q", "", ("coordinate",), "coordinates, see coordinate_units", States),
@@ -118,9 +117,9 @@ _ROWS = (
     _closed("normal_force", "N", (), "normal force", 0.0),
     _closed("friction_force", "N", _XYZ, "friction force on the second body", 0.0),
     _closed("friction_moment", "N m", _XYZ, "moment of a traction law on the second body", 0.0),
-    _closed("contact_point", "m", _SIDES + _XYZ, "contact points on the first and the second body", _NAN),
-    _closed("contact_normal", "1", _XYZ, "unit normal from the first to the second body", _NAN),
-    _closed("slip_velocity", "m/s", _XYZ, "tangential velocity of the second body relative to the first", _NAN),
+    _closed("contact_point", "m", _SIDES + _XYZ, "contact points on the first and the second body", np.nan),
+    _closed("contact_normal", "1", _XYZ, "unit normal from the first to the second body", np.nan),
+    _closed("slip_velocity", "m/s", _XYZ, "tangential velocity of the second body relative to the first", np.nan),
     _closed("beyond_cone", "1", (), "true if the force is outside of the friction cone", 0.0),
     # joints
     _row("joint_point", "m", _JOINT + _XYZ, "point of the joint on the second body", Joints),

@@ -60,7 +60,7 @@ def event_arrays(
 ) -> dict[str, tuple[str, NDArray[Any]]]:
     """Arrays of events; ``times`` are the knots [s], which contain all instants of events."""
     # an engine that records no contacts has no events, and no impulses
-    events, impulses = solution.events, Impulses.recorded(Request.complete(solution, times))
+    events, impulses = solution.events, Impulses.recorded(Request(solution, times))
     sign = side[impulses.impulse_contact][:, None]
     push, rub = sign * impulses.normal_impulse[:, None] * impulses.impulse_normal, sign * impulses.friction_impulse
     return {

@@ -132,7 +132,7 @@ def _forces(solution: Solution, times: Floats) -> Arrays:
             "force_push": ("f4", nowhere),
             "force_rub": ("f4", nowhere),
         }
-    found = ClosedContacts.of(Request.complete(solution, times))
+    found = ClosedContacts.of(Request(solution, times))
     side = sides(solution.system)[found.contact]
     return {
         "force_first": ("i4", found.first),

@@ -12,4 +12,4 @@ from nonsmooth.histories.request import Request
 
 def closed_contacts(solution: ns.Solution, times: ArrayLike) -> ClosedContacts:
     """Entries of all contacts that are closed at times [s]."""
-    return ClosedContacts.of(Request.complete(solution, np.atleast_1d(np.asarray(times, dtype=float))))
+    return ClosedContacts.of(Request(solution, np.atleast_1d(np.asarray(times, dtype=float))))

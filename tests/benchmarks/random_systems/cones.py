@@ -108,7 +108,7 @@ def reported(case: Case, solution: ns.Solution) -> tuple[list[ContactLaws], dict
     given = {frozenset((i, j)): laws for i, j, laws in case.contacts}
     laws = [given[frozenset((numbers[id(c.first)], numbers[id(c.second)]))] for c in solution.system.contacts]
     times = solution.t[np.unique(np.linspace(0, len(solution.t) - 1, _MOST).astype(int))]
-    request = Request.complete(solution, times)
+    request = Request(solution, times)
     f, p, events = ClosedContacts.of(request), Impulses.of(request), solution.events
     speeds = np.linalg.norm(f.slip_velocity, axis=1).tolist()
     forces = Reported(
