@@ -35,6 +35,8 @@ def read_history(
     if len(over := {row.over for row in rows}) > 1:
         rule = "must be variables over time, or variables over impulses"
         raise InvalidInput(f"{_WHERE}: names", rule, [row.name for row in rows], "Ask for each kind in its own call.")
+    if over == {"impulse"} and times is not None:
+        raise InvalidInput(f"{_WHERE}: times", "must be left out", times, "Impulses have the times of their events.")
     given = read_times(_WHERE, solution, times)
     kinds = list(dict.fromkeys(_KINDS[axis] for row in rows for axis in row.axes if axis in _KINDS))
     request = Request(solution, np.atleast_1d(given), numbers_of(f"{_WHERE}: of", solution.system, kinds, of))
@@ -60,7 +62,16 @@ def _row(name: str | Variable) -> Variable:
 
 
 def _labelled(row: Variable, values: NDArray[Any], single: bool) -> LabelledArray:
-    """Array of a row of the table; without the axis of time at a single time."""
+    """Array of a row of the table; without the axis of time at a single time.
+
+    Raises
+    ------
+    InvalidInput
+        The function of the row returns an array with other axes.
+    """
+    if np.ndim(values) != 1 + len(row.axes):
+        rule = f"must have the axes {', '.join((row.over, *row.axes))}"
+        raise InvalidInput(f"values of the variable {row.name!r}", rule, np.shape(values), "Change its row.")
     return LabelledArray.of(row.name, row.axes, values[0] if single else values, row.description, row.unit)
 
 

@@ -12,7 +12,7 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, BallJoint, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth.histories.contacts import ClosedContacts
+from nonsmooth.histories.contacts import ClosedContacts, NearContacts
 from nonsmooth.histories.variables import VARIABLES, Variable, variables
 
 _OVER_TIME = [name for name, row in VARIABLES.items() if row.over == "time"]
@@ -118,6 +118,11 @@ def test_parts_are_chosen_by_object_name_or_number(run: ns.Solution) -> None:
         (lambda run: run.history("gapp"), r"Solution\.history: variable .*Did you mean 'gap'\?.*variables\(\) lists"),
         (lambda run: run.history(), "must be at least one.*Known: q, u"),
         (lambda run: run.history("gap", "normal_impulse"), "Ask for each kind in its own call"),
+        (lambda run: run.history("normal_impulse", times=0.1), "times must be left out.*times of their events"),
+        (
+            lambda run: run.history(Variable("all", "m", (), "gaps", NearContacts.of, lambda near: near.gap)),
+            r"values of the variable 'all' must have the axes time, but it is \(51, 1\)",
+        ),
         (lambda run: run.history("gap", of="plat - ball"), "of: contact .*Did you mean 'plate - ball'"),
         (lambda run: run.history("gap", of=1), "of: contact must be below 1, the number of contacts"),
         (lambda run: run.history("gap", "q", of=0), "contact or body were asked for, so a number is not clear"),
