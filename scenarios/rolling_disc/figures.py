@@ -56,10 +56,10 @@ def _lowest(scenario: RollingDisc, solution: Solution) -> tuple[Floats, str]:
     rates = scenario.precession(solution)
     turns = float(np.sum(np.diff(solution.t) * (rates[1:] + rates[:-1]))) / (4.0 * np.pi)
     if turns <= _MOST_TURNS or rates[-1] <= 0.0:
-        return scenario.contact_points(solution), ""
+        return scenario.contact_points(solution.q, solution.u), ""
     start = max(float(solution.t[0]), solution.t_end - _TURNS * 2.0 * np.pi / float(rates[-1]))
     states = solution.at(np.linspace(start, solution.t_end, _POINTS))
-    return scenario.contact_points(states), f", last {_TURNS:g} turns"
+    return scenario.contact_points(states["q"], states["u"]), f", last {_TURNS:g} turns"
 
 
 def paths(runs: Mapping[str, tuple[RollingDisc, Solution]], title: str) -> Figure:
