@@ -11,10 +11,16 @@ from numpy.typing import NDArray
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.modes import AFTER, BEFORE, CAUSES, CODE, DURING
+from nonsmooth.histories import history
 from nonsmooth.histories.history import LabelledArray
 from nonsmooth.solution.events import Events, ReadRows
 from nonsmooth.system.labels import labels
 from nonsmooth.system.system import System
+
+if TYPE_CHECKING:
+    import xarray
+
+    from nonsmooth.solution.solution import Solution
 
 if TYPE_CHECKING:
     pass
