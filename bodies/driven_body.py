@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any, final
 
 from bodies.carried import check_carried
-from bodies.driven import Driven
 from bodies.motions.harmonic import Harmonic
+from bodies.prescribed import Driven
 from bodies.shapes.sphere import Sphere
 from nonsmooth.interfaces import Shape
 

@@ -111,26 +111,14 @@ class PlanarBody(Body):
         return ("vx", "m/s"), ("vz", "m/s"), ("w", "rad/s")
 
     @property
-    def quaternion(self) -> int:
-        """None."""
-        return -1
-
-    @property
     def evaluator(self) -> Callable[..., None]:
         """Newton-Euler equations in the plane."""
         return _evaluate
 
     @property
-    def time_scale(self) -> float:
-        """Infinite [s]: nothing is prescribed."""
-        return math.inf
-
-    @property
-    def scales(self) -> tuple[Vector, Vector]:
-        """The length of the body, at least its radius of gyration, and the speed of a fall through it."""
-        length = max([math.sqrt(self.moment / self.mass), *(shape.length for shape in self.carried)])
-        speed = math.sqrt(9.81 * length)
-        return np.array([length, length, 1.0]), np.array([speed, speed, speed / length])
+    def length_scale(self) -> float:
+        """That of its shapes, at least its radius of gyration [m]."""
+        return max([math.sqrt(self.moment / self.mass), *(shape.length for shape in self.carried)])
 
     def state(self, **start: Any) -> tuple[Vector, Vector]:
         """Return q and u from position (x, z) [m], angle [rad], velocity [m/s], angular_velocity [rad/s]."""

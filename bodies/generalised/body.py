@@ -152,11 +152,6 @@ class GeneralisedBody(Body):
         return tuple((f"{one.name} rate", f"{one.unit}/s") for one in self.coordinates)
 
     @property
-    def quaternion(self) -> int:
-        """None."""
-        return -1
-
-    @property
     def evaluator(self) -> Callable[..., None]:
         """The functions, put together."""
         return evaluator(self._equations)
