@@ -87,6 +87,7 @@ from bodies.shapes.superellipsoid import Superellipsoid
 from bodies.shapes.support_shape import SupportShape
 from bodies.shapes.swept import SweptPolytope
 from bodies.shapes.triangle_mesh import TriangleMesh
+from bodies.solid import Solid
 from bodies.superellipsoid_body import SuperellipsoidBody
 from bodies.support_body import SupportBody
 from bodies.wall import Wall
@@ -171,6 +172,7 @@ __all__ = [
     "Rod",
     "Slider",
     "SmoothSmooth",
+    "Solid",
     "Sphere",
     "SphereSphere",
     "Spring",

@@ -6,14 +6,13 @@ import functools
 import math
 from abc import abstractmethod
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 
 from bodies.blocks import put, rotation_of
-from bodies.carried import check_carried
 from bodies.inertia import Triple, check_inertia, tensor_of
-from bodies.values import Word, read_start
+from bodies.values import Word, check_carried, read_start
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.errors import InvalidInput
@@ -247,3 +246,26 @@ class FreeBody(Body):
         values = read_start(type(self).__name__, _WORDS, start)
         q = np.concatenate([values["position"], values["orientation"]])
         return q, np.concatenate([values["velocity"], values["angular_velocity"]])
+
+
+class TensorBody(FreeBody):
+    """A free body whose frame need not be a principal one; subclasses are final and give ``_tensor``, computed once."""
+
+    @property
+    @abstractmethod
+    def _tensor(self) -> Vector:
+        """Inertia tensor about the mass centre in the axes of the frame [kg m^2], shape [3, 3]."""
+
+    @property
+    @final
+    def inertia(self) -> tuple[float, float, float]:
+        """Diagonal of the inertia tensor [kg m^2]."""
+        x, y, z = self._tensor.diagonal().tolist()
+        return x, y, z
+
+    @property
+    @final
+    def products(self) -> tuple[float, float, float]:
+        """Elements J_yz, J_xz, J_xy of the inertia tensor [kg m^2]."""
+        tensor = self._tensor
+        return float(tensor[1, 2]), float(tensor[0, 2]), float(tensor[0, 1])

@@ -9,8 +9,7 @@ from typing import Any, final
 import numpy as np
 
 from bodies.blocks import pose_of, write_pose
-from bodies.carried import check_carried
-from bodies.values import Word, read_start, unit_quaternion, unit_vector, vector
+from bodies.values import Word, check_carried, read_start, unit_quaternion, unit_vector, vector
 from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, POSITION, VELOCITY
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import NamesAndUnits, Vector

@@ -10,8 +10,7 @@ from typing import Any, final
 import numpy as np
 
 from bodies.blocks import put
-from bodies.carried import check_carried
-from bodies.values import Word, read_start
+from bodies.values import Word, check_carried, read_start
 from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import NamesAndUnits, Vector

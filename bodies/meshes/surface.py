@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from typing import Any
 
 from bodies.meshes.mesh import Mesh
+from nonsmooth.errors import InvalidInput
 
 
 @dataclass(frozen=True)
@@ -19,3 +21,10 @@ class Surface(ABC):
     @abstractmethod
     def mesh(self) -> Mesh:
         """The mesh, loaded and checked when the surface was made."""
+
+
+def check_surface_of(name: str, surface: Any) -> None:
+    """Raise InvalidInput unless a component gets a surface."""
+    if not isinstance(surface, Surface):
+        example = 'For example MeshFile("part.stl", unit="mm").'
+        raise InvalidInput(f"{name}.surface", "must be a surface", type(surface).__name__, example)

@@ -64,8 +64,8 @@ class Capsule(SweptPolytope):
 
     @property
     def volume(self) -> float:
-        """2 pi r^2 c + 4 pi r^3 / 3 [m^3]."""
-        return 2.0 * math.pi * self.radius**2 * self.half_length + 4.0 / 3.0 * math.pi * self.radius**3
+        """Cylinder and ball, pi r^2 (2 c + 4 r / 3) [m^3]."""
+        return math.pi * self.radius**2 * (2.0 * self.half_length + 4.0 / 3.0 * self.radius)
 
     @property
     def centroid(self) -> Vector:
