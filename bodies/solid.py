@@ -28,8 +28,8 @@ class Solid(SolidBody, TensorBody):
     """A free body that fills a shape evenly: ``Solid(Cylinder(0.02, 0.05), density=2700.0)``.
 
     The origin of its frame is the centroid of the shape. The axes of its frame are those in which the shape is given,
-    unless ``orientation`` turns the shape. Mass and inertia tensor follow from the volume integrals of the shape. Bodies
-    with a name of their own, as :class:`bodies.BoxBody`, have closed forms instead.
+    unless ``orientation`` turns the shape. Mass and inertia tensor follow from the volume integrals of the shape.
+    Bodies with a name of their own, as :class:`bodies.BoxBody`, have closed forms instead.
 
     Attributes
     ----------
