@@ -7,8 +7,7 @@ from typing import final
 
 from bodies.inertia import density_field, mass_field, moments_of
 from bodies.shapes.cone import Cone, inner_radius
-from bodies.shapes.feet import USUAL, check_feet
-from bodies.shapes.frustum import check_rounding
+from bodies.shapes.frustum import USUAL, check_feet, check_rounding
 from bodies.solid_body import SolidBody
 from nonsmooth.parameters import parameter
 

@@ -9,8 +9,7 @@ from typing import final
 from bodies.free import FreeBody
 from bodies.inertia import check_mass, mass_field, moments_of
 from bodies.shapes.disc import Disc
-from bodies.shapes.feet import USUAL, check_feet
-from bodies.shapes.frustum import check_rounding
+from bodies.shapes.frustum import USUAL, check_feet, check_rounding
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import parameter
 

@@ -10,8 +10,7 @@ from typing import Any, final
 from bodies.free import TensorBody
 from bodies.inertia import density_field, mass_field, mass_of, tensor_in
 from bodies.meshes.decomposition import Decomposition
-from bodies.meshes.mesh import Mesh
-from bodies.meshes.surface import Surface, check_surface_of
+from bodies.meshes.mesh import Mesh, Surface, check_surface_of
 from bodies.shapes.hull import ConvexHull
 from bodies.shapes.polytope import MOST_VERTICES
 from bodies.shapes.triangle_mesh import TriangleMesh

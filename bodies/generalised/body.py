@@ -14,12 +14,11 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from bodies.generalised.checks import check_equations
+from bodies.generalised.checks import GRAVITY, Sampler, check_equations, check_signatures
 from bodies.generalised.coordinate import Coordinate
 from bodies.generalised.equations import Equations, Part, evaluator, own_names
 from bodies.generalised.example import cart_pendulum
 from bodies.generalised.frames import Function, MovingFrame
-from bodies.generalised.sample import GRAVITY, Sampler, check_signatures
 from bodies.values import Word, read_start
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body, Shape

@@ -10,8 +10,8 @@ import numpy as np
 
 from bodies.shapes.drawing import arc, revolved
 from bodies.shapes.placement import about_axis
+from bodies.shapes.polyhedron import SweptPolytope
 from bodies.shapes.polytope import Polytope
-from bodies.shapes.swept import SweptPolytope
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector

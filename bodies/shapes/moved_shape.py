@@ -11,7 +11,7 @@ import numpy as np
 
 from bodies.shapes.egg import Egg
 from bodies.shapes.placement import with_axes
-from bodies.shapes.smooth_shape import SmoothShape
+from bodies.shapes.smooth import SmoothShape
 from bodies.shapes.support_shape import SupportShape
 from bodies.values import product
 from nonsmooth.errors import InvalidInput

@@ -10,8 +10,8 @@ from typing import Any, final
 import numpy as np
 
 from bodies.meshes.features import Features, features_of
+from bodies.meshes.mesh import Surface, check_surface_of
 from bodies.meshes.solid import MeshSolid
-from bodies.meshes.surface import Surface, check_surface_of
 from bodies.meshes.topology import Integers
 from bodies.meshes.triangles import Triangles
 from bodies.shapes.placement import with_axes

@@ -6,10 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.across import across
-from bodies.contacts.features.curvature import write_round
+from bodies.contacts.features.frames import across
 from bodies.contacts.features.polytope_tables import Numbers
 from bodies.contacts.features.swept_vertex import END, NEAR
+from bodies.contacts.features.writing import write_round
 from bodies.contacts.frustum.apex_swept import past_apex
 from bodies.contacts.frustum.frustum import (
     HIGH_RIM,

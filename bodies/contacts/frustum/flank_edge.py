@@ -7,10 +7,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.curvature import write_sweep
 from bodies.contacts.features.polytope_tables import FACE, LENGTH, Numbers, edge_rows, face_table
+from bodies.contacts.features.writing import write_sweep
 from bodies.contacts.frustum.frustum import FLANK, center_in_world, write_part
-from bodies.contacts.frustum.frustum_edge import (
+from bodies.contacts.frustum.frustum_writing import (
     astray_of_edge,
     edge_in_frustum,
     overlap_at,
@@ -20,7 +20,7 @@ from bodies.contacts.frustum.frustum_edge import (
 )
 from bodies.contacts.smooth.smooth_core import axes_in_world, forth
 from bodies.shapes.frustum import COS, LOW, SIDE, SIN, SWEEP, Frustum
-from bodies.shapes.swept import SweptPolytope
+from bodies.shapes.polyhedron import SweptPolytope
 from nonsmooth.engine.memory.blocks import SIDE_A
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
+from bodies.contacts.features.frames import tangent_of
 from bodies.contacts.features.polytope_tables import Numbers
-from bodies.contacts.features.tangents import tangent_of
 from bodies.contacts.frustum.frustum import FLANK, axis_in_world, center_in_world
 from bodies.contacts.frustum.frustum_writing import overlap_of, past_border, write_side, write_two
 from bodies.shapes.frustum import COS, LOW, SIDE, SIN, Frustum

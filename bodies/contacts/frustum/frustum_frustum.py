@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar, final
 
-from bodies.contacts.features.across import across
-from bodies.contacts.features.frames import point_in_world
+from bodies.contacts.features.frames import across, point_in_world
 from bodies.contacts.features.polytope_tables import Numbers
 from bodies.contacts.features.vertex_face import REACH
 from bodies.contacts.frustum.apex_frustum import ApexFrustum

@@ -9,13 +9,10 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.blocks import put
-from bodies.contacts.features.across import across
-from bodies.contacts.features.curvature import write_round
-from bodies.contacts.features.disc_tip import tip_past_rim
-from bodies.contacts.features.frames import point_in_world, vector_in_body
+from bodies.contacts.features.frames import across, point_in_world, vector_in_body, write_tangent
 from bodies.contacts.features.polytope_tables import FACE, Numbers, face_table, star_lengths, star_of, vertex_table
-from bodies.contacts.features.tangents import write_tangent
 from bodies.contacts.features.vertex_face import DEEP, REACH, height_over
+from bodies.contacts.features.writing import write_round
 from bodies.contacts.frustum.flank_edge import FlankEdge
 from bodies.contacts.frustum.frustum import (
     FLANK,
@@ -25,10 +22,11 @@ from bodies.contacts.frustum.frustum import (
     center_in_world,
     part_names,
     part_number,
+    tip_past_rim,
     write_part,
 )
-from bodies.contacts.frustum.frustum_edge import size_of_both
 from bodies.contacts.frustum.frustum_swept import FrustumSwept, check_number
+from bodies.contacts.frustum.frustum_writing import size_of_both
 from bodies.contacts.frustum.rim_edge import RimEdge
 from bodies.contacts.frustum.rim_face import RimFace
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum

@@ -12,9 +12,8 @@ from dataclasses import dataclass
 from typing import ClassVar, TypeAlias, final
 
 from bodies.blocks import put
-from bodies.contacts.features.curvature import write_sweep
-from bodies.contacts.features.frames import point_in_world
-from bodies.contacts.features.tangents import write_tangent
+from bodies.contacts.features.frames import point_in_world, write_tangent
+from bodies.contacts.features.writing import write_sweep
 from bodies.contacts.frustum.frustum import (
     FLANK,
     HIGH_CAP,
@@ -29,14 +28,13 @@ from bodies.contacts.frustum.frustum import (
 )
 from bodies.contacts.frustum.frustum_stops import ON_BORDER, by_search, on_cap, on_flank, on_rim
 from bodies.contacts.smooth.boxy_newton import Answer
-from bodies.contacts.smooth.gauge import gauge
-from bodies.contacts.smooth.inscribed import no_shorter_way
+from bodies.contacts.smooth.inscribed import gauge, no_shorter_way
 from bodies.contacts.smooth.round_search import up_hills
 from bodies.contacts.smooth.smooth_core import RADIUS, Axes, axes_in_world, back, between_axes, forth
 from bodies.contacts.smooth.smooth_newton import widest_of_round, write_surface
 from bodies.contacts.smooth.smooth_starts import starts_of, uphill
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
-from bodies.shapes.smooth_shape import SmoothShape
+from bodies.shapes.smooth import SmoothShape
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape

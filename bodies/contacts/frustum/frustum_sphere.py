@@ -7,10 +7,8 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.blocks import put
-from bodies.contacts.features.across import across
-from bodies.contacts.features.curvature import write_round, write_sweep
-from bodies.contacts.features.frames import point_in_world
-from bodies.contacts.features.offset import place_sphere
+from bodies.contacts.features.frames import across, point_in_world
+from bodies.contacts.features.writing import place_sphere, write_round, write_sweep
 from bodies.contacts.frustum.frustum import (
     axis_in_world,
     center_in_world,

@@ -8,17 +8,15 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.blocks import put
-from bodies.contacts.features.across import across
-from bodies.contacts.features.curvature import write_flat, write_principal, write_round, write_sweep
-from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world
+from bodies.contacts.features.frames import across, point_in_world, vector_in_body, vector_in_world, write_tangent
 from bodies.contacts.features.polytope_tables import FACE, Numbers, face_table
-from bodies.contacts.features.tangents import write_tangent
 from bodies.contacts.features.vertex_face import DEEP, REACH, past_face, plane_height
+from bodies.contacts.features.writing import write_flat, write_principal, write_round, write_sweep
 from bodies.contacts.frustum.frustum import axis_in_world, center_in_world, least_height
-from bodies.contacts.frustum.frustum_edge import size_of_both
+from bodies.contacts.frustum.frustum_writing import size_of_both
 from bodies.contacts.plane.plane_rim import FLATTEST
 from bodies.shapes.frustum import SWEEP, Frustum
-from bodies.shapes.swept import SweptPolytope
+from bodies.shapes.polyhedron import SweptPolytope
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape

@@ -14,8 +14,7 @@ from typing import ClassVar, final
 
 from bodies.contacts.features.polytope_tables import Numbers
 from bodies.contacts.features.vertex_face import REACH
-from bodies.contacts.frustum.frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, nearest_part
-from bodies.contacts.frustum.frustum_parts import set_back
+from bodies.contacts.frustum.frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, nearest_part, set_back
 from bodies.contacts.frustum.frustum_writing import Point, astray_of_rim, overlap_of, past_border, write_side, write_two
 from bodies.contacts.smooth.smooth_core import axes_in_world, back, forth
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum

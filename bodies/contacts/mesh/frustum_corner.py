@@ -8,12 +8,9 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.blocks import put
-from bodies.contacts.features.across import across
-from bodies.contacts.features.curvature import write_round
-from bodies.contacts.features.disc_tip import tip_past_rim
-from bodies.contacts.features.frames import point_in_world, vector_in_body
-from bodies.contacts.features.tangents import write_tangent
+from bodies.contacts.features.frames import across, point_in_world, vector_in_body, write_tangent
 from bodies.contacts.features.vertex_face import DEEP, REACH
+from bodies.contacts.features.writing import write_round
 from bodies.contacts.frustum.frustum import (
     FLANK,
     HIGH_CAP,
@@ -22,6 +19,7 @@ from bodies.contacts.frustum.frustum import (
     center_in_world,
     part_names,
     part_number,
+    tip_past_rim,
     write_part,
 )
 from bodies.contacts.surface.surface_search import depth_inside

@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from bodies.contacts.features.across import across
-from bodies.contacts.features.frames import vector_in_body
+from bodies.contacts.features.frames import across, vector_in_body
 from bodies.contacts.features.vertex_face import DEEP
 from bodies.contacts.frustum.frustum import FLANK, HIGH_CAP, LOW_CAP, axis_in_world, center_in_world, nearest_part
 from bodies.contacts.frustum.frustum_writing import astray_of_rim
 from bodies.contacts.mesh.frustum_corner import over_part
 from bodies.contacts.mesh.surface_rim import lowest_on_rim
-from bodies.contacts.mesh.swept_near import steepest
+from bodies.contacts.mesh.swept_pairs import steepest
 from bodies.contacts.surface.surface_search import in_triangle
 from bodies.contacts.surface.surface_tables import CORNER, CORNERS, FACE, FACES
 from bodies.contacts.surface.surface_vertex import ASTRAY

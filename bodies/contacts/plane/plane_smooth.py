@@ -11,7 +11,7 @@ from bodies.contacts.plane.plane_point import place_over_plane
 from bodies.contacts.smooth.smooth_core import RADIUS, axes_in_world, back, forth
 from bodies.contacts.smooth.smooth_newton import write_surface
 from bodies.shapes.ground import Ground
-from bodies.shapes.smooth_shape import SmoothShape
+from bodies.shapes.smooth import SmoothShape
 from bodies.shapes.support_function import support_of
 from nonsmooth.engine.memory.blocks import ROTATION, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape

@@ -13,11 +13,10 @@ import math
 from typing import TypeAlias
 
 from bodies.contacts.smooth.boxy_newton import Answer, Point
-from bodies.contacts.smooth.cuts import settle
-from bodies.contacts.smooth.gauge import gauge
+from bodies.contacts.smooth.inscribed import gauge
 from bodies.contacts.smooth.smooth_core import Axes, back, bend, forth
 from bodies.contacts.smooth.smooth_newton import widest_of_round
-from bodies.contacts.smooth.smooth_starts import Start, gap_along, starts_of, uphill
+from bodies.contacts.smooth.smooth_starts import Start, gap_along, settle, starts_of, uphill
 from bodies.shapes.support_function import support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats

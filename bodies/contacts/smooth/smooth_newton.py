@@ -9,12 +9,10 @@ from bodies.contacts.smooth.boxy_newton import Answer, Point, climb_boxy, write_
 from bodies.contacts.smooth.boxy_pair import meet
 from bodies.contacts.smooth.chart import write_chart
 from bodies.contacts.smooth.chart_newton import meet_in_charts
-from bodies.contacts.smooth.cuts import settle
 from bodies.contacts.smooth.dual_newton import climb
-from bodies.contacts.smooth.gauge import gauge
-from bodies.contacts.smooth.inscribed import no_shorter_way
+from bodies.contacts.smooth.inscribed import gauge, no_shorter_way
 from bodies.contacts.smooth.smooth_core import Axes, back, forth, write_core
-from bodies.contacts.smooth.smooth_starts import gap_along, starts_of, uphill
+from bodies.contacts.smooth.smooth_starts import gap_along, settle, starts_of, uphill
 from bodies.shapes.support_function import gauge_of, is_boxy, is_mixed, is_round, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats

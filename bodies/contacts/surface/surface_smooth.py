@@ -10,13 +10,12 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world
-from bodies.contacts.features.tangents import write_tangent
+from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world, write_tangent
 from bodies.contacts.features.vertex_face import REACH
 from bodies.contacts.smooth.boxy_line import across_line
 from bodies.contacts.smooth.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth
 from bodies.contacts.smooth.smooth_newton import widest_from, write_surface
-from bodies.contacts.surface.surface_feature import write_feature
+from bodies.contacts.surface.surface_ball import write_feature
 from bodies.contacts.surface.surface_search import (
     ON_CORNER,
     ON_EDGE,
