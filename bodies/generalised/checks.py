@@ -1,4 +1,4 @@
-"""What must hold of the functions of a body, looked at by finite differences around a state."""
+"""Checks of the functions of a body: sizes and finite values at one state, derivatives by finite differences."""
 
 from __future__ import annotations
 

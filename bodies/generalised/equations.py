@@ -1,4 +1,4 @@
-"""From the functions of a body to the evaluator that the engine calls, and to a probe that looks at each of them."""
+"""From the functions of a body to the evaluator that the engine calls, and to a probe that calls each of them."""
 
 from __future__ import annotations
 

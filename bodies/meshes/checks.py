@@ -1,4 +1,4 @@
-"""What a mesh must be to enclose a body: each rule with the number that shows where it is broken, and the remedy."""
+"""Rules of a closed surface: each with the number that shows where the surface breaks it, and the remedy."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Mesh: a checked closed surface with what it encloses."""
+"""Mesh: a checked closed surface; Surface: the component that gives it; units of length."""
 
 from __future__ import annotations
 

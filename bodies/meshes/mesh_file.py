@@ -1,4 +1,4 @@
-"""MeshFile: a surface out of a file."""
+"""MeshFile: a surface out of a file; how the file is read."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Repairs of a mesh: only those asked for, in a fixed order, and each says what it changed and by how much."""
+"""Repairs of a mesh: only those that the user names, in a fixed order; each warns of its change."""
 
 from __future__ import annotations
 

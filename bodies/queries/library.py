@@ -1,4 +1,4 @@
-"""Library: how any library is asked, and what becomes of its answer."""
+"""Library: how distance libraries are called, and how their answers are read."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Frustum: what cylinders, cones and discs have in common."""
+"""Frustum: base of cylinders, cones and discs; the three small feet on their flat faces."""
 
 from __future__ import annotations
 

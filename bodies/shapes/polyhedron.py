@@ -1,4 +1,4 @@
-"""Polyhedron: what all shapes with flat faces have in common, sharp or rounded."""
+"""SweptPolytope and Polyhedron: shapes with flat faces, sharp or rounded, and segments with a radius."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Shapes with a smooth support function: what their contact pairs, mass properties and drawings are made of."""
+"""SmoothShape: shapes with a smooth support function or gauge; their numbers, mass properties and drawings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""SupportShape: a convex shape of which nothing but the farthest points along directions is known."""
+"""SupportShape: a convex shape known by its farthest points; its radii of curvature and integrals."""
 
 from __future__ import annotations
 

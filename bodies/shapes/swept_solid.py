@@ -1,4 +1,4 @@
-"""Mass properties of a polyhedron swept by a sphere, piece by piece.
+"""Mass properties and drawing of a polyhedron swept by a sphere, piece by piece.
 
 On every face of the core stands a prism as high as the radius, along every edge a wedge of a cylinder, and at every
 vertex the sector of a ball whose directions are those between the normals of its faces (J. Steiner's formula, for the

@@ -1,4 +1,4 @@
-"""Between a body's axes and the world's, for the evaluators of contact pairs."""
+"""Directions for the evaluators of contacts: body and world axes, first tangents, parts across an axis."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A vertex of one polyhedron against the faces of another."""
+"""Features of a polyhedron for a point: the face under a vertex, the nearest face, edge or vertex."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The matrices ``slide`` and ``turn`` of a surface (:mod:`nonsmooth.engine.memory.blocks`), along principal lines."""
+"""Writers of the geometry block: matrices of a surface, surfaces at a distance from a core, bodies far apart."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the evaluators of frustums share: which part is nearest to a point, and how a part is curved.
+"""Parts of a frustum: the nearest one to a point, their curvature, how rims, feet and apex protrude.
 
 A frustum is the tuple of :func:`bodies.shapes.frustum.frustum_numbers`; its parts are numbered from the lower cap over
 rim, side and rim to the upper cap.

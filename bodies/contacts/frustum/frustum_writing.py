@@ -1,4 +1,7 @@
-"""What the contacts of two frustums share: both of them seen in the world, and the geometry block."""
+"""Contacts of a frustum with a frustum or an edge: both sides in the world, and the geometry block.
+
+An edge belongs to the second body: a sharp or rounded polyhedron, or a capsule.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +23,7 @@ from nonsmooth.types import Floats
 
 Point: TypeAlias = tuple[float, float, float]
 ASTRAY = 0.25
-"""Sine of the angle by which the normal may leave the normals of a rim: what may soon close is followed."""
+"""Sine of the angle by which the normal may leave the normals of a rim or an edge: what may soon close is followed."""
 _INSIDE = 4.0
 """Where no point is found inside, an overlap counts only where it is, or crosses, so many depths away from its ends."""
 
@@ -138,8 +141,6 @@ def write_side(
 
 PARALLEL = 0.01
 """Sine of the angle between an edge and what it crosses below which it does not; then ends and vertices hold."""
-_ASTRAY = 0.25
-"""Sine of the angle by which the normal may leave the normals of a body: what may soon close is followed."""
 
 
 def size_of_both(first: Frustum, second: SweptPolytope) -> float:
@@ -175,7 +176,7 @@ def past_end(gap: float, over: float, sine: float, astray: float, overlap: float
     The gap is that of the cores: without a radius, what overlaps is so deep as wide where it crosses.  Where a point of
     either is inside of the other, by a negative ``overlap``, it holds up to its ends.
     """
-    past = max(over - REACH * size, size * max(PARALLEL - sine, astray - _ASTRAY))
+    past = max(over - REACH * size, size * max(PARALLEL - sine, astray - ASTRAY))
     if gap < 0.0 and overlap >= -DEEP * size:
         past = max(past, over - _INSIDE * gap - REACH * size)
     return past

@@ -1,4 +1,4 @@
-"""A cylinder, a cone or a disc and a surface of so many features that those near each other are contacts."""
+"""A cylinder, a cone or a disc against a surface of many features: those near each other are contacts."""
 
 from __future__ import annotations
 

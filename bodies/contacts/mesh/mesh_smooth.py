@@ -1,4 +1,4 @@
-"""A smooth body against a triangle mesh, convex or not."""
+"""A smooth body against a triangle mesh, convex or not; of many patches those near it are contacts."""
 
 from __future__ import annotations
 

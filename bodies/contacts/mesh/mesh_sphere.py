@@ -1,4 +1,4 @@
-"""A sphere against a triangle mesh, convex or not, in closed form."""
+"""A sphere against a triangle mesh, in closed form; of many patches those near it are contacts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A rounded polyhedron or a capsule and a surface of so many features that those near each other are contacts."""
+"""A rounded polyhedron or a capsule against a surface of many features: those near each other are contacts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where to begin the search of the shortest way out of two smooth bodies: directions with a large gap.
+"""Starts for the search of the shortest way out of two smooth bodies: directions with a large gap.
 
 The gap along a direction is by the support functions alone.  It is looked at along the axes of both bodies and half-way
 between two or three of them, where flat and sharp places are.

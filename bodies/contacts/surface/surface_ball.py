@@ -1,4 +1,4 @@
-"""A ball against one patch of a surface."""
+"""A feature of a surface: its matrices, and a ball against it."""
 
 from __future__ import annotations
 
