@@ -10,7 +10,7 @@ import numpy as np
 
 from bodies.shapes.drawing import revolved
 from bodies.shapes.frustum import (
-    FEET,
+    FEET_OF_FACE,
     Frustum,
     Point,
     check_feet,
@@ -106,7 +106,7 @@ class Cone(Frustum):
         """Tips of the feet of the base in the body frame [m]; none without a height."""
         if self.foot_height == 0.0:
             return ()
-        return feet_on(self._base, self._axis, self.core_sizes[0], 0.0)[:FEET]
+        return feet_on(self._base, self._axis, self.core_sizes[0], 0.0)[:FEET_OF_FACE]
 
     @property
     def length(self) -> float:

@@ -152,7 +152,7 @@ def on_axis(center: Point, axis: Point, height: float) -> Point:
     return x, y, z
 
 
-_FEET_OF_FACE = 3
+FEET_OF_FACE = 3
 """Feet of one face: the least that hold it, and the most whose normal forces are unique."""
 CIRCLE = 2.0 / 3.0
 """Radius of the circle of feet over that of the face.
@@ -198,8 +198,8 @@ def feet_on(center: Point, axis: Point, radius: float, reach: float) -> tuple[Po
     first, length = _across(axis), CIRCLE * radius
     tips: list[Point] = []
     for along in (-reach, reach):
-        for foot in range(_FEET_OF_FACE):
-            half = math.pi * foot / _FEET_OF_FACE
+        for foot in range(FEET_OF_FACE):
+            half = math.pi * foot / FEET_OF_FACE
             w, s = math.cos(half), math.sin(half)
             x, y, z = turned(w, s * axis[0], s * axis[1], s * axis[2], *first)
             tips.append(

@@ -40,9 +40,9 @@ def polyhedron_numbers(polytope: Polytope, radius: float = 0.0) -> Numbers:
     """Numbers of a polyhedron, with a radius about it [m].
 
     They begin like those of a core that is a point (:func:`bodies.shapes.smooth.core_numbers`), because a vertex counts
-    as a point: no semi-axes, two powers, the radius [m]. Then come the numbers of vertices, edges and faces, the offsets
-    of the parts, and the parts, all in the frame of the body: vertices, edges, faces, loops (a vertex and the edge that
-    leaves it), stars (of every vertex the begin and the length of its list of edges), lists.
+    as a point: no semi-axes, two powers, the radius [m]. Then come the numbers of vertices, edges and faces, the
+    offsets of the parts, and the parts, all in the frame of the body: vertices, edges, faces, loops (a vertex and the
+    edge that leaves it), stars (of every vertex the begin and the length of its list of edges), lists.
     """
     return _numbers(polytope.vertices, polytope.faces, polytope.planes, polytope.edges, radius)
 
