@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import VELOCITY
 from nonsmooth.rotations import rotation
 from nonsmooth.types import Floats
 
+Vector3: TypeAlias = tuple[float, float, float]
+"""A vector in compiled functions."""
 POSE = VELOCITY
 """Numbers of a pose, with which the block of a frame begins: position [m] and rotation matrix, row by row."""
 

@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from bodies.blocks import Vector3
 from bodies.contacts.features.frames import point_in_world, vector_in_world
 from bodies.contacts.features.writing import write_flat, write_principal, write_round
 from bodies.contacts.plane.plane_rim import FLATTEST
@@ -98,19 +99,7 @@ def least_height(frustum: Floats, height: float, cosine: float) -> float:
 
 
 @compiled
-def write_part(
-    out: Floats,
-    side: int,
-    part: int,
-    ax: float,
-    ay: float,
-    az: float,
-    ex: float,
-    ey: float,
-    ez: float,
-    radial: float,
-    away: float,
-) -> None:
+def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector3, radial: float, away: float) -> None:
     """Write the matrices of a part; normal and first tangent stand in ``out`` already.
 
     Parameters
@@ -119,13 +108,14 @@ def write_part(
         The geometry block, and where the matrices stand.
     part : int
         Which one.
-    ax, ay, az, ex, ey, ez : float
-        The axis, and the unit vector across it on whose side the point is.
+    axis, outward : Vector3
+        The unit axis, and the unit vector across it on whose side the point is.
     radial : float
         Part of the outward normal along the latter.
     away : float
         Distance of the point from the axis [m].
     """
+    (ax, ay, az), (ex, ey, ez) = axis, outward
     if part == LOW_CAP or part == HIGH_CAP:
         write_flat(out, side)
     elif part != FLANK and away == 0.0:
@@ -139,18 +129,7 @@ def write_part(
 
 @compiled
 def tip_past_rim(
-    b: Floats,
-    n_star: float,
-    star: Floats,
-    lengths: Floats,
-    px: float,
-    py: float,
-    pz: float,
-    nx: float,
-    ny: float,
-    nz: float,
-    depth: float,
-    radius: float,
+    b: Floats, n_star: float, star: Floats, lengths: Floats, p: Vector3, n: Vector3, depth: float, radius: float
 ) -> float:
     """Return how far the edges of a vertex come through the plane of a disc past its rim, negative within it.
 
@@ -159,6 +138,7 @@ def tip_past_rim(
     beside, and it is the rim that meets it.  An edge counts for the end of it that is nearer to the plane; without any
     the number is large.
     """
+    (px, py, pz), (nx, ny, nz) = p, n
     least = math.inf
     for i in range(int(n_star)):
         ex, ey, ez = vector_in_world(b, star[3 * i], star[3 * i + 1], star[3 * i + 2])

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.blocks import put
+from bodies.blocks import Vector3, put
 from bodies.contacts.features.frames import across, point_in_world, vector_in_body, write_tangent
 from bodies.contacts.features.polytope_tables import FACE, Numbers, face_table, star_lengths, star_of, vertex_table
 from bodies.contacts.features.vertex_face import DEEP, REACH, height_over
@@ -39,19 +39,9 @@ from nonsmooth.types import Floats
 
 
 @compiled
-def _least(
-    a: Floats,
-    b: Floats,
-    n_vertices: float,
-    vertices: Floats,
-    nx: float,
-    ny: float,
-    nz: float,
-    x: float,
-    y: float,
-    z: float,
-) -> float:
+def _least(a: Floats, b: Floats, n_vertices: float, vertices: Floats, normal: Vector3, place: Vector3) -> float:
     """Return the least height of the second body's vertices over the plane through a point with the normal n."""
+    (nx, ny, nz), (x, y, z) = normal, place
     base = nx * (b[POSITION] - x) + ny * (b[POSITION + 1] - y) + nz * (b[POSITION + 2] - z)
     nx, ny, nz = vector_in_body(b, nx, ny, nz)
     least = math.inf
@@ -95,7 +85,7 @@ def _evaluate(
             radial, axial, height = cosine, sine, cosine * dr + sine * dz
         nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
         qx, qy, qz = px - height * nx, py - height * ny, pz - height * nz
-        best = max(best, _least(a, b, n_vertices, vertices, nx, ny, nz, qx, qy, qz))
+        best = max(best, _least(a, b, n_vertices, vertices, (nx, ny, nz), (qx, qy, qz)))
         if height > deepest:
             deepest, inner = height, part
     found, gap, past = inner, deepest, math.inf
@@ -111,7 +101,7 @@ def _evaluate(
             beyond, depth = max(-up, up - frustum[SIDE]), 2.0 * frustum[0]
         nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
         qx, qy, qz = px - height * nx, py - height * ny, pz - height * nz
-        least = _least(a, b, n_vertices, vertices, nx, ny, nz, qx, qy, qz)
+        least = _least(a, b, n_vertices, vertices, (nx, ny, nz), (qx, qy, qz))
         if least < best - margin:
             continue
         if height < 0.0:
@@ -119,7 +109,7 @@ def _evaluate(
             inside = deepest
             if flat:
                 x, y, z = px - cx, py - cy, pz - cz
-                inside = tip_past_rim(b, n_star, star, lengths, x, y, z, nx, ny, nz, -height, frustum[0])
+                inside = tip_past_rim(b, n_star, star, lengths, (x, y, z), (nx, ny, nz), -height, frustum[0])
                 inside = min(inside, height_over(b, n_faces, faces, qx, qy, qz))
             beyond = max(beyond, inside)
         beyond -= margin
@@ -141,7 +131,7 @@ def _evaluate(
     for i in range(3):
         out[POINT_A + i] = out[POINT_B + i] - gap * out[NORMAL + i]
     write_tangent(a, out)
-    write_part(out, SIDE_A, found, ax, ay, az, ex, ey, ez, radial, max(away - gap * radial, 0.0))
+    write_part(out, SIDE_A, found, (ax, ay, az), (ex, ey, ez), radial, max(away - gap * radial, 0.0))
     write_round(out, SIDE_B, 0.0)
 
 

@@ -199,14 +199,14 @@ def _nearest(
                 if is_deep:
                     # bodies that overlap so much have no one stop that a search could prove
                     continue
-                found = by_search(frustum, point, core, turn, x, y, z, sx, sy, part, size)
+                found = by_search(frustum, point, core, turn, (x, y, z), (sx, sy), part, size)
             elif part == LOW_CAP or part == HIGH_CAP:
                 found = on_cap(frustum, core, turn, x, y, z, part, near)
             elif part == FLANK:
                 found = on_flank(frustum, core, turn, x, y, z, sx, sy, near)
             else:
                 circle = low if part == LOW_RIM else high
-                found = on_rim(frustum, circle, core, turn, x, y, z, sx, sy, part, tilt)
+                found = on_rim(frustum, circle, core, turn, (x, y, z), (sx, sy), part, tilt)
             if found[0] == found[0] and not found[0] <= best[0]:
                 best, where = found, part
                 if found[0] >= -shallow or _has_room(frustum, part, found, near):
@@ -311,14 +311,14 @@ def _evaluate(
     write_tangent(a, out)
     mx, my, mz = back(turn, -nx, -ny, -nz)
     qx, qy, qz = back(turn, px - x, py - y, pz - z)
-    write_surface(out, SIDE_B, second, axes_b, mx, my, mz, qx, qy, qz)
+    write_surface(out, SIDE_B, second, axes_b, (mx, my, mz), (qx, qy, qz))
     radial = math.sqrt(nx * nx + ny * ny)
     ex, ey = (nx / radial, ny / radial) if radial > 0.0 else (1.0, 0.0)
     ux, uy, uz = forth(axes_a, ex, ey, 0.0)
     away = max(ex * px + ey * py - g * radial, 0.0)
     if part == LOW_RIM or part == HIGH_RIM:
         away = first[0] if part == LOW_RIM else first[1]
-    write_part(out, SIDE_A, part, axes_a[2], axes_a[5], axes_a[8], ux, uy, uz, radial, away)
+    write_part(out, SIDE_A, part, (axes_a[2], axes_a[5], axes_a[8]), (ux, uy, uz), radial, away)
     write_sweep(out, SIDE_A, first[SWEEP])
 
 

@@ -42,7 +42,7 @@ def write_frustum_ball(
     put(out, NORMAL, radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az)
     out[FEATURE] = part_number(first, part)
     place_sphere(a, out, x, y, z, distance - first[SWEEP], radius)
-    write_part(out, SIDE_A, part, ax, ay, az, ex, ey, ez, radial, away - distance * radial)
+    write_part(out, SIDE_A, part, (ax, ay, az), (ex, ey, ez), radial, away - distance * radial)
     write_sweep(out, SIDE_A, first[SWEEP])
     write_round(out, SIDE_B, radius)
     return x, y, z, distance

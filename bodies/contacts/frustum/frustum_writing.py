@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from bodies.blocks import put
+from bodies.blocks import Vector3, put
 from bodies.contacts.features.frames import across, point_in_world, vector_in_world, write_tangent
 from bodies.contacts.features.polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, START
 from bodies.contacts.features.vertex_face import DEEP, REACH, height_over
@@ -79,12 +79,8 @@ def write_two(
     two: Floats,
     distance: float,
     past: float,
-    nx: float,
-    ny: float,
-    nz: float,
-    px: float,
-    py: float,
-    pz: float,
+    normal: Vector3,
+    p: Vector3,
     overlap: float,
 ) -> None:
     """Write all but the matrices; n goes from the core of the one frustum, on which p lies, to the other's.
@@ -92,6 +88,7 @@ def write_two(
     The one is the first body, or the second if ``swap`` is 1.  What overlaps, by a negative number, where the features
     are past their ends is no contact of theirs, but a sign that another one was passed.
     """
+    (nx, ny, nz), (px, py, pz) = normal, p
     sweep = one[SWEEP]
     gap = distance - sweep - two[SWEEP]
     if past > 0.0:
@@ -108,25 +105,13 @@ def write_two(
 
 @compiled
 def write_side(
-    out: Floats,
-    second: float,
-    frustum: Floats,
-    part: int,
-    ax: float,
-    ay: float,
-    az: float,
-    x: float,
-    y: float,
-    z: float,
-    nx: float,
-    ny: float,
-    nz: float,
-    away: float,
+    out: Floats, second: float, frustum: Floats, part: int, axis: Vector3, place: Vector3, normal: Vector3, away: float
 ) -> None:
     """Write the matrices of a part of the second body if ``second`` is 1, else of the first.
 
-    (x, y, z) is the way from its axis to the point, of any length, n its outward normal.
+    ``place`` is the vector from its axis to the point, of any length, ``normal`` its outward normal.
     """
+    (ax, ay, az), (x, y, z), (nx, ny, nz) = axis, place, normal
     along = x * ax + y * ay + z * az
     x, y, z = x - along * ax, y - along * ay, z - along * az
     length = math.sqrt(x * x + y * y + z * z)
@@ -135,7 +120,7 @@ def write_side(
         x, y, z = x / length, y / length, z / length
         radial = nx * x + ny * y + nz * z
     side = SIDE_B if second == 1.0 else SIDE_A
-    write_part(out, side, part, ax, ay, az, x, y, z, radial, away)
+    write_part(out, side, part, axis, (x, y, z), radial, away)
     write_sweep(out, side, frustum[SWEEP])
 
 
@@ -191,20 +176,15 @@ def overlap_at(
     faces: Floats,
     radius: float,
     over: float,
-    px: float,
-    py: float,
-    pz: float,
-    qx: float,
-    qy: float,
-    qz: float,
-    x: float,
-    y: float,
-    z: float,
+    p: Vector3,
+    q: Vector3,
+    place: Vector3,
 ) -> float:
     """Return how deep the points of a crossing are in the other bodies, negative, or 0 if they are past an end.
 
-    p is the frustum's point, in the world, q the edge's in the axes of the frustum, whose centre is (x, y, z).
+    p is the frustum's point, in the world, q the edge's in the axes of the frustum, whose centre is ``place``.
     """
+    (px, py, pz), (qx, qy, qz), (x, y, z) = p, q, place
     if over > 0.0:
         return 0.0
     outside, _, _, _ = nearest_part(frustum, qz, math.sqrt(qx * qx + qy * qy))
@@ -227,12 +207,8 @@ def write_crossing(
     distance: float,
     past: float,
     sine: float,
-    nx: float,
-    ny: float,
-    nz: float,
-    px: float,
-    py: float,
-    pz: float,
+    normal: Vector3,
+    p: Vector3,
     overlap: float,
     size: float,
 ) -> None:
@@ -240,6 +216,7 @@ def write_crossing(
 
     Past its ends a crossing runs faster than the bodies, by the sine of its angle: so much less counts of its way.
     """
+    (nx, ny, nz), (px, py, pz) = normal, p
     sweep = frustum[SWEEP]
     gap = distance - radius - sweep
     if past > 0.0:

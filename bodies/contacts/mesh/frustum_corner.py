@@ -97,7 +97,7 @@ def _evaluate(
         if flat and height < -DEEP * size and beyond <= 0.0:
             # and behind a disc what has come through it, or has it inside
             past_rim = tip_past_rim(
-                b, n_star, star, lengths, px - cx, py - cy, pz - cz, nx, ny, nz, -height, frustum[0]
+                b, n_star, star, lengths, (px - cx, py - cy, pz - cz), (nx, ny, nz), -height, frustum[0]
             )
             x, y, z = (
                 px - height * nx - b[POSITION],
@@ -123,7 +123,7 @@ def _evaluate(
     for i in range(3):
         out[POINT_A + i] = out[POINT_B + i] - gap * out[NORMAL + i]
     write_tangent(a, out)
-    write_part(out, SIDE_A, found, ax, ay, az, ex, ey, ez, radial, max(away - gap * radial, 0.0))
+    write_part(out, SIDE_A, found, (ax, ay, az), (ex, ey, ez), radial, max(away - gap * radial, 0.0))
     write_round(out, SIDE_B, 0.0)
 
 

@@ -29,7 +29,7 @@ def _evaluate(a: Floats, b: Floats, out: Floats, height: float, second: Floats) 
     place_over_plane(
         a, out, x + px - r * a[ROTATION + 2], y + py - r * a[ROTATION + 5], z + pz - r * a[ROTATION + 8], height
     )
-    write_surface(out, SIDE_B, second, axes, mx, my, mz, s[1], s[2], s[3])
+    write_surface(out, SIDE_B, second, axes, (mx, my, mz), (s[1], s[2], s[3]))
 
 
 @final

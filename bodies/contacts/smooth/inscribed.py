@@ -85,5 +85,5 @@ def gauge(core: Floats, x: float, y: float, z: float) -> float:
     if abs(x) + abs(y) + abs(z) <= 1e-9 * size:
         return 0.0
     point, same = (0.0, 0.0, 0.0, 2.0, 2.0, 0.0), (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
-    g, _, _, _ = climb(point, core, same, -x, -y, -z, 0.0, 0.0, 0.0, -x, -y, -z)
+    g, _, _, _ = climb(point, core, same, (-x, -y, -z), (0.0, 0.0, 0.0), (-x, -y, -z))
     return float(1.0 + g / size)

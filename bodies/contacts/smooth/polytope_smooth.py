@@ -176,7 +176,7 @@ def _look_at_edge(
     vx, vy, vz = _vertex(hull, one)
     ex, ey, ez, length = _edge(hull, number)
     g, px, py, pz, nx, ny, nz = widest_from(
-        hull, core, turn, x - vx, y - vy, z - vz, ex, ey, ez, begin[0], begin[1], begin[2]
+        hull, core, turn, (x - vx, y - vy, z - vz), (ex, ey, ez), (begin[0], begin[1], begin[2])
     )
     s = px * ex + py * ey + pz * ez
     if s < -near or s > length + near:
@@ -201,7 +201,7 @@ def _look_at_vertex(
 ) -> Stop:
     vx, vy, vz = _vertex(hull, number)
     g, _, _, _, nx, ny, nz = widest_from(
-        hull, core, turn, x - vx, y - vy, z - vz, 0.0, 0.0, 0.0, begin[0], begin[1], begin[2]
+        hull, core, turn, (x - vx, y - vy, z - vz), (0.0, 0.0, 0.0), (begin[0], begin[1], begin[2])
     )
     star = int(hull[STARS]) + 2 * number
     steepest, most = -1, _ON_BORDER
@@ -402,7 +402,7 @@ def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, s
     write_tangent(a, out)
     mx, my, mz = back(turn, -nx, -ny, -nz)
     px, py, pz = back(turn, px - x, py - y, pz - z)
-    write_surface(out, SIDE_B, second, axes_b, mx, my, mz, px, py, pz)
+    write_surface(out, SIDE_B, second, axes_b, (mx, my, mz), (px, py, pz))
     if feature < n_faces:
         write_flat(out, SIDE_A)
     elif feature < n_faces + n_edges:

@@ -41,10 +41,10 @@ def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) 
         out[POINT_A + i] += first[RADIUS] * out[NORMAL + i]
         out[POINT_B + i] -= second[RADIUS] * out[NORMAL + i]
     write_tangent(a, out)
-    write_surface(out, SIDE_A, first, axes_a, nx, ny, nz, px, py, pz)
+    write_surface(out, SIDE_A, first, axes_a, (nx, ny, nz), (px, py, pz))
     mx, my, mz = back(turn, -nx, -ny, -nz)
     qx, qy, qz = back(turn, qx - x, qy - y, qz - z)
-    write_surface(out, SIDE_B, second, axes_b, mx, my, mz, qx, qy, qz)
+    write_surface(out, SIDE_B, second, axes_b, (mx, my, mz), (qx, qy, qz))
 
 
 @final
