@@ -33,7 +33,7 @@ _BENT = 1e-6
 
 @compiled
 def _height(second: Floats, middle: Vector3, g: Vector3, h: Vector3, angle: float) -> tuple[float, float, float]:
-    """Return height over the side of the point middle + g cos + h sin, all in the axes of the side, and two derivatives."""
+    """Return height over the side of the point middle + g cos + h sin in the axes of the side, and two derivatives."""
     (cx, cy, cz), (gx, gy, gz), (hx, hy, hz) = middle, g, h
     c, s = math.cos(angle), math.sin(angle)
     x, y = cx + c * gx + s * hx, cy + c * gy + s * hy
@@ -50,7 +50,7 @@ def _height(second: Floats, middle: Vector3, g: Vector3, h: Vector3, angle: floa
 @compiled
 def least_round(second: Floats, middle: Vector3, g: Vector3, h: Vector3, low: float, high: float) -> tuple[float, bool]:
     """Return the angle between bounds at which the height is a minimum, and whether there is one."""
-    (cx, cy, cz), (gx, gy, gz), (hx, hy, hz) = middle, g, h
+    gx, gy, gz = g
     step = (high - low) / _SAMPLES
     best, angle = math.inf, low
     for i in range(_SAMPLES + 1):

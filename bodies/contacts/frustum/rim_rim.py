@@ -41,7 +41,7 @@ _SAMPLES, _LEVELS, _STEPS = 16, 3, 60
 def _slope(
     wide: float, radius: float, middle: Vector3, g: Vector3, h: Vector3, angle: float
 ) -> tuple[float, float, float]:
-    """Return the square of the distance from middle + radius (g cos + h sin) to a circle about the third axis, and slopes.
+    """Return the squared distance from middle + radius (g cos + h sin) to a circle about the third axis, and slopes.
 
     They are half of its derivative by the angle, over the radius, and the derivative of that.
     """

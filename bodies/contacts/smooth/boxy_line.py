@@ -55,7 +55,7 @@ def across_line(
     reach : float
         Height of the surface about the line over the origin along its normals [m], 0 of the line itself.
     """
-    (x, y, z), (ex, ey, ez), (nx, ny, nz) = place, e, n
+    x, y, z = place
     spread = math.pi / _LOOKS
     found = _look(core, turn, place, e, n, cosine, sine, 0.0)
     # uphill from the given direction, and from the best of all where the surface is not outside of the body there
