@@ -30,7 +30,7 @@ class BoxBody(SolidBody):
         check_rounding("BoxBody", (self.half_x, self.half_y, self.half_z), self.rounding)
 
     @property
-    def solid(self) -> Box:
+    def centred_shape(self) -> Box:
         """The box."""
         return Box(self.half_x, self.half_y, self.half_z, rounding=self.rounding)
 
@@ -43,6 +43,6 @@ class BoxBody(SolidBody):
     def inertia(self) -> tuple[float, float, float]:
         """Moments m (b^2 + c^2) / 3 and so on [kg m^2]; of a rounded one, piece by piece."""
         if self.rounding > 0.0:
-            return moments_of(self.solid, self.total_mass)
+            return moments_of(self.centred_shape, self.total_mass)
         third, x, y, z = self.total_mass / 3.0, self.half_x**2, self.half_y**2, self.half_z**2
         return third * (y + z), third * (z + x), third * (x + y)

@@ -24,7 +24,7 @@ class CapsuleBody(SolidBody):
     mass: float | None = mass_field()
 
     @property
-    def solid(self) -> Capsule:
+    def centred_shape(self) -> Capsule:
         """The capsule."""
         return Capsule(self.radius, self.half_length)
 

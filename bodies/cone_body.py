@@ -38,7 +38,7 @@ class ConeBody(SolidBody):
         check_feet("ConeBody", self.foot_height or 0.0, radius, 0.5 * height)
 
     @property
-    def solid(self) -> Cone:
+    def centred_shape(self) -> Cone:
         """The cone with its mass centre at the origin."""
         bare = Cone(self.radius, self.height, rounding=self.rounding)
         radius, height = bare.core_sizes
@@ -49,7 +49,7 @@ class ConeBody(SolidBody):
     def inertia(self) -> tuple[float, float, float]:
         """Moments 3 m (4 r^2 + h^2) / 80 across the axis, 3 m r^2 / 10 about it, or by slices [kg m^2]."""
         if self.rounding > 0.0:
-            return moments_of(self.solid, self.total_mass)
+            return moments_of(self.centred_shape, self.total_mass)
         mass, square = self.total_mass, self.radius**2
         across = 3.0 / 80.0 * mass * (4.0 * square + self.height**2)
         return across, across, 0.3 * mass * square

@@ -40,7 +40,7 @@ class CylinderBody(SolidBody):
         check_feet("CylinderBody", self.foot_height or 0.0, *(size - self.rounding for size in sizes))
 
     @property
-    def solid(self) -> Cylinder:
+    def centred_shape(self) -> Cylinder:
         """The cylinder."""
         usual = min(USUAL * (self.radius - self.rounding), 0.1 * (self.half_length - self.rounding))
         height = usual if self.foot_height is None else self.foot_height
@@ -50,7 +50,7 @@ class CylinderBody(SolidBody):
     def inertia(self) -> tuple[float, float, float]:
         """Moments m (r^2 / 4 + h^2 / 3) across the axis, m r^2 / 2 about it [kg m^2]; of a rounded one, by slices."""
         if self.rounding > 0.0:
-            return moments_of(self.solid, self.total_mass)
+            return moments_of(self.centred_shape, self.total_mass)
         mass, square = self.total_mass, self.radius**2
         across = mass * (square / 4.0 + self.half_length**2 / 3.0)
         return across, across, mass * square / 2.0

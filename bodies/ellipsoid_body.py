@@ -23,7 +23,7 @@ class EllipsoidBody(SolidBody):
     mass: float | None = mass_field()
 
     @property
-    def solid(self) -> Ellipsoid:
+    def centred_shape(self) -> Ellipsoid:
         """The ellipsoid."""
         return Ellipsoid(self.semi_x, self.semi_y, self.semi_z)
 

@@ -51,10 +51,10 @@ class HullBody(SolidBody, TensorBody):
         return ConvexHull(self.points, rounding=self.rounding).centroid
 
     @functools.cached_property
-    def solid(self) -> ConvexHull:
+    def centred_shape(self) -> ConvexHull:
         """The hull with its mass centre at the origin."""
         return ConvexHull((np.array(self.points) - self.centre).tolist(), rounding=self.rounding)
 
     @functools.cached_property
     def _tensor(self) -> Vector:
-        return tensor_in(self.solid, self.total_mass)
+        return tensor_in(self.centred_shape, self.total_mass)

@@ -17,7 +17,7 @@ from bodies.shapes.triangle_mesh import TriangleMesh
 from bodies.solid_body import SolidBody
 from bodies.values import unit_quaternion
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import ConvexShape
+from nonsmooth.interfaces import ConvexShape, Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.rotations import rotation
 
@@ -48,7 +48,7 @@ class Solid(SolidBody, TensorBody):
         If the shape has no volume, as a plane or a sharp disc, or the user gives both density and mass, or neither.
     """
 
-    shape: ConvexShape | TriangleMesh = field()
+    shape: Shape = field()
     density: float | None = density_field("density")
     mass: float | None = mass_field()
     orientation: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
@@ -60,25 +60,23 @@ class Solid(SolidBody, TensorBody):
 
     def _check(self) -> None:
         if not isinstance(self.shape, (ConvexShape, TriangleMesh)) or not self.shape.volume > 0.0:
-            remedy = (
-                "Give a Box, a ConvexHull, a TriangleMesh ...; a sharp disc has DiscBody, and RigidBody carries any."
-            )
+            remedy = "Give a Box, a ConvexHull, a TriangleMesh ...; DiscBody is a disc without thickness."
             raise InvalidInput("Solid.shape", "must be a shape with a volume", self.shape, remedy)
         if (self.density is None) == (self.mass is None):
+            given = {"density": self.density, "mass": self.mass}
             remedy = "Write Solid(shape, density=2700.0) or Solid(shape, mass=0.1)."
-            raise InvalidInput(
-                "Solid: density and mass", "must be exactly one number", (self.density, self.mass), remedy
-            )
+            raise InvalidInput("Solid: density or mass", "must be given, exactly one of the two", given, remedy)
         turn = unit_quaternion("Solid.orientation", self.orientation)
         object.__setattr__(self, "orientation", tuple(turn.tolist()))
 
     @property
     def centre(self) -> Vector:
         """The mass centre in the axes of the shape [m], shape [3]."""
+        assert isinstance(self.shape, (ConvexShape, TriangleMesh))
         return self.shape.centroid
 
     @functools.cached_property
-    def solid(self) -> ConvexShape | TriangleMesh:
+    def centred_shape(self) -> ConvexShape | TriangleMesh:
         """The shape in the frame of the body."""
         back = -rotation(self.orientation) @ self.centre
         placed = moved(self.shape, back, np.array(self.orientation))
@@ -87,4 +85,4 @@ class Solid(SolidBody, TensorBody):
 
     @functools.cached_property
     def _tensor(self) -> Vector:
-        return tensor_in(self.solid, self.total_mass)
+        return tensor_in(self.centred_shape, self.total_mass)

@@ -15,7 +15,8 @@ class SolidBody(FreeBody):
     """A free body that fills one shape evenly.
 
     Subclasses are final frozen dataclasses with the fields ``density`` and ``mass``
-    (:func:`bodies.inertia.density_field`, :func:`bodies.inertia.mass_field`). They give ``solid`` and their inertia.
+    (:func:`bodies.inertia.density_field`, :func:`bodies.inertia.mass_field`). They give ``centred_shape`` and their
+    inertia.
     """
 
     @property
@@ -30,17 +31,17 @@ class SolidBody(FreeBody):
 
     @property
     @abstractmethod
-    def solid(self) -> ConvexShape | TriangleMesh:
+    def centred_shape(self) -> ConvexShape | TriangleMesh:
         """The shape, with its centroid at the origin of the frame."""
 
     @property
     @final
     def total_mass(self) -> float:
         """Mass as given, or density times the volume of the shape [kg]."""
-        return mass_of(self, self.mass, self.density, self.solid.volume)
+        return mass_of(self, self.mass, self.density, self.centred_shape.volume)
 
     @property
     @final
     def shapes(self) -> tuple[Shape, ...]:
         """The shape about the mass centre."""
-        return (self.solid,)
+        return (self.centred_shape,)

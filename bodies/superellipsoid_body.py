@@ -30,7 +30,7 @@ class SuperellipsoidBody(SolidBody):
     mass: float | None = mass_field()
 
     @property
-    def solid(self) -> Superellipsoid:
+    def centred_shape(self) -> Superellipsoid:
         """The superellipsoid."""
         return Superellipsoid(
             self.semi_x, self.semi_y, self.semi_z, self.exponent_along, self.exponent_across, self.rounding
@@ -39,4 +39,4 @@ class SuperellipsoidBody(SolidBody):
     @property
     def inertia(self) -> tuple[float, float, float]:
         """Moments, from those of the shape at density 1 [kg m^2]."""
-        return moments_of(self.solid, self.total_mass)
+        return moments_of(self.centred_shape, self.total_mass)

@@ -44,7 +44,7 @@ class SupportBody(SolidBody, TensorBody):
             raise InvalidInput("SupportBody.shape", "must be a SupportShape", self.shape, remedy)
 
     @property
-    def solid(self) -> MovedShape:
+    def centred_shape(self) -> MovedShape:
         """The shape with its mass centre at the origin."""
         x, y, z = (-self.shape.centroid).tolist()
         return MovedShape(self.shape, x, y, z)

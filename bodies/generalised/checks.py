@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies.generalised.equations import GUARD, LEADING, Equations, Part, own_names, places, probe
+from bodies.generalised.equations import GUARD, LEADING, Equations, UserFunction, own_names, places, probe
 from nonsmooth.binding.call import body_caller
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.parameters import Value
@@ -181,7 +181,7 @@ GRAVITY = {"gravity_x": 1.1, "gravity_y": -2.3, "gravity_z": -9.7}
 """Gravity of the checks [m/s^2], which must hold with any."""
 
 
-def check_signatures(name: str, parts: Sequence[Part], known: Mapping[str, Value]) -> None:
+def check_signatures(name: str, parts: Sequence[UserFunction], known: Mapping[str, Value]) -> None:
     """Look at what the functions take, besides their leading arguments out of what is known.
 
     Raises

@@ -28,8 +28,8 @@ LEADING = {
 """What the functions of a body take before its constants."""
 
 
-class Part(NamedTuple):
-    """One function of a body: its variable in the text below, its name for messages, its role, and how much it says."""
+class UserFunction(NamedTuple):
+    """A function of a body: its variable in the text below, name for messages, role, and number of values."""
 
     variable: str
     name: str
@@ -49,22 +49,22 @@ class Equations:
     power: Callable[..., float] | None
     frames: tuple[MovingFrame, ...]
 
-    def parts(self) -> tuple[Part, ...]:
+    def parts(self) -> tuple[UserFunction, ...]:
         """Return all functions."""
         n = self.n
         found = [
-            Part("mass", "mass", "mass", self.mass, n * n),
-            Part("force", "force", "force", self.force, n),
-            Part("potential", "potential", "potential", self.potential, 1),
+            UserFunction("mass", "mass", "mass", self.mass, n * n),
+            UserFunction("force", "force", "force", self.force, n),
+            UserFunction("potential", "potential", "potential", self.potential, 1),
         ]
         if self.power is not None:
-            found.append(Part("power", "power", "power", self.power, 1))
+            found.append(UserFunction("power", "power", "power", self.power, 1))
         for i, frame in enumerate(self.frames):
             name = f"moving_frames[{i}]"
             found += [
-                Part(f"pose_{i}", f"{name}.pose", "pose", frame.pose, frame.n_pose),
-                Part(f"jacobian_{i}", f"{name}.jacobian", "jacobian", frame.jacobian, frame.n_rows * n),
-                Part(f"bias_{i}", f"{name}.bias", "bias", frame.bias, frame.n_rows),
+                UserFunction(f"pose_{i}", f"{name}.pose", "pose", frame.pose, frame.n_pose),
+                UserFunction(f"jacobian_{i}", f"{name}.jacobian", "jacobian", frame.jacobian, frame.n_rows * n),
+                UserFunction(f"bias_{i}", f"{name}.bias", "bias", frame.bias, frame.n_rows),
             ]
         return tuple(found)
 
@@ -73,7 +73,7 @@ GUARD = 16
 """Floats around what each function writes to the probe, in which nothing may be written."""
 
 
-def places(equations: Equations) -> tuple[tuple[Part, int], ...]:
+def places(equations: Equations) -> tuple[tuple[UserFunction, int], ...]:
     """Return every function with the offset at which it writes to the probe."""
     found, start = [], GUARD
     for part in equations.parts():

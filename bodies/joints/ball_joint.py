@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
 
-from bodies.joints.rows import AXES, Row, RowsJoint, on_planes
+from bodies.joints.rows import AXES, JointRow, RowsJoint, on_planes
 
 
 @final
@@ -21,6 +21,6 @@ class BallJoint(RowsJoint):
     """
 
     @property
-    def rows(self) -> Sequence[Row]:
+    def rows(self) -> Sequence[JointRow]:
         """Three translations."""
         return on_planes(self.first, self.second, AXES)

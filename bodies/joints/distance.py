@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
 
-from bodies.joints.rows import AT_DISTANCE, Row, RowsJoint
+from bodies.joints.rows import AT_DISTANCE, JointRow, RowsJoint
 from nonsmooth.parameters import parameter
 
 
@@ -24,6 +24,6 @@ class Distance(RowsJoint):
     length: float = parameter(1.0, doc="distance of the points", unit="m", above=0.0, usual=(1e-4, 1e3))
 
     @property
-    def rows(self) -> Sequence[Row]:
+    def rows(self) -> Sequence[JointRow]:
         """One translation."""
-        return (Row(AT_DISTANCE, self.first, self.second, (self.length, 0.0, 0.0)),)
+        return (JointRow(AT_DISTANCE, self.first, self.second, (self.length, 0.0, 0.0)),)

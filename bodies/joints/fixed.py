@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
 
-from bodies.joints.rows import AXES, Row, RowsJoint, on_planes, parallel_axes
+from bodies.joints.rows import AXES, JointRow, RowsJoint, on_planes, parallel_axes
 from bodies.values import turned_back
 from nonsmooth.vectors import unit_vector
 
@@ -27,7 +27,7 @@ class Fixed(RowsJoint):
     orientation: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
 
     @property
-    def rows(self) -> Sequence[Row]:
+    def rows(self) -> Sequence[JointRow]:
         """All rotations and all translations."""
         quaternion = unit_vector("Fixed.orientation", self.orientation, 4)
         x, y, z = AXES

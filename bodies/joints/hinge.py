@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
 
-from bodies.joints.rows import Point, Row, RowsJoint, on_planes, right_angle
+from bodies.joints.rows import JointRow, Point, RowsJoint, on_planes, right_angle
 from nonsmooth.vectors import perpendiculars, unit_vector
 
 
@@ -29,7 +29,7 @@ class Hinge(RowsJoint):
     second_axis: Point | None = None
 
     @property
-    def rows(self) -> Sequence[Row]:
+    def rows(self) -> Sequence[JointRow]:
         """Three translations and two rotations."""
         axis = unit_vector("Hinge.axis", self.axis)
         sides = perpendiculars(axis)

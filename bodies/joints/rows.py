@@ -45,7 +45,7 @@ AXES: tuple[Point, Point, Point] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0,
 """The axes of a frame."""
 
 
-class Row(NamedTuple):
+class JointRow(NamedTuple):
     """One scalar condition of a joint: kind, a vector in the frame of each body, and a third vector."""
 
     kind: int
@@ -54,20 +54,20 @@ class Row(NamedTuple):
     third: Sequence[float] = (0.0, 0.0, 0.0)
 
 
-def on_planes(first: Sequence[float], second: Sequence[float], normals: Sequence[Sequence[float]]) -> list[Row]:
+def on_planes(first: Sequence[float], second: Sequence[float], normals: Sequence[Sequence[float]]) -> list[JointRow]:
     """Rows that keep a point of the second body on planes through a point of the first one.
 
     Points are in the frames of their bodies [m], normals in that of the first body.
     """
-    return [Row(ON_PLANE, first, second, normal) for normal in normals]
+    return [JointRow(ON_PLANE, first, second, normal) for normal in normals]
 
 
-def right_angle(first: Sequence[float], second: Sequence[float]) -> Row:
-    """Row that keeps a right angle between two directions, each fixed in the frame of its body."""
-    return Row(RIGHT_ANGLE, first, second)
+def right_angle(first: Sequence[float], second: Sequence[float]) -> JointRow:
+    """JointRow that keeps a right angle between two directions, each fixed in the frame of its body."""
+    return JointRow(RIGHT_ANGLE, first, second)
 
 
-def parallel_axes(axes: Sequence[Sequence[float]], seen: Sequence[Sequence[float]]) -> list[Row]:
+def parallel_axes(axes: Sequence[Sequence[float]], seen: Sequence[Sequence[float]]) -> list[JointRow]:
     """Rows that keep two bodies from turning relative to each other.
 
     ``axes`` are three perpendicular directions in the frame of the first body, ``seen`` the same three in the frame of
@@ -94,7 +94,7 @@ class RowsJoint(Joint, ABC):
 
     @property
     @abstractmethod
-    def rows(self) -> Sequence[Row]:
+    def rows(self) -> Sequence[JointRow]:
         """The scalar conditions of the joint."""
 
     def parameters(self) -> Mapping[str, Value]:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
 
-from bodies.joints.rows import Point, Row, RowsJoint, on_planes, parallel_axes
+from bodies.joints.rows import JointRow, Point, RowsJoint, on_planes, parallel_axes
 from bodies.values import turned_back
 from nonsmooth.vectors import perpendiculars, unit_vector
 
@@ -31,7 +31,7 @@ class Slider(RowsJoint):
     orientation: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
 
     @property
-    def rows(self) -> Sequence[Row]:
+    def rows(self) -> Sequence[JointRow]:
         """All rotations and two translations."""
         axis = unit_vector("Slider.axis", self.axis)
         sides = perpendiculars(axis)

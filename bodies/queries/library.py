@@ -9,7 +9,7 @@ from typing import final
 import numpy as np
 
 from bodies.meshes.integrals import winding_number
-from bodies.queries.geometries import MAKERS, Geometries, Made
+from bodies.queries.geometries import MAKERS, GeometryMaker, Made
 from bodies.shapes.box import Box
 from bodies.shapes.hull import ConvexHull
 from bodies.shapes.sphere import Sphere
@@ -29,7 +29,7 @@ _LEAST = 1e-12
 """Distance [m] at which a library does not tell any more whether bodies overlap."""
 
 
-class Library(Geometries):
+class Library(GeometryMaker):
     """A library that is asked for unsigned distances only; subclasses are final, one for each.
 
     Errors of the distance of centimetres are mostly below 1e-11 m.  What is stated is, of convex solids, how far the

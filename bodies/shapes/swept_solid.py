@@ -19,7 +19,7 @@ from bodies.shapes.drawing import check_fineness, solid_of
 from bodies.shapes.polytope import Polytope
 from nonsmooth.interfaces.body import Vector
 
-Solid = tuple[float, Vector, Vector]
+Integrals = tuple[float, Vector, Vector]
 """Volume [m^3], centroid [m], inertia tensor at density 1 about the centroid [m^5]."""
 
 
@@ -40,7 +40,7 @@ class _Sums:
 
 
 @functools.lru_cache(maxsize=64)
-def swept_solid(core: Polytope, radius: float) -> Solid:
+def swept_solid(core: Polytope, radius: float) -> Integrals:
     """Return volume, centroid and inertia, read-only, of all points within ``radius`` [m] of a polyhedron.
 
     Parameters
