@@ -18,6 +18,7 @@ from bodies import (
     BoxBody,
     Capsule,
     CapsuleBody,
+    Compound,
     Cone,
     ConeBody,
     ConvexHull,
@@ -32,9 +33,11 @@ from bodies import (
     HullBody,
     MeshBody,
     MovedShape,
+    Part,
     Plane,
     Plate,
     Point,
+    RigidBody,
     Solid,
     Sphere,
     Superellipsoid,
@@ -157,12 +160,22 @@ def test_mistakes(values: dict[str, Any], words: tuple[str, ...]) -> None:
 
 
 @pytest.mark.parametrize("name", ["box", "egg", "mesh"])
-def test_it_is_a_part_of_a_compound_and_of_itself(name: str) -> None:
-    """A shape that is moved already can be moved again."""
-    shape = KNOWN[name][0]
-    again = Solid(Solid(shape, density=DENSITY).shapes[0], density=DENSITY)
+def test_a_shape_that_is_moved_can_be_moved_again(name: str) -> None:
+    """The shape of a solid fills another solid."""
+    again = Solid(Solid(KNOWN[name][0], density=DENSITY).centred_shape, density=DENSITY)
     np.testing.assert_allclose(again.centre, 0.0, atol=1e-12)
     assert isinstance(again.shapes[0], (Box, MovedShape, TriangleMesh))
+
+
+def test_a_compound_moves_a_shape_known_by_its_farthest_points() -> None:
+    """Such a shape has no numbers that say where it is."""
+    carrier = RigidBody(1.0, (1e-4, 1e-4, 1e-4), (Egg(),))
+    turn = (math.cos(0.3), 0.0, math.sin(0.3), 0.0)
+    body = Compound((Part(carrier, (0.1, 0.0, 0.0), turn), Part(carrier, (-0.1, 0.0, 0.0))))
+    moved_egg, direction = body.shapes[0], np.array([0.3, -0.5, 0.8])
+    assert isinstance(moved_egg, MovedShape)
+    expected = np.array([0.1, 0.0, 0.0]) + _matrix(turn) @ Egg().support(_matrix(turn).T @ direction)
+    np.testing.assert_allclose(moved_egg.support(direction), expected, atol=1e-12)
 
 
 def _bounce(body: FreeBody) -> Any:
