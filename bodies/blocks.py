@@ -47,5 +47,5 @@ def write_pose(out: Floats, pose: Floats) -> None:
 
 
 def stand_still(t: float, q: Floats, u: Floats, out: Floats, pose: Floats) -> None:
-    """Evaluate a frame at rest."""
+    """Write the block of a frame at rest."""
     write_pose(out, pose)

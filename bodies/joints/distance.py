@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
 
-from bodies.joints.rows import AT_DISTANCE, JointRow, RowsJoint
+from bodies.joints.rows import JointRow, RowKind, RowsJoint
 from nonsmooth.parameters import parameter
 
 
@@ -26,4 +26,4 @@ class Distance(RowsJoint):
     @property
     def rows(self) -> Sequence[JointRow]:
         """One translation."""
-        return (JointRow(AT_DISTANCE, self.first, self.second, (self.length, 0.0, 0.0)),)
+        return (JointRow(RowKind.AT_DISTANCE, self.first, self.second, (self.length, 0.0, 0.0)),)

@@ -10,6 +10,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
@@ -37,18 +38,27 @@ from nonsmooth.types import Floats
 from nonsmooth.vectors import vector
 
 Point = tuple[float, float, float]
-ON_PLANE, RIGHT_ANGLE, AT_DISTANCE = 0, 1, 2
-"""Kinds of rows."""
 _WIDTH = 10
 """Numbers of a row in the table: its kind and three vectors."""
 AXES: tuple[Point, Point, Point] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 """The axes of a frame."""
 
 
+class RowKind(IntEnum):
+    """Kinds of rows."""
+
+    ON_PLANE = 0
+    """A point of the second body stays on a plane of the first one."""
+    RIGHT_ANGLE = 1
+    """Two directions, each fixed in its frame, keep a right angle."""
+    AT_DISTANCE = 2
+    """Two points keep their distance."""
+
+
 class JointRow(NamedTuple):
     """One scalar condition of a joint: kind, a vector in the frame of each body, and a third vector."""
 
-    kind: int
+    kind: RowKind
     first: Sequence[float]
     second: Sequence[float]
     third: Sequence[float] = (0.0, 0.0, 0.0)
@@ -59,12 +69,12 @@ def on_planes(first: Sequence[float], second: Sequence[float], normals: Sequence
 
     Points are in the frames of their bodies [m], normals in that of the first body.
     """
-    return [JointRow(ON_PLANE, first, second, normal) for normal in normals]
+    return [JointRow(RowKind.ON_PLANE, first, second, normal) for normal in normals]
 
 
 def right_angle(first: Sequence[float], second: Sequence[float]) -> JointRow:
-    """JointRow that keeps a right angle between two directions, each fixed in the frame of its body."""
-    return JointRow(RIGHT_ANGLE, first, second)
+    """Row that keeps a right angle between two directions, each fixed in the frame of its body."""
+    return JointRow(RowKind.RIGHT_ANGLE, first, second)
 
 
 def parallel_axes(axes: Sequence[Sequence[float]], seen: Sequence[Sequence[float]]) -> list[JointRow]:
@@ -125,10 +135,10 @@ def evaluate_rows(a: Floats, b: Floats, out: Floats, n_rows: float, rows: Floats
     """Evaluate the rows of a table between two frames."""
     for i in range(int(n_rows)):
         row = _WIDTH * i
-        kind, first, second = rows[row], block_at(rows, row + 1), block_at(rows, row + 4)
-        if kind == ON_PLANE:
+        kind, first, second = int(rows[row]), block_at(rows, row + 1), block_at(rows, row + 4)
+        if kind == RowKind.ON_PLANE:
             point_row(a, b, out, i, first, second, block_at(rows, row + 7))
-        elif kind == RIGHT_ANGLE:
+        elif kind == RowKind.RIGHT_ANGLE:
             angle_row(a, b, out, i, first, second)
         else:
             distance_row(a, b, out, i, first, second, rows[row + 7])
