@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import VELOCITY
+from nonsmooth.engine.memory.blocks import FRAME, VELOCITY
 from nonsmooth.rotations import rotation
 from nonsmooth.types import Floats
 
@@ -14,6 +14,12 @@ Vector3: TypeAlias = tuple[float, float, float]
 """A vector in compiled functions."""
 POSE = VELOCITY
 """Numbers of a pose, with which the block of a frame begins: position [m] and rotation matrix, row by row."""
+
+
+def places_behind_frame(n_q: int, n_u: int) -> tuple[int, int, int, int]:
+    """Places of coordinate rates, force, inverse mass matrix and energies in the block of a body with one frame."""
+    rates = FRAME + 6 * n_u
+    return rates, rates + n_q, rates + n_q + n_u, rates + n_q + n_u + n_u * n_u
 
 
 @compiled

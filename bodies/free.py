@@ -10,11 +10,11 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.blocks import put, rotation_of
+from bodies.blocks import places_behind_frame, put, rotation_of
 from bodies.inertia import Triple, check_inertia, tensor_of
 from bodies.values import Word, check_carried, read_start
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, POSITION, ROTATION, SPIN, VELOCITY
+from nonsmooth.engine.memory.blocks import JACOBIAN, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS, NamesAndUnits, Vector
@@ -27,14 +27,8 @@ _WORDS: dict[str, Word] = {
     "velocity": (3, (0.0, 0.0, 0.0), "m/s"),
     "angular_velocity": (3, (0.0, 0.0, 0.0), "rad/s"),
 }
-_RATES = FRAME + 6 * 6
-"""Where the coordinate rates stand in the output block,"""
-_FORCE = _RATES + 7
-"""the forces,"""
-_INVERSE = _FORCE + 6
-"""the inverse mass matrix,"""
-_ENERGY = _INVERSE + 36
-"""and the energies."""
+_RATES, _FORCE, _INVERSE, _ENERGY = places_behind_frame(n_q=7, n_u=6)
+"""Places of coordinate rates, force, inverse mass matrix and energies in the output block."""
 
 
 def _evaluate(

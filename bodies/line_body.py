@@ -8,23 +8,17 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.blocks import pose_of, write_pose
+from bodies.blocks import places_behind_frame, pose_of, write_pose
 from bodies.values import Word, check_carried, read_start, unit_quaternion, unit_vector, vector
-from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, POSITION, VELOCITY
+from nonsmooth.engine.memory.blocks import JACOBIAN, POSITION, VELOCITY
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import NamesAndUnits, Vector
 from nonsmooth.parameters import Value, parameter
 from nonsmooth.types import Floats
 
 _WORDS: dict[str, Word] = {"position": (0, 0.0, "m"), "velocity": (0, 0.0, "m/s")}
-_RATES = FRAME + 6 * 1
-"""Where the coordinate rates stand in the output block,"""
-_FORCE = _RATES + 1
-"""the forces,"""
-_INVERSE = _FORCE + 1
-"""the inverse mass matrix,"""
-_ENERGY = _INVERSE + 1
-"""and the energies."""
+_RATES, _FORCE, _INVERSE, _ENERGY = places_behind_frame(n_q=1, n_u=1)
+"""Places of coordinate rates, force, inverse mass matrix and energies in the output block."""
 
 
 def _evaluate(

@@ -9,9 +9,9 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.blocks import put
+from bodies.blocks import places_behind_frame, put
 from bodies.values import Word, check_carried, read_start
-from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, POSITION, ROTATION, SPIN, VELOCITY
+from nonsmooth.engine.memory.blocks import JACOBIAN, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import NamesAndUnits, Vector
 from nonsmooth.parameters import parameter
@@ -23,14 +23,8 @@ _WORDS: dict[str, Word] = {
     "velocity": (2, (0.0, 0.0), "m/s"),
     "angular_velocity": (0, 0.0, "rad/s"),
 }
-_RATES = FRAME + 6 * 3
-"""Where the coordinate rates stand in the output block,"""
-_FORCE = _RATES + 3
-"""the forces,"""
-_INVERSE = _FORCE + 3
-"""the inverse mass matrix,"""
-_ENERGY = _INVERSE + 9
-"""and the energies."""
+_RATES, _FORCE, _INVERSE, _ENERGY = places_behind_frame(n_q=3, n_u=3)
+"""Places of coordinate rates, force, inverse mass matrix and energies in the output block."""
 
 
 def _evaluate(
