@@ -16,7 +16,7 @@ from nonsmooth.parameters import parameter
 @final
 @dataclass(frozen=True)
 class Ball(FreeBody):
-    """A free solid sphere of a density [kg/m^3], steel by default, or of a mass [kg]."""
+    """A free solid sphere."""
 
     radius: float = parameter(doc="radius", unit="m", above=0.0, usual=(1e-4, 1.0))
     density: float | None = density_field()

@@ -14,7 +14,7 @@ from nonsmooth.parameters import parameter
 @final
 @dataclass(frozen=True)
 class BoxBody(SolidBody):
-    """A free solid box along the body axes, of a density [kg/m^3], steel by default, or of a mass [kg].
+    """A free solid box along the body axes.
 
     Its edges are sharp, or rounded by the radius ``rounding``: the half-lengths are those of the whole.
     """

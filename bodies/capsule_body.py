@@ -14,7 +14,7 @@ from nonsmooth.parameters import parameter
 @final
 @dataclass(frozen=True)
 class CapsuleBody(SolidBody):
-    """A free solid capsule about the third body axis, of a density [kg/m^3], steel by default, or of a mass [kg]."""
+    """A free solid capsule about the third body axis."""
 
     radius: float = parameter(doc="radius", unit="m", above=0.0, usual=(1e-5, 10.0))
     half_length: float = parameter(

@@ -15,7 +15,7 @@ from nonsmooth.parameters import parameter
 @final
 @dataclass(frozen=True)
 class ConeBody(SolidBody):
-    """A free solid cone about the third body axis, of a density [kg/m^3], steel by default, or of a mass [kg].
+    """A free solid cone about the third body axis.
 
     The apex is above the mass centre. On a plane it stands on three feet, and the rim is set back by their height.
     Tilted by more than three times their height over the radius it touches with its rim only. Radius and height of a

@@ -15,7 +15,7 @@ from nonsmooth.parameters import parameter
 @final
 @dataclass(frozen=True)
 class CylinderBody(SolidBody):
-    """A free solid cylinder about the third body axis, of a density [kg/m^3], steel by default, or of a mass [kg].
+    """A free solid cylinder about the third body axis.
 
     On a plane it stands on three feet, and the rims are set back by their height. Tilted by more than three times their
     height over the radius it touches with a rim only. Radius and half-length of a rounded cylinder are those of the

@@ -14,7 +14,7 @@ from nonsmooth.parameters import parameter
 @final
 @dataclass(frozen=True)
 class EllipsoidBody(SolidBody):
-    """A free solid ellipsoid along the body axes, of a density [kg/m^3], steel by default, or of a mass [kg]."""
+    """A free solid ellipsoid along the body axes."""
 
     semi_x: float = parameter(doc="first semi-axis", unit="m", above=0.0, usual=(1e-5, 10.0))
     semi_y: float = parameter(doc="second semi-axis", unit="m", above=0.0, usual=(1e-5, 10.0))

@@ -20,7 +20,7 @@ from nonsmooth.parameters import parameter
 @final
 @dataclass(frozen=True)
 class HullBody(SolidBody, TensorBody):
-    """A free solid convex hull, of a density [kg/m^3], steel by default, or of a mass [kg].
+    """A free solid convex hull.
 
     Its frame has the axes in which the points are given, and its origin at the mass centre.
 

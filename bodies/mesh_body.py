@@ -22,7 +22,7 @@ from nonsmooth.interfaces.body import Vector
 @final
 @dataclass(frozen=True)
 class MeshBody(TensorBody):
-    """A free solid with the surface of a mesh, of a density [kg/m^3], steel by default, or of a mass [kg].
+    """A free solid with the surface of a mesh.
 
     Its frame has the axes of the mesh and its origin at the mass centre; :attr:`centre` is the mass centre in the
     mesh's coordinates. Mass properties are those of the polyhedron, whatever the shapes.

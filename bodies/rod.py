@@ -17,7 +17,7 @@ from nonsmooth.parameters import parameter
 @final
 @dataclass(frozen=True)
 class Rod(FreeBody):
-    """A free slender rod along the first body axis, of a density [kg/m^3], steel by default, or of a mass [kg].
+    """A free slender rod along the first body axis.
 
     Its ends are rounded, so that it is longer by 2 r than the distance of their centres. Its mass counts as spread
     evenly between these centres. The moments across the axis leave out a part of (r / l)^2, from its thickness;

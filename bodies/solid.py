@@ -25,7 +25,7 @@ from nonsmooth.rotations import rotation
 @final
 @dataclass(frozen=True)
 class Solid(SolidBody, TensorBody):
-    """A free body that fills a shape evenly: ``Solid(Cylinder(0.02, 0.05), density=2700.0)``.
+    """A free body that fills any shape with a volume evenly, as in ``Solid(Cylinder(0.02, 0.05), density=2700.0)``.
 
     The origin of its frame is the centroid of the shape. The axes of its frame are those in which the shape is given,
     unless ``orientation`` turns the shape. Mass and inertia tensor follow from the volume integrals of the shape.

@@ -14,7 +14,7 @@ from nonsmooth.parameters import parameter
 @final
 @dataclass(frozen=True)
 class SuperellipsoidBody(SolidBody):
-    """A free solid superellipsoid along the body axes, of a density [kg/m^3], steel by default, or of a mass [kg].
+    """A free solid superellipsoid along the body axes.
 
     Its exponents are 1 for an ellipsoid and go towards 0 for a box, towards 2 for an octahedron. The semi-axes are
     those without the rounding.

@@ -19,7 +19,7 @@ from nonsmooth.interfaces.body import Vector
 @final
 @dataclass(frozen=True)
 class SupportBody(SolidBody, TensorBody):
-    """A free solid of a density [kg/m^3], steel by default, or of a mass [kg].
+    """A free solid whose shape is known by its farthest points.
 
     The origin of its frame is the centroid of the shape, the axes are the shape's.
 
