@@ -43,8 +43,9 @@ class Harmonic(Motion):
         self.parameters()
 
     def parameters(self) -> Mapping[str, Value]:
-        """Return the numbers, and the axis to the last bit of unit length."""
-        return {**self.numbers(), "axis": unit_vector("Harmonic axis", (self.axis_x, self.axis_y, self.axis_z))}
+        """Return amplitude, frequency, phase, and the axis to the last bit of unit length."""
+        axis = unit_vector("Harmonic axis", (self.axis_x, self.axis_y, self.axis_z))
+        return {"amplitude": self.amplitude, "frequency": self.frequency, "phase": self.phase, "axis": axis}
 
     @property
     def evaluator(self) -> Callable[..., None]:
