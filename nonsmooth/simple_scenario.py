@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from nonsmooth.interfaces import Scenario
 from nonsmooth.parameters import rules
-from nonsmooth.simulate import simulate
+from nonsmooth.runs.simulate import simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.labels import labels
 

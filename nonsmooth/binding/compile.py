@@ -17,8 +17,9 @@ from nonsmooth.binding import interpreted
 from nonsmooth.binding.fingerprint import fingerprint
 from nonsmooth.binding.refusal import Refusal, refusal
 from nonsmooth.binding.source import described, name_of, place_of
+from nonsmooth.engine.native import kernel
 from nonsmooth.engine.native.forms import FORMS, Form
-from nonsmooth.engine.native.kernel import PLAIN, address_of, at, calls, jit
+from nonsmooth.engine.native.kernel import PLAIN, address_of, at, jit
 from nonsmooth.errors import RunsInPython
 from nonsmooth.parameters import Table, Value, not_offered
 
@@ -155,11 +156,11 @@ def _warn(function: Callable[..., Any], owner: str, why: Refusal, cost: str) -> 
 @functools.cache
 def _entry(function: Callable[..., Any], form: str, vectors: tuple[bool, ...]) -> _Entry:
     if PLAIN:
-        return _Entry(address_of(_shim_in_python(function, form, vectors), form, ""))
+        return _Entry(address_of(lambda: _shim_in_python(function, form, vectors), form, ""))
     text = (_GUARDED_SHIM if _may_raise(function) else _SHIM).format(**_parts(form, vectors))
     try:
-        shim = _made(text, {"law": jit(function), "at": at})
-        return _Entry(address_of(shim, form, fingerprint(function, form + text)))
+        key = fingerprint(function, form + text)
+        return _Entry(address_of(lambda: _made(text, {"law": jit(function), "at": at}), form, key))
     except Exception as error:  # the compiler's errors have no base of their own
         shim = _shim_in_python(function, form, vectors)
         return _Entry(interpreted.address(shim, form), refusal(function, error), shim)
@@ -271,7 +272,8 @@ def caller(form: str, address: int, numbers: NDArray[np.float64]) -> Callable[..
     """
     n_given = len(FORMS[form].given)
     if PLAIN:
-        return lambda *given: calls[form](address, *given[:n_given], numbers, *given[n_given:])
+        plain = getattr(kernel, f"call_{form}")
+        return lambda *given: plain(address, *given[:n_given], numbers, *given[n_given:])
     native, parameters = FORMS[form].prototype()(address), numbers.ctypes.data
 
     def call(*given: Any, _kept: Any = numbers) -> Any:

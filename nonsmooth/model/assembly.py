@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 from nonsmooth.binding.compile import parameter_names
-from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, LISTED, MOST_EVENTS
 from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.event_rows import CODE_HEAD, EVENT_HEAD, LISTED, MOST_EVENTS
 from nonsmooth.engine.memory.layout import BOOKED, N_ACCOUNTS
 from nonsmooth.engine.memory.memory import Heap, allocate
 from nonsmooth.engine.memory.tables import COUNTS

@@ -32,6 +32,7 @@ from nonsmooth.interfaces import (
     Shape,
     TangentialLaw,
 )
+from nonsmooth.plugins.hiding import hidden_packages
 
 GROUPS: dict[str, tuple[type, ...]] = {
     "bodies": (Body,),
@@ -66,17 +67,9 @@ KINDS = {
 _LAWS = {NormalLaw: "normal law", TangentialLaw: "friction law", ImpactLaw: "impact law"}
 """What a law is called where the laws of another kind are asked for."""
 
-_HOME = Path(__file__).resolve().parents[2]
-_IMPORTED = ("bodies", "laws")
-_BUILT_IN = (*_IMPORTED, "scenarios")
-
 
 class BrokenPlugin(NonsmoothWarning):
     """An installed plug-in that cannot be used."""
-
-
-class HiddenPackage(NonsmoothWarning):
-    """A package that comes with nonsmooth and that a file of the user hides."""
 
 
 @functools.cache
@@ -235,7 +228,9 @@ def _usable(point: EntryPoint, group: str) -> Any:
         loaded = point.load()
     except Exception as error:
         reason = f"{type(error).__name__}: {error}"
-        raise PluginError(" ".join([f"{_title(group, point.name)} cannot be loaded: {reason}.", *_hidden()])) from error
+        raise PluginError(
+            " ".join([f"{_title(group, point.name)} cannot be loaded: {reason}.", *hidden_packages()])
+        ) from error
     found = fault(loaded, GROUPS[group])
     if found is not None:
         raise PluginError(f"{_title(group, point.name)} {found}")
@@ -305,26 +300,3 @@ def load_all(group: str) -> dict[str, Any]:
         except PluginError as error:
             warnings.warn(str(error), BrokenPlugin, stacklevel=2)
     return loaded
-
-
-def check_hidden() -> None:
-    """Warn of files that hide packages that scripts import; the import that fails for it names no cause."""
-    for said in _hidden(_IMPORTED):
-        warnings.warn(said, HiddenPackage, stacklevel=3)
-
-
-def _hidden(packages: tuple[str, ...] = _BUILT_IN) -> list[str]:
-    """Say which files of the user hide packages that come with nonsmooth, as a laws.py in the working folder does."""
-    found = {}
-    for package in packages:
-        try:
-            spec = importlib.util.find_spec(package)
-        except ValueError:  # a module put together by hand, without a specification
-            continue
-        if spec is not None and spec.origin is not None:
-            found[package] = Path(spec.origin).resolve()
-    return [
-        f"The file {file} hides the package {package!r} that comes with nonsmooth: rename it."
-        for package, file in found.items()
-        if file.parent != _HOME / package
-    ]

@@ -15,7 +15,7 @@ from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body, Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress, simulate
+from nonsmooth.runs.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.materials import ContactLaws, Materials
 from nonsmooth.system.system import System

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any, cast
 
 from nonsmooth.errors import RunFailed
-from nonsmooth.simulate import Progress, simulate
+from nonsmooth.runs.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from scenarios.bouncing_trimer.scenario import BouncingTrimer
 

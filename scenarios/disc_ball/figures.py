@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.simulate import Progress, simulate
+from nonsmooth.runs.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from scenarios.disc_ball.closed_forms import one_after_the_other, symmetric
 from scenarios.disc_ball.scenario import DiscBall

@@ -15,7 +15,7 @@ from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress
+from nonsmooth.runs.simulate import Progress
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.disc_ball.closed_forms import half_angle, symmetric

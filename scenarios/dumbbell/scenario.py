@@ -17,7 +17,7 @@ from laws import Coulomb, Unilateral, closing_time, effective_modulus
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, ImpactLaw, Scenario
 from nonsmooth.parameters import UnusualValue, parameter, rules
-from nonsmooth.simulate import Progress
+from nonsmooth.runs.simulate import Progress
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.dumbbell import attractor, coordinates

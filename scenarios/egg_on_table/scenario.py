@@ -15,7 +15,7 @@ from bodies import EllipsoidBody, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress
+from nonsmooth.runs.simulate import Progress
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 

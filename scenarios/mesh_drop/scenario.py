@@ -19,7 +19,7 @@ from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.placing.starts import at_height
 from nonsmooth.rotations import rotation
-from nonsmooth.simulate import Progress, simulate
+from nonsmooth.runs.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.mesh_drop.bracket import bracket

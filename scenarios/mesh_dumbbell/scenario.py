@@ -17,7 +17,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import UnusualValue, parameter, rules
 from nonsmooth.rotations import rotation
-from nonsmooth.simulate import Progress, simulate
+from nonsmooth.runs.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.dumbbell.modes import GRAVITY

@@ -14,7 +14,7 @@ from bodies import Ellipsoid, Plate, Rest, RigidBody
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress
+from nonsmooth.runs.simulate import Progress
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.rattleback.rolling import contact_point, roll

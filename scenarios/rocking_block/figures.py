@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from nonsmooth.engine.memory.modes import Cause
-from nonsmooth.simulate import Progress, simulate
+from nonsmooth.runs.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from scenarios.rocking_block import housner
 from scenarios.rocking_block.scenario import RockingBlock

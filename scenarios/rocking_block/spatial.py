@@ -15,7 +15,7 @@ from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.placing.starts import touching
-from nonsmooth.simulate import Progress, simulate
+from nonsmooth.runs.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.rocking_block.contact_laws import laws_of

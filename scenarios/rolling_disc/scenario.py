@@ -16,7 +16,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.histories.states import States
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress, simulate
+from nonsmooth.runs.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.rolling_disc import steady

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.memory.modes import Cause
-from nonsmooth.simulate import Progress, simulate
+from nonsmooth.runs.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from scenarios.sliding_rod.scenario import SlidingRod
 

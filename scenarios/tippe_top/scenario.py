@@ -16,7 +16,7 @@ from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, FrictionLaw, Scenario
 from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress
+from nonsmooth.runs.simulate import Progress
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.tippe_top.friction import SpinningCoulomb

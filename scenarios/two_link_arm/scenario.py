@@ -16,7 +16,7 @@ from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress, simulate
+from nonsmooth.runs.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.two_link_arm import arm, painleve

@@ -19,8 +19,9 @@ from nonsmooth.engine.native.kernel import PLAIN
 if PLAIN:
     pytest.skip("nothing is compiled", allow_module_level=True)
 
-from nonsmooth.engine.native import folders as folders_module
 from nonsmooth.engine.native.cache import Store
+
+from nonsmooth.engine.native import folders as folders_module
 from nonsmooth.engine.native.folders import build_name, folders
 from nonsmooth.notices import say
 

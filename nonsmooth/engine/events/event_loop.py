@@ -18,16 +18,7 @@ from nonsmooth.engine.events.averaging import (
 )
 from nonsmooth.engine.events.causes import cause_at_start, cause_of
 from nonsmooth.engine.events.event_update import update_at_event
-from nonsmooth.engine.events.record import (
-    CODE_HEAD,
-    EVENT_HEAD,
-    LISTED,
-    MOST_EVENTS,
-    NO_PHASES,
-    begin_event,
-    record_event,
-    record_samples,
-)
+from nonsmooth.engine.events.record import NO_PHASES, begin_event, record_event, record_samples
 from nonsmooth.engine.events.step_length import accepted_step, is_held, longest_wanted
 from nonsmooth.engine.events.stopping import stopped_contact
 from nonsmooth.engine.flow.arming import arm_guards, store_end, store_start
@@ -46,6 +37,7 @@ from nonsmooth.engine.flow.projection import normalise_quaternions, project_clos
 from nonsmooth.engine.flow.redundant_forces import can_choose_within, choose_forces_again
 from nonsmooth.engine.flow.self_check import NEGLIGIBLE, check_end, check_gaps, close_energy_account
 from nonsmooth.engine.flow.step import try_step
+from nonsmooth.engine.memory.event_rows import CODE_HEAD, EVENT_HEAD, LISTED, MOST_EVENTS
 from nonsmooth.engine.memory.layout import BOOKED, LAST_STAGE
 from nonsmooth.engine.memory.limits import Limit
 from nonsmooth.engine.memory.modes import NO_RELEASE, Cause, Mode, Status

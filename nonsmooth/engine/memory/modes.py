@@ -110,6 +110,19 @@ class Truncation(IntEnum):
     """A heavy body approaches, and the compressions of light bodies between it and others stop it gradually."""
 
 
+class ImpactOutcome(IntEnum):
+    """How the integration of an impact ended."""
+
+    FINISHED = 1
+    """No contact is loaded."""
+    ENDLESS = 2
+    """It was cut short: too many steps, or an interrupt."""
+    INVALID = 3
+    """A law gave a number that is not finite, or not positive."""
+    MOVED = 4
+    """It continues, but has reached the rim of its window."""
+
+
 class Painleve(IntEnum):
     """What the engine does if sliding has no contact force (Painleve's paradox)."""
 
@@ -190,7 +203,7 @@ REASONS = {
 }
 """Why a run ended, by status."""
 
-ENUMERATIONS = (Mode, Cause, Phase, Truncation, Painleve, Status, Limit)
+ENUMERATIONS = (Mode, Cause, Phase, Truncation, ImpactOutcome, Painleve, Status, Limit)
 """All of them; signatures of kernels know them by their names."""
 
 

@@ -457,5 +457,5 @@ def _packed(kind: str) -> Any:
     return intrinsic(one_of_many if stride > 0 else single)
 
 
-records = {kind: _packed(kind) for kind in PACKED}
-"""Constructors of the record of a block, by kind."""
+# in the order of the table
+impact_state, part_end, delassus_block, joint_row, frame_at, part_at, load_wrench = map(_packed, PACKED)

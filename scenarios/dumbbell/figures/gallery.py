@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from nonsmooth.simulate import Progress, simulate
+from nonsmooth.runs.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from scenarios.dumbbell.figures.laws import drift_by_law, drifts_of_all
 from scenarios.dumbbell.figures.motions import normal_motion

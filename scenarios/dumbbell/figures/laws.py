@@ -18,7 +18,7 @@ from laws import (
     ViscoelasticImpact,
 )
 from nonsmooth.interfaces import ImpactLaw
-from nonsmooth.simulate import simulate
+from nonsmooth.runs.simulate import simulate
 from nonsmooth.system.system import System
 from scenarios.dumbbell.figures import style
 from scenarios.dumbbell.figures.paths import Run

@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.layout import SINGULAR
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.memory.solvers import Solver
 from nonsmooth.engine.native.kernel import call_entry
-from nonsmooth.engine.numerics.linear import SINGULAR
 from nonsmooth.model.delassus import read_delassus
 
 Floats = NDArray[np.float64]

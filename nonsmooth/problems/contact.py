@@ -11,7 +11,6 @@ from nonsmooth.binding.compile import bind
 from nonsmooth.binding.law_failure import first_without_value, without_value
 from nonsmooth.binding.law_functions import law_functions
 from nonsmooth.checks import check_kind, floats
-from nonsmooth.contact_result import MODES, ContactResult
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Heap, Memory, allocate
 from nonsmooth.engine.memory.modes import Mode
@@ -21,6 +20,7 @@ from nonsmooth.engine.native.kernel import entry_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import AnisotropicFrictionLaw, FrictionLaw, StatefulFrictionLaw
 from nonsmooth.model.delassus import write_delassus
+from nonsmooth.problems.contact_result import MODES, ContactResult
 from nonsmooth.watch import Watch
 
 

@@ -12,15 +12,15 @@ from nonsmooth.binding.compile import bind
 from nonsmooth.binding.law_failure import first_without_value, without_value
 from nonsmooth.binding.law_functions import law_functions
 from nonsmooth.checks import check_kind, floats, is_finite
-from nonsmooth.contact import check_friction
-from nonsmooth.engine.impact.integration import Outcome
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.memory import Heap, Memory, allocate
+from nonsmooth.engine.memory.modes import ImpactOutcome
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import entry_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import FrictionLaw, ImpactProcess
 from nonsmooth.model.delassus import write_delassus
+from nonsmooth.problems.contact import check_friction
 from nonsmooth.watch import Watch
 
 Floats = NDArray[np.float64]
@@ -153,11 +153,11 @@ def solve_impact(
     memory = _memory(impact, friction, tolerance)
     write_delassus(memory, delassus)
     memory[owners.Impact.rates_before][: 3 * n] = rates
-    outcome = int(Outcome.FINISHED)
+    outcome = int(ImpactOutcome.FINISHED)
     if np.any(rates[::3] < 0.0):
         with Watch(memory) as watch:
             outcome = int(watch.call("energetic_impact", 0.0))
-    if outcome != Outcome.FINISHED:
+    if outcome != ImpactOutcome.FINISHED:
         raise RunFailed(f"The impact did not end. {_culprit(memory, impact, friction)}")
     impulse = memory[owners.Impact.impulse][: 3 * n].reshape(n, 3).copy()
     return ImpactResult(
