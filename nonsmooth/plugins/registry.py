@@ -291,10 +291,10 @@ def _loaded(group: str, name: str) -> Any:
         return None
 
 
-def load_all(group: str) -> dict[str, Any]:
-    """Return all usable classes of a group by name; a broken one is a warning that names it."""
+def load_all(group: str, some: Iterable[str] | None = None) -> dict[str, Any]:
+    """Usable classes of a group by name: all of them, or ``some``. A broken one is a warning that names it."""
     loaded = {}
-    for name in names(group):
+    for name in names(group) if some is None else some:
         try:
             loaded[name] = load(group, name)
         except PluginError as error:

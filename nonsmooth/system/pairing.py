@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Sequence
 
 from nonsmooth.errors import InvalidInput
@@ -57,9 +58,16 @@ class Geometries:
 
 
 def _kinematics_of(first: Shape, second: Shape) -> Found:
-    known = registry.load_all("kinematics").values()
-    found = nearest_pair(known, first, second)
+    """Installed kinematics of two shapes, and whether they are in its order.
+
+    Raises
+    ------
+    InvalidInput
+        If no kinematics knows the two.
+    """
+    found = installed_pair(first, second)
     if found is None:
+        known = registry.load_all("kinematics").values()
         pairs = sorted(f"{k.pair[0].__name__}-{k.pair[1].__name__}" for k in known)
         raise InvalidInput(
             "System.contact",
@@ -70,15 +78,37 @@ def _kinematics_of(first: Shape, second: Shape) -> Found:
     return found
 
 
-def nearest_pair(
-    known: Iterable[type[ContactKinematics]], first: Shape, second: Shape
-) -> tuple[type[ContactKinematics], bool] | None:
-    """Return the kinematics of two shapes, and whether they stand in its order; None if there is none.
+def installed_pair(first: Shape, second: Shape) -> Found | None:
+    """Installed kinematics of two shapes, and whether they are in its order; None if there is none."""
+    return nearest_pair(registry.load_all("kinematics", _named_after(first, second)).values(), first, second)
 
-    A pair of base classes knows all shapes that derive from them; of several that fit, the one is taken whose classes
-    are nearest to the shapes'.
+
+def _named_after(first: Shape, second: Shape) -> list[str]:
+    """Names of the installed kinematics that may know two shapes, so that no others are imported.
+
+    The name "ground-triangle_mesh" belongs to the classes Ground and TriangleMesh. A name without a hyphen may belong
+    to any classes.
     """
-    best: tuple[type[ContactKinematics], bool] | None = None
+    kinds = [{_UPPER.sub("_", kind.__name__).lower() for kind in type(shape).__mro__} for shape in (first, second)]
+    found = []
+    for name in registry.names("kinematics"):
+        one, hyphen, two = name.partition("-")
+        if not hyphen or any(one in a and two in b for a, b in (kinds, kinds[::-1])):
+            found.append(name)
+    return found
+
+
+_UPPER = re.compile(r"(?<!^)(?=[A-Z])")
+"""Place before an upper-case letter within a name."""
+
+
+def nearest_pair(known: Iterable[type[ContactKinematics]], first: Shape, second: Shape) -> Found | None:
+    """Kinematics of two shapes among those ``known``, and whether they are in its order; None if there is none.
+
+    A pair of base classes knows all shapes that derive from them. Of several that fit, the result has the classes that
+    are nearest to those of the shapes.
+    """
+    best: Found | None = None
     least = math.inf
     for kinematics in known:
         for in_order, one, two in ((True, first, second), (False, second, first)):
