@@ -10,10 +10,10 @@ from nonsmooth.files.reading import Setup as Setup
 from nonsmooth.files.reading import load_system as load_system
 from nonsmooth.files.writing import save_system as save_system
 from nonsmooth.interfaces import Criterion as Criterion
-from nonsmooth.placing.orientation import turned_about as turned_about
 from nonsmooth.placing.starts import at_height as at_height
 from nonsmooth.placing.starts import resting as resting
 from nonsmooth.placing.starts import touching as touching
+from nonsmooth.placing.starts import turned_about as turned_about
 from nonsmooth.problems.contact import solve_contact as solve_contact
 from nonsmooth.problems.contact_result import ContactResult as ContactResult
 from nonsmooth.problems.impact import ImpactResult as ImpactResult

@@ -10,7 +10,7 @@ from nonsmooth.interfaces import Scenario
 from nonsmooth.parameters import rules
 from nonsmooth.runs.simulate import simulate
 from nonsmooth.solution.solution import Solution
-from nonsmooth.system.labels import labels
+from nonsmooth.system.lookup import labels
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

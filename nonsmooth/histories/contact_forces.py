@@ -17,8 +17,8 @@ from nonsmooth.histories.contact_history import ContactHistory, contacts_dataset
 from nonsmooth.histories.times import read_times, spoken
 from nonsmooth.histories.visitor import visitor
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.system.asked import contact_number
 from nonsmooth.system.contact import Contact
+from nonsmooth.system.lookup import contact_number
 
 if TYPE_CHECKING:
     import xarray

@@ -15,8 +15,8 @@ from nonsmooth.engine.memory.blocks import GAP
 from nonsmooth.histories.arrays import Floats
 from nonsmooth.histories.times import of_one, read_times, spoken
 from nonsmooth.histories.visitor import visitor
-from nonsmooth.system.asked import contact_number
 from nonsmooth.system.contact import Contact
+from nonsmooth.system.lookup import contact_number
 
 if TYPE_CHECKING:
     import xarray

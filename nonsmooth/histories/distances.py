@@ -12,7 +12,7 @@ from nonsmooth.histories.times import read_times
 from nonsmooth.interfaces import Body
 from nonsmooth.queries.bodies import BodyPair
 from nonsmooth.queries.result import DistanceHistory
-from nonsmooth.system.asked import body_number
+from nonsmooth.system.lookup import body_number
 
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution

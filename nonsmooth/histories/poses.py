@@ -14,7 +14,7 @@ from nonsmooth.histories.states import States
 from nonsmooth.histories.times import of_one, read_times, spoken
 from nonsmooth.interfaces import Body
 from nonsmooth.queries.places import BodyFrames
-from nonsmooth.system.asked import body_number
+from nonsmooth.system.lookup import body_number
 
 if TYPE_CHECKING:
     import xarray

@@ -15,7 +15,7 @@ from nonsmooth.histories.recorded import check_recorded
 from nonsmooth.histories.times import of_one, read_times, spoken
 from nonsmooth.histories.visitor import visitor
 from nonsmooth.interfaces import Engine
-from nonsmooth.system.labels import labels
+from nonsmooth.system.lookup import labels
 from nonsmooth.system.system import System
 
 if TYPE_CHECKING:

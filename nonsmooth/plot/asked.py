@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike
 from nonsmooth.errors import InvalidInput, MissingPackagesError
 from nonsmooth.histories.arrays import Floats
 from nonsmooth.histories.times import read_times
-from nonsmooth.system.asked import contact_number
 from nonsmooth.system.contact import Contact
+from nonsmooth.system.lookup import contact_number
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

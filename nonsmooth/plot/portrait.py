@@ -12,7 +12,7 @@ from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.histories.coordinate_rates import coordinate_rates
 from nonsmooth.plot.asked import axes_of, times_of
 from nonsmooth.plot.lines import beside
-from nonsmooth.system.labels import labels
+from nonsmooth.system.lookup import labels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

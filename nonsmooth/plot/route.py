@@ -10,7 +10,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body
 from nonsmooth.plot.asked import axes_of, times_of
 from nonsmooth.plot.lines import beside
-from nonsmooth.system.asked import body_number
+from nonsmooth.system.lookup import body_number
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

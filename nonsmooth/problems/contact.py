@@ -19,8 +19,8 @@ from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import entry_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import AnisotropicFrictionLaw, FrictionLaw, StatefulFrictionLaw
-from nonsmooth.model.delassus import write_delassus
 from nonsmooth.problems.contact_result import MODES, ContactResult
+from nonsmooth.problems.delassus import write_delassus
 from nonsmooth.watch import Watch
 
 

@@ -19,8 +19,8 @@ from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import entry_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import FrictionLaw, ImpactProcess
-from nonsmooth.model.delassus import write_delassus
 from nonsmooth.problems.contact import check_friction
+from nonsmooth.problems.delassus import write_delassus
 from nonsmooth.watch import Watch
 
 Floats = NDArray[np.float64]

@@ -27,10 +27,10 @@ from nonsmooth.runs.so_far import RunSoFar, Until
 from nonsmooth.runs.stall_monitor import StallMonitor
 from nonsmooth.solution.files import FileError
 
-_STEPS_NEAR_END = 16
-"""Number of steps between checkpoints near the end time. A continued run repeats at most so many."""
-_BYTES_PER_STEP = 1 << 13
-"""Size of a checkpoint per step [bytes], above which there are more steps. To copy this much costs little per step."""
+_CHECKPOINT_CALL = 16
+"""Time of the checkpoint of a small model, in that of the shortest steps, a microsecond: calls of Python take it."""
+_COPIED = 1 << 13
+"""Size of a checkpoint that is copied in the time of such a step [bytes]."""
 Progress = Callable[[float, float], None]
 
 
@@ -187,8 +187,8 @@ class EngineLoop:
                 # an engine with full buffers takes no step
                 self._monitor.observe(status)
                 records.drain()
-            # a continued run repeats these steps; with few, checkpoints would take most of the time
-            most_steps = max(_STEPS_NEAR_END, self._checkpoint.size // _BYTES_PER_STEP)
+            # as many steps as take the time of the checkpoint. A continued run repeats them
+            most_steps = max(_CHECKPOINT_CALL, self._checkpoint.size // _COPIED)
             status = driver.advance_past(self._checkpoint, most_steps if run is None else 1)
         # the monitor reads the buffers, so they are drained after it
         if status != Status.DONE:

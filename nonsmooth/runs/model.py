@@ -23,18 +23,16 @@ from nonsmooth.interfaces import Engine
 from nonsmooth.model.assembly import lay
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.checks import check_start
-from nonsmooth.model.copying import copied
-from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.other_laws import lay_laws
+from nonsmooth.model.laid_out import LaidOut, copied
+from nonsmooth.model.laying_contacts import lay_laws
 from nonsmooth.queries.undeclared import Undeclared
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.runs.final_state import FinalState, FixedPlaces
 from nonsmooth.runs.folder_sink import FolderSink
 from nonsmooth.runs.identity import digest
-from nonsmooth.runs.interpenetration import interpenetration
 from nonsmooth.runs.loop import EngineLoop, Progress
-from nonsmooth.runs.outcome import Outcome, outcome
+from nonsmooth.runs.outcome import Outcome, interpenetration, outcome
 from nonsmooth.runs.output_sink import OutputSink
 from nonsmooth.runs.records import Records
 from nonsmooth.runs.run_arguments import check_calls, check_steps, check_times, checked_request

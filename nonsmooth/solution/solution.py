@@ -24,8 +24,8 @@ from nonsmooth.solution.graph import TransitionGraph, transition_graph
 from nonsmooth.solution.recorded import Recorded
 from nonsmooth.solution.state import State
 from nonsmooth.solution.track import Track
-from nonsmooth.system.asked import body_number
 from nonsmooth.system.contact import Contact
+from nonsmooth.system.lookup import body_number
 from nonsmooth.system.system import System
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.modes import AFTER, BEFORE, CAUSES, CODE, DURING
 from nonsmooth.solution.events import Events
 from nonsmooth.solution.variable import Variable
-from nonsmooth.system.labels import labels
+from nonsmooth.system.lookup import labels
 from nonsmooth.system.system import System
 
 Floats = NDArray[np.float64]

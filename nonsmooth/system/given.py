@@ -1,9 +1,9 @@
-"""What is given as a body and as its start, and what to do where it is none."""
+"""Checks of what a user gives: gravity, bodies, and their starts."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -11,7 +11,33 @@ from nonsmooth.checks import check_kind, floats
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.parameters import Rule, check_number
 from nonsmooth.plugins import registry
+from nonsmooth.vectors import vector
+
+_GRAVITY, _GRAVITY_UNIT, _LARGEST = "System.gravity", "m/s^2", 1e4
+
+
+def gravity_of(value: float | Sequence[float]) -> tuple[float, float, float]:
+    """Return the vector of gravity [m/s^2] that a number, along -z, or a vector means.
+
+    Raises
+    ------
+    InvalidInput
+        If it is neither, not finite or larger than 1e4 m/s^2, or a number below 0.
+    """
+    if np.shape(value) != ():
+        x, y, z = vector(_GRAVITY, cast("Sequence[float]", value), 3, _GRAVITY_UNIT)
+    else:
+        check_number(_GRAVITY, value, Rule("gravity along -z, or a vector", _GRAVITY_UNIT, -_LARGEST, _LARGEST))
+        x, y, z = 0.0, 0.0, -float(cast("float", value))
+        if z > 0.0:
+            remedy = f"Give {z:g}, or a vector where it does not point down: (0.0, 0.0, {z:g}) points up."
+            raise InvalidInput(_GRAVITY, f"must be >= 0 [{_GRAVITY_UNIT}], as it counts along -z", value, remedy)
+    if max(abs(x), abs(y), abs(z)) > _LARGEST:
+        raise InvalidInput(_GRAVITY, f"must be of at most {_LARGEST:g} [{_GRAVITY_UNIT}]", value, "Is the unit right?")
+    return x, y, z
+
 
 _UNIT = 1e-9
 """By so much the length of a quaternion may be off 1, which it is brought to by dividing once."""

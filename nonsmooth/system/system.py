@@ -25,13 +25,11 @@ from nonsmooth.interfaces import (
 )
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.system.contact import Contact, Declaration, Tie, Watched
-from nonsmooth.system.given import check_bodies, start_of, stranger
-from nonsmooth.system.gravity import gravity_of
-from nonsmooth.system.materials import ContactLaws, Materials, check_laws
+from nonsmooth.system.given import check_bodies, gravity_of, start_of, stranger
+from nonsmooth.system.materials import ContactLaws, Materials, check_laws, check_sharing
 from nonsmooth.system.names import Names, Naming, between, kind_word
 from nonsmooth.system.pairing import Geometries
 from nonsmooth.system.selection import Side, select
-from nonsmooth.system.sharing import check_sharing
 
 _Pair: TypeAlias = frozenset[int]
 _ShapePair: TypeAlias = frozenset[tuple[int, int]]

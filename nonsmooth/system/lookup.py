@@ -1,8 +1,10 @@
-"""A part of a system, asked for by its name or as the object itself."""
+"""Parts of a system by their names, and names of its coordinates."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import final
 
 import numpy as np
 
@@ -48,3 +50,27 @@ def contact_number(where: str, asked: Contact | str | int, contacts: Sequence[Co
         rule = f"must be below {len(contacts)}, the number of contacts"
         raise InvalidInput(f"{where}: contact", rule, asked, "Count from 0.")
     return int(asked)
+
+
+@final
+@dataclass(frozen=True)
+class Labels:
+    """What the coordinates of a system are called, in its order.
+
+    Attributes
+    ----------
+    coordinates, velocities : tuple of tuple of str
+        Body, name with the body's, unit.
+    """
+
+    coordinates: tuple[tuple[str, str, str], ...]
+    velocities: tuple[tuple[str, str, str], ...]
+
+
+def labels(system: System) -> Labels:
+    """Return the labels of the coordinates and velocities of a system."""
+    pairs = list(zip(system.bodies, system.names.bodies, strict=True))
+    return Labels(
+        tuple((label, f"{label} {name}", unit) for body, label in pairs for name, unit in body.q_labels),
+        tuple((label, f"{label} {name}", unit) for body, label in pairs for name, unit in body.u_labels),
+    )
