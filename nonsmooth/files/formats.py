@@ -16,7 +16,7 @@ from nonsmooth.files import yaml_text
 
 @final
 @dataclass(frozen=True)
-class Format:
+class FileFormat:
     """A format.
 
     Attributes
@@ -94,13 +94,13 @@ def _key(name: str) -> str:
     return name if _BARE.fullmatch(name) else _inline(name)
 
 
-_TOML, _YAML = Format("TOML", tomllib.loads, text_of), Format("YAML", yaml_text.tables_of, yaml_text.text_of)
+_TOML, _YAML = FileFormat("TOML", tomllib.loads, text_of), FileFormat("YAML", yaml_text.tables_of, yaml_text.text_of)
 _FORMATS = {".toml": _TOML, ".yaml": _YAML, ".yml": _YAML}
 SUFFIXES = tuple(_FORMATS)
 """What the name of a scenario file ends in."""
 
 
-def of(path: Path) -> Format:
+def of(path: Path) -> FileFormat:
     """Return the format of a file.
 
     Raises

@@ -12,7 +12,7 @@ from nonsmooth.files import formats
 from nonsmooth.files.components import TYPE, Table, table_of
 from nonsmooth.interfaces import Body, Engine
 from nonsmooth.solution.files import replacing
-from nonsmooth.system.contact import Declaration, Tie, Watched
+from nonsmooth.system.contact import ContactDeclaration, Tie, Watched
 from nonsmooth.system.system import System
 
 
@@ -146,7 +146,7 @@ def _body(system: System, body: Body, thing: str) -> Table:
     return table
 
 
-def _contact(said: Declaration, known: dict[int, str], laws: _Laws, thing: str) -> Table:
+def _contact(said: ContactDeclaration, known: dict[int, str], laws: _Laws, thing: str) -> Table:
     table: Table = {"between": [known[id(said.first)], known[id(said.second)]]}
     if said.name:
         table["name"] = said.name

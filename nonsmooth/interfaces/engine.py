@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from nonsmooth.interfaces.engine_report import Cause, Measure
+from nonsmooth.interfaces.engine_report import EndCause, Measure
 from nonsmooth.parameters import Component
 
 if TYPE_CHECKING:
@@ -66,7 +66,7 @@ class Engine(Component, ABC):
         return ()
 
     @property
-    def causes(self) -> tuple[Cause, ...]:
+    def causes(self) -> tuple[EndCause, ...]:
         """Causes of its own for which a run ends."""
         return ()
 

@@ -31,7 +31,7 @@ class Measure:
 
 @final
 @dataclass(frozen=True)
-class Cause:
+class EndCause:
     """A cause of an engine's own for which a run ends.
 
     Attributes

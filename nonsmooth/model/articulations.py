@@ -14,7 +14,7 @@ from nonsmooth.system.system import System
 
 
 @dataclass(frozen=True)
-class Articulation:
+class ArticulationLayout:
     """Bodies that joints tie together, and these joints.
 
     Attributes
@@ -32,7 +32,7 @@ class Articulation:
     joints: tuple[Tie, ...]
 
 
-def articulations(system: System) -> list[Articulation]:
+def articulations(system: System) -> list[ArticulationLayout]:
     """The articulations (groups of bodies that joints tie together) of a system, in the order of its bodies.
 
     Each body belongs to one. They are the shortest ranges of consecutive bodies such that no joint ties movable bodies
@@ -46,7 +46,7 @@ def articulations(system: System) -> list[Articulation]:
     for tie in system.joints:
         numbers = [i for i, body in enumerate(bodies) if (body is tie.first or body is tie.second) and body.n_u > 0]
         last[numbers[0]] = max(last[numbers[0]], numbers[-1])
-    found: list[Articulation] = []
+    found: list[ArticulationLayout] = []
     first = 0
     while first < len(bodies):
         end = number = first
@@ -58,7 +58,7 @@ def articulations(system: System) -> list[Articulation]:
         # a driven body may belong to another range, so a joint belongs to the range of its movable bodies
         movable = [body for body in members if body.n_u > 0]
         joints = tuple(t for t in system.joints if any(body is t.first or body is t.second for body in movable))
-        found.append(Articulation(first, members, joints))
+        found.append(ArticulationLayout(first, members, joints))
         first = end + 1
     return found
 

@@ -18,7 +18,7 @@ from nonsmooth.engine.memory.memory import Heap, allocate
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import entry_addresses
 from nonsmooth.interfaces import Engine, ImpactMap
-from nonsmooth.model.articulations import Articulation, articulations
+from nonsmooth.model.articulations import ArticulationLayout, articulations
 from nonsmooth.model.blocks import marks_behind_blocks
 from nonsmooth.model.broad_phase import BroadPhase, find_broad_phase, lay_broad_phase
 from nonsmooth.model.checks import check_guards, check_start
@@ -44,7 +44,7 @@ class _Parts(NamedTuple):
     """The parts of a system, found before the memory is allocated."""
 
     kinds: Kinds
-    articulations: Sequence[Articulation]
+    articulations: Sequence[ArticulationLayout]
     table: ContactTable
     broad_phase: BroadPhase
     pairs: Sequence[PartPair]

@@ -12,7 +12,7 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import FRAME, JOINT_ROW, LOAD
 from nonsmooth.engine.memory.memory import Heap, Memory
 from nonsmooth.interfaces import Joint, Load
-from nonsmooth.model.articulations import Articulation
+from nonsmooth.model.articulations import ArticulationLayout
 from nonsmooth.parameters import Component, Value
 from nonsmooth.system.contact import Tie
 from nonsmooth.system.system import System
@@ -79,7 +79,7 @@ def _function(
 
 
 def lay_bodies(
-    system: System, memory: Memory, blocks: Heap, articulations: Sequence[Articulation]
+    system: System, memory: Memory, blocks: Heap, articulations: Sequence[ArticulationLayout]
 ) -> dict[int, BodyLayout]:
     """Write the bodies, and the scales of their coordinates and velocities for the error of a step.
 
@@ -132,7 +132,7 @@ def _lay_body(
     return tuple(range(out, out + n_of_frames, width))
 
 
-def lay_joints(memory: Memory, blocks: Heap, articulations: Sequence[Articulation], layouts: BodyLayouts) -> None:
+def lay_joints(memory: Memory, blocks: Heap, articulations: Sequence[ArticulationLayout], layouts: BodyLayouts) -> None:
     """Write the articulations (groups of bodies tied by joints), and the joints in the order of the articulations.
 
     Also reserves their matrices and vectors among the blocks: the inverse mass, and those of the rows of the joints,

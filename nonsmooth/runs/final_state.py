@@ -25,7 +25,7 @@ from nonsmooth.model.engine_parts import own_of
 from nonsmooth.model.laid_out import energies
 from nonsmooth.queries.near import size_of
 from nonsmooth.runs.imbalance import imbalance_span
-from nonsmooth.runs.outcome import Outcome, cause_of
+from nonsmooth.runs.outcome import RunOutcome, cause_of
 from nonsmooth.solution.end import Counters, End
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.recorded import Recorded
@@ -98,12 +98,12 @@ class FinalState(NamedTuple):
     n_known_events: int
     places: FixedPlaces
 
-    def end(self, outcome: Outcome, code: int, wall: float, recorded: Recorded) -> End:
+    def end(self, outcome: RunOutcome, code: int, wall: float, recorded: Recorded) -> End:
         """End of the run.
 
         Parameters
         ----------
-        outcome : Outcome
+        outcome : RunOutcome
             Status and message, before the checks of the energy account.
         code : int
             Last status of the engine.

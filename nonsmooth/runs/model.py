@@ -32,7 +32,7 @@ from nonsmooth.runs.final_state import FinalState, FixedPlaces
 from nonsmooth.runs.folder_sink import FolderSink
 from nonsmooth.runs.identity import digest
 from nonsmooth.runs.loop import EngineLoop, Progress
-from nonsmooth.runs.outcome import Outcome, interpenetration, outcome
+from nonsmooth.runs.outcome import RunOutcome, interpenetration, outcome
 from nonsmooth.runs.output_sink import OutputSink
 from nonsmooth.runs.records import Records
 from nonsmooth.runs.run_arguments import check_calls, check_steps, check_times, checked_request
@@ -451,7 +451,7 @@ class Model:
             final = self._final_state(energy, ending.checkpoint, ending.n_known_events)
             recorded = records.joined(self._engine)
             if found.status == "done" and (overlap := interpenetration(laid, recorded.rows)):
-                found = Outcome("failed", overlap)
+                found = RunOutcome("failed", overlap)
             solution = Solution(laid.system, recorded, partial(final.end, found, ending.status, wall, recorded))
             # a solution holds two checkpoints until its end is read; then it releases them
             if 2 * self._blank.size > _LARGEST_UNREAD:

@@ -1,4 +1,4 @@
-"""Outcome: the status and the message of a run, by the status of the engine."""
+"""Outcome of a run: the status and the message of a run, by the status of the engine."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.modes import REASONS, Status
-from nonsmooth.interfaces import Cause, Engine
+from nonsmooth.interfaces import EndCause, Engine
 from nonsmooth.model.blocks import block_overrun
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
@@ -18,7 +18,7 @@ from nonsmooth.runs.loop import Ending
 from nonsmooth.solution.state import Floats
 
 
-class Outcome(NamedTuple):
+class RunOutcome(NamedTuple):
     """How a run ended, for its user.
 
     Attributes
@@ -33,12 +33,12 @@ class Outcome(NamedTuple):
     message: str
 
 
-def cause_of(engine: Engine, status: int) -> Cause | None:
+def cause_of(engine: Engine, status: int) -> EndCause | None:
     """The cause, among those that an engine declares itself, whose code is a status; None for a common status."""
     return next((cause for cause in engine.causes if cause.code == status), None)
 
 
-def outcome(model: LaidOut, ending: Ending, engine: Engine) -> Outcome:
+def outcome(model: LaidOut, ending: Ending, engine: Engine) -> RunOutcome:
     """Status and message of a run of an engine that has ended.
 
     The first that holds is the reason: lost results, a function that wrote past its block, a cause that the engine
@@ -48,17 +48,17 @@ def outcome(model: LaidOut, ending: Ending, engine: Engine) -> Outcome:
     overrun, status = block_overrun(model), ending.status
     at = f"At t = {model.memory[owners.Island.time]:.9g} s"
     if ending.output_error:
-        return Outcome("failed", f"{at} {ending.output_error}")
+        return RunOutcome("failed", f"{at} {ending.output_error}")
     cause = cause_of(engine, status)
     if cause and not overrun:
         message = f"{at} {cause.reason}. {cause.remedy}".strip()
-        return Outcome("failed" if cause.is_failure else "done", message)
+        return RunOutcome("failed" if cause.is_failure else "done", message)
     # PAUSED is the status of a run that the user interrupted
     if overrun or status not in (Status.DONE, Status.STOPPED, Status.CONDITION_MET, Status.PAUSED):
         reason = cause.reason if cause else REASONS[Status(status)]
         details = overrun or failing_function(model, status) or ending.hint
-        return Outcome("failed", f"{at} {reason}. {details}".strip())
-    return Outcome("interrupted" if ending.is_interrupted else "done", REASONS[Status(status)])
+        return RunOutcome("failed", f"{at} {reason}. {details}".strip())
+    return RunOutcome("interrupted" if ending.is_interrupted else "done", REASONS[Status(status)])
 
 
 _MOVED = 0.01

@@ -13,7 +13,7 @@ from nonsmooth.plugins import registry
 Found = tuple[type[ContactKinematics], bool]
 
 
-class Geometries:
+class ContactGeometries:
     """The geometries of the contacts of one system, made once for equal shapes."""
 
     def __init__(self) -> None:

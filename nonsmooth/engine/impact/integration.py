@@ -52,7 +52,7 @@ _UNTRUSTED = 0.25
 
 
 @result
-class Pace(NamedTuple):
+class ImpactPace(NamedTuple):
     """What determines the length of a step."""
 
     h: float
@@ -117,7 +117,7 @@ def run_impact(ws: Workspace, h: float, shortest: float, is_windowed: bool) -> I
     prepare_guards(ws)
     write_impact_slope(ws, ws.impact.slopes.start)
     # there is no step before the first one
-    pace = Pace(h=h, h_before=0.0, error_before=1.0)
+    pace = ImpactPace(h=h, h_before=0.0, error_before=1.0)
     for _ in range(MOST_STEPS):
         # callers discard an interrupted impact, so it needs no results
         if interrupted(ws, _WORK * len(ws.actives)):
@@ -197,8 +197,8 @@ def _step_to_switch(ws: Workspace, aimed: Aim, is_linear: bool) -> Switch:
     return locate_switch(ws, aimed.h, fired)
 
 
-@kernel("Pace(ws, Pace, Attempt)")
-def _next_pace(ws: Workspace, pace: Pace, attempt: Attempt) -> Pace:
+@kernel("ImpactPace(ws, ImpactPace, Attempt)")
+def _next_pace(ws: Workspace, pace: ImpactPace, attempt: Attempt) -> ImpactPace:
     """Pace after an accepted step without an event: by its error, and on the common clock by the trend of errors.
 
     The phases of a lone contact are polynomials, so their errors have no trend. After a switch there is none yet.
@@ -206,7 +206,7 @@ def _next_pace(ws: Workspace, pace: Pace, attempt: Attempt) -> Pace:
     factor, error = step_factor(attempt.error), max(_LEAST_ERROR, attempt.error)
     if pace.h_before > 0.0 and ws.impact.lone_contact == NO_CONTACT:
         factor = min(factor, trend(error, pace.error_before, attempt.h / pace.h_before))
-    return Pace(h=attempt.h * factor, h_before=attempt.h, error_before=error)
+    return ImpactPace(h=attempt.h * factor, h_before=attempt.h, error_before=error)
 
 
 # --- between two steps ------------------------------------------------------------------------------------------------

@@ -29,7 +29,7 @@ from nonsmooth.engine.native.compiler import KEEPS_FILES, entry_address, kernel_
 from nonsmooth.engine.native.entries import Fingerprint, own_name
 from nonsmooth.engine.native.folders import folders
 from nonsmooth.engine.native.loader import load
-from nonsmooth.engine.native.machine_code import Entry, add_entry
+from nonsmooth.engine.native.machine_code import EntryPoint, add_entry
 from nonsmooth.engine.native.signatures import signature_of, workspace_with
 from nonsmooth.notices import say
 
@@ -95,7 +95,7 @@ def add_step(function: Callable[..., Any], own: type[Part], signature: str, fing
     a digest of the function; if not, each process compiles it.
     """
     name, typed = own_name(function), signature_of(signature, workspace_with(own))
-    add_entry(name, Entry(signature, lambda: _step_address(function, typed, signature, fingerprint)))
+    add_entry(name, EntryPoint(signature, lambda: _step_address(function, typed, signature, fingerprint)))
     return name
 
 

@@ -24,7 +24,7 @@ __all__ = ["shared", "unshared"]
 """Names of other modules that are part of this half."""
 
 
-class Entry(NamedTuple):
+class EntryPoint(NamedTuple):
     """An entry point, or a step of an engine, as Python calls it.
 
     Attributes
@@ -39,7 +39,7 @@ class Entry(NamedTuple):
     address: Callable[[], int]
 
 
-ENTRIES: dict[str, Entry] = {}
+ENTRIES: dict[str, EntryPoint] = {}
 """Steps of engines by name, and entry points after :func:`entry_addresses`."""
 _callables: dict[str, Callable[..., Any]] = {}
 """Those that Python has called, by name, as C functions."""
@@ -50,7 +50,7 @@ def _compiler() -> Any:
     return importlib.import_module("nonsmooth.engine.native.entry_points")
 
 
-def add_entry(name: str, entry: Entry) -> None:
+def add_entry(name: str, entry: EntryPoint) -> None:
     """Let :func:`call_entry` find a function by its name. A function that had the name before is forgotten."""
     ENTRIES[name] = entry
     _callables.pop(name, None)
@@ -67,7 +67,7 @@ def entry_addresses() -> tuple[int, ...]:
     for name, code in codes.items():
         # what no other process could compile and write is compiled here
         signature, address = (code.signature, load(code)) if code else _compiler().compile_entry(name)
-        add_entry(name, Entry(signature, lambda address=address: address))  # type: ignore[misc]
+        add_entry(name, EntryPoint(signature, lambda address=address: address))  # type: ignore[misc]
         addresses.append(address)
     return tuple(addresses)
 
