@@ -19,7 +19,7 @@ from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import entry_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import AnisotropicFrictionLaw, FrictionLaw, StatefulFrictionLaw
-from nonsmooth.problems.contact_result import MODES, ContactResult
+from nonsmooth.problems.contact_result import ContactMode, ContactResult
 from nonsmooth.problems.delassus import write_delassus
 from nonsmooth.watch import Watch
 
@@ -132,7 +132,7 @@ def solve_contact(
         tangential_force=f[:, 1:],
         acceleration=np.asarray(free + np.linalg.solve(m, columns @ f.ravel()), dtype=np.float64),
         contact_acceleration=memory[owners.ActiveContact.acceleration][:n].copy(),
-        modes=tuple(MODES[mode] for mode in memory[owners.ActiveContact.mode_tried][:n]),
+        modes=tuple(tuple(ContactMode)[mode] for mode in memory[owners.ActiveContact.mode_tried][:n]),
         _memory=memory,
         _scaled=scaled,
     )

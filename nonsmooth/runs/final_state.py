@@ -16,8 +16,8 @@ import numpy as np
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
-from nonsmooth.engine.memory.limits import LIMITS
 from nonsmooth.engine.memory.memory import Memory
+from nonsmooth.engine.memory.modes import LIMITS
 from nonsmooth.engine.memory.tables import record_with
 from nonsmooth.interfaces import Engine, Measure, StatefulFrictionLaw, TractionLaw
 from nonsmooth.model.checkpoint import Booleans, Checkpoint, Difference, Integers
@@ -25,7 +25,7 @@ from nonsmooth.model.engine_parts import own_of
 from nonsmooth.model.laid_out import energies
 from nonsmooth.queries.near import size_of
 from nonsmooth.runs.imbalance import imbalance_span
-from nonsmooth.runs.outcome import RunOutcome, cause_of
+from nonsmooth.runs.outcome import RunOutcome, RunStatus, cause_of
 from nonsmooth.solution.end import Counters, End
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.recorded import Recorded
@@ -114,8 +114,8 @@ class FinalState(NamedTuple):
         """
         state, counters = self.state(), self._counters(wall)
         status, message = outcome
-        if status == "done" and (found := self._suspicions(End(state, counters, status, message), recorded)):
-            status, message = "suspect", f"{message}, but {found}"
+        if status == RunStatus.DONE and (found := self._suspicions(End(state, counters, status, message), recorded)):
+            status, message = RunStatus.SUSPECT, f"{message}, but {found}"
         cause = cause_of(self.engine, code)
         return End(state, counters, status, message, cause.name if cause else "", self._verdict())
 

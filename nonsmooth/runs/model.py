@@ -32,7 +32,7 @@ from nonsmooth.runs.final_state import FinalState, FixedPlaces
 from nonsmooth.runs.folder_sink import FolderSink
 from nonsmooth.runs.identity import digest
 from nonsmooth.runs.loop import EngineLoop, Progress
-from nonsmooth.runs.outcome import RunOutcome, interpenetration, outcome
+from nonsmooth.runs.outcome import RunOutcome, RunStatus, interpenetration, outcome
 from nonsmooth.runs.output_sink import OutputSink
 from nonsmooth.runs.records import Records
 from nonsmooth.runs.run_arguments import check_calls, check_steps, check_times, checked_request
@@ -450,13 +450,13 @@ class Model:
             wall += time.perf_counter() - clock
             final = self._final_state(energy, ending.checkpoint, ending.n_known_events)
             recorded = records.joined(self._engine)
-            if found.status == "done" and (overlap := interpenetration(laid, recorded.rows)):
-                found = RunOutcome("failed", overlap)
+            if found.status == RunStatus.DONE and (overlap := interpenetration(laid, recorded.rows)):
+                found = RunOutcome(RunStatus.FAILED, overlap)
             solution = Solution(laid.system, recorded, partial(final.end, found, ending.status, wall, recorded))
             # a solution holds two checkpoints until its end is read; then it releases them
             if 2 * self._blank.size > _LARGEST_UNREAD:
                 _ = solution.end
-            has_failed = found.status == "failed"
+            has_failed = found.status == RunStatus.FAILED
             # results that cannot be written are in memory, so the error gets the solution; after a failed write the
             # sink gets nothing more
             try:
@@ -464,7 +464,7 @@ class Model:
                     loop.sink.finish(solution)
             except FileError as error:
                 has_failed = True
-                end = replace(solution.end, status="failed", message=str(error))
+                end = replace(solution.end, status=RunStatus.FAILED, message=str(error))
                 solution = Solution.known(laid.system, recorded, end)
         except MemoryError as error:
             raise self._out_of_memory(error) from error

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
 from typing import NamedTuple
 
 import numpy as np
@@ -18,18 +19,31 @@ from nonsmooth.runs.loop import Ending
 from nonsmooth.solution.state import Floats
 
 
+class RunStatus(StrEnum):
+    """How a run ended, for its user."""
+
+    DONE = "done"
+    """At the end time, or because a condition was met or a guard of the user fired."""
+    SUSPECT = "suspect"
+    """At the end time, but a check of its energy or of its quaternions found an error."""
+    INTERRUPTED = "interrupted"
+    """The user interrupted it."""
+    FAILED = "failed"
+    """It cannot continue, or results were lost."""
+
+
 class RunOutcome(NamedTuple):
-    """How a run ended, for its user.
+    """How a run ended, and why.
 
     Attributes
     ----------
-    status : str
-        "done", "suspect", "interrupted" or "failed".
+    status : RunStatus
+        How it ended.
     message : str
         The reason, as a sentence.
     """
 
-    status: str
+    status: RunStatus
     message: str
 
 
@@ -48,17 +62,18 @@ def outcome(model: LaidOut, ending: Ending, engine: Engine) -> RunOutcome:
     overrun, status = block_overrun(model), ending.status
     at = f"At t = {model.memory[owners.Island.time]:.9g} s"
     if ending.output_error:
-        return RunOutcome("failed", f"{at} {ending.output_error}")
+        return RunOutcome(RunStatus.FAILED, f"{at} {ending.output_error}")
     cause = cause_of(engine, status)
     if cause and not overrun:
         message = f"{at} {cause.reason}. {cause.remedy}".strip()
-        return RunOutcome("failed" if cause.is_failure else "done", message)
+        return RunOutcome(RunStatus.FAILED if cause.is_failure else RunStatus.DONE, message)
     # PAUSED is the status of a run that the user interrupted
     if overrun or status not in (Status.DONE, Status.STOPPED, Status.CONDITION_MET, Status.PAUSED):
         reason = cause.reason if cause else REASONS[Status(status)]
         details = overrun or failing_function(model, status) or ending.hint
-        return RunOutcome("failed", f"{at} {reason}. {details}".strip())
-    return RunOutcome("interrupted" if ending.is_interrupted else "done", REASONS[Status(status)])
+        return RunOutcome(RunStatus.FAILED, f"{at} {reason}. {details}".strip())
+    end = RunStatus.INTERRUPTED if ending.is_interrupted else RunStatus.DONE
+    return RunOutcome(end, REASONS[Status(status)])
 
 
 _MOVED = 0.01

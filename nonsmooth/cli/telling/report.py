@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from nonsmooth.cli.telling.table import lines
-from nonsmooth.engine.memory.limits import LIMITS, Limit
+from nonsmooth.engine.memory.modes import LIMITS, Limit
 from nonsmooth.solution.solution import Solution
 
 Report = dict[str, Any]
