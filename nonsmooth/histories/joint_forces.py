@@ -14,8 +14,8 @@ from nonsmooth.engine.memory.blocks import AXIS, JOINT_ROW, MOMENT, POINT_B
 from nonsmooth.histories.arrays import Floats
 from nonsmooth.histories.times import of_one, read_times, spoken
 from nonsmooth.histories.visitor import visitor
-from nonsmooth.model.articulations import articulations
 from nonsmooth.model.laid_out import LaidOut
+from nonsmooth.model.laying import articulations
 
 if TYPE_CHECKING:
     import xarray

@@ -18,7 +18,6 @@ from nonsmooth.engine.memory.memory import Heap, allocate
 from nonsmooth.engine.memory.tables import COUNTS
 from nonsmooth.engine.native.kernel import entry_addresses
 from nonsmooth.interfaces import Engine, ImpactMap
-from nonsmooth.model.articulations import ArticulationLayout, articulations
 from nonsmooth.model.blocks import marks_behind_blocks
 from nonsmooth.model.broad_phase import BroadPhase, find_broad_phase, lay_broad_phase
 from nonsmooth.model.checks import check_guards, check_start
@@ -26,7 +25,7 @@ from nonsmooth.model.contact_table import ContactTable
 from nonsmooth.model.engine_parts import check_report, counts_of, laid_own, settings_of
 from nonsmooth.model.feature_searches import lay_searches
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.laying import lay_bodies, lay_guards, lay_joints, lay_loads
+from nonsmooth.model.laying import ArticulationLayout, articulations, lay_bodies, lay_guards, lay_joints, lay_loads
 from nonsmooth.model.laying_contacts import Kinds, by_kind, initial_state, lay_contacts
 from nonsmooth.model.part_pairs import PartPair, carriers_of, find_part_pairs, lay_part_pairs
 from nonsmooth.system.contact import Contact

@@ -18,10 +18,9 @@ from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.blocks import FORCE_AND_MOMENT, FRAME, GEOMETRY, GUARD, JOINT_ROW, LOAD, PAIR, UNTOUCHED
 from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.interfaces import ImpactMap, Joint, Load, StatefulFrictionLaw, TractionLaw
-from nonsmooth.model.articulations import joints_in_order
 from nonsmooth.model.feature_searches import find_searches
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.model.laying import place_of_inverse_mass
+from nonsmooth.model.laying import joints_in_order, place_of_inverse_mass
 from nonsmooth.system.contact import Contact, Tie
 
 

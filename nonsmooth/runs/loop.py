@@ -34,6 +34,21 @@ _COPIED = 1 << 13
 Progress = Callable[[float, float], None]
 
 
+class Callbacks(NamedTuple):
+    """Functions of the user that a run calls. None if the user gives none.
+
+    Attributes
+    ----------
+    progress : callable
+        ``progress(time, t_end)`` [s], called repeatedly.
+    until : callable
+        The condition that ends the run.
+    """
+
+    progress: Progress | None
+    until: Until | None
+
+
 class Ending(NamedTuple):
     """How the calls of an engine ended.
 
@@ -78,10 +93,8 @@ class EngineLoop:
         The checkpoint of the start, which the memory holds.
     sink : OutputSink
         Takes the results at checkpoints.
-    progress : callable, optional
-        ``progress(time, t_end)`` [s], called repeatedly.
-    until : callable, optional
-        The condition that ends the run.
+    callbacks : Callbacks
+        Functions of the user.
     """
 
     engine: Engine
@@ -89,14 +102,13 @@ class EngineLoop:
     records: Records
     start: Checkpoint
     sink: OutputSink
-    progress: Progress | None = None
-    until: Until | None = None
+    callbacks: Callbacks
     _n_calls: int = 0
 
     def __post_init__(self) -> None:
         """Begin with the start as the last checkpoint; a condition gets a view of the run so far."""
         self._checkpoint, self._n_events_before = self.start, self.records.n_events
-        self._run_so_far = None if self.until is None else RunSoFar(self.model, self.records, self.engine)
+        self._run_so_far = None if self.callbacks.until is None else RunSoFar(self.model, self.records, self.engine)
 
     def run(self) -> Ending:
         """Run to the end time, to a failure, until a condition is met or the user interrupts.
@@ -148,7 +160,7 @@ class EngineLoop:
         now and then whether to stop. The watch reports the time to ``progress``, and turns Ctrl-C into a
         KeyboardInterrupt.
         """
-        memory, progress = self.model.memory, self.progress
+        memory, progress = self.model.memory, self.callbacks.progress
         t_end = float(memory[owners.Request.t_end])
         report = None if progress is None else lambda t: progress(t, t_end)
         status: int = Status.PAUSED
@@ -208,9 +220,10 @@ class EngineLoop:
         InvalidInput
             If it returns neither true nor false, such as an array.
         """
-        if self.until is None or self._run_so_far is None:
+        until = self.callbacks.until
+        if until is None or self._run_so_far is None:
             return False
-        answer = self.until(self._run_so_far)
+        answer = until(self._run_so_far)
         try:
             return bool(answer)
         except ValueError as error:

@@ -28,17 +28,24 @@ from nonsmooth.model.laying_contacts import lay_laws
 from nonsmooth.queries.undeclared import Undeclared
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
+from nonsmooth.runs.checks import (
+    check_arrays,
+    check_calls,
+    check_closed,
+    check_numbers,
+    check_steps,
+    check_times,
+    checked_request,
+)
 from nonsmooth.runs.final_state import FinalState, FixedPlaces
 from nonsmooth.runs.folder_sink import FolderSink
 from nonsmooth.runs.identity import digest
-from nonsmooth.runs.loop import EngineLoop, Progress
+from nonsmooth.runs.loop import Callbacks, EngineLoop, Progress
 from nonsmooth.runs.outcome import RunOutcome, RunStatus, interpenetration, outcome
 from nonsmooth.runs.output_sink import OutputSink
 from nonsmooth.runs.records import Records
-from nonsmooth.runs.run_arguments import check_calls, check_steps, check_times, checked_request
 from nonsmooth.runs.so_far import Until
 from nonsmooth.runs.start import begin, continue_run, resume_run, write_first_sample, write_request
-from nonsmooth.runs.state_checks import check_arrays, check_closed, check_numbers
 from nonsmooth.solution.files import FileError
 from nonsmooth.solution.request import RunRequest
 from nonsmooth.solution.solution import Solution
@@ -239,7 +246,7 @@ class Model:
         request = RunRequest(t_end, state.time, interval, sample_interval is None, until is not None)
         folder = None if output is None else Output.to(output)
         with self._reserved("run"):
-            return self._run(request, state, progress, folder, until)
+            return self._run(request, state, folder, Callbacks(progress, until))
 
     def contact_rates(self, state: State) -> tuple[Floats, Floats]:
         """Gaps and relative velocities of all contacts in a state; nan for bodies that are far apart.
@@ -306,7 +313,7 @@ class Model:
             energy, wall = (state.energy.kinetic_start, state.energy.potential_start), folder.wall_seconds
             sink = FolderSink(folder, self._records, self._states_from(energy), wall)
             start = Checkpoint.of(laid.memory)
-            loop = EngineLoop(self._engine, laid, self._records, start, sink, progress, until)
+            loop = EngineLoop(self._engine, laid, self._records, start, sink, Callbacks(progress, until))
             return self._complete(loop, energy, wall)
 
     @functools.cached_property
@@ -385,9 +392,7 @@ class Model:
             self._places,
         )
 
-    def _run(
-        self, request: RunRequest, state: State, progress: Progress | None, output: Output | None, until: Until | None
-    ) -> Solution:
+    def _run(self, request: RunRequest, state: State, output: Output | None, callbacks: Callbacks) -> Solution:
         """Run from a state, while the memory is reserved; errors as :meth:`run`.
 
         Bodies without a contact that overlap at the end, but not at the start, cause a warning.
@@ -408,7 +413,7 @@ class Model:
             sink = FolderSink(folder, self._records, self._states_from(energy), wall=0.0)
         # where the bodies are before the run
         before = laid.places() if self._pairs_without_contact.any else []
-        loop = EngineLoop(self._engine, laid, self._records, start, sink, progress, until)
+        loop = EngineLoop(self._engine, laid, self._records, start, sink, callbacks)
         solution = self._complete(loop, energy, wall=0.0)
         if self._pairs_without_contact.any:
             laid.evaluate()

@@ -8,9 +8,9 @@ from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Engine
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import check_free
+from nonsmooth.runs.checks import check_times
 from nonsmooth.runs.loop import Progress
 from nonsmooth.runs.model import Model
-from nonsmooth.runs.run_arguments import check_times
 from nonsmooth.runs.so_far import Until
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System

@@ -35,7 +35,7 @@ from nonsmooth.interfaces import Body, Engine
 from nonsmooth.model.assembly import assemble
 from nonsmooth.model.checkpoint import Checkpoint
 from nonsmooth.model.laid_out import LaidOut
-from nonsmooth.runs.loop import EngineLoop
+from nonsmooth.runs.loop import Callbacks, EngineLoop
 from nonsmooth.runs.output_sink import OutputSink
 from nonsmooth.runs.records import Records
 from scenarios.dice_throw.scenario import DiceThrow
@@ -176,7 +176,9 @@ def profile(build: Callable[[], ns.System], t_end: float, engine: Engine | None 
         model.memory[owners.Request.t_end], model.memory[owners.Request.sample_interval] = t_end, t_end / 10.0
         kept = _instrument(model, accounts, searches) if instrumented else None
         began = time.perf_counter()
-        EngineLoop(integrator, model, Records(model), Checkpoint.of(model.memory), OutputSink()).run()
+        EngineLoop(
+            integrator, model, Records(model), Checkpoint.of(model.memory), OutputSink(), Callbacks(None, None)
+        ).run()
         wall = time.perf_counter() - began
         del kept
         return wall, searches, accounts
