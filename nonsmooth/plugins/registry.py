@@ -217,7 +217,7 @@ def load(group: str, name: str) -> Any:
         If it cannot be imported or is not what the group asks for.
     """
     if name not in _points(group):
-        raise UnknownName(KINDS[group], name, names(group), said_of(name))
+        raise UnknownName(KINDS[group], name, names(group), kinds_named(name))
     return _usable(_points(group)[name], group)
 
 
@@ -246,8 +246,8 @@ def kind_of(owner: type) -> str:
     return next(KINDS[group] for group, bases in GROUPS.items() if issubclass(owner, bases))
 
 
-def said_of(name: str) -> str:
-    """Return in words what is installed under a name, in whichever group; nothing where nothing is."""
+def kinds_named(name: str) -> str:
+    """Kinds of the components of a name, in all groups: "a friction law and a body"; "" if there is none."""
     found: dict[str, None] = {}
     for group in GROUPS:
         if name in names(group) and (owner := _loaded(group, name)) is not None:

@@ -19,7 +19,7 @@ from nonsmooth.runs.loop import Progress
 from nonsmooth.runs.so_far import Until
 from nonsmooth.solution.request import RunRequest
 from nonsmooth.solution.state import State
-from nonsmooth.system.given import check_quaternion
+from nonsmooth.system.input_checks import check_quaternion
 
 _DEFAULT_SAMPLES = 2000
 """Number of samples if no interval is given: enough for a curve as wide as a screen."""

@@ -25,7 +25,7 @@ from nonsmooth.interfaces import (
 )
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.system.contact import Contact, ContactDeclaration, Tie, Watched
-from nonsmooth.system.given import check_bodies, gravity_of, start_of, stranger
+from nonsmooth.system.input_checks import check_bodies, gravity_of, start_of, stranger
 from nonsmooth.system.materials import ContactLaws, Materials, check_laws, check_sharing
 from nonsmooth.system.names import Names, Naming, between, kind_word
 from nonsmooth.system.pairing import ContactGeometries
