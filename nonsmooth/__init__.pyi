@@ -26,7 +26,9 @@ from nonsmooth.results.output import Output as Output
 from nonsmooth.runs.model import Model as Model
 from nonsmooth.runs.resuming import resume as resume
 from nonsmooth.runs.simulate import assemble as assemble
+from nonsmooth.runs.simulate import run_scenario as run_scenario
 from nonsmooth.runs.simulate import simulate as simulate
+from nonsmooth.scenario_function import scenario as scenario
 from nonsmooth.solution.solution import Solution as Solution
 from nonsmooth.solution.state import State as State
 from nonsmooth.system.materials import ContactLaws as ContactLaws
