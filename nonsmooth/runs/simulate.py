@@ -15,7 +15,7 @@ from nonsmooth.runs.so_far import Until
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 
-__all__ = ["Progress", "assemble", "simulate"]
+__all__ = ["Progress", "assemble", "run_scenario", "simulate"]
 
 
 def assemble(system: System, engine: Engine | None = None) -> Model:
