@@ -1,6 +1,6 @@
-"""compiled: for the functions that evaluators share; block_at: for rows of a table that they read.
+"""Functions for evaluators: ``compiled`` shares a function, ``block_at`` gives a row of a table.
 
-call_support is for shapes that are known by a function.
+``call_support`` calls the support function of a shape.
 """
 
 from __future__ import annotations

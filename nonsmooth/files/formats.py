@@ -1,4 +1,4 @@
-"""The formats of scenario files, by what a file's name ends in: each a reader and a writer of the same tables."""
+"""Formats of scenario files by the ending of the name: a reader and a writer of the same tables."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from nonsmooth.files import yaml_text
 @final
 @dataclass(frozen=True)
 class FileFormat:
-    """A format.
+    """A format of scenario files.
 
     Attributes
     ----------
     name : str
-        What it is called.
+        Name of the format.
     parse : callable
-        From text to tables; raises ValueError with the place where it is wrong.
+        From text to tables. It raises ValueError with the place of a mistake.
     write : callable
         From tables to text.
     """
@@ -39,12 +39,12 @@ _WIDTH = 100
 
 
 def text_of(tables: Mapping[str, Any]) -> str:
-    """Return TOML text: plain values first, then a section for every table, and for every table of a table of tables.
+    """TOML text of tables: plain values first, then a section for each table, and for each table of a table of tables.
 
     Parameters
     ----------
     tables : mapping
-        Numbers, words, lists and mappings by name.  Lists of mappings become arrays of tables.
+        Numbers, strings, lists and mappings by name. Lists of mappings become arrays of tables.
     """
     plain = {key: value for key, value in tables.items() if not _is_section(value)}
     parts = ["\n".join(_line(key, value) for key, value in plain.items())] if plain else []
@@ -97,16 +97,16 @@ def _key(name: str) -> str:
 _TOML, _YAML = FileFormat("TOML", tomllib.loads, text_of), FileFormat("YAML", yaml_text.tables_of, yaml_text.text_of)
 _FORMATS = {".toml": _TOML, ".yaml": _YAML, ".yml": _YAML}
 SUFFIXES = tuple(_FORMATS)
-"""What the name of a scenario file ends in."""
+"""Endings of the names of scenario files."""
 
 
 def of(path: Path) -> FileFormat:
-    """Return the format of a file.
+    """Format of a file.
 
     Raises
     ------
     InvalidInput
-        If its name ends in none of those known.
+        If its name has another ending.
     """
     if path.suffix not in _FORMATS:
         remedy = "Scenario files are TOML or YAML; rename one that is: JSON text is YAML, too."

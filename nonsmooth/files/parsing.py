@@ -16,7 +16,7 @@ from nonsmooth.solution.files import content_of
 
 
 def parse(path: Path) -> Table:
-    """Return the tables of a file.
+    """Tables of a file.
 
     Raises
     ------
@@ -40,7 +40,7 @@ def parse(path: Path) -> Table:
 
 
 def changed(tables: Table, changes: Mapping[str, Any], path: Path) -> Table:
-    """Return the tables with the values at some dotted keys replaced; numbers count through arrays, from 0.
+    """Tables with new values at some dotted keys. Numbers in a key count through arrays, from 0.
 
     Raises
     ------
@@ -71,7 +71,7 @@ def _inside(place: Any, step: str, key: str, path: Path) -> Any:
 
 
 def value(text: str) -> Any:
-    """Return what a text means as a TOML value, itself where it means none."""
+    """Value of a text as TOML; the text itself if it is no value."""
     try:
         return tomllib.loads(f"value = {text}")["value"]
     except ValueError:
@@ -79,7 +79,7 @@ def value(text: str) -> Any:
 
 
 def check_keys(thing: str, table: Any, known: Collection[str], required: Sequence[str] = ()) -> None:
-    """Raise InvalidInput unless it is a table with all required and no unknown keys."""
+    """Raise InvalidInput if an object is no table, a required key is missing, or a key is unknown."""
     if not isinstance(table, dict):
         raise InvalidInput(thing, "must be a table", table, f"Its keys are {', '.join(known)}.")
     for key in table:
@@ -91,7 +91,7 @@ def check_keys(thing: str, table: Any, known: Collection[str], required: Sequenc
 
 
 def tables_in(thing: str, value: Any) -> list[dict[str, Any]]:
-    """Return an array of tables; raise InvalidInput if it is none."""
+    """An array of tables. Raise InvalidInput for anything else."""
     if not (isinstance(value, list) and all(isinstance(one, dict) for one in value)):
         raise InvalidInput(
             thing, "must be an array of tables", value, f"Write [[{thing.rpartition(' ')[2]}]] above each."
@@ -100,7 +100,7 @@ def tables_in(thing: str, value: Any) -> list[dict[str, Any]]:
 
 
 def number(thing: str, value: Any, unit: str, positive: bool = False) -> float:
-    """Return a finite number; raise InvalidInput if it is none, or not positive where it must be."""
+    """A finite number. Raise InvalidInput for anything else, and for a number that must be positive and is not."""
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
         raise InvalidInput(thing, "must be a finite number", value, f"Give it in [{unit}].")
     if positive and value <= 0.0:
@@ -109,7 +109,7 @@ def number(thing: str, value: Any, unit: str, positive: bool = False) -> float:
 
 
 def words(thing: str, value: Any, n: int | None = None) -> list[str]:
-    """Return a list of words, of n where that is given; raise InvalidInput if it is none."""
+    """A list of names, ``n`` of them if it is given. Raise InvalidInput for anything else."""
     right = isinstance(value, list) and all(isinstance(one, str) for one in value)
     if not right or (n is not None and len(value) != n):
         count = "" if n is None else f"{n} "

@@ -15,14 +15,14 @@ from nonsmooth.system.system import System
 
 
 def number_of(where: str, kind: str, asked: object, parts: Sequence[object], names: Callable[[], Sequence[str]]) -> int:
-    """Return the number of a part, counted from 0.
+    """Number of a part, from its name or the object itself, counted from 0.
 
     Raises
     ------
     UnknownName
-        If none has this name.
+        If no part has this name.
     InvalidInput
-        If the object is none of them.
+        If the object is not a part of the system.
     """
     if isinstance(asked, str):
         known = names()
@@ -38,12 +38,12 @@ def number_of(where: str, kind: str, asked: object, parts: Sequence[object], nam
 
 
 def body_number(where: str, asked: Body | str, system: System) -> int:
-    """Return the number of a body, counted from 0; errors as :func:`number_of`."""
+    """Number of a body, counted from 0. Errors as :func:`number_of`."""
     return number_of(where, "body", asked, system.bodies, lambda: system.names.bodies)
 
 
 def contact_number(where: str, asked: Contact | str | int, contacts: Sequence[Contact]) -> int:
-    """Return the number of a contact, which may be asked for by it, counted from 0; errors as :func:`number_of`."""
+    """Number of a contact, from its name, its number or the object, counted from 0. Errors as :func:`number_of`."""
     if not isinstance(asked, (int, np.integer)):
         return number_of(where, "contact", asked, contacts, lambda: [one.name for one in contacts])
     if asked not in range(len(contacts)):
@@ -55,7 +55,7 @@ def contact_number(where: str, asked: Contact | str | int, contacts: Sequence[Co
 @final
 @dataclass(frozen=True)
 class Labels:
-    """What the coordinates of a system are called, in its order.
+    """Names of the coordinates and velocities of a system, in its order.
 
     Attributes
     ----------
@@ -68,7 +68,7 @@ class Labels:
 
 
 def labels(system: System) -> Labels:
-    """Return the labels of the coordinates and velocities of a system."""
+    """Labels of the coordinates and velocities of a system, such as "ball 2 x" [m]."""
     pairs = list(zip(system.bodies, system.names.bodies, strict=True))
     return Labels(
         tuple((label, f"{label} {name}", unit) for body, label in pairs for name, unit in body.q_labels),

@@ -1,4 +1,4 @@
-"""Which contact kinematics knows a pair of shapes."""
+"""Contact kinematics for pairs of shapes."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Found = tuple[type[ContactKinematics], bool]
 
 
 class ContactGeometries:
-    """The geometries of the contacts of one system, made once for equal shapes."""
+    """Geometries of the contacts of one system. They are made once for equal shapes."""
 
     def __init__(self) -> None:
         self._frames: dict[int, tuple[tuple[Shape, ...], ...]] = {}
@@ -23,7 +23,7 @@ class ContactGeometries:
         self._made: dict[tuple[int, int], tuple[ContactKinematics, ...]] = {}
 
     def shapes(self, body: Body) -> tuple[tuple[Shape, ...], ...]:
-        """Return the shapes that each frame of a body of the system carries; equal ones are one object."""
+        """Shapes of each frame of a body of the system. Equal shapes are one object."""
         if id(body) not in self._frames:
             self._frames[id(body)] = tuple(tuple(map(self._first_of, shapes)) for shapes in body.frames)
         return self._frames[id(body)]
@@ -31,16 +31,16 @@ class ContactGeometries:
     def _first_of(self, shape: Shape) -> Shape:
         try:
             return self._shapes.setdefault(shape, shape)
-        except TypeError:  # one with fields that cannot be hashed
+        except TypeError:  # a shape with fields that cannot be hashed
             return shape
 
     def between(self, first: Shape, second: Shape) -> tuple[Sequence[ContactKinematics], bool]:
-        """Return the geometries of two shapes that :meth:`shapes` gave, and whether the first comes first in them.
+        """Geometries of two shapes of :meth:`shapes`, and True if the first shape comes first in them.
 
         Raises
         ------
         InvalidInput
-            If no kinematics knows the two.
+            If no kinematics of the two is installed.
         """
         kinds = type(first), type(second)
         if kinds not in self._kinds:
@@ -63,7 +63,7 @@ def _kinematics_of(first: Shape, second: Shape) -> Found:
     Raises
     ------
     InvalidInput
-        If no kinematics knows the two.
+        If no kinematics of the two is installed.
     """
     found = installed_pair(first, second)
     if found is None:
