@@ -48,7 +48,7 @@ class Watch:
         self._begin_to_look()
 
     def reporting(self, report: Callable[[float], None] | None) -> Watch:
-        """This watch, with a function that gets the time reached [s], or None for no reports."""
+        """Set the function that gets the time reached [s], or None for no reports. The result is the watch."""
         self._report = report
         return self
 
