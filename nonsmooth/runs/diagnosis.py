@@ -29,13 +29,14 @@ from nonsmooth.model.immobile import REMEDY as IMMOBILE_REMEDY
 from nonsmooth.model.immobile import held_by, immobile_contact
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.runs.squeezed import squeezed_body
+from nonsmooth.system.contact import Contact
 
 _FAILED_CHECKS = {
     Status.GAP_UNEXPLAINED: "The {contact}: the gap is {found:.3g} m; the tolerances allow {allowed:.3g} m. ",
     Status.PASSED: (
-        "The bodies of the {contact} overlap by {found:.3g} m; their closed contacts allow {allowed:.3g} m. Their "
-        "features missed each other: turn or shift one of them by a thousandth of its size, give it feet or a "
-        "rounding, or take shorter steps, EventDriven(largest_step=...)."
+        "The bodies {first!r} and {second!r} of the {contact} overlap by {found:.3g} m; their closed contacts allow "
+        "{allowed:.3g} m. Their features missed each other: turn or shift one of them by a thousandth of its size, "
+        "give it feet or a rounding, or take shorter steps, EventDriven(largest_step=...)."
     ),
     Status.GAP_UNDECIDED: (
         "The {contact}: its gap is {found:.3g} m and hardly changes within a step of {h:.3g} s. Place the bodies "
@@ -109,14 +110,32 @@ def _failed_check(model: LaidOut, status: Status) -> str:
         things |= {"evaluator": described(model.system.bodies[number].evaluator)}
     elif status != Status.JOINTS_APART:
         contact = model.system.contacts[number if status == Status.PASSED else model.active[number]]
-        things |= {"contact": contact}
+        first, second = map(model.system.name_of, (contact.first, contact.second))
+        things |= {"contact": contact, "first": first, "second": second}
     text = _FAILED_CHECKS[status].format(**things)
     if status == Status.GAP_UNEXPLAINED:
-        # other closed contacts contradict a closed one; the kinematics of an open one is not continuous
-        if memory[owners.Contact.mode][number] != Mode.OPEN:
-            return f"{text}It is closed, and others that are closed may hold its bodies otherwise. {_COMPLIANT}"
+        # other closed contacts of its bodies contradict a closed one; else its kinematics is not continuous
+        if memory[owners.Contact.mode][number] != Mode.OPEN and (others := _other_closed(model, contact)):
+            return f"{text}It is closed, and {others} hold its bodies otherwise. {_COMPLIANT}"
         return f"{text}It jumps in {described(contact.kinematics.evaluator)}. {_CHECK} {_SHIFT}"
     return f"{text}{_CHECK}" if status == Status.QUATERNION_UNEXPLAINED else text
+
+
+def _other_closed(model: LaidOut, contact: Contact) -> str:
+    """Names of closed contacts that share a free body with a contact, or "".
+
+    Of contacts between the same two bodies the first is named. Those between both bodies of ``contact`` are left out.
+    """
+    modes = model.memory[owners.Contact.mode][: len(model.active)]
+    # a driven body has no velocities, and takes no part in a contradiction
+    free = {id(body) for body in (contact.first, contact.second) if body.n_u > 0}
+    pairs = dict[tuple[int, int], str]()
+    for number in model.active[modes != Mode.OPEN].tolist():
+        other = model.system.contacts[number]
+        bodies = id(other.first), id(other.second)
+        if free & {*bodies} and {*bodies} != {id(contact.first), id(contact.second)}:
+            pairs.setdefault(bodies, f"the {other}")
+    return ", ".join(pairs.values())
 
 
 def _immobile(model: LaidOut) -> str:

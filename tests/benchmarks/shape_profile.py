@@ -78,7 +78,7 @@ def _timed(inner: int, account: np.ndarray) -> int:
     """Return the address of a function that calls the pair at another and adds cycles and calls to an account."""
     scope: dict[str, Any] = {"clock": intrinsic(_clock), "call_pair": call_pair, "add": intrinsic(_add)}
     exec(_SHIM.format(inner=inner, account=account.ctypes.data), scope)
-    return address_of(scope["shim"], "pair", "")
+    return address_of(lambda: scope["shim"], "pair", "")
 
 
 def _nothing(a: Any, b: Any, out: Any) -> None:
@@ -102,7 +102,7 @@ def _cycles_per_second() -> float:
     account = np.zeros(2, np.int64)
     scope: dict[str, Any] = {"clock": intrinsic(_clock), "add": intrinsic(_add)}
     exec(f"def shim(a, b, p, out): add({account.ctypes.data}, clock())", scope)
-    read = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)(address_of(scope["shim"], "pair", ""))
+    read = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)(address_of(lambda: scope["shim"], "pair", ""))
     read(None, None, None, None)
     began, first = time.perf_counter(), int(account[0])
     time.sleep(0.1)
