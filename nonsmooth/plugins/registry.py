@@ -34,36 +34,23 @@ from nonsmooth.interfaces import (
 )
 from nonsmooth.plugins.hiding import hidden_packages
 
-GROUPS: dict[str, tuple[type, ...]] = {
-    "bodies": (Body,),
-    "laws": (NormalLaw, TangentialLaw, ImpactLaw),
-    "scenarios": (Scenario,),
-    "kinematics": (ContactKinematics,),
-    "joints": (Joint,),
-    "loads": (Load,),
-    "shapes": (Shape,),
-    "motions": (Motion,),
-    "guards": (Guard,),
-    "distances": (DistanceBackend,),
-    "engines": (Engine,),
+_GROUPS: dict[str, tuple[str, tuple[type, ...]]] = {
+    "bodies": ("body", (Body,)),
+    "laws": ("law", (NormalLaw, TangentialLaw, ImpactLaw)),
+    "scenarios": ("scenario", (Scenario,)),
+    "kinematics": ("contact kinematics", (ContactKinematics,)),
+    "joints": ("joint", (Joint,)),
+    "loads": ("load", (Load,)),
+    "shapes": ("shape", (Shape,)),
+    "motions": ("motion", (Motion,)),
+    "guards": ("guard", (Guard,)),
+    "distances": ("library for distances", (DistanceBackend,)),
+    "engines": ("engine", (Engine,)),
 }
+GROUPS = {group: interfaces for group, (_, interfaces) in _GROUPS.items()}
 """Entry-point groups ``nonsmooth.<name>`` and the interfaces that their members implement."""
-
-KINDS = {
-    "bodies": "body",
-    "laws": "law",
-    "scenarios": "scenario",
-    "kinematics": "contact kinematics",
-    "joints": "joint",
-    "loads": "load",
-    "shapes": "shape",
-    "motions": "motion",
-    "guards": "guard",
-    "distances": "library for distances",
-    "engines": "engine",
-}
+KINDS = {group: kind for group, (kind, _) in _GROUPS.items()}
 """Word for a member of each group, for messages."""
-
 _LAWS = {NormalLaw: "normal law", TangentialLaw: "friction law", ImpactLaw: "impact law"}
 """Word for a law by its kind, for messages."""
 
