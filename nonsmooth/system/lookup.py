@@ -14,7 +14,7 @@ from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System
 
 
-def number_of(where: str, kind: str, asked: object, parts: Sequence[object], names: Callable[[], Sequence[str]]) -> int:
+def number_of(where: str, kind: str, part: object, parts: Sequence[object], names: Callable[[], Sequence[str]]) -> int:
     """Number of a part, from its name or the object itself, counted from 0.
 
     Raises
@@ -24,32 +24,32 @@ def number_of(where: str, kind: str, asked: object, parts: Sequence[object], nam
     InvalidInput
         If the object is not a part of the system.
     """
-    if isinstance(asked, str):
+    if isinstance(part, str):
         known = names()
-        if asked not in known:
-            raise UnknownName(f"{where}: {kind}", asked, known)
-        return known.index(asked)
-    # parts may be equal and yet not the same
-    found = next((number for number, part in enumerate(parts) if part is asked), None)
+        if part not in known:
+            raise UnknownName(f"{where}: {kind}", part, known)
+        return known.index(part)
+    # different parts may be equal
+    found = next((number for number, one in enumerate(parts) if one is part), None)
     if found is None:
         remedy = "Take it, or its name, from solution.system."
-        raise InvalidInput(where, f"needs a {kind} of this system, or its name", asked, remedy)
+        raise InvalidInput(where, f"needs a {kind} of this system, or its name", part, remedy)
     return found
 
 
-def body_number(where: str, asked: Body | str, system: System) -> int:
+def body_number(where: str, part: Body | str, system: System) -> int:
     """Number of a body, counted from 0. Errors as :func:`number_of`."""
-    return number_of(where, "body", asked, system.bodies, lambda: system.names.bodies)
+    return number_of(where, "body", part, system.bodies, lambda: system.names.bodies)
 
 
-def contact_number(where: str, asked: Contact | str | int, contacts: Sequence[Contact]) -> int:
+def contact_number(where: str, part: Contact | str | int, contacts: Sequence[Contact]) -> int:
     """Number of a contact, from its name, its number or the object, counted from 0. Errors as :func:`number_of`."""
-    if not isinstance(asked, (int, np.integer)):
-        return number_of(where, "contact", asked, contacts, lambda: [one.name for one in contacts])
-    if asked not in range(len(contacts)):
+    if not isinstance(part, (int, np.integer)):
+        return number_of(where, "contact", part, contacts, lambda: [one.name for one in contacts])
+    if part not in range(len(contacts)):
         rule = f"must be below {len(contacts)}, the number of contacts"
-        raise InvalidInput(f"{where}: contact", rule, asked, "Count from 0.")
-    return int(asked)
+        raise InvalidInput(f"{where}: contact", rule, part, "Count from 0.")
+    return int(part)
 
 
 @final
