@@ -25,7 +25,7 @@ from nonsmooth.runs.output_sink import OutputSink
 from nonsmooth.runs.records import Records
 from nonsmooth.runs.so_far import RunSoFar, Until
 from nonsmooth.runs.stall_monitor import StallMonitor
-from nonsmooth.solution.files import FileError
+from nonsmooth.storage.files import FileError
 
 _CHECKPOINT_CALL = 16
 """Time of the checkpoint of a small model, in that of the shortest steps, a microsecond: calls of Python take it."""
