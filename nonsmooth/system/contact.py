@@ -72,7 +72,7 @@ class Contact:
 
 
 @dataclass(frozen=True)
-class Declaration:
+class ContactDeclaration:
     """What one call of ``System.contact`` said.
 
     Attributes

@@ -38,16 +38,16 @@ def with_laws(
     if not system.declarations:
         raise InvalidInput("with_laws", "needs a system with contacts", 0, "Declare some with system.contact(...).")
     made = system.without_contacts()
-    for said in system.declarations:
-        laws = said.laws
+    for declared in system.declarations:
+        laws = declared.laws
         kept = None if isinstance(normal, CompliantNormalLaw) else laws.impact
         made.contact(
-            said.first,
-            said.second,
+            declared.first,
+            declared.second,
             normal=laws.normal if normal is None else normal,
             friction=laws.friction if friction is None else friction,
             impact=kept if impact is None else impact,
-            shapes=said.shapes,
-            name=said.name,
+            shapes=declared.shapes,
+            name=declared.name,
         )
     return made

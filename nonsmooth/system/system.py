@@ -24,14 +24,12 @@ from nonsmooth.interfaces import (
     TangentialLaw,
 )
 from nonsmooth.interfaces.body import Vector
-from nonsmooth.system.contact import Contact, Declaration, Tie, Watched
-from nonsmooth.system.given import check_bodies, start_of, stranger
-from nonsmooth.system.gravity import gravity_of
-from nonsmooth.system.materials import ContactLaws, Materials, check_laws
+from nonsmooth.system.contact import Contact, ContactDeclaration, Tie, Watched
+from nonsmooth.system.input_checks import check_bodies, gravity_of, start_of, stranger
+from nonsmooth.system.materials import ContactLaws, Materials, check_laws, check_sharing
 from nonsmooth.system.names import Names, Naming, between, kind_word
-from nonsmooth.system.pairing import Geometries
+from nonsmooth.system.pairing import ContactGeometries
 from nonsmooth.system.selection import Side, select
-from nonsmooth.system.sharing import check_sharing
 
 _Pair: TypeAlias = frozenset[int]
 _ShapePair: TypeAlias = frozenset[tuple[int, int]]
@@ -59,7 +57,7 @@ class System:
         self._bodies = tuple(bodies)
         self._gravity = gravity_of(gravity)
         self._contacts: list[Contact] = []
-        self._declared: list[Declaration] = []
+        self._declared: list[ContactDeclaration] = []
         self._paired: set[_ShapePair] = set()
         self._excluded: list[tuple[Body, Body]] = []
         self._left_out: list[tuple[Body, Body]] = []
@@ -73,7 +71,7 @@ class System:
     def _count_bodies(self) -> None:
         # bodies are told apart as objects, however equal they are: copies have identities of their own
         self._numbers = {id(body): number for number, body in enumerate(self._bodies)}
-        self._geometries = Geometries()
+        self._geometries = ContactGeometries()
 
     def __repr__(self) -> str:
         """Return how many there are of its parts."""
@@ -130,7 +128,7 @@ class System:
         return tuple(self._contacts)
 
     @property
-    def declarations(self) -> tuple[Declaration, ...]:
+    def declarations(self) -> tuple[ContactDeclaration, ...]:
         """What was said of contacts, one entry for every two bodies or choice of their shapes, in that order."""
         return tuple(self._declared)
 
@@ -346,7 +344,7 @@ class System:
         added = [_contact(*named, laws) for named in zip(names, facing, strict=True)]
         self._contacts += added
         chosen = tuple(None if numbers is None else tuple(numbers) for numbers in shapes)
-        self._declared.append(Declaration(first, second, (chosen[0], chosen[1]), laws, name))
+        self._declared.append(ContactDeclaration(first, second, (chosen[0], chosen[1]), laws, name))
         self._paired |= pairs
         return tuple(added)
 

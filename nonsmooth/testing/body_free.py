@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.interfaces import Body
-from nonsmooth.simulate import simulate
+from nonsmooth.runs.simulate import simulate
 from nonsmooth.system.system import System
 from nonsmooth.testing import block
 from nonsmooth.testing.block import OBLIQUE, WEIGHTLESS, Block, state, state_space, written

@@ -12,8 +12,8 @@ from typing import Any
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files import components as files
+from nonsmooth.files.formats import text_of as toml_text
 from nonsmooth.files.gate import TRUSTED
-from nonsmooth.files.text import text_of as toml_text
 from nonsmooth.parameters import Rule, UnusualValue, from_words, rules
 from nonsmooth.testing.property import Broken, NotChecked, Row
 

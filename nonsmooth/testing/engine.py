@@ -12,7 +12,7 @@ from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Engine
 from nonsmooth.runs.model import Model
-from nonsmooth.simulate import assemble
+from nonsmooth.runs.simulate import assemble
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from nonsmooth.testing import engine_scenes as scenes

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from nonsmooth.contact import solve_contact
-from nonsmooth.impact import solve_impact
 from nonsmooth.interfaces import AnisotropicFrictionLaw, FrictionLaw, StatefulFrictionLaw
+from nonsmooth.problems.contact import solve_contact
+from nonsmooth.problems.impact import solve_impact
 from nonsmooth.testing.anisotropic import anisotropic_properties
 from nonsmooth.testing.coefficient import (
     FORCE,

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from nonsmooth.contact import solve_contact
 from nonsmooth.interfaces import CompliantNormalLaw, NormalLaw, RigidNormalLaw
+from nonsmooth.problems.contact import solve_contact
 from nonsmooth.testing.compliance import compliant_properties
 from nonsmooth.testing.component import component_rows, variants
 from nonsmooth.testing.draws import Case, Variable

@@ -29,7 +29,7 @@ from nonsmooth.engine.memory.blocks import (
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Body, CompliantNormalLaw, ContactKinematics, ImpactLaw, NormalLaw, Shape, TangentialLaw
 from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS, NamesAndUnits
-from nonsmooth.simulate import simulate
+from nonsmooth.runs.simulate import simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.contact import Contact
 from nonsmooth.system.system import System

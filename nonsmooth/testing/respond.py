@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.binding.compile import parameter_names
-from nonsmooth.impact import solve_impact
 from nonsmooth.interfaces import ImpactLaw, ImpactMap, ImpactProcess
+from nonsmooth.problems.impact import solve_impact
 from nonsmooth.testing.callers import compiled_map
 from nonsmooth.testing.reference import Constant, Problem
 

@@ -19,7 +19,7 @@ from laws import (
 )
 from nonsmooth import charts
 from nonsmooth.interfaces import ImpactLaw
-from nonsmooth.simulate import simulate
+from nonsmooth.runs.simulate import simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.replacing import with_laws
 from scenarios.dumbbell.trace import note

@@ -12,8 +12,8 @@ import numpy as np
 from nonsmooth.binding.compile import parameter_names
 from nonsmooth.checks import is_finite
 from nonsmooth.errors import InvalidInput
-from nonsmooth.impact import solve_impact
 from nonsmooth.interfaces import FrictionLaw, ImpactLaw, ImpactMap, ImpactProcess
+from nonsmooth.problems.impact import solve_impact
 
 
 def restitution(law: ImpactLaw, speed: float) -> float:

@@ -3,22 +3,33 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from enum import StrEnum
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.layout import SINGULAR
 from nonsmooth.engine.memory.memory import Memory
-from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.memory.solvers import Solver
 from nonsmooth.engine.native.kernel import call_entry
-from nonsmooth.engine.numerics.linear import SINGULAR
-from nonsmooth.model.delassus import read_delassus
+from nonsmooth.problems.delassus import read_delassus
 
 Floats = NDArray[np.float64]
-MODES = ("open", "stick", "slide")
-"""Words for the modes, by the engine's number."""
+
+
+class ContactMode(StrEnum):
+    """Mode of a contact at an instant of sustained contact, in the order of the engine's numbers."""
+
+    OPEN = "open"
+    """The bodies are apart, or separate."""
+    STICK = "stick"
+    """The contact is closed, and friction holds it."""
+    SLIDE = "slide"
+    """The contact is closed and slips, or is about to."""
+
+
 _MOST_SEARCHED = 6
 _SAME = 1e-8
 
@@ -37,8 +48,8 @@ class ContactResult:
         u', shape [n_u].
     contact_acceleration : array
         Second derivative of the gap and rate of the slip velocity [m/s^2], shape [n, 3].
-    modes : tuple of str
-        "open", "stick" or "slide" of every contact, length n.
+    modes : tuple of ContactMode
+        Mode of every contact, length n. Each is a str, too: "open", "stick" or "slide".
 
     Where several sets of forces give the same motion, those of least norm are given if they keep Coulomb's bound, with
     contacts that would pull left open; otherwise forces near them that keep it.
@@ -48,7 +59,7 @@ class ContactResult:
     tangential_force: Floats
     acceleration: Floats
     contact_acceleration: Floats
-    modes: tuple[str, ...]
+    modes: tuple[ContactMode, ...]
     _memory: Memory = field(repr=False, compare=False)
     _scaled: Floats = field(repr=False, compare=False)
 
@@ -75,11 +86,11 @@ class ContactResult:
         for i, mode in enumerate(self.modes):
             column = np.zeros((3, n, 3))
             column[:, i] = np.eye(3)
-            touching = mode == MODES[Mode.OPEN] and self.contact_acceleration[i, 0] <= _SAME * self._size
-            if mode == MODES[Mode.SLIDE] or (touching and at_rest[i] == 0):
+            touching = mode == ContactMode.OPEN and self.contact_acceleration[i, 0] <= _SAME * self._size
+            if mode == ContactMode.SLIDE or (touching and at_rest[i] == 0):
                 column[0, i, 1:] = -mu[i] * d[i]
                 free.append(column[:1])
-            elif mode != MODES[Mode.OPEN] or touching:
+            elif mode != ContactMode.OPEN or touching:
                 free.append(column)
         if not free:
             return np.zeros((0, n, 3))

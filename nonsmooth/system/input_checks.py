@@ -1,9 +1,9 @@
-"""What is given as a body and as its start, and what to do where it is none."""
+"""Checks of what a user gives: gravity, bodies, and their starts."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -11,14 +11,40 @@ from nonsmooth.checks import check_kind, floats
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.parameters import Rule, check_number
 from nonsmooth.plugins import registry
+from nonsmooth.vectors import vector
+
+_GRAVITY, _GRAVITY_UNIT, _LARGEST = "System.gravity", "m/s^2", 1e4
+
+
+def gravity_of(value: float | Sequence[float]) -> tuple[float, float, float]:
+    """Vector of gravity [m/s^2] from a number, which counts along -z, or from a vector.
+
+    Raises
+    ------
+    InvalidInput
+        If it is neither, is not finite or larger than 1e4 m/s^2, or is a number below 0.
+    """
+    if np.shape(value) != ():
+        x, y, z = vector(_GRAVITY, cast("Sequence[float]", value), 3, _GRAVITY_UNIT)
+    else:
+        check_number(_GRAVITY, value, Rule("gravity along -z, or a vector", _GRAVITY_UNIT, -_LARGEST, _LARGEST))
+        x, y, z = 0.0, 0.0, -float(cast("float", value))
+        if z > 0.0:
+            remedy = f"Give {z:g}, or a vector where it does not point down: (0.0, 0.0, {z:g}) points up."
+            raise InvalidInput(_GRAVITY, f"must be >= 0 [{_GRAVITY_UNIT}], as it counts along -z", value, remedy)
+    if max(abs(x), abs(y), abs(z)) > _LARGEST:
+        raise InvalidInput(_GRAVITY, f"must be of at most {_LARGEST:g} [{_GRAVITY_UNIT}]", value, "Is the unit right?")
+    return x, y, z
+
 
 _UNIT = 1e-9
-"""By so much the length of a quaternion may be off 1, which it is brought to by dividing once."""
+"""Allowed error of the length of a quaternion. After a division by its norm the error is round-off."""
 
 
 def check_bodies(bodies: Sequence[Body]) -> None:
-    """Raise InvalidInput unless these are bodies for a system: at least one, each once."""
+    """Raise InvalidInput if these are not bodies for a system: at least one, each once."""
     check_kind("System.bodies", bodies, Collection, "Write System([ball, plate]).")
     for body in bodies:
         several = "Unpack a list of bodies by a star: System([plate, *balls])."
@@ -33,7 +59,7 @@ def check_bodies(bodies: Sequence[Body]) -> None:
 
 
 def stranger(where: str, given: Any) -> InvalidInput:
-    """Return the error of what is given for a body of the system, and is none."""
+    """Error for an argument that is not a body of the system."""
     if isinstance(given, Body):
         remedy = "Add it to System([...]) first."
     elif isinstance(given, (list, tuple)):
@@ -47,7 +73,7 @@ def _instead(given: Any) -> str:
     if isinstance(given, type):
         return f"Make an object of the class: {given.__name__}(...)."
     if isinstance(given, Shape):
-        # a solid of a shape has its name
+        # a body of one shape has the name of the shape
         name = registry.name_of(type(given)) or ""
         known = [registry.load("bodies", name).__name__] if name in registry.names("bodies") else []
         return f"That is a shape; take a body that has it: {' or '.join([*known, 'one of `nonsmooth list bodies`'])}."
@@ -55,12 +81,12 @@ def _instead(given: Any) -> str:
 
 
 def start_of(body: Body, name: str, q: Vector, u: Vector) -> tuple[Vector, Vector]:
-    """Return coordinates and velocities of a body as arrays of their own.
+    """Coordinates and velocities of a body as new arrays.
 
     Raises
     ------
     InvalidInput
-        If they are not as many finite numbers as the body has, or a quaternion is not unit.
+        If their number is not that of the body, one is not finite, or a quaternion has another length than 1.
     """
     given = []
     for letter, value, size in (("q", q, body.n_q), ("u", u, body.n_u)):
@@ -74,7 +100,7 @@ def start_of(body: Body, name: str, q: Vector, u: Vector) -> tuple[Vector, Vecto
 
 
 def check_quaternion(thing: str, body: Body, q: Vector) -> None:
-    """Raise InvalidInput unless the quaternion among the coordinates of a body, if it has one, is unit."""
+    """Raise InvalidInput if the quaternion of a body has another length than 1. Bodies without one pass."""
     if body.quaternion < 0:
         return
     length = float(np.linalg.norm(q[body.quaternion : body.quaternion + 4]))

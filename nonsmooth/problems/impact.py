@@ -4,23 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from nonsmooth.binding.compile import bind
-from nonsmooth.binding.law_failure import first_without_value, without_value
-from nonsmooth.binding.law_functions import law_functions
 from nonsmooth.checks import check_kind, floats, is_finite
-from nonsmooth.contact import check_friction
-from nonsmooth.engine.impact.integration import Outcome
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.memory import Heap, Memory, allocate
-from nonsmooth.engine.memory.tables import COUNTS
-from nonsmooth.engine.native.kernel import entry_addresses
+from nonsmooth.engine.memory.modes import ImpactOutcome
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.interfaces import FrictionLaw, ImpactProcess
-from nonsmooth.model.delassus import write_delassus
+from nonsmooth.problems.delassus import write_delassus
+from nonsmooth.problems.matrices import (
+    check_arrays,
+    check_friction,
+    check_mass,
+    columns_of,
+    law_without_value,
+    memory_of,
+)
 from nonsmooth.watch import Watch
 
 Floats = NDArray[np.float64]
@@ -122,43 +124,39 @@ def solve_impact(
     t, u = floats("solve_impact: tangential", tangential), floats("solve_impact: velocity", velocity)
     n_u, n = u.size, len(impact)
     z_driven = np.zeros((n, 3)) if prescribed is None else floats("solve_impact: prescribed", prescribed)
-    for name, array, shape in (
-        ("mass", m, (n_u, n_u)),
-        ("normal", w, (n_u, n)),
-        ("tangential", t, (n_u, n, 2)),
-        ("prescribed", z_driven, (n, 3)),
-        ("velocity", u, (n_u,)),
-    ):
-        if array.shape != shape or not np.all(np.isfinite(array)):
-            raise InvalidInput(
-                f"solve_impact: {name}",
-                f"must be finite with shape {shape}",
-                array.shape,
-                "Give one impact law per contact.",
-            )
+    arrays = {
+        "mass": (m, (n_u, n_u)),
+        "normal": (w, (n_u, n)),
+        "tangential": (t, (n_u, n, 2)),
+        "prescribed": (z_driven, (n, 3)),
+        "velocity": (u, (n_u,)),
+    }
+    check_arrays("solve_impact", arrays, "Give one impact law per contact.")
     if len(friction) != n or n == 0:
-        raise InvalidInput(
-            "solve_impact: friction",
-            f"must have one law for each of {n} contacts",
-            len(friction),
-            "Give one per contact.",
-        )
+        rule = f"must have one law for each of {n} contacts"
+        raise InvalidInput("solve_impact: friction", rule, len(friction), "Give one per contact.")
     check_friction("solve_impact: friction", friction)
-    if not np.allclose(m, m.T, rtol=1e-12, atol=0.0) or np.linalg.eigvalsh(m)[0] <= 0.0:
-        raise InvalidInput("solve_impact: mass", "must be symmetric positive definite", m.tolist(), "Check M.")
-    columns = np.concatenate([w[:, :, None], t], axis=2).reshape(n_u, 3 * n)
+    check_mass("solve_impact", m)
+    columns = columns_of(w, t)
     response = np.linalg.solve(m, columns)
     delassus = columns.T @ response
     rates = columns.T @ u + z_driven.ravel()
-    memory = _memory(impact, friction, tolerance)
+    functions: dict[str, list[tuple[Any, Any]]] = {
+        "impact_force": [(law, law.force) for law in impact],
+        "efficiency": [(law, law.efficiency) for law in impact],
+        "friction": [(law, law.coefficient) for law in friction],
+    }
+    memory = memory_of(n, functions)
+    memory[owners.Tolerance.impact] = tolerance
     write_delassus(memory, delassus)
     memory[owners.Impact.rates_before][: 3 * n] = rates
-    outcome = int(Outcome.FINISHED)
+    outcome = int(ImpactOutcome.FINISHED)
     if np.any(rates[::3] < 0.0):
         with Watch(memory) as watch:
             outcome = int(watch.call("energetic_impact", 0.0))
-    if outcome != Outcome.FINISHED:
-        raise RunFailed(f"The impact did not end. {_culprit(memory, impact, friction)}")
+    if outcome != ImpactOutcome.FINISHED:
+        reason = law_without_value(memory, [*zip(friction, impact, strict=True)])
+        raise RunFailed(f"The impact did not end. {reason or 'A force or efficiency is not positive.'}")
     impulse = memory[owners.Impact.impulse][: 3 * n].reshape(n, 3).copy()
     return ImpactResult(
         velocity=u + response @ impulse.ravel(),
@@ -171,35 +169,3 @@ def solve_impact(
         steps=int(memory[owners.Totals.n_impact_steps]),
         truncated=bool(memory[owners.Event.truncation]),
     )
-
-
-def _culprit(memory: Memory, impact: Sequence[ImpactProcess], friction: Sequence[FrictionLaw]) -> str:
-    findings = (
-        without_value(memory.floats[int(memory[part.parameters][i]) :], part, (), f"contact {i}")
-        for i, laws in enumerate(zip(friction, impact, strict=True))
-        for part in law_functions(*laws)
-    )
-    return first_without_value(findings) or "A force or efficiency is not positive."
-
-
-def _memory(impact: Sequence[ImpactProcess], friction: Sequence[FrictionLaw], tolerance: float) -> Memory:
-    n = len(impact)
-    blocks = []
-    for i in range(n):
-        for name, law, function in (
-            ("impact_force", impact[i], impact[i].force),
-            ("efficiency", impact[i], impact[i].efficiency),
-            ("friction", friction[i], friction[i].coefficient),
-        ):
-            blocks.append((i, name, *bind(function, "scalar", law.parameters(), type(law).__name__)))
-    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_articulations": 0})
-    memory[owners.Model.entry_points][: len(entry_addresses())] = entry_addresses()
-    memory[owners.Problem.n_active] = n
-    memory[owners.Tolerance.impact] = tolerance
-    memory[owners.Problem.active][:n] = np.arange(n)
-    memory[owners.Contact.direction][:, 0] = 1.0
-    heap = Heap(memory)
-    for i, name, address, values in blocks:
-        memory[getattr(owners.Contact, f"{name}_function")][i] = address
-        memory[getattr(owners.Contact, f"{name}_parameters")][i] = heap.store(values)
-    return heap.close()

@@ -7,20 +7,23 @@ from collections.abc import Collection, Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from nonsmooth.binding.compile import bind
-from nonsmooth.binding.law_failure import first_without_value, without_value
-from nonsmooth.binding.law_functions import law_functions
 from nonsmooth.checks import check_kind, floats
-from nonsmooth.contact_result import MODES, ContactResult
 from nonsmooth.engine.memory import owners
-from nonsmooth.engine.memory.memory import Heap, Memory, allocate
+from nonsmooth.engine.memory.memory import Memory
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engine.memory.solvers import MOST_ENUMERATED, Solver, solver_of
-from nonsmooth.engine.memory.tables import COUNTS
-from nonsmooth.engine.native.kernel import entry_addresses
 from nonsmooth.errors import InvalidInput, RunFailed
-from nonsmooth.interfaces import AnisotropicFrictionLaw, FrictionLaw, StatefulFrictionLaw
-from nonsmooth.model.delassus import write_delassus
+from nonsmooth.interfaces import FrictionLaw
+from nonsmooth.problems.contact_result import ContactMode, ContactResult
+from nonsmooth.problems.delassus import write_delassus
+from nonsmooth.problems.matrices import (
+    check_arrays,
+    check_friction,
+    check_mass,
+    columns_of,
+    law_without_value,
+    memory_of,
+)
 from nonsmooth.watch import Watch
 
 
@@ -81,21 +84,15 @@ def solve_contact(
     t = floats("solve_contact: tangential", tangential)
     v = np.zeros((n, 2)) if slip is None else floats("solve_contact: slip", slip)
     s = np.zeros((n, 3)) if bias is None else floats("solve_contact: bias", bias)
-    for name, array, shape in (
-        ("force", h, (n_u,)),
-        ("mass", m, (n_u, n_u)),
-        ("normal", w, (n_u, n)),
-        ("tangential", t, (n_u, n, 2)),
-        ("slip", v, (n, 2)),
-        ("bias", s, (n, 3)),
-    ):
-        if array.shape != shape or not np.all(np.isfinite(array)):
-            raise InvalidInput(
-                f"solve_contact: {name}",
-                f"must be finite with shape {shape}",
-                array.shape,
-                "Give one friction law per contact.",
-            )
+    arrays = {
+        "force": (h, (n_u,)),
+        "mass": (m, (n_u, n_u)),
+        "normal": (w, (n_u, n)),
+        "tangential": (t, (n_u, n, 2)),
+        "slip": (v, (n, 2)),
+        "bias": (s, (n, 3)),
+    }
+    check_arrays("solve_contact", arrays, "Give one friction law per contact.")
     if n == 0:
         raise InvalidInput(
             "solve_contact: friction", "must have a law for at least one contact", n, "Give one per contact."
@@ -108,9 +105,8 @@ def solve_contact(
             n,
             "Take another solver; they find the same answer.",
         )
-    if not np.allclose(m, m.T, rtol=1e-12, atol=0.0) or np.linalg.eigvalsh(m)[0] <= 0.0:
-        raise InvalidInput("solve_contact: mass", "must be symmetric positive definite", m.tolist(), "Check M.")
-    columns = np.concatenate([w[:, :, None], t], axis=2).reshape(n_u, 3 * n)
+    check_mass("solve_contact", m)
+    columns = columns_of(w, t)
     # with M = L L^T everything goes by L^-1 times the columns
     scaled = np.linalg.solve(np.linalg.cholesky(m), columns)
     if np.any(np.linalg.norm(scaled[:, ::3], axis=0) == 0.0):
@@ -124,52 +120,23 @@ def solve_contact(
     with Watch(memory) as watch:
         solved = watch.call("solve_from_rates")
     if solved == 0:
-        culprit = _culprit(memory, friction)
-        raise RunFailed(f"The solver {solver!r} finds no contact forces that fulfil the laws. {culprit}".strip())
+        reason = law_without_value(memory, [(law,) for law in friction])
+        raise RunFailed(f"The solver {solver!r} finds no contact forces that fulfil the laws. {reason}".strip())
     f = memory[owners.Problem.forces][: 3 * n].reshape(n, 3).copy()
     return ContactResult(
         normal_force=f[:, 0],
         tangential_force=f[:, 1:],
         acceleration=np.asarray(free + np.linalg.solve(m, columns @ f.ravel()), dtype=np.float64),
         contact_acceleration=memory[owners.ActiveContact.acceleration][:n].copy(),
-        modes=tuple(MODES[mode] for mode in memory[owners.ActiveContact.mode_tried][:n]),
+        modes=tuple(tuple(ContactMode)[mode] for mode in memory[owners.ActiveContact.mode_tried][:n]),
         _memory=memory,
         _scaled=scaled,
     )
 
 
-def check_friction(thing: str, friction: Sequence[FrictionLaw]) -> None:
-    """Raise InvalidInput unless each law is a coefficient of the slip speed alone, with a round bound."""
-    for law in friction:
-        if not isinstance(law, FrictionLaw) or isinstance(law, (AnisotropicFrictionLaw, StatefulFrictionLaw)):
-            raise InvalidInput(
-                thing,
-                "must be laws with a round bound and without inner states",
-                type(law).__name__,
-                "Run a System: matrices know no axis of a body and no past.",
-            )
-
-
-def _culprit(memory: Memory, friction: Sequence[FrictionLaw]) -> str:
-    starts = memory[owners.Contact.friction_parameters][: len(friction)]
-    return first_without_value(
-        without_value(memory.floats[start:], part, (), f"contact {i}")
-        for i, (start, law) in enumerate(zip(starts, friction, strict=True))
-        for part in law_functions(law)
-    )
-
-
 def _memory(friction: Sequence[FrictionLaw], solver: Solver) -> Memory:
+    """Memory of a contact problem with a solver. No mode of a contact is known."""
     n = len(friction)
-    bound = [bind(law.coefficient, "scalar", law.parameters(), type(law).__name__) for law in friction]
-    memory = allocate(dict.fromkeys(COUNTS, 0) | {"n_slots": n, "n_pivoted": n})
-    memory[owners.Model.entry_points][: len(entry_addresses())] = entry_addresses()
-    memory[owners.Problem.n_active], memory[owners.Options.solver] = n, solver
-    memory[owners.Problem.active][:n] = np.arange(n)
-    memory[owners.Contact.direction][:, 0] = 1.0
-    memory[owners.ActiveContact.mode_tried][:n] = Mode.UNKNOWN
-    heap = Heap(memory)
-    for i, (address, values) in enumerate(bound):
-        memory[owners.Contact.friction_function][:n][i] = address
-        memory[owners.Contact.friction_parameters][:n][i] = heap.store(values)
-    return heap.close()
+    memory = memory_of(n, {"friction": [(law, law.coefficient) for law in friction]}, n_pivoted=n)
+    memory[owners.Options.solver], memory[owners.ActiveContact.mode_tried][:n] = solver, Mode.UNKNOWN
+    return memory

@@ -1,21 +1,21 @@
-"""Simulate a system, or assemble it to be run often."""
+"""Simulate a system or a scenario, or assemble a system to be run often."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 from nonsmooth.engines.event_driven import EventDriven
-from nonsmooth.interfaces import Engine
+from nonsmooth.interfaces import Engine, Scenario
 from nonsmooth.results.output import Output
 from nonsmooth.results.overwriting import check_free
+from nonsmooth.runs.checks import check_times
 from nonsmooth.runs.loop import Progress
 from nonsmooth.runs.model import Model
-from nonsmooth.runs.run_arguments import check_times
 from nonsmooth.runs.so_far import Until
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 
-__all__ = ["Progress", "assemble", "simulate"]
+__all__ = ["Progress", "assemble", "run_scenario", "simulate"]
 
 
 def assemble(system: System, engine: Engine | None = None) -> Model:
@@ -107,3 +107,31 @@ def simulate(
 
 def _engine(given: Engine | None) -> Engine:
     return EventDriven() if given is None else given
+
+
+def run_scenario(scenario: Scenario, engine: Engine | None = None, *, progress: Progress | None = None) -> Solution:
+    """Simulate a scenario until its end time.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        The scenario with its parameters.
+    engine : Engine, optional
+        Engine with its options; :class:`EventDriven` by default.
+    progress : callable, optional
+        Called as ``progress(t, t_end)`` with the time reached and the end time [s].
+
+    Returns
+    -------
+    Solution
+        The solution.
+
+    Raises
+    ------
+    InvalidInput
+        If the system cannot be simulated; the message names the part and the remedy.
+    RunFailed
+        If the run fails; the error has the solution up to that time.
+    """
+    interval = scenario.sample_interval
+    return simulate(scenario.build(), scenario.t_end, sample_interval=interval, engine=engine, progress=progress)
