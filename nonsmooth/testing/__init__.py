@@ -1,10 +1,12 @@
-"""The conformance kit: what must hold of laws, bodies, contact kinematics, scenarios and the rest, as named properties.
+"""The conformance kit: the properties of laws, bodies, contact kinematics, scenarios and other components, by name.
 
 Each ``check_...`` returns a list of :class:`Property`; nothing runs before a property is called::
 
     @pytest.mark.parametrize("prop", check_friction_law(MyLaw(0.3)), ids=str)
     def test_my_law(prop):
         prop()
+
+A property is checked in a child process, so that a component that does not come back is named.
 """
 
 from nonsmooth.testing.body import check_body

@@ -1,7 +1,7 @@
 """Random systems with poison, and in turns: ``python -m tests.benchmarks.lives poison|poison_false|turns FIRST COUNT``.
 
-A run must not change a bit if numbers whose life has ended are unusable (:mod:`nonsmooth.testing.poison`), nor if other
-runs take steps in the same memory (:mod:`nonsmooth.testing.turns`). Each run has a process of its own, which an index
+A run must not change a bit if numbers whose life has ended are unusable (:class:`nonsmooth.testing.lives.Poisoned`), nor if other
+runs take steps in the same memory (:class:`nonsmooth.testing.lives.Turns`). Each run has a process of its own, which an index
 that is poison may end.
 """
 
@@ -17,8 +17,7 @@ import numpy as np
 
 import nonsmooth as ns
 from nonsmooth.interfaces import Engine
-from nonsmooth.testing.poison import Poisoned
-from nonsmooth.testing.turns import Turns
+from nonsmooth.testing.lives import Poisoned, Turns
 from tests.benchmarks.random_systems.generate import case_of
 
 ENGINES: dict[str, Callable[[], Engine]] = {

@@ -17,7 +17,7 @@ from laws import Coulomb, EnergeticImpact, HuntCrossley, Unilateral
 from nonsmooth.engine.memory import owners
 from nonsmooth.engine.memory.declare import Life, declarations
 from nonsmooth.engine.memory.tables import OWNERS
-from nonsmooth.testing.poison import poison
+from nonsmooth.testing.lives import poison
 from tests.benchmarks.lives import ENGINES, compared, digest
 
 RIGID = ns.ContactLaws(Unilateral(), Coulomb(0.3), EnergeticImpact(0.7))
