@@ -39,8 +39,8 @@ TRIAL = 600.0 if PLAIN else 60.0
 """Time that a trial may take [s]: trials by the engine take up to some seconds, and far longer in plain mode."""
 CALL = 1.0
 """Time that a call of a component's function may take [s]: the engine calls it thousands of times a second."""
-_SLACK = 1.0
-"""Age of a watchdog at which it is set anew [s]; setting it costs as much as a short trial."""
+_SLACK = 0.1
+"""Age of a watchdog at which it is set anew, in units of its time: setting it costs as much as a short trial."""
 
 
 # the parent
@@ -184,9 +184,9 @@ class _Watchdog:
         os.write(self._file, pickle.dumps(report))
         os.ftruncate(self._file, os.lseek(self._file, 0, os.SEEK_CUR))
         now = time.monotonic()
-        if seconds < TRIAL or seconds != self._seconds or now - self._set_at > _SLACK:
+        if seconds != self._seconds or now - self._set_at > _SLACK * seconds:
             self._set_at, self._seconds = now, seconds
-            faulthandler.dump_traceback_later(seconds, exit=True, file=self._file)
+            faulthandler.dump_traceback_later((1.0 + _SLACK) * seconds, exit=True, file=self._file)
 
     def rest(self) -> None:
         """Take the watchdog away until the next report."""

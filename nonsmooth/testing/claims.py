@@ -36,6 +36,8 @@ class Claim:
         Takes the component and its inputs. Returns the fault, or "" if there is none.
     inputs : tuple of Drawn
         What the trial gets besides the component.
+    n_inputs : int or None
+        Inputs that are tried; None for as many as of the other claims.
     fewest : int or None
         Inputs that are tried in plain mode; None for all.
     """
@@ -44,7 +46,13 @@ class Claim:
     says: str
     trial: Callable[..., str]
     inputs: tuple[Drawn, ...] = ()
+    n_inputs: int | None = None
     fewest: int | None = None
+
+    def at(self, *given: Drawn) -> Claim:
+        """Return the claim with inputs in the place of :data:`GIVEN`."""
+        inputs = [other for drawn in self.inputs for other in (given if drawn is GIVEN else (drawn,))]
+        return replace(self, inputs=tuple(inputs))
 
     def fault(self, component: Any, case: dict[str, float]) -> str:
         """Return the fault of a component at an input, an exception included; "" if there is none."""
@@ -66,6 +74,7 @@ class Claim:
         Broken
             If an input fails, with the simplest input that does.
         """
+        count = self.n_inputs or count
         count = self.fewest if PLAIN and self.fewest is not None else count
         for component in components:
             for case in draws(self.inputs, count):
@@ -76,12 +85,14 @@ class Claim:
                     raise Broken(reason, *described(component), simplest)
 
 
-def claim(*inputs: Drawn, name: str = "", fewest: int | None = None) -> Callable[[Callable[..., str]], Claim]:
+def claim(
+    *inputs: Drawn, name: str = "", n_inputs: int | None = None, fewest: int | None = None
+) -> Callable[[Callable[..., str]], Claim]:
     """Make a claim of a function: its name with blanks is the name, its docstring the statement."""
 
     def made(trial: Callable[..., str]) -> Claim:
         says = " ".join(inspect.cleandoc(trial.__doc__ or "").split()).rstrip(".")
-        return Claim(name or trial.__name__.strip("_").replace("_", " "), says, trial, inputs, fewest)
+        return Claim(name or trial.__name__.strip("_").replace("_", " "), says, trial, inputs, n_inputs, fewest)
 
     return made
 
@@ -105,13 +116,8 @@ def rows(
     given : sequence of Drawn
         Inputs in the place of :data:`GIVEN`.
     """
-    return [_row(_with(one, given), components, count) for one in claims]
+    return [_row(one.at(*given), components, count) for one in claims]
 
 
 def _row(one: Claim, components: Callable[[], Iterable[Any]], count: int) -> Row:
     return Row(one.name, one.says, lambda: one.examine(components(), count))
-
-
-def _with(one: Claim, given: Sequence[Drawn]) -> Claim:
-    inputs = [other for drawn in one.inputs for other in (given if drawn is GIVEN else (drawn,))]
-    return replace(one, inputs=tuple(inputs))

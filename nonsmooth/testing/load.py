@@ -21,7 +21,7 @@ _SAME = 1e-9
 _TIME = number("t", 0.0, 1.0)
 _LATER = 0.37
 """Time after which a load is evaluated again [s]."""
-_WHILE = 0.05
+_WHILE = 0.2
 """How long the frames move on either side of an input, along which jumps are searched [s]."""
 _PARTS = {
     "force": slice(FORCE, LOAD_POINT),

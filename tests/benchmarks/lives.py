@@ -1,8 +1,8 @@
 """Random systems with poison, and in turns: ``python -m tests.benchmarks.lives poison|poison_false|turns FIRST COUNT``.
 
-A run must not change a bit if numbers whose life has ended are unusable (:class:`nonsmooth.testing.lives.Poisoned`), nor if other
-runs take steps in the same memory (:class:`nonsmooth.testing.lives.Turns`). Each run has a process of its own, which an index
-that is poison may end.
+A run must not change a bit if numbers whose life has ended are unusable, nor if other runs take
+steps in the same memory (:mod:`nonsmooth.testing.lives`). Each run has a process of its own, which an index that is
+poison may end.
 """
 
 from __future__ import annotations
