@@ -20,7 +20,8 @@ from nonsmooth.testing.kinematics import check_contact_kinematics
 from nonsmooth.testing.load import check_load
 from nonsmooth.testing.motion import check_motion
 from nonsmooth.testing.normal import check_normal_law
-from nonsmooth.testing.property import Departs, NotChecked, Property, PropertyFailed
+from nonsmooth.testing.outcome import NotChecked
+from nonsmooth.testing.property import Departs, Property, PropertyFailed
 from nonsmooth.testing.scenario import check_scenario
 from nonsmooth.testing.shape import check_shape
 from nonsmooth.testing.traction import check_traction_law

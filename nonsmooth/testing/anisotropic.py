@@ -31,7 +31,7 @@ from nonsmooth.testing.coefficient import (
 from nonsmooth.testing.component import component_rows, variants
 from nonsmooth.testing.functions import CheckedFunction, Functions
 from nonsmooth.testing.inputs import number
-from nonsmooth.testing.property import Row
+from nonsmooth.testing.outcome import Row
 from nonsmooth.testing.puck import Puck, run
 from nonsmooth.testing.reference import ReferenceContact, ReferenceImpact
 from nonsmooth.testing.reference_motion import require

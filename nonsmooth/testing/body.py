@@ -15,7 +15,8 @@ from nonsmooth.testing.claims import GIVEN, claim, rows
 from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.functions import CheckedFunction, Functions, left_over, place_of_function
 from nonsmooth.testing.inputs import draws
-from nonsmooth.testing.property import Broken, Property, Row, properties
+from nonsmooth.testing.outcome import Broken, Row
+from nonsmooth.testing.property import Property, properties
 from nonsmooth.testing.shape import require_look
 
 _DRAWS = 12

@@ -26,7 +26,7 @@ from nonsmooth.testing.body_block import (
 from nonsmooth.testing.claims import GIVEN, Claim, claim
 from nonsmooth.testing.differences import rotation_fault, smooth_slope, spin_of
 from nonsmooth.testing.functions import compiled_caller, written
-from nonsmooth.testing.property import Broken, NotChecked
+from nonsmooth.testing.outcome import Broken, NotChecked
 
 Array = NDArray[np.float64]
 _SAME = 1e-6

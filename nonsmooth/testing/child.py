@@ -33,7 +33,7 @@ from typing import Any
 from weakref import WeakKeyDictionary
 
 from nonsmooth.engine.native.kernel import PLAIN
-from nonsmooth.testing.property import Outcome, Subject, described, outcome_of
+from nonsmooth.testing.outcome import Outcome, Subject, described, outcome_of
 
 TRIAL = 600.0 if PLAIN else 60.0
 """Time that a trial may take [s]: trials by the engine take up to some seconds, and far longer in plain mode."""
@@ -52,7 +52,7 @@ class _Child:
     def __init__(self) -> None:
         handle, name = tempfile.mkstemp(prefix="nonsmooth_check_")
         os.close(handle)
-        self._report, self._subject = Path(name), None
+        self._report, self._subject = Path(name), _NOTHING
         code = "import sys; from nonsmooth.testing.child import serve; serve(sys.argv[1])"
         self._process = subprocess.Popen(
             [sys.executable, "-c", code, name], stdin=subprocess.PIPE, stdout=subprocess.PIPE
@@ -108,6 +108,8 @@ class _Child:
         self._report.unlink(missing_ok=True)
 
 
+_NOTHING = Subject(None, lambda component: [], {})
+"""The component of a child that has just started."""
 _children: list[_Child] = []
 """The child, once it was needed."""
 _ended: WeakKeyDictionary[Subject, tuple[str, Outcome]] = WeakKeyDictionary()

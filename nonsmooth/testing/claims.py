@@ -13,7 +13,7 @@ from nonsmooth.errors import NonsmoothError
 from nonsmooth.parameters import UnusualValue
 from nonsmooth.testing.child import about_to
 from nonsmooth.testing.inputs import Drawn, draws, simplified
-from nonsmooth.testing.property import Broken, NotChecked, Row, described, words_of
+from nonsmooth.testing.outcome import Broken, NotChecked, Row, described, words_of
 
 FEWEST = 3
 """Inputs of claims that use the engine in plain mode, in which it is some 400 times slower."""

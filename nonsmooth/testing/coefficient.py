@@ -18,7 +18,7 @@ from nonsmooth.testing.claims import Claim, claim
 from nonsmooth.testing.component import numbers_of, remade
 from nonsmooth.testing.functions import CheckedFunction, plain_caller, scalar_function
 from nonsmooth.testing.inputs import number
-from nonsmooth.testing.property import NotChecked, Row
+from nonsmooth.testing.outcome import NotChecked, Row
 
 Pair = tuple[float, float]
 """A vector along the axis of the law and across it."""

@@ -17,7 +17,7 @@ from nonsmooth.testing.claims import FEWEST, claim, rows
 from nonsmooth.testing.component import component_rows, variants
 from nonsmooth.testing.functions import CheckedFunction, Functions, plain_caller
 from nonsmooth.testing.inputs import Drawn, DrawnNumber, number
-from nonsmooth.testing.property import NotChecked, Row
+from nonsmooth.testing.outcome import NotChecked, Row
 from nonsmooth.testing.puck import Array, Puck, run
 from nonsmooth.testing.reference import ReferenceFriction
 

@@ -16,7 +16,7 @@ from nonsmooth.files.gate import TRUSTED
 from nonsmooth.files.text import text_of as toml_text
 from nonsmooth.parameters import Rule, UnusualValue, from_words, rules
 from nonsmooth.testing.inputs import inside, outside
-from nonsmooth.testing.property import Broken, NotChecked, Row
+from nonsmooth.testing.outcome import Broken, NotChecked, Row
 
 
 def remade(component: Any, **values: Any) -> Any:

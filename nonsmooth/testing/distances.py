@@ -18,7 +18,8 @@ from nonsmooth.plugins import registry
 from nonsmooth.rotations import rotation
 from nonsmooth.testing.claims import claim, rows
 from nonsmooth.testing.component import component_rows
-from nonsmooth.testing.property import Broken, NotChecked, Property, Row, properties
+from nonsmooth.testing.outcome import Broken, NotChecked, Row
+from nonsmooth.testing.property import Property, properties
 from nonsmooth.testing.registered import make
 
 _POSES = 6
@@ -115,12 +116,12 @@ def _order(backend: DistanceBackend) -> str:
 def _planes(backend: DistanceBackend) -> str:
     """No plane across the normal leaves more between convex solids."""
     for one in _answers(backend):
-        solids = one.shapes[0].solid, one.shapes[1].solid
-        if any(solid is None or solid.hollow for solid in solids):
+        first, second = one.shapes[0].solid, one.shapes[1].solid
+        if first is None or second is None or first.hollow or second.hollow:
             continue
         n, (place, axes), (other, turned) = one.found.normal, *one.places
-        low = other + turned @ solids[1].support(-turned.T @ n)
-        between = float(n @ (low - place - axes @ solids[0].support(axes.T @ n)))
+        low = other + turned @ second.support(-turned.T @ n)
+        between = float(n @ (low - place - axes @ first.support(axes.T @ n)))
         if not abs(between - one.found.distance) <= one.found.error + 1e-3 * one.size:
             raise one.broken(f"they leave {between:.9g} m", "distance", one.found.distance)
     return ""

@@ -21,7 +21,8 @@ from nonsmooth.system.system import System
 from nonsmooth.testing import engine_scenes as scenes
 from nonsmooth.testing.claims import claim, rows
 from nonsmooth.testing.component import component_rows
-from nonsmooth.testing.property import Broken, NotChecked, Property, Row, properties
+from nonsmooth.testing.outcome import Broken, NotChecked, Row
+from nonsmooth.testing.property import Property, properties
 from nonsmooth.testing.puck import Puck, over_slab
 from nonsmooth.testing.reference import ReferenceContact, ReferenceFriction, ReferenceImpact
 

@@ -30,7 +30,8 @@ from nonsmooth.testing.coefficient import (
 from nonsmooth.testing.component import component_rows, variants
 from nonsmooth.testing.functions import CheckedFunction, Functions
 from nonsmooth.testing.inputs import number
-from nonsmooth.testing.property import Property, Row, properties
+from nonsmooth.testing.outcome import Row
+from nonsmooth.testing.property import Property, properties
 from nonsmooth.testing.reference import ImpactProblem, ReferenceImpact, point, problem_of
 from nonsmooth.testing.stateful import START, STATES, rates_function
 

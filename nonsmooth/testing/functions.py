@@ -18,7 +18,7 @@ from nonsmooth.engine.native.forms import FORMS
 from nonsmooth.engine.native.kernel import PLAIN, at, entry_addresses, unshared
 from nonsmooth.parameters import Value, not_offered
 from nonsmooth.testing.child import CALL, about_to
-from nonsmooth.testing.property import Broken, NotChecked, Row, described
+from nonsmooth.testing.outcome import Broken, NotChecked, Row, described
 
 Array = NDArray[np.float64]
 Caller = Callable[..., Any]

@@ -10,7 +10,8 @@ from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.differences import Array, jump
 from nonsmooth.testing.functions import CheckedFunction, Functions, plain_caller
 from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber, draws
-from nonsmooth.testing.property import Property, Row, properties
+from nonsmooth.testing.outcome import Row
+from nonsmooth.testing.property import Property, properties
 
 _NUMBERS, _DRAWS = 24, 24
 _WHILE = 0.5

@@ -15,7 +15,8 @@ from nonsmooth.testing.functions import Functions, plain_caller, scalar_function
 from nonsmooth.testing.impact_map import MAP, is_alone, map_function
 from nonsmooth.testing.impact_process import PROCESS
 from nonsmooth.testing.inputs import number
-from nonsmooth.testing.property import Broken, NotChecked, Property, Row, properties
+from nonsmooth.testing.outcome import Broken, NotChecked, Row
+from nonsmooth.testing.property import Property, properties
 from nonsmooth.testing.reference import ImpactProblem, ImpactResponse, point, problem_of, respond
 
 _MU = number("friction", 0.02, 0.6, 0.2)

@@ -15,7 +15,8 @@ from nonsmooth.testing.differences import slope
 from nonsmooth.testing.functions import CheckedFunction, Functions, left_over, plain_caller, written
 from nonsmooth.testing.inputs import draws
 from nonsmooth.testing.movement import MOVEMENT, SHIFT, STEP, TURN, Array, Frames, Movement, moved
-from nonsmooth.testing.property import Broken, Property, Row, properties
+from nonsmooth.testing.outcome import Broken, Row
+from nonsmooth.testing.property import Property, properties
 from nonsmooth.testing.shape import require_ends
 
 _DRAWS = 24

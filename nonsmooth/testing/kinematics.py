@@ -34,7 +34,8 @@ from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.functions import CheckedFunction, Functions, left_over, plain_caller
 from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber, draws
 from nonsmooth.testing.movement import SHIFT, three
-from nonsmooth.testing.property import Broken, Property, Row, properties
+from nonsmooth.testing.outcome import Broken, Row
+from nonsmooth.testing.property import Property, properties
 from nonsmooth.testing.puck import ContactRig, Pose
 
 Array = NDArray[np.float64]

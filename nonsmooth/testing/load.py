@@ -13,7 +13,8 @@ from nonsmooth.testing.differences import jump
 from nonsmooth.testing.functions import CheckedFunction, Functions, left_over, plain_caller, written
 from nonsmooth.testing.inputs import draws, number
 from nonsmooth.testing.movement import MOVEMENT, SHIFT, TURN, Array, Frames, Movement, moved, shared
-from nonsmooth.testing.property import Property, Row, properties
+from nonsmooth.testing.outcome import Row
+from nonsmooth.testing.property import Property, properties
 from nonsmooth.testing.shape import require_ends
 
 _DRAWS = 24

@@ -15,7 +15,8 @@ from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.differences import Array, jump, rotation_fault, slope, spin_of
 from nonsmooth.testing.functions import CheckedFunction, Functions, left_over, plain_caller, written
 from nonsmooth.testing.inputs import draws, number
-from nonsmooth.testing.property import Broken, NotChecked, Property, Row, properties
+from nonsmooth.testing.outcome import Broken, NotChecked, Row
+from nonsmooth.testing.property import Property, properties
 
 _DRAWS = 40
 _SAME = 1e-6

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import numpy as np
-
 from nonsmooth.contact import solve_contact
 from nonsmooth.interfaces import CompliantNormalLaw, NormalLaw, RigidNormalLaw
 from nonsmooth.testing.claims import claim, rows
 from nonsmooth.testing.compliance import compliant_rows
 from nonsmooth.testing.component import component_rows, variants
 from nonsmooth.testing.inputs import number
-from nonsmooth.testing.property import Property, Row, properties
-from nonsmooth.testing.reference import ReferenceFriction
+from nonsmooth.testing.outcome import Row
+from nonsmooth.testing.property import Property, properties
+from nonsmooth.testing.reference import ReferenceFriction, point
 
 _SIZE = number("size", 1e-3, 1e3, 1.0, is_log=True)
 _LOAD = number("load", -1e3, 1e3, -1.0)
@@ -42,8 +39,8 @@ def _rows(law: RigidNormalLaw) -> list[Row]:
 @claim(_LOAD)
 def _accepts_sustained_contact(law: RigidNormalLaw, load: float) -> str:
     """Accelerations and forces that the engine finds for closed contacts, pressed or pulled, obey it."""
-    axes: Any = np.eye(3)[:, 2:], np.eye(3)[:, None, :2]
-    result = solve_contact(np.eye(3), *axes, [0.0, 0.0, load], [ReferenceFriction(0.0)])
+    p = point((0.0, 0.0, 0.0))
+    result = solve_contact(p.mass, p.normal, p.tangential, [0.0, 0.0, load], [ReferenceFriction(0.0)])
     g, force = float(result.contact_acceleration[0, 0]), float(result.normal_force[0])
     if law.is_fulfilled(g, force, _TOLERANCE * abs(load) + _TOLERANCE):
         return ""

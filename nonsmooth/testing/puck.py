@@ -122,7 +122,7 @@ def _evaluate_touch(a: Floats, b: Floats, out: Floats, normal: Floats, tangent: 
 class _Spot(Shape):
     """A point at the origin, or with an infinite length a plane through it."""
 
-    length: float = 0.0  # type: ignore[assignment]
+    length: float = 0.0
 
 
 @final

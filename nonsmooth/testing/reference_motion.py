@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 
 from nonsmooth.interfaces import StatefulFrictionLaw, TractionLaw
 from nonsmooth.testing.functions import written
-from nonsmooth.testing.property import NotChecked
+from nonsmooth.testing.outcome import NotChecked
 
 Array = NDArray[np.float64]
 StatefulLaw = StatefulFrictionLaw | TractionLaw

@@ -29,7 +29,8 @@ from nonsmooth.interfaces import (
 from nonsmooth.parameters import Rule, UnusualValue, from_words, rules
 from nonsmooth.plugins import registry
 from nonsmooth.testing.inputs import typical
-from nonsmooth.testing.property import Property, place_of, words_of
+from nonsmooth.testing.outcome import place_of, words_of
+from nonsmooth.testing.property import Property
 
 _CHECKS: Mapping[Any, str] = {
     NormalLaw: "normal.check_normal_law",

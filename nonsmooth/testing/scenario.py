@@ -30,7 +30,8 @@ from nonsmooth.testing.child import about_to
 from nonsmooth.testing.claims import claim, rows
 from nonsmooth.testing.component import component_rows
 from nonsmooth.testing.functions import place_of_function
-from nonsmooth.testing.property import Broken, NotChecked, Property, Row, properties
+from nonsmooth.testing.outcome import Broken, NotChecked, Row
+from nonsmooth.testing.property import Property, properties
 
 _RESIDUAL = 1e-6
 _SAMPLES = 20

@@ -11,7 +11,8 @@ from nonsmooth.interfaces.look import Look
 from nonsmooth.interfaces.solid import Vector
 from nonsmooth.testing.claims import claim, rows
 from nonsmooth.testing.component import component_rows
-from nonsmooth.testing.property import Broken, Property, Row, properties
+from nonsmooth.testing.outcome import Broken, Row
+from nonsmooth.testing.property import Property, properties
 
 _DIRECTIONS = np.random.default_rng(0).normal(size=(60, 3))
 """Directions along which a solid is checked."""

@@ -16,7 +16,8 @@ from nonsmooth.testing.component import component_rows, variants
 from nonsmooth.testing.differences import jump
 from nonsmooth.testing.functions import CheckedFunction, Functions, plain_caller, written
 from nonsmooth.testing.inputs import Case, Drawn, DrawnNumber, draws, number
-from nonsmooth.testing.property import Property, Row, properties
+from nonsmooth.testing.outcome import Row
+from nonsmooth.testing.property import Property, properties
 from nonsmooth.testing.puck import Array, ConstantLoad, Puck, run
 from nonsmooth.testing.reference_motion import (
     fastest,

@@ -20,7 +20,7 @@ def _random(seed: int, contacts: int) -> tuple[ImpactProblem, float]:
     """Return a body with leaning contacts on long arms, half of its numbers zero, and a coefficient up to 2."""
     random = np.random.default_rng(seed)
     drawn = problem_of(contacts)
-    case = {v.name: random.uniform(v.low, v.high) * random.integers(2) for v in drawn.numbers}
+    case = {v.name: float(random.uniform(v.low, v.high) * random.integers(2)) for v in drawn.numbers}
     case["velocity_z"] -= 0.1
     return drawn.made(case), float(random.uniform(0.1, 2.0))
 

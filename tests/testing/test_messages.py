@@ -22,7 +22,7 @@ from nonsmooth.parameters import parameter
 from nonsmooth.testing import check_body, check_friction_law, check_normal_law, check_scenario
 from nonsmooth.testing.claims import claim
 from nonsmooth.testing.inputs import number, simplified
-from nonsmooth.testing.property import Broken as Fault
+from nonsmooth.testing.outcome import Broken as Fault
 from nonsmooth.testing.registered import check_class, make
 from tests.testing import compliant_dummies, friction_dummies, scenario_dummies
 from tests.testing.caught import failures
