@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nonsmooth.plot.lines import COLOURS
+from nonsmooth.charts import COLOURS
 
 
 def class_colours(n: int) -> list[str]:

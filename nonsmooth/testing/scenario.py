@@ -115,7 +115,7 @@ class _Trial:
         found = self.scenario.summarise(self.solution)
         if not isinstance(found, Mapping) or not found or not all(isinstance(name, str) for name in found):
             raise Broken("it must be a mapping with names, at least one", "summarise", found)
-        if unknown := sorted(set(self.scenario.units) - set(found)):
+        if unknown := sorted(set(self.scenario.units) - {*found, *Scenario.units}):
             raise Broken("it must name numbers of `summarise`", "units", unknown)
         for name, words in self.scenario.words.items():
             if found.get(name) not in words:

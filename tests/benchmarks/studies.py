@@ -23,8 +23,8 @@ from distributed import LocalCluster
 from nonsmooth import simulate, studies
 from nonsmooth.interfaces import Scenario
 from nonsmooth.studies.sampling.drawn import Drawn
-from scenarios.bouncing_ball.scenario import BouncingBall
-from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.bouncing_ball import BouncingBall
+from scenarios.dumbbell import DumbbellScenario
 
 RUNS, CHUNK = 400, 50
 CASES: tuple[tuple[Scenario, Drawn, str], ...] = (

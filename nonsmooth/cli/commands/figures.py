@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Mapping
+from functools import partial
 from typing import Any
 
 from nonsmooth.cli.asking import extras, outputs
@@ -13,6 +14,7 @@ from nonsmooth.cli.telling.messages import complain, say
 from nonsmooth.plugins import registry
 from nonsmooth.progress import Pace, TimeReached, on_standard_error
 from nonsmooth.results.output import Output
+from nonsmooth.run_scenario import run_scenario
 
 
 def add_to(commands: Any) -> None:
@@ -52,7 +54,7 @@ def _draw(owner: Any) -> Mapping[str, Any] | None:
     with Pace(on_standard_error()) as pace, Interrupt() as interrupt:
         progress = TimeReached(pace)
         try:
-            drawn: Mapping[str, Any] = owner.gallery(after_steps)
+            drawn: Mapping[str, Any] = owner.gallery(partial(run_scenario, progress=after_steps))
         except (Exception, KeyboardInterrupt):
             if not interrupt.asked:
                 raise

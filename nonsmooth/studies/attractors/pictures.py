@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nonsmooth.plot.asked import axes_of
+from nonsmooth.plot.arguments import axes_of
 from nonsmooth.plot.lines import beside
 from nonsmooth.studies.attractors.boundary import Boundary
 from nonsmooth.studies.attractors.stability import basin_stability

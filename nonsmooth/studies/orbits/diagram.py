@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from nonsmooth.checks import floats
 from nonsmooth.engines.event_driven import EventDriven
-from nonsmooth.plot.asked import axes_of
+from nonsmooth.plot.arguments import axes_of
 from nonsmooth.progress import Display
 from nonsmooth.runs.model import Model
 from nonsmooth.studies.derivatives.family import Family, Varied

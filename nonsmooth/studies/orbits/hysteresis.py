@@ -12,7 +12,7 @@ from nonsmooth.checks import floats
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput, RunFailed
-from nonsmooth.plot.asked import axes_of
+from nonsmooth.plot.arguments import axes_of
 from nonsmooth.plot.lines import beside
 from nonsmooth.progress import Display, Pace, RunsDone
 from nonsmooth.runs.model import Model

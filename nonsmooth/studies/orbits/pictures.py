@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nonsmooth.plot.asked import axes_of
+from nonsmooth.plot.arguments import axes_of
 from nonsmooth.plot.lines import beside
 from nonsmooth.studies.orbits.branch import Branch
 from nonsmooth.studies.orbits.periodic import Orbit

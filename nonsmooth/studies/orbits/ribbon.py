@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from nonsmooth.charts import COLOURS
 from nonsmooth.checks import floats, is_finite
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput
-from nonsmooth.plot.asked import axes_of
-from nonsmooth.plot.lines import COLOURS, beside
+from nonsmooth.plot.arguments import axes_of
+from nonsmooth.plot.lines import beside
 from nonsmooth.progress import Display
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.solution import Solution

@@ -18,7 +18,7 @@ from nonsmooth.studies.status import DONE, FAILED
 from nonsmooth.studies.store import Store
 from scenarios.bouncing_ball import orbits
 from scenarios.bouncing_ball.scenario import GRAVITY, BouncingBall
-from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.dumbbell import DumbbellScenario
 from tests.studies.attractors.made import Floats, logistic, study
 
 pytest.importorskip("zarr", "3.1.3")

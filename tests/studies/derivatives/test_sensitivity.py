@@ -18,8 +18,8 @@ from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.derivatives.forward import NotDifferentiable, sensitivity
 from nonsmooth.studies.derivatives.passage import passage
 from nonsmooth.studies.derivatives.slope import CENTRAL
-from scenarios.dumbbell.scenario import DumbbellScenario
-from scenarios.rocking_block.scenario import RockingBlock
+from scenarios.dumbbell import DumbbellScenario
+from scenarios.rocking_block import RockingBlock
 
 Floats = NDArray[np.float64]
 pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of runs take minutes in plain mode")
