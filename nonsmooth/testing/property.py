@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, final
@@ -11,6 +12,10 @@ from nonsmooth.errors import NonsmoothError
 from nonsmooth.testing.child import ask
 from nonsmooth.testing.inputs import require_packages
 from nonsmooth.testing.outcome import NotChecked, Outcome, Row, Subject, outcome_of, place_of
+
+
+_DYNAMIC = "<dynamic-code>"
+"""File that cloudpickle gives the functions that it carries."""
 
 
 class PropertyFailed(NonsmoothError, AssertionError):
@@ -112,15 +117,19 @@ class Property:
     def _judge(self, found: Outcome) -> None:
         print(found.printed, end="")
         thing, holds = self.owner.__name__, found.kind == "holds"
+        # a function of a script or a notebook has lost its file on the way to the other process
+        reason = (
+            found.reason.replace(_DYNAMIC, inspect.getfile(self.owner)) if _DYNAMIC in found.reason else found.reason
+        )
         if found.kind == "not checked":
-            raise NotChecked(found.reason)
+            raise NotChecked(reason)
         if holds and self.departure and not PLAIN:  # fewer inputs are tried in plain mode
-            reason = f"it holds, although the class departs from it, as it says, because {self.departure}"
-            raise PropertyFailed(thing, self.name, reason, "departures", self.name, {})
+            held = f"it holds, although the class departs from it, as it says, because {self.departure}"
+            raise PropertyFailed(thing, self.name, held, "departures", self.name, {})
         if holds:
             return
         failure = PropertyFailed(
-            thing, self.name, found.reason, found.parameter, found.value, found.case, place_of(self.owner)
+            thing, self.name, reason, found.parameter, found.value, found.case, place_of(self.owner)
         )
         if self.departure:
             raise Departs(f"{self}, as it says: {self.departure}. {failure}") from failure
