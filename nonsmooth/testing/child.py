@@ -7,7 +7,8 @@ the line that is running to the file and ends the process, whatever runs there. 
 another child for the next component.
 
 Components travel by cloudpickle. Modules that the child cannot import by name, as a file of tests or of
-``nonsmooth check FILE.py:CLASS``, it loads from their files. The child is kept for the next component: it starts in a second.
+``nonsmooth check FILE.py:CLASS``, it loads from their files. The child is kept for the next component, as it takes some
+seconds to start.
 """
 
 from __future__ import annotations
@@ -97,9 +98,9 @@ class _Child:
             prop, words, seconds, parameter, value, case = pickle.load(file)
             trace = file.read().decode(errors="replace")
         if "Timeout" in trace:
-            words = f"{words.replace('{takes}', f'takes longer than {seconds:g} s')}{_line(trace)}"
+            words = f"{words.replace('{takes}', f'takes longer than {seconds:g} s')}{_line(trace, words)}"
         else:
-            words = f"the process that checks it ends with status {status}{_line(trace)}"
+            words = f"the process that checks it ends with status {status}{_line(trace, words)}"
         return prop, Outcome("broken", words, parameter, value, case)
 
     def stop(self) -> None:
@@ -167,12 +168,12 @@ def _text(pattern: Any) -> str:
     return re.compile(pattern).pattern if pattern else ""
 
 
-def _line(trace: str) -> str:
-    """Return the innermost line in a traceback that is neither of this package nor of others."""
+def _line(trace: str, words: str) -> str:
+    """Return the innermost line in a traceback that is neither of this package nor of others, and its file if new."""
     ours = [str(Path(__file__).parents[1]), *sysconfig.get_paths().values()]
     for file, line in re.findall(r'File "(.*)", line (\d+)', trace):
         if not any(file.startswith(folder) for folder in ours if folder):
-            return f", in {file} at line {line}"
+            return f", at line {line}" if file in words else f", in {file} at line {line}"
     return ""
 
 

@@ -13,7 +13,6 @@ from nonsmooth.testing.child import ask
 from nonsmooth.testing.inputs import require_packages
 from nonsmooth.testing.outcome import NotChecked, Outcome, Row, Subject, outcome_of, place_of
 
-
 _DYNAMIC = "<dynamic-code>"
 """File that cloudpickle gives the functions that it carries."""
 

@@ -6,7 +6,7 @@ And a rig: two pucks that can be put anywhere, and the geometry of a contact bet
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, final
 
@@ -35,8 +35,9 @@ from nonsmooth.engine.memory.blocks import (
 from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Body, CompliantNormalLaw, ContactKinematics, Shape
-from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS, NamesAndUnits
+from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS
 from nonsmooth.model.assembly import lay_out
+from nonsmooth.parameters import parameter
 from nonsmooth.rotations import rotation
 from nonsmooth.simulate import simulate
 from nonsmooth.solution.solution import Solution
@@ -131,6 +132,7 @@ class _Touch(ContactKinematics):
     """The point of the puck over the plane of the slab; normal and tangent are in the slab's frame."""
 
     pair: ClassVar[tuple[type[Shape], type[Shape]]] = (_Spot, _Spot)
+    features = ("puck-slab",)
     normal: Numbers
     tangent: Numbers
 
@@ -141,57 +143,23 @@ class _Touch(ContactKinematics):
     def between(cls, first: Shape, second: Shape) -> tuple[_Touch, ...]:
         return (cls((0.0, 0.0, 1.0), (1.0, 0.0, 0.0)),)
 
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        return _evaluate_touch
-
-    @property
-    def features(self) -> tuple[str, ...]:
-        return ("puck-slab",)
-
-
-class _Still(Body):
-    """Base of the bodies here, on which nothing is prescribed that changes."""
-
-    @property
-    def time_scale(self) -> float:
-        """Infinite [s]."""
-        return math.inf
+    evaluator = staticmethod(_evaluate_touch)
 
 
 @final
 @dataclass(frozen=True)
-class _Slab(_Still):
+class _Slab(Body):
     """A driven body that stays; ``turn`` is the quaternion of its axes."""
 
     turn: Numbers = _UNTURNED
+    frames = ((_Spot(math.inf),),)
+    q_labels = u_labels = ()
+    quaternion, time_scale = -1, math.inf
+    scales = (np.ones(0), np.ones(0))
+    evaluator = staticmethod(_evaluate_slab)
 
     def parameters(self) -> dict[str, Any]:
         return {"turn": self.turn}
-
-    @property
-    def frames(self) -> tuple[tuple[Shape, ...], ...]:
-        return ((_Spot(math.inf),),)
-
-    @property
-    def q_labels(self) -> NamesAndUnits:
-        return ()
-
-    @property
-    def u_labels(self) -> NamesAndUnits:
-        return ()
-
-    @property
-    def quaternion(self) -> int:
-        return -1
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        return _evaluate_slab
-
-    @property
-    def scales(self) -> tuple[Array, Array]:
-        return np.ones(0), np.ones(0)
 
     def state(self, **start: Any) -> tuple[Array, Array]:
         return np.zeros(0), np.zeros(0)
@@ -199,7 +167,7 @@ class _Slab(_Still):
 
 @final
 @dataclass(frozen=True)
-class Puck(_Still):
+class Puck(Body):
     """A body whose mass centre touches the slab; its moments of inertia are equal, and its axes do not turn.
 
     Velocity and angular velocity are in world axes. Fixed axes matter only for a law with an axis fixed to the puck,
@@ -223,6 +191,9 @@ class Puck(_Still):
     length: float = 1.0
     speed: float = 1.0
     shape: Shape = _Spot()
+    q_labels, u_labels = POSE_LABELS, TWIST_LABELS
+    quaternion, time_scale = 3, math.inf
+    evaluator = staticmethod(_evaluate_puck)
 
     def parameters(self) -> dict[str, Any]:
         """Return mass, inertia and push."""
@@ -232,26 +203,6 @@ class Puck(_Still):
     def frames(self) -> tuple[tuple[Shape, ...], ...]:
         """A single frame with the shape."""
         return ((self.shape,),)
-
-    @property
-    def q_labels(self) -> NamesAndUnits:
-        """Position and quaternion."""
-        return POSE_LABELS
-
-    @property
-    def u_labels(self) -> NamesAndUnits:
-        """Velocity and angular velocity."""
-        return TWIST_LABELS
-
-    @property
-    def quaternion(self) -> int:
-        """Behind the position."""
-        return 3
-
-    @property
-    def evaluator(self) -> Callable[..., None]:
-        """The equations of Newton and Euler."""
-        return _evaluate_puck
 
     @property
     def scales(self) -> tuple[Array, Array]:
@@ -335,21 +286,9 @@ class ConstantLoad(CompliantNormalLaw):
         The force [N].
     """
 
-    load: float = 1.0
-
-    def parameters(self) -> dict[str, Any]:
-        """Return the load."""
-        return {"load": self.load}
-
-    @property
-    def force(self) -> Callable[..., float]:
-        """The load."""
-        return _level
-
-    @property
-    def reach(self) -> float:
-        """Zero [m]."""
-        return 0.0
+    load: float = parameter(1.0, doc="force", unit="N")
+    reach = 0.0
+    force = staticmethod(_level)
 
     def is_fulfilled(
         self, indentation: float, rate: float, closing_rate: float, force: float, tolerance: float

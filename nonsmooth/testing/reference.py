@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
 
@@ -37,21 +37,8 @@ class ReferenceImpact(ImpactProcess):
     """A linear spring that gives back a share of the energy that it stores."""
 
     share: float = parameter(0.5, doc="share", minimum=0.0, maximum=1.0)
-
-    @property
-    def force(self) -> Callable[..., float]:
-        """The indentation."""
-        return _force
-
-    @property
-    def efficiency(self) -> Callable[..., float]:
-        """The share in expansion."""
-        return _efficiency
-
-    @property
-    def contact_time(self) -> float:
-        """A common contact time [s]."""
-        return 2e-5
+    contact_time = 2e-5
+    force, efficiency = staticmethod(_force), staticmethod(_efficiency)
 
     def is_fulfilled(self, stored: float, returned: float, tolerance: float) -> bool:
         """True if the share came back."""
@@ -68,11 +55,7 @@ class ReferenceFriction(FrictionLaw):
     """Friction with the same coefficient at every speed."""
 
     level: float = parameter(0.3, doc="coefficient", minimum=0.0)
-
-    @property
-    def coefficient(self) -> Callable[..., float]:
-        """The level."""
-        return _constant
+    coefficient = staticmethod(_constant)
 
     def is_fulfilled(
         self, slip: tuple[float, float], normal_force: float, tangential_force: tuple[float, float], tolerance: float
