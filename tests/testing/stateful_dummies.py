@@ -57,6 +57,16 @@ def cooling(speed: float, state: Floats, out: Floats) -> None:
     out[0] = -1.0 - state[0] * speed
 
 
+def wrapping(speed: float, state: Floats, out: Floats) -> None:
+    """Count with integers that are negative in compiled code only."""
+    out[0] = -state[0]
+    number = 3
+    for _ in range(62):
+        number = number * 3
+    while number < 0:
+        out[0] = -out[0]
+
+
 @dataclass(frozen=True)
 class Warm(StatefulFrictionLaw):
     """A law put together from a coefficient, rates, and where they start."""
