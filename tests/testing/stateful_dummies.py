@@ -58,13 +58,13 @@ def cooling(speed: float, state: Floats, out: Floats) -> None:
 
 
 def wrapping(speed: float, state: Floats, out: Floats) -> None:
-    """Count with integers that are negative in compiled code only."""
-    out[0] = -state[0]
-    number = 3
+    """Count with an integer that stays below 2^64 in compiled code only."""
+    number, part = 3, 0.5
     for _ in range(62):
         number = number * 3
-    while number < 0:
-        out[0] = -out[0]
+    while number < 2.0**64 and part > 0.0:
+        part = 3.7 * part * (1.0 - part)
+    out[0] = -state[0] * (part + 0.5)
 
 
 @dataclass(frozen=True)
