@@ -124,7 +124,8 @@ _LOCK = threading.Lock()
 
 
 @atexit.register
-def _stop() -> None:
+def stop_child() -> None:
+    """End the child; the next property starts another one."""
     while _children:
         _children.pop().stop()
 
@@ -141,12 +142,12 @@ def ask(subject: Subject, name: str) -> Outcome:
         except EOFError:
             prop, fault = _children[0].fault()
             _ended[subject] = prop or name, fault
-            _stop()
+            stop_child()
             return _judged(name, *_ended[subject])
         except (pickle.PicklingError, TypeError, AttributeError, KeyError):
             return outcome_of(subject.all[name].check)
         except BaseException:
-            _stop()
+            stop_child()
             raise
 
 

@@ -222,6 +222,8 @@ class Functions:
 
     def _same_compiled(self) -> None:
         for function in self.all:
+            # compiling takes its time
+            about_to("it {takes}", function.owner)
             compiled = function.compiled()
             for words, given in function.inputs:
                 one = np.asarray(function.plain(*given))
@@ -231,6 +233,7 @@ class Functions:
                 if not np.allclose(other, one, rtol=_SAME, atol=_SAME * size):
                     reason = f"{function.title}({words}) is {_short(one)} plain and {_short(other)} compiled"
                     raise Broken(reason, *described(function.owner))
+            about_to("it {takes}", function.owner)
 
     def _repeatable(self) -> None:
         for function in self.all:
@@ -268,7 +271,9 @@ def _time(function: CheckedFunction) -> None:
         try:
             function.plain(*given)
         except Exception:
-            return  # the next property tells what it raises
+            break  # the next property tells what it raises
+    # what follows has more time than a call
+    about_to("it {takes}", function.owner)
 
 
 def _finite(function: CheckedFunction) -> None:
