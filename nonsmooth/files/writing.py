@@ -97,6 +97,9 @@ def tables_of(
     tables["gravity"] = 0.0 - z if x == y == 0.0 and z <= 0.0 else [x, y, z]
     if engine is not None and engine != EventDriven():
         tables["engine"] = table_of(engine, "engine", EventDriven)
+    if system.given_contacts:
+        given, remedy = system.given_contacts[0], "A file has the contacts of System.contact and System.contact_all."
+        raise InvalidInput("save_system", "cannot write a contact of System.add_contact", str(given), remedy)
     known = dict(zip(map(id, system.bodies), system.names.bodies, strict=True))
     laws = _Laws()
     contacts = [_contact(declared, known, laws, f"contacts[{i}]") for i, declared in enumerate(system.declarations)]

@@ -32,11 +32,18 @@ def with_laws(
     Raises
     ------
     InvalidInput
-        If the system has no contact, or a law is of the wrong kind.
+        If the system has no contact, a contact was given by :meth:`System.add_contact`, or a law is of the wrong kind.
     """
     check_kind("with_laws: system", system, System, "Make it by nonsmooth.System([...]).")
     if not system.declarations:
         raise InvalidInput("with_laws", "needs a system with contacts", 0, "Declare some with system.contact(...).")
+    if system.given_contacts:
+        raise InvalidInput(
+            "with_laws",
+            "needs contacts of System.contact or System.contact_all",
+            str(system.given_contacts[0]),
+            "Add the contacts of System.add_contact again, with the other laws.",
+        )
     made = system.without_contacts()
     for declared in system.declarations:
         laws = declared.laws

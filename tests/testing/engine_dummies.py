@@ -23,7 +23,7 @@ def _none(memory: Memory, call: int) -> None:
 
 def _push(memory: Memory, call: int) -> None:
     if memory[owners.Island.time] == 0.0 and memory[owners.Model.n_bodies] == 1:
-        memory[owners.Island.y][3] += 0.1
+        memory[owners.Island.y][7] += 0.1  # the velocity, behind position and quaternion
 
 
 def _late(memory: Memory, call: int) -> None:

@@ -1,4 +1,4 @@
-"""What must hold of inner states of laws, and how they go by an integration that is not the engine's."""
+"""Motions and inner states by an integration that is not the engine's, and what must hold of where states start."""
 
 from __future__ import annotations
 
@@ -10,17 +10,29 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from nonsmooth.testing.functions import OLD, ROOM
-from nonsmooth.testing.property import NotChecked
+from nonsmooth.interfaces import StatefulFrictionLaw, TractionLaw
+from nonsmooth.testing.functions import written
+from nonsmooth.testing.outcome import NotChecked
 
 Array = NDArray[np.float64]
+StatefulLaw = StatefulFrictionLaw | TractionLaw
 _EXACT, _STIFFLY = 1e-10, 1e-8
+"""Relative tolerances of the two methods, below the deviations that the checks allow."""
 _MOST_CALLS = 50_000
 _STEP = 1e-6
+"""Step of the differences by which rates of change are bounded, in units of the sizes of the states."""
+_SAME, _STEPS = 1e-5, 1e-7
+"""Deviation of two motions that counts as none: of the change, and of the whole, by the engine's 1e-9 per step."""
 
 
-def check_start(initial: Sequence[float], scale: Sequence[float]) -> str:
-    """Return what is wrong with the values from which states start and their usual sizes."""
+def start_of(law: StatefulLaw) -> tuple[Array, Array]:
+    """Return initial states and their usual sizes."""
+    return np.array(law.initial_state, dtype=float), np.array(law.state_scale, dtype=float)
+
+
+def start_fault(law: StatefulLaw) -> str:
+    """Return the fault of initial states and scales; "" if they are in order."""
+    initial, scale = law.initial_state, law.state_scale
     if len(initial) != len(scale):
         return f"there are {len(initial)} initial states and {len(scale)} scales"
     if not np.all(np.isfinite(initial)):
@@ -30,22 +42,14 @@ def check_start(initial: Sequence[float], scale: Sequence[float]) -> str:
     return ""
 
 
-def require_start(initial: Sequence[float], scale: Sequence[float]) -> None:
-    """Raise NotChecked if something is wrong with them: nothing else can be looked at then."""
-    if found := check_start(initial, scale):
-        raise NotChecked(f"not checked, as {found}")
+def require(fault: str) -> None:
+    """Raise NotChecked if there is a fault without which nothing else can be checked."""
+    if fault:
+        raise NotChecked(f"not checked, as {fault}")
 
 
-def written(call: Callable[[Array], Any], size: int, old: float = 0.0) -> Array:
-    """Return what a function writes into a block that holds ``old``, with some room behind it."""
-    out = np.full(size + ROOM, OLD)
-    out[:size] = old
-    call(out)
-    return out
-
-
-def misplaced(call: Callable[..., Any], given: Sequence[Array], size: int) -> str:
-    """Return what is wrong where a function changes the vectors given, or leaves something of its block as it was."""
+def writing_fault(call: Callable[..., Any], given: Sequence[Array], size: int) -> str:
+    """Return the fault of a function that changes the vectors given, or leaves a number of its block as it was."""
     copies = [one.copy() for one in given]
     one, other = (written(lambda out: call(*copies, out), size, old) for old in (0.5, -0.25))
     if any(not np.array_equal(a, b) for a, b in zip(given, copies, strict=True)):
@@ -58,7 +62,7 @@ def misplaced(call: Callable[..., Any], given: Sequence[Array], size: int) -> st
 def followed(
     slope: Callable[[Array], Array], start: Array, scale: Array, times: Sequence[float], stiff: bool = False
 ) -> Array:
-    """Return y of y' = slope(y) at rising times from y(0) = start on, shape [n_times, n]."""
+    """Return y of y' = slope(y) at rising times from y(0) = start, shape [n_times, n]."""
     calls, exact = itertools.count(), _STIFFLY if stiff else _EXACT
 
     def counted(t: float, y: Array) -> Array:
@@ -66,15 +70,8 @@ def followed(
             raise ArithmeticError(f"{times[-1]:g} s of motion ask for more than {_MOST_CALLS} calls of the law")
         return slope(y)
 
-    found = solve_ivp(
-        counted,
-        (0.0, times[-1]),
-        start,
-        method="LSODA" if stiff else "DOP853",
-        rtol=exact,
-        atol=1e-2 * exact * scale,
-        t_eval=times,
-    )
+    method, atol = "LSODA" if stiff else "DOP853", 1e-2 * exact * scale
+    found = solve_ivp(counted, (0.0, times[-1]), start, method=method, rtol=exact, atol=atol, t_eval=times)
     if not found.success:
         raise ArithmeticError(f"the states cannot be integrated: {found.message}")
     return np.asarray(found.y.T)
@@ -87,3 +84,9 @@ def fastest(slope: Callable[[Array], Array], at: Array, scale: Array) -> float:
     base = slope(at)
     columns = [(slope(at + _STEP * scale * unit) - base) / (_STEP * scale) for unit in np.eye(len(at))]
     return float(np.max(np.sum(np.abs(columns), axis=0)))
+
+
+def is_same_motion(given: Any, wanted: Any, start: Any, size: float) -> bool:
+    """True if velocities by the engine are those of an independent integration, to the tolerances of both."""
+    change = float(np.max(np.abs(np.asarray(wanted) - start)))
+    return bool(np.max(np.abs(np.asarray(given) - wanted)) <= _SAME * change + _STEPS * size)
