@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from nonsmooth.studies.records.record import Record
-from nonsmooth.studies.sampling.points import Points
-from nonsmooth.studies.status import NOT_RUN, STATUSES, UNKNOWN, reason_attributes
+from nonsmooth.studies.case import CaseFactory
+from nonsmooth.studies.records.record import StudyRecord
+from nonsmooth.studies.sampling.sampling import SamplePoints
+from nonsmooth.studies.status import UNKNOWN, RunStatus, reason_attributes
 from nonsmooth.studies.store import Coordinate, Variable
-from nonsmooth.studies.target import Target
 
 
 def _classes(words: Sequence[str]) -> dict[str, Any]:
@@ -19,7 +19,7 @@ def _classes(words: Sequence[str]) -> dict[str, Any]:
     return {"flag_values": list(range(len(words))), "flag_meanings": " ".join(word.replace(" ", "_") for word in words)}
 
 
-def variables(records: Sequence[Record]) -> list[Variable]:
+def variables(records: Sequence[StudyRecord]) -> list[Variable]:
     """Return the arrays of records, of the status and of the reason."""
     found = []
     for one in records:
@@ -27,12 +27,15 @@ def variables(records: Sequence[Record]) -> list[Variable]:
         axes = {name: len(labels) for name, labels in one.axes.items()}
         found.append(Variable(one.name, one.dtype, one.none, attributes, axes))
     found.append(Variable("reason", "int8", UNKNOWN, reason_attributes()))
-    return [*found, Variable("status", "int8", NOT_RUN, {"long_name": "how it ended", **_classes(STATUSES)})]
+    return [
+        *found,
+        Variable("status", "int8", RunStatus.NOT_RUN.code, {"long_name": "how it ended", **_classes(list(RunStatus))}),
+    ]
 
 
-def coordinates(records: Sequence[Record], points: Points, target: Target) -> dict[str, Coordinate]:
+def coordinates(records: Sequence[StudyRecord], points: SamplePoints, cases: CaseFactory) -> dict[str, Coordinate]:
     """Return the parameters over the runs, and the axes of records."""
-    found = {name: Coordinate(("run",), values, target.told(name)) for name, values in points.columns.items()}
+    found = {name: Coordinate(("run",), values, cases.attributes(name)) for name, values in points.columns.items()}
     for one in records:
         for axis, labels in one.axes.items():
             told = {"units": "s", "long_name": "time"} if axis == "time" else {"long_name": axis}

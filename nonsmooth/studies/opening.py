@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from nonsmooth.checks import path_of
-from nonsmooth.studies.extras import require_store
+from nonsmooth.studies.inputs import require_store
 from nonsmooth.studies.store import Store
 
 if TYPE_CHECKING:

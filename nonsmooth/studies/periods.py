@@ -5,13 +5,15 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.types import Array
+
 _ALIKE = 1e-5
 """Part of the range of all points within which two count as one."""
 _LEAST = 1e-3
 """Part of the scale of a coordinate that counts as the range where that is less: of one point only there is none."""
 
 
-def alike(points: NDArray[np.float64], scale: float) -> float:
+def alike(points: Array, scale: float) -> float:
     """Return the greatest difference within which points of a diagram count as one, in their unit.
 
     Parameters
@@ -25,7 +27,7 @@ def alike(points: NDArray[np.float64], scale: float) -> float:
     return _ALIKE * max(float(np.ptp(known)) if len(known) else 0.0, _LEAST * scale)
 
 
-def periods(points: NDArray[np.float64], near: float) -> NDArray[np.int64]:
+def periods(points: Array, near: float) -> NDArray[np.int64]:
     """Return of each motion the least n after which all its points repeat, up to half of them; 0 where none does.
 
     Points that are n, 2 n, 3 n ... looks apart must all agree: what only settles slowly does not repeat.
@@ -44,7 +46,7 @@ def periods(points: NDArray[np.float64], near: float) -> NDArray[np.int64]:
     return found
 
 
-def settling(points: NDArray[np.float64], near: float) -> NDArray[np.bool_]:
+def settling(points: Array, near: float) -> NDArray[np.bool_]:
     """Return whether each motion still approaches what it settles to.
 
     Points n looks apart then differ less and less: by less than half as much in the second half of the looks, or always

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from nonsmooth.errors import InvalidInput
 from nonsmooth.results.lock import Lock, check_no_links
 from nonsmooth.solution.files import FileError, content_of, replacing
-from nonsmooth.studies.work import Block
+from nonsmooth.studies.work import ChunkResult
 
 _JOURNAL, _LOCK = "failures", ".lock"
 """Group of the sentences, of no array; the lock is there as well."""
@@ -204,7 +204,7 @@ class Store:
         folder = self.path / _STATUS / "c"
         return sorted(int(file.name) for file in folder.iterdir() if file.name.isdigit()) if folder.is_dir() else []
 
-    def write(self, block: Block) -> None:
+    def write(self, block: ChunkResult) -> None:
         """Commit a chunk.
 
         Raises

@@ -21,8 +21,7 @@ from nonsmooth import studies
 from nonsmooth.interfaces import Scenario
 from nonsmooth.plugins import file
 from nonsmooth.studies import status
-from nonsmooth.studies.executors.dask import SchedulerLost
-from nonsmooth.studies.executors.parcel import Parcel
+from nonsmooth.studies.executors.dask import Parcel, SchedulerLost
 from nonsmooth.studies.store import Store
 from tests.studies import ball
 

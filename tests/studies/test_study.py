@@ -17,7 +17,7 @@ from nonsmooth.engine.memory.modes import Status
 from nonsmooth.parameters import parameter
 from nonsmooth.simple_scenario import SimpleScenario
 from nonsmooth.studies import status
-from nonsmooth.studies.records.asked import Asked
+from nonsmooth.studies.records.recorders import Asked
 from nonsmooth.studies.store import Store
 from scenarios.bouncing_ball.scenario import BouncingBall
 from scenarios.dumbbell.scenario import DumbbellScenario

@@ -14,7 +14,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.studies.executors import Dask
 from nonsmooth.studies.executors.executor import Executor
 from nonsmooth.studies.records import Stroboscope
-from nonsmooth.studies.records.asked import Asked
+from nonsmooth.studies.records.recorders import Asked
 from nonsmooth.studies.study import EXECUTORS, Study, check_chunk, executor_of
 
 RECORD = ("t_end", "impacts", "events", "steps", "energy_residual")

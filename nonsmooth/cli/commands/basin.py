@@ -20,7 +20,7 @@ from nonsmooth.studies.attractors import (
     recurrences,
     uncertainty_exponent,
 )
-from nonsmooth.studies.extras import require
+from nonsmooth.studies.inputs import require
 from nonsmooth.studies.study import Study
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from nonsmooth.cli.running import results
 from nonsmooth.cli.running.interrupt import Interrupt
 from nonsmooth.cli.telling.messages import complain, say
 from nonsmooth.plugins import registry
-from nonsmooth.progress import Pace, TimeReached, on_standard_error
+from nonsmooth.progress import ProgressMeter, TimeReached, on_standard_error
 from nonsmooth.results.output import Output
 
 
@@ -49,7 +49,7 @@ def _draw(owner: Any) -> Mapping[str, Any] | None:
         if t < t_end:
             interrupt.check()
 
-    with Pace(on_standard_error()) as pace, Interrupt() as interrupt:
+    with ProgressMeter(on_standard_error()) as pace, Interrupt() as interrupt:
         progress = TimeReached(pace)
         try:
             drawn: Mapping[str, Any] = owner.gallery(after_steps)

@@ -16,7 +16,7 @@ from nonsmooth.cli.telling.messages import say
 from nonsmooth.errors import InvalidInput, UnknownName
 
 if TYPE_CHECKING:
-    from nonsmooth.studies.orbits import Branch, Crossing, Orbit, Spin
+    from nonsmooth.studies.orbits import Branch, Orbit, PoincareSection, Spin
 
 
 def add_to(commands: Any) -> None:
@@ -153,14 +153,14 @@ def _spin(word: str) -> Spin:
     return Spin(body, axis)
 
 
-def _section(word: str) -> Crossing:
-    from nonsmooth.studies.orbits import Crossing
+def _section(word: str) -> PoincareSection:
+    from nonsmooth.studies.orbits import PoincareSection
 
     name, equals, told = word.partition("=")
     level, colon, way = told.partition(":")
     try:
         if name and equals and (way == "falling" if colon else True):
-            return Crossing(name.strip(), float(level), rising=not colon)
+            return PoincareSection(name.strip(), float(level), rising=not colon)
     except ValueError:
         pass
     remedy = "For example --section phi_m=0, or --section vz=0:falling."

@@ -14,10 +14,10 @@ from nonsmooth.cli.running.study import perform
 from nonsmooth.cli.telling.messages import complain, say, tell
 from nonsmooth.errors import InvalidInput
 from nonsmooth.studies.drawing import draw_study
-from nonsmooth.studies.extras import require, require_store
+from nonsmooth.studies.inputs import require, require_store
 from nonsmooth.studies.opening import open_study
+from nonsmooth.studies.status import summary
 from nonsmooth.studies.store import Store
-from nonsmooth.studies.summary import summary
 
 _TOLD = 10
 """Sentences on runs without records that are told."""

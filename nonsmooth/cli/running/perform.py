@@ -14,7 +14,7 @@ from nonsmooth.cli.telling import report
 from nonsmooth.cli.telling.messages import complain, tell
 from nonsmooth.errors import PluginError, RunFailed
 from nonsmooth.interfaces import Scenario
-from nonsmooth.progress import Pace, TimeReached, on_standard_error
+from nonsmooth.progress import ProgressMeter, TimeReached, on_standard_error
 from nonsmooth.results.description import UNFINISHED
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
@@ -76,7 +76,7 @@ def computed(compute: Compute) -> tuple[Solution | None, str, str]:
             interrupt.check()
 
     try:
-        with Pace(on_standard_error()) as pace, Interrupt() as interrupt:
+        with ProgressMeter(on_standard_error()) as pace, Interrupt() as interrupt:
             progress = TimeReached(pace)
             solution = compute(after_steps)
     except RunFailed as error:

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 from nonsmooth.cli.telling.messages import say, tell
 from nonsmooth.studies.executors.executor import Executor
+from nonsmooth.studies.status import summary
 from nonsmooth.studies.store import Store
 from nonsmooth.studies.study import Study
-from nonsmooth.studies.summary import summary
 
 if TYPE_CHECKING:
     import xarray

@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.studies.attractors.labels import words_of
+from nonsmooth.types import Array
 
 if TYPE_CHECKING:
     import xarray
 
-Floats = NDArray[np.float64]
 _MARGIN = 8
 """The largest distance is such a part of the shortest side of the grid."""
 _FEWEST = 3
@@ -48,8 +48,8 @@ class Boundary:
         Of the boundary: that of the grid less the exponent, which is 1 at most here.
     """
 
-    steps: Floats
-    uncertain: Floats
+    steps: Array
+    uncertain: Array
     starts: int
     exponent: float
     error: float

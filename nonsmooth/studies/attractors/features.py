@@ -10,12 +10,10 @@ from numpy.typing import NDArray
 
 from nonsmooth.checks import is_finite
 from nonsmooth.errors import InvalidInput, UnknownName
-from nonsmooth.studies.attractors.following import Along
-from nonsmooth.studies.attractors.group import Group
 from nonsmooth.studies.attractors.labels import labelled
 from nonsmooth.studies.attractors.linkage import linked
-from nonsmooth.studies.status import VALUED
-from nonsmooth.studies.summary import records_of
+from nonsmooth.studies.attractors.matching import Along, Group
+from nonsmooth.studies.status import VALUED, records_of
 
 if TYPE_CHECKING:
     import xarray

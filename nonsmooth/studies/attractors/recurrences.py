@@ -10,20 +10,18 @@ from numpy.typing import NDArray
 
 from nonsmooth.checks import is_finite
 from nonsmooth.errors import InvalidInput
-from nonsmooth.studies.attractors.following import Along
-from nonsmooth.studies.attractors.group import Group
 from nonsmooth.studies.attractors.labels import labelled, over_runs
-from nonsmooth.studies.attractors.linkage import linked
-from nonsmooth.studies.attractors.overlap import overlapping
+from nonsmooth.studies.attractors.linkage import linked, overlapping
+from nonsmooth.studies.attractors.matching import Along, Group
 from nonsmooth.studies.periods import periods
 from nonsmooth.studies.records.stroboscope import NAME
 from nonsmooth.studies.status import VALUED
+from nonsmooth.types import Array
 
 if TYPE_CHECKING:
     import xarray
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+Integers = NDArray[np.int64]
 NEAR = 10.0
 """Points of two runs agree within so many times what points of one run differ by where they repeat: a run that settles
 slowly is farther from its attractor than it moves."""
@@ -86,11 +84,11 @@ def recurrences(study: xarray.Dataset, tolerance: float = 1e-3, along: Along | N
 class _Recurrences:
     """Groups runs: ``points`` [n_runs, n_sections, n_coordinates] over their scales, ``after`` [n_runs] the periods."""
 
-    points: Floats
-    after: Ints
+    points: Array
+    after: Integers
     tolerance: float
 
-    def __call__(self, runs: Ints) -> list[Group]:
+    def __call__(self, runs: Integers) -> list[Group]:
         """Return the groups of some runs."""
         found, after = list[Group](), self.after[runs]
         for n in np.unique(after[after > 0]).tolist():
@@ -100,7 +98,7 @@ class _Recurrences:
             found.append(Group(loose[members], self.points[loose[members[0]]], 0))
         return found
 
-    def _periodic(self, runs: Ints, n: int) -> list[Group]:
+    def _periodic(self, runs: Integers, n: int) -> list[Group]:
         looks = self.points[runs]
         whole = looks.shape[1] // n
         means = looks[:, looks.shape[1] - whole * n :].reshape(len(runs), whole, n, -1).mean(axis=1)

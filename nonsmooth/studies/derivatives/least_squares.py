@@ -1,4 +1,4 @@
-"""Parameters fitted to what was measured, by least squares."""
+"""Parameters fitted to measurements by least squares."""
 
 from __future__ import annotations
 
@@ -7,63 +7,64 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, final
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from nonsmooth.checks import check_callable, floats, is_finite
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.family import Family, Varied
-from nonsmooth.studies.derivatives.passage import passage
+from nonsmooth.studies.derivatives.flow import flow
+from nonsmooth.studies.inputs import rising_times
+from nonsmooth.types import Array
 
 if TYPE_CHECKING:
     from scipy.optimize import OptimizeResult
 
-Floats = NDArray[np.float64]
 Observe = Callable[[State], Any]
 _STEP = 1e-5
-"""Change of a parameter over its range in differences: of least squares, which need no more."""
+"""Step of the differences of least squares, relative to the range of the parameter."""
 _TOLD = 1e-7
-"""Effect over the largest one below which it is round-off: that of runs is 1e-12, over the step."""
+"""Relative effect of a parameter below which it is round-off: that of runs, 1e-12, over the step."""
 _REFINED = 3
-"""Points from which the search begins."""
+"""Starting points that are refined."""
 
 
 @final
 @dataclass(frozen=True)
 class Fit:
-    """A fit.
+    """Parameters fitted to measurements.
 
     Attributes
     ----------
     family : Family
-        What was fitted, at the values found.
+        The systems, at the values found.
     observe : callable
-        ``observe(state)`` returns what was measured of a state.
+        ``observe(state)`` returns the observables of a state.
     values : mapping of str to float
-        The parameters found.
+        The fitted parameters.
     standard_errors : mapping of str to float
-        Of each, from the covariance.
+        Standard error of each parameter, from the covariance.
     covariance : array
-        Of the parameters, shape [p, p].
+        Covariance of the parameters, shape [p, p].
     t : array
         Times [s], shape [n].
     measured, modelled : array
-        What was measured, and what the fitted system has, shape [n, k].
+        Observables as measured, and of the fitted system, shape [n, k].
     deviation : float
-        Standard deviation of their difference, in the unit of what was measured.
+        Standard deviation of their difference, in the unit of the measurements.
     message : str
-        Why the search ended.
+        Reason for the end of the search.
     """
 
     family: Family
     observe: Observe
     values: Mapping[str, float]
     standard_errors: Mapping[str, float]
-    covariance: Floats
-    t: Floats
-    measured: Floats
-    modelled: Floats
+    covariance: Array
+    t: Array
+    measured: Array
+    modelled: Array
     deviation: float
     message: str
 
@@ -77,25 +78,25 @@ def fit(
     observe: Observe,
     starts: int = 64,
 ) -> Fit:
-    """Fit parameters so that what is observed at given times comes closest to what was measured.
+    """Fit parameters to observations at given times by least squares.
 
-    Where impacts come and go with a parameter, least squares have many hollows: the search begins in the deepest of
-    those that points spread evenly over the bounds lie in.
+    If impacts come and go with a parameter, the sum of squares has many local minima.  Points are spread evenly over
+    the bounds (Sobol), and the search starts from the three best.
 
     Parameters
     ----------
     what : Scenario, System or Family
-        The system; its values are where the search begins.
+        The system; its values are the first starting point.
     bounds : mapping of str to tuple of float
         Least and largest value of each parameter that is fitted.
     at : array
         Times of the measurements, rising [s], shape [n].
     measured : array
-        Shape [n, k], or [n]; nan where nothing was measured.
+        Measurements, shape [n, k], or [n]; nan where one is missing.
     observe : callable
-        ``observe(state)`` returns what is measured of a state, shape [k].
+        ``observe(state)`` returns the observables of a state, shape [k].
     starts : int
-        Points besides that of the system from which the search may begin, a power of two; it does from the best three.
+        Further starting points, a power of two.
 
     Raises
     ------
@@ -103,14 +104,12 @@ def fit(
         If there is no such parameter.
     InvalidInput
         If bounds, times or measurements are not valid, there are fewer numbers than parameters, or the measurements do
-        not tell what these are.
+        not determine the parameters.
     """
     from scipy.stats.qmc import Sobol
 
     check_callable("fit: observe", observe, "observe(state)")
-    times = np.atleast_1d(floats("fit: at", at))
-    if not (len(times) and times[0] > 0.0 and np.all(np.diff(times) > 0.0)):
-        raise InvalidInput("fit: at", "must be positive, rising times", times.tolist(), "Give them in [s].")
+    times = rising_times("fit: at", at)
     data = np.asarray(measured, dtype=float)
     if data.ndim not in (1, 2) or len(data) != len(times):
         remedy = "Put nan where nothing was measured."
@@ -129,22 +128,22 @@ def fit(
             "Measure more, or fit fewer.",
         )
 
-    def modelled(values: Floats) -> Floats:
+    def modelled(values: Array) -> Array:
         model = family.model(**dict(zip(names, values.tolist(), strict=True)))
         return observed(model, times, observe)
 
-    def residual(shares: Floats) -> Floats:
+    def residual(shares: Array) -> Array:
         return np.asarray((modelled(low + shares * (high - low)) - data)[given])
 
     own = np.clip([(family[name] - a) / (b - a) for name, a, b in zip(names, low, high, strict=True)], 0.0, 1.0)
     spread = Sobol(len(names), seed=0).random(starts) if starts else np.zeros((0, len(names)))
     points = np.concatenate([own[None], spread])
 
-    def cost(point: Floats) -> float:
+    def cost(point: Array) -> float:
         try:
             return float(np.sum(residual(point) ** 2))
         except (RunFailed, InvalidInput):
-            # a point in which nothing runs is no place to begin
+            # a point at which nothing runs is no starting point
             return np.inf
 
     costs = np.array([cost(point) for point in points])
@@ -169,11 +168,11 @@ def fit(
     )
 
 
-def observed(model: Model, times: Floats, observe: Observe) -> Floats:
-    """Return what is observed of a motion at rising times [s], shape [n, k]."""
-    state, rows = model.start, list[Floats]()
+def observed(model: Model, times: Array, observe: Observe) -> Array:
+    """Return the observables of a motion at rising times [s], shape [n, k]."""
+    state, rows = model.start, list[Array]()
     for time in times.tolist():
-        state = passage(model, state, time).state
+        state = flow(model, state, time).state
         row = np.atleast_1d(floats("fit: observe", observe(state)))
         if not np.all(np.isfinite(row)):
             raise InvalidInput(
@@ -183,13 +182,13 @@ def observed(model: Model, times: Floats, observe: Observe) -> Floats:
     return np.array(rows)
 
 
-def _deepest(residual: Callable[[Floats], Floats], begins: Floats) -> OptimizeResult:
-    """Return the best of what is found from some points; what leads where no run is counts for nothing.
+def _deepest(residual: Callable[[Array], Array], begins: Array) -> OptimizeResult:
+    """Return the best minimum of those reached from some points; points from which a run fails are left out.
 
     Raises
     ------
     RunFailed, InvalidInput
-        If all do.
+        If runs from all points fail.
     """
     found, trouble = list["OptimizeResult"](), list[RunFailed | InvalidInput]()
     for begin in begins:
@@ -202,15 +201,15 @@ def _deepest(residual: Callable[[Floats], Floats], begins: Floats) -> OptimizeRe
     return min(found, key=lambda one: float(one.cost))
 
 
-def _refined(residual: Callable[[Floats], Floats], begin: Floats) -> OptimizeResult:
+def _refined(residual: Callable[[Array], Array], begin: Array) -> OptimizeResult:
     from scipy.optimize import least_squares
 
     inside = np.clip(begin, 1e-3, 1.0 - 1e-3)
     return least_squares(residual, inside, bounds=(0.0, 1.0), diff_step=_STEP, xtol=1e-10)
 
 
-def _inverse(jacobian: Floats, names: Sequence[str]) -> Floats:
-    """Return the inverse of J^T J; without one there are combinations of parameters that change nothing."""
+def _inverse(jacobian: Array, names: Sequence[str]) -> Array:
+    """Return the inverse of J^T J; InvalidInput if a combination of parameters changes nothing."""
     _, effects, ways = np.linalg.svd(jacobian, full_matrices=False)
     idle = effects <= _TOLD * effects[0]
     if np.any(idle):
@@ -220,7 +219,7 @@ def _inverse(jacobian: Floats, names: Sequence[str]) -> Floats:
     return np.asarray((ways.T / effects**2) @ ways)
 
 
-def _bounds(family: Family, bounds: Mapping[str, tuple[float, float]]) -> tuple[Floats, Floats]:
+def _bounds(family: Family, bounds: Mapping[str, tuple[float, float]]) -> tuple[Array, Array]:
     for name, (low, high) in bounds.items():
         value = family[name]
         if not (is_finite(low) and is_finite(high) and low < high and low <= value <= high):

@@ -1,22 +1,26 @@
-"""Workers of dask: processes of this machine, or those of a scheduler somewhere."""
+"""Workers of dask: processes of this machine, or of a scheduler elsewhere."""
 
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import logging
+import pickle
 from collections.abc import Generator, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, final
 
 from nonsmooth.errors import InvalidInput, NonsmoothError
+from nonsmooth.plugins import file
 from nonsmooth.results.output import versions
 from nonsmooth.studies.executors.executor import Executor, check_workers
-from nonsmooth.studies.executors.parcel import Parcel
-from nonsmooth.studies.extras import require
-from nonsmooth.studies.work import Block, Chunk, Work
+from nonsmooth.studies.inputs import require
+from nonsmooth.studies.work import Chunk, ChunkResult, Work
 
 if TYPE_CHECKING:
     from distributed import Client, LocalCluster
+
 
 _WINDOW = 2
 """Chunks per thread of a worker that are handed out at once."""
@@ -49,7 +53,7 @@ class Dask(Executor):
     def __post_init__(self) -> None:
         check_workers("Dask: n", self.n)
 
-    def blocks(self, work: Work, chunks: Sequence[Chunk]) -> Generator[Block, None, None]:
+    def blocks(self, work: Work, chunks: Sequence[Chunk]) -> Generator[ChunkResult, None, None]:
         """Yield as workers return them.
 
         A chunk whose workers died may have been next to the one that killed them: such ones are done last, each alone,
@@ -138,13 +142,13 @@ def _check_open(client: Client, parcel: Parcel) -> None:
             raise InvalidInput(f"worker {address}", "must find what the study runs", fault, remedy)
 
 
-def _block(parcel: Parcel, chunk: Chunk) -> Block:
+def _block(parcel: Parcel, chunk: Chunk) -> ChunkResult:
     return parcel.open().block(chunk)
 
 
 def _in_turn(
     client: Client, parcel: Parcel, chunks: Sequence[Chunk], window: int, suspects: list[Chunk]
-) -> Generator[Block, None, None]:
+) -> Generator[ChunkResult, None, None]:
     """Yield the blocks of all chunks but of those whose workers died too often, which become suspects."""
     from distributed import KilledWorker, as_completed
 
@@ -171,7 +175,7 @@ def _in_turn(
             yield block
 
 
-def _alone(client: Client, parcel: Parcel, chunk: Chunk) -> Block:
+def _alone(client: Client, parcel: Parcel, chunk: Chunk) -> ChunkResult:
     """Return the block of a chunk next to which nothing else runs, so that who dies died of it."""
     from distributed import KilledWorker
 
@@ -184,9 +188,66 @@ def _alone(client: Client, parcel: Parcel, chunk: Chunk) -> Block:
     return _in_halves(client, parcel, chunk)
 
 
-def _in_halves(client: Client, parcel: Parcel, chunk: Chunk) -> Block:
+def _in_halves(client: Client, parcel: Parcel, chunk: Chunk) -> ChunkResult:
     """Return the block of a chunk that is suspected, whose halves run alone."""
     if len(chunk.parameters) == 1:
         return _alone(client, parcel, chunk)
     one, other = chunk.halves()
     return _alone(client, parcel, one).joined(_alone(client, parcel, other))
+
+
+@final
+@dataclass(frozen=True)
+class Parcel:
+    """Work on its way to a process that has imported nothing of it yet.
+
+    What cannot be opened is an error of the task: objects that arrive open would cut the worker's connection.
+
+    Attributes
+    ----------
+    content : bytes
+        The work, pickled.
+    files : tuple of tuple of str
+        Path and sha256 of the files that were loaded as FILE.py:CLASS.
+    """
+
+    content: bytes
+    files: tuple[tuple[str, str], ...]
+
+    @classmethod
+    def of(cls, work: Work) -> Parcel:
+        """Pack work."""
+        import cloudpickle
+
+        return cls(cloudpickle.dumps(work), tuple((str(path), _digest(path)) for path in file.loaded()))
+
+    def open(self) -> Work:
+        """Return the work.
+
+        Raises
+        ------
+        InvalidInput
+            If a file is not there, or is another one.
+        ImportError
+            If a module is not installed.
+        """
+        for name, digest in self.files:
+            path = Path(name)
+            if not path.is_file() or _digest(path) != digest:
+                remedy = "Start workers where they see the same files."
+                raise InvalidInput("worker", "must find the file that the study was begun with", name, remedy)
+            file.again(path)
+        work: Work = pickle.loads(self.content)
+        return work
+
+    def fault(self) -> str:
+        """Return why it cannot be opened here, "" where it can."""
+        try:
+            self.open()
+        except Exception as error:  # of the modules of a user, too
+            return f"{type(error).__name__}: {error}"
+        return ""
+
+
+def _digest(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()

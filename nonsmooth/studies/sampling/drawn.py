@@ -8,12 +8,11 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, TypeAlias, final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nonsmooth.checks import check_pair, is_finite
 from nonsmooth.errors import InvalidInput
-from nonsmooth.studies.sampling.points import Points
-from nonsmooth.studies.sampling.sampling import Sampling
+from nonsmooth.studies.sampling.sampling import SamplePoints, Sampling
+from nonsmooth.types import Array
 
 Range: TypeAlias = tuple[float, float]
 
@@ -54,14 +53,14 @@ class Drawn(Sampling, ABC):
                 raise InvalidInput(f"study: {name}", rule, ends, "For example (0.5, 0.9).")
 
     @abstractmethod
-    def unit(self, d: int) -> NDArray[np.float64]:
+    def unit(self, d: int) -> Array:
         """Return the points in the unit cube of so many dimensions, shape [n, d]."""
 
-    def points(self) -> Points:
+    def points(self) -> SamplePoints:
         """Return the draws, scaled to the ranges."""
         unit = self.unit(len(self.ranges))
         ends = zip(unit.T, self.ranges.items(), strict=True)
-        return Points({name: low + (high - low) * part for part, (name, (low, high)) in ends}, {})
+        return SamplePoints({name: low + (high - low) * part for part, (name, (low, high)) in ends}, {})
 
     def described(self) -> Mapping[str, Any]:
         """Return number, seed and ranges."""
@@ -76,7 +75,7 @@ class Random(Drawn):
 
     kind: ClassVar[str] = "random"
 
-    def unit(self, d: int) -> NDArray[np.float64]:
+    def unit(self, d: int) -> Array:
         """Draw run by run."""
         seeds = (np.random.SeedSequence(self.seed, spawn_key=(run,)) for run in range(self.n))
         return np.array([np.random.default_rng(one).random(d) for one in seeds])
@@ -96,7 +95,7 @@ class Sobol(Drawn):
             remedy = f"Take {below} or {2 * below}: other numbers spoil the balance of the sequence."
             raise InvalidInput("sobol: n", "must be a power of two", self.n, remedy)
 
-    def unit(self, d: int) -> NDArray[np.float64]:
+    def unit(self, d: int) -> Array:
         """Draw all at once."""
         from scipy.stats import qmc
 
@@ -110,7 +109,7 @@ class LatinHypercube(Drawn):
 
     kind: ClassVar[str] = "latin_hypercube"
 
-    def unit(self, d: int) -> NDArray[np.float64]:
+    def unit(self, d: int) -> Array:
         """Draw all at once."""
         from scipy.stats import qmc
 

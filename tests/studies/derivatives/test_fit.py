@@ -10,8 +10,8 @@ import nonsmooth as ns
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.derivatives.flow import passage
 from nonsmooth.studies.derivatives.least_squares import fit
-from nonsmooth.studies.derivatives.passage import passage
 from scenarios.dumbbell.scenario import DumbbellScenario
 from scenarios.sliding_rod.scenario import SlidingRod
 

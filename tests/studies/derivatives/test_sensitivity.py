@@ -14,10 +14,10 @@ from bodies import Ball, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.plugins import registry
+from nonsmooth.studies.derivatives.differences import CENTRAL
 from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.derivatives.flow import passage
 from nonsmooth.studies.derivatives.forward import NotDifferentiable, sensitivity
-from nonsmooth.studies.derivatives.passage import passage
-from nonsmooth.studies.derivatives.slope import CENTRAL
 from scenarios.dumbbell.scenario import DumbbellScenario
 from scenarios.rocking_block.scenario import RockingBlock
 

@@ -11,7 +11,7 @@ import nonsmooth as ns
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.studies.orbits.diagram import bifurcation
-from nonsmooth.studies.orbits.ribbon import periods, ribbon
+from nonsmooth.studies.orbits.itinerary import periods, ribbon
 from scenarios.bouncing_ball.orbits import impact_phase
 from scenarios.bouncing_ball.scenario import BouncingBall
 

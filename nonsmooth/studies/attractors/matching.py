@@ -1,4 +1,4 @@
-"""Attractors that are told apart value by value of a parameter, and followed from one to the next."""
+"""Attractors matched from one value of a parameter to the next."""
 
 from __future__ import annotations
 
@@ -11,12 +11,33 @@ from numpy.typing import NDArray
 
 from nonsmooth.checks import is_finite
 from nonsmooth.errors import InvalidInput
-from nonsmooth.studies.attractors.group import Group
 from nonsmooth.studies.attractors.linkage import hausdorff
+from nonsmooth.types import Array
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Grouping = Callable[[Ints], list[Group]]
+Integers = NDArray[np.int64]
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Group:
+    """Runs that go to one attractor.
+
+    Attributes
+    ----------
+    runs : array
+        Numbers of the runs, shape [n_runs].
+    points : array
+        The attractor over the scales of its coordinates, shape [n_points, n_coordinates].
+    period : int or None
+        After how many periods it repeats, 0 where it does not; None where that is not known, or not the same in all.
+    """
+
+    runs: NDArray[np.int64]
+    points: Array
+    period: int | None
+
+
+Grouping = Callable[[Integers], list[Group]]
 """From the numbers of some runs to their groups."""
 
 
@@ -46,7 +67,7 @@ class Along:
             raise InvalidInput("Along: tolerance", "must be positive and finite", self.tolerance, remedy)
 
 
-def matched(known: Sequence[Floats], now: Sequence[Floats], tolerance: float) -> list[int]:
+def matched(known: Sequence[Array], now: Sequence[Array], tolerance: float) -> list[int]:
     """Return of each attractor which of the known ones it is, -1 for none.
 
     Of all ways to pair as many as there can be pairs within the tolerance, it is that with the least sum of distances.

@@ -1,4 +1,4 @@
-"""How far an orbit is from grazing, and from two impacts at once; and where along a branch nothing of that is left."""
+"""Distance of an orbit to grazing and to simultaneous impacts, and the parameter at which it vanishes."""
 
 from __future__ import annotations
 
@@ -7,56 +7,58 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.histories.contact_motion import ContactMotion
 from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
 from nonsmooth.studies.orbits.periodic import Orbit
+from nonsmooth.types import Array
 
-Floats = NDArray[np.float64]
-_LOOKED_AT = 200
-"""Times of a period between which least gaps are looked for."""
+SIMULTANEOUS = "simultaneous impacts"
+_KINDS = {"approach": "grazing", "gap": "grazing", "between_impacts": SIMULTANEOUS}
+"""Kind of change at which each distance vanishes."""
+_CANDIDATES = 200
+"""Times of a period between which least gaps are searched for."""
 _CLOSED, _COLLIDES = 1, 2
-"""Bits of Eq. (29)."""
-_KINDS = {"approach": "grazing", "gap": "grazing", "apart": "corner"}
-_POINTS, _GROWS = 4, 1.5
-"""So many orbits tell where a margin ends, of which each has one so many times as large as the next."""
+"""Bits of the mode code of a contact."""
+_POINTS = 4
+"""Orbits from which the end of a distance is extrapolated."""
+_GROWS = 1.5
+"""Least ratio of the distances of two of these orbits."""
 _LITTLE = 1e-2
-"""What a margin is at most over what it is compared with, where it is said to vanish."""
+"""Largest distance, relative to its scale, that is extrapolated to zero."""
 
 
 @final
 @dataclass(frozen=True)
-class Margins:
-    """What is left until something happens to the events of an orbit; infinite where it cannot.
+class GrazingDistance:
+    """Distances of an orbit to a change of its events; infinite if such a change cannot happen.
 
     Attributes
     ----------
     approach : float
-        Least speed at which bodies that collide approach each other [m/s].
+        Least approach speed of an impact [m/s].
     gap : float
-        Least gap of contacts that come near and are not hit [m].
-    apart : float
+        Least gap of contacts that come near without an impact [m].
+    between_impacts : float
         Least time between successive impacts of different contacts [s].
-    beside : tuple of float
-        What they are little beside: the largest speed at which a gap changes [m/s], the largest gap [m], the period
-        [s].
+    scales : tuple of float
+        Scales of the three: the largest rate of a gap [m/s], the largest gap [m], the period [s].
     """
 
     approach: float
     gap: float
-    apart: float
-    beside: tuple[float, float, float]
+    between_impacts: float
+    scales: tuple[float, float, float]
 
 
-def margins(orbit: Orbit) -> Margins:
-    """Return the margins of an orbit, from one more run of it."""
+def grazing_distance(orbit: Orbit) -> GrazingDistance:
+    """Return the distances of an orbit to a change of its events, from one more run of it."""
     model, end, state = orbit.family.model(), orbit.map.end.state.time, orbit.state
     approach, gap, impacts = [np.inf], [np.inf], list[tuple[float, int]]()
     fastest = widest = 0.0
-    # where a section ends runs, an orbit that passes it several times is one of several
+    # a Poincare section ends runs: an orbit that passes it several times consists of several
     while end - state.time > 1e-9 * orbit.period:
         run = model.run(end, start=state, sample_interval=end - state.time)
         events, state = run.events, run.state
@@ -65,28 +67,28 @@ def margins(orbit: Orbit) -> Margins:
             before = State.at(model.system, float(events.time[i]), events.q[i], events.u_before[i])
             collide = events.during[i] & _COLLIDES != 0
             approach.append(float(np.min(-model.contact_rates(before)[1][collide, 0], initial=np.inf)))
-        times = np.linspace(run.t[0], run.t_end, _LOOKED_AT + 1)
+        times = np.linspace(run.t[0], run.t_end, _CANDIDATES + 1)
         motion = run.contact_motion(times)
         fastest = max(fastest, _largest(np.abs(motion.normal_velocity)))
         widest = max(widest, _largest(motion.gap))
         gap += _least_gaps(run, times, motion)
-    beside = fastest, widest, orbit.period
-    return Margins(min(approach), min(gap), _least_time(impacts, orbit.period), beside)
+    scales = fastest, widest, orbit.period
+    return GrazingDistance(min(approach), min(gap), _least_time(impacts, orbit.period), scales)
 
 
 @final
 @dataclass(frozen=True)
-class Foretold:
-    """What the margins of some orbits say that happens behind the last of them.
+class PredictedChange:
+    """A change of events after the last of some orbits, extrapolated from their distances.
 
     Attributes
     ----------
     kind : str
-        "grazing" or "corner".
+        "grazing" or "simultaneous impacts".
     value : float
         The parameter there.
     error : float
-        By how much that of one orbit fewer differs; infinite where there are two.
+        Difference from the extrapolation of one orbit fewer; infinite for two orbits.
     """
 
     kind: str
@@ -94,39 +96,39 @@ class Foretold:
     error: float
 
 
-def foretold(along: Floats, values: Floats, found: Sequence[Margins]) -> Foretold | None:
-    """Return what happens first just behind the last of some orbits, as their margins vanish there.
+def predicted_change(along: Array, values: Array, found: Sequence[GrazingDistance]) -> PredictedChange | None:
+    """Return the first change of events just after the last of some orbits; None if no distance vanishes there.
 
     Parameters
     ----------
     along : array
-        Where the orbits are along the arc, shape [n].
+        Arc length of the orbits, shape [n].
     values : array
         Their values of the parameter, shape [n].
-    found : sequence of Margins
-        Their margins.
+    found : sequence of GrazingDistance
+        Their distances.
     """
     from scipy.interpolate import BarycentricInterpolator
 
-    nearest: tuple[float, Foretold] | None = None
-    for (name, kind), beside in zip(_KINDS.items(), found[-1].beside, strict=True):
+    nearest: tuple[float, PredictedChange] | None = None
+    for (name, kind), scale in zip(_KINDS.items(), found[-1].scales, strict=True):
         left = np.array([getattr(one, name) for one in found])
         which = _graded(left)
-        if left[-1] > _LITTLE * beside or len(which) < 2:
+        if left[-1] > _LITTLE * scale or len(which) < 2:
             continue
-        # the margin is the abscissa: one that vanishes like a root has no slope over the parameter
+        # the distance is the abscissa: a distance that vanishes like a root has no slope over the parameter
         there = np.column_stack([along, values])
         beyond, value = BarycentricInterpolator(left[which], there[which])(0.0).tolist()
         fewer = BarycentricInterpolator(left[which[:-1]], values[which[:-1]])(0.0) if len(which) > 2 else np.inf
         beyond -= along[-1]
-        near = abs(beyond) <= along[-1] - along[which[-1]]
-        if near and (nearest is None or beyond < nearest[0]):
-            nearest = beyond, Foretold(kind, value, abs(float(fewer) - value))
+        is_near = abs(beyond) <= along[-1] - along[which[-1]]
+        if is_near and (nearest is None or beyond < nearest[0]):
+            nearest = beyond, PredictedChange(kind, value, abs(float(fewer) - value))
     return None if nearest is None else nearest[1]
 
 
-def _graded(left: Floats) -> list[int]:
-    """Return the last of some margins, and those before it that are ever larger."""
+def _graded(left: Array) -> list[int]:
+    """Return the last of some distances, and those before it that increase backwards by a factor each."""
     if not np.isfinite(left[-1]):
         return []
     which = [len(left) - 1]
@@ -140,8 +142,8 @@ def _graded(left: Floats) -> list[int]:
     return which
 
 
-def _least_gaps(run: Solution, times: Floats, motion: ContactMotion) -> list[float]:
-    """Return the least gaps of the contacts that come near in a run, and are not hit [m]."""
+def _least_gaps(run: Solution, times: Array, motion: ContactMotion) -> list[float]:
+    """Return the least gaps of the contacts that come near in a run without an impact [m]."""
     from scipy.optimize import brentq
 
     events = run.events
@@ -161,13 +163,13 @@ def _least_gaps(run: Solution, times: Floats, motion: ContactMotion) -> list[flo
     return found
 
 
-def _largest(numbers: Floats) -> float:
-    """Return the largest of some numbers, where all contacts may be too far for any."""
+def _largest(numbers: Array) -> float:
+    """Return the largest finite number; 0 if all contacts are too far for any."""
     return float(np.max(np.nan_to_num(numbers), initial=0.0))
 
 
 def _least_time(impacts: Sequence[tuple[float, int]], period: float) -> float:
-    """Return the least time between successive impacts of different contacts in a motion that repeats [s]."""
+    """Return the least time between successive impacts of different contacts in a periodic motion [s]."""
     again = [(impacts[0][0] + period, impacts[0][1])] if impacts else []
     pairs = zip(impacts, [*impacts[1:], *again], strict=True)
     return min((later[0] - one[0] for one, later in pairs if later[1] != one[1]), default=np.inf)

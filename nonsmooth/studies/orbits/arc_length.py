@@ -1,4 +1,4 @@
-"""The path of orbits along a parameter: points on it, and the way on from them."""
+"""Predictor and corrector of pseudo-arclength continuation: orbits on a branch, and its tangent."""
 
 from __future__ import annotations
 
@@ -8,25 +8,25 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.solution.state import State
-from nonsmooth.studies.derivatives.extrapolation import derivative
+from nonsmooth.studies.derivatives.differences import SECOND, OrderOfEvents, Sampled, derivative, slope
 from nonsmooth.studies.derivatives.family import Family
-from nonsmooth.studies.derivatives.passage import Signature
-from nonsmooth.studies.derivatives.slope import SECOND, OrderOfEvents, Sampled, slope
+from nonsmooth.studies.derivatives.flow import Signature
 from nonsmooth.studies.orbits.linear import smooth
 from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit
 from nonsmooth.studies.orbits.sections import Section
+from nonsmooth.types import Array
 
-Floats = NDArray[np.float64]
 _CLOSE = 1e-11
+"""Largest residual of an orbit on the branch, in units of scales."""
 _CORRECTIONS = 12
+"""Steps of Newton's method."""
 _FIRST = 1e-3
 """Largest step of derivatives by the parameter, relative to its largest absolute value in the range."""
 _ENOUGH = 1e-4
-"""Relative error of derivatives by the parameter: they direct steps, and orbits do not depend on them."""
+"""Relative error of derivatives by the parameter: they direct steps only."""
 
 
 class OutOfRange(Exception):
@@ -35,8 +35,8 @@ class OutOfRange(Exception):
 
 @final
 @dataclass(frozen=True)
-class Point:
-    """An orbit, and the direction in which the branch continues.
+class ContinuationPoint:
+    """An orbit, and the tangent of the branch.
 
     Attributes
     ----------
@@ -45,24 +45,24 @@ class Point:
     by : array
         Derivative of the map by the parameter over its range, along the directions of the chart, shape [m].
     step : float
-        Step of the parameter that it was taken with, in the unit of the parameter.
+        Step of this derivative, in the unit of the parameter.
     tangent : array
         Unit tangent of the branch: directions of the chart, then the parameter over its range, shape [m + 1].
     along : float
-        Arc length from where the branch began.
+        Arc length from the start of the branch.
     """
 
     orbit: Orbit
-    by: Floats
+    by: Array
     step: float
-    tangent: Floats
+    tangent: Array
     along: float
 
 
 @final
 @dataclass(frozen=True)
 class Path:
-    """What is followed, over which range of which parameter; ``section`` gives that of a value."""
+    """The orbits of a family over a range of a parameter; ``section(value)`` returns the section at a value."""
 
     family: Family
     name: str
@@ -73,15 +73,17 @@ class Path:
 
     @property
     def range(self) -> float:
-        """How far the parameter goes."""
+        """Width of the range of the parameter."""
         return self.high - self.low
 
-    def value(self, point: Point) -> float:
+    def value(self, point: ContinuationPoint) -> float:
         """Return the parameter of a point."""
         return point.orbit.family[self.name]
 
-    def at(self, state: State, value: float, along: float, before: Point | None, *, is_quick: bool = False) -> Point:
-        """Return the map about a state with its tangent, which continues that of the point before.
+    def at(
+        self, state: State, value: float, along: float, before: ContinuationPoint | None, *, is_quick: bool = False
+    ) -> ContinuationPoint:
+        """Return the map about a state with its tangent, oriented as the tangent of the point before.
 
         Quick derivatives use the steps of the point before and have no errors.  They serve Newton's method.
 
@@ -95,12 +97,12 @@ class Path:
         near = before if is_quick else None
         found = smooth(family.model(), state, section, self.within, near and near.orbit.map.step)
 
-        def changed(change: float) -> tuple[Floats, Signature]:
+        def changed(change: float) -> tuple[Array, Signature]:
             there = value + change
             model = self.family.model(**{self.name: there})
-            # what is closed moves with what carries it
+            # closed contacts stay closed as the parameter moves bodies
             begin = found.chart.held_in(model, state)
-            end = self.section(there).passage(model, begin)
+            end = self.section(there).flow(model, begin)
             return found.chart.between(begin, end.state), end.signature
 
         by, step = self._by(changed, found.end.signature, near)
@@ -108,9 +110,9 @@ class Path:
         if before is not None and tangent @ before.tangent < 0.0:
             tangent = -tangent
         residual = float(np.max(np.abs(found.way), initial=0.0))
-        return Point(Orbit(family, state, section, self.within, residual, found), by, step, tangent, along)
+        return ContinuationPoint(Orbit(family, state, section, self.within, residual, found), by, step, tangent, along)
 
-    def _by(self, changed: Sampled, expected: Signature, near: Point | None) -> tuple[Floats, float]:
+    def _by(self, changed: Sampled, expected: Signature, near: ContinuationPoint | None) -> tuple[Array, float]:
         """Return the derivative by the parameter over its range, and the step of the parameter."""
         if near is not None:
             with contextlib.suppress(OrderOfEvents, InvalidInput):
@@ -119,15 +121,17 @@ class Path:
         found = derivative(changed, largest, expected, _ENOUGH)
         return self.range * found.value, found.step
 
-    def corrected(self, point: Point, step: float) -> Point:
-        """Return the point on the branch whose projection on the way on from a point is a step.
+    def corrected(self, point: ContinuationPoint, step: float) -> ContinuationPoint:
+        """Return the point on the branch whose projection on the tangent of a point is a step.
 
         Raises
         ------
         NoOrbit
-            If Newton's method does not arrive.
+            If Newton's method does not converge.
         OrderOfEvents
-            If events change on the way.
+            If events change.
+        OutOfRange
+            If the parameter leaves its range.
         """
         start, chart = point.orbit.state, point.orbit.map.chart
         value = self.value(point)

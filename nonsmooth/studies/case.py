@@ -1,4 +1,4 @@
-"""What a study runs: a scenario, or a function that returns a system."""
+"""Cases of a study: the system of each run, from a scenario or a function of its parameters."""
 
 from __future__ import annotations
 
@@ -9,31 +9,31 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, final
 
-from nonsmooth.checks import is_finite
 from nonsmooth.datasets import described
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.files.scenario import FileScenario
 from nonsmooth.interfaces import Scenario
 from nonsmooth.parameters import check_number
-from nonsmooth.studies.definition import digest
-from nonsmooth.studies.sampling.points import Points, Value
+from nonsmooth.studies.inputs import check_positive
+from nonsmooth.studies.provenance import digest
+from nonsmooth.studies.sampling.sampling import SamplePoints, Value
 from nonsmooth.system.system import System
 
 
 @dataclass(frozen=True)
 class Case:
-    """One run: what is simulated, and for how long.
+    """The system and the end time of one run.
 
     Attributes
     ----------
     scenario : Scenario or None
-        The scenario with the parameters of the run; None where a function built the system.
+        The scenario with the parameters of the run; None if a function built the system.
     system : System
         The system at its start.
     t_end : float
         End time [s].
     sample_interval : float or None
-        Time between samples [s]; a 2000th of the run where it is None.
+        Time between samples [s]; a 2000th of the run if it is None.
     """
 
     scenario: Scenario | None
@@ -42,23 +42,23 @@ class Case:
     sample_interval: float | None
 
 
-class Target(ABC):
-    """What a study runs.
+class CaseFactory(ABC):
+    """Builds the cases of a study.
 
     The contract:
 
-    1. ``check`` refuses names and values that can be none of its parameters, before anything runs.
-    2. ``case`` returns one run; it may be called in any thread and, unpickled, in another process.
+    1. ``check`` refuses wrong names and values of parameters before anything runs.
+    2. ``case`` may be called in any thread and, unpickled, in another process.
     """
 
     @property
     @abstractmethod
     def name(self) -> str:
-        """What it is called in messages."""
+        """Its name in messages."""
 
     @abstractmethod
-    def check(self, points: Points) -> None:
-        """Look at names and values of the varied parameters.
+    def check(self, points: SamplePoints) -> None:
+        """Check names and values of the varied parameters.
 
         Raises
         ------
@@ -68,31 +68,31 @@ class Target(ABC):
 
     @abstractmethod
     def case(self, parameters: Mapping[str, Value]) -> Case:
-        """Return the run of these parameters."""
+        """Return the case of these parameters."""
 
     @abstractmethod
-    def told(self, name: str) -> dict[str, str]:
-        """Return unit and description of a parameter, as attributes."""
+    def attributes(self, name: str) -> dict[str, str]:
+        """Return unit and description of a parameter."""
 
     @abstractmethod
     def described(self) -> Mapping[str, Any]:
-        """Return what it is, for the record."""
+        """Return its definition, for the specification of the study."""
 
 
 @final
 @dataclass(frozen=True)
-class OfScenario(Target):
-    """A scenario, of which the study varies parameters by name."""
+class ScenarioCases(CaseFactory):
+    """Cases of a scenario with other values of its parameters."""
 
     scenario: Scenario
 
     @property
     def name(self) -> str:
-        """As the scenario is called."""
+        """Name of the scenario."""
         return self.scenario.name
 
-    def check(self, points: Points) -> None:
-        """Look at the least and the greatest value of each; rules between parameters are looked at by each run."""
+    def check(self, points: SamplePoints) -> None:
+        """Check the least and the greatest value of each; each run checks rules between parameters."""
         known, owner = self.scenario.varies, self.name
         for name, values in points.columns.items():
             if name not in known:
@@ -114,13 +114,13 @@ class OfScenario(Target):
         one = self.scenario.varied(**parameters)
         return Case(one, one.build(), one.t_end, one.sample_interval)
 
-    def told(self, name: str) -> dict[str, str]:
-        """Return what the scenario declares."""
+    def attributes(self, name: str) -> dict[str, str]:
+        """Return unit and description that the scenario declares."""
         rule = self.scenario.varies[name]
         return described(rule.doc, rule.unit)
 
     def described(self) -> Mapping[str, Any]:
-        """Return class, its text and parameters."""
+        """Return class, digest of its text, and parameters."""
         owner = type(self.scenario)
         values = {field.name: getattr(self.scenario, field.name) for field in dataclasses.fields(self.scenario)}  # type: ignore[arg-type]
         name = f"{owner.__module__}:{owner.__qualname__}"
@@ -129,8 +129,8 @@ class OfScenario(Target):
 
 @final
 @dataclass(frozen=True)
-class OfFunction(Target):
-    """A function ``f(**parameters) -> System``, which other processes find by its name.
+class FunctionCases(CaseFactory):
+    """Cases of a function ``f(**parameters) -> System``, which other processes find by its name.
 
     Attributes
     ----------
@@ -153,8 +153,8 @@ class OfFunction(Target):
         """Name of the function."""
         return self.function.__name__
 
-    def check(self, points: Points) -> None:
-        """Look whether the function takes these names, and needs no others."""
+    def check(self, points: SamplePoints) -> None:
+        """Check that the function takes these names, and needs no others."""
         takes = inspect.signature(self.function).parameters
         free = any(one.kind is one.VAR_KEYWORD for one in takes.values())
         named = {name: one for name, one in takes.items() if one.kind in (one.POSITIONAL_OR_KEYWORD, one.KEYWORD_ONLY)}
@@ -170,30 +170,30 @@ class OfFunction(Target):
         """Call the function."""
         return Case(None, self.function(**parameters), self.t_end, None)
 
-    def told(self, name: str) -> dict[str, str]:
-        """Return the name: of a function nothing else is known."""
+    def attributes(self, name: str) -> dict[str, str]:
+        """Return the name; a function declares nothing else."""
         return described(name)
 
     def described(self) -> Mapping[str, Any]:
-        """Return its name, its text and the end time."""
+        """Return its name, digest of its text, and the end time."""
         name = f"{self.function.__module__}:{self.function.__qualname__}"
         return {"function": name, "source_sha256": digest(self.function), "t_end": self.t_end}
 
 
-def target(runs: Scenario | System | Callable[..., System], t_end: float | None) -> Target:
-    """Return what a study runs; ``t_end`` is the end time of what has none of its own [s].
+def case_factory(runs: Scenario | System | Callable[..., System], t_end: float | None) -> CaseFactory:
+    """Return the cases of a scenario, a system or a function; a scenario has its own end time.
 
     Raises
     ------
     InvalidInput
-        If it is none of them, the end time is missing, or given besides that of a scenario.
+        If it is of another kind, the end time [s] is missing, or given for a scenario.
     """
     if isinstance(runs, Scenario):
         if t_end is not None:
             remedy = "Give the scenario another one, where it has such a parameter."
             raise InvalidInput("Study: t_end", "must be left out, as the scenario has its own", t_end, remedy)
-        return OfScenario(runs)
-    if t_end is None or not is_finite(t_end) or t_end <= 0.0:
-        rule, remedy = "must be positive and finite for a system or a function", "Give Study(..., t_end=1.0) in [s]."
-        raise InvalidInput("Study: t_end", rule, t_end, remedy)
-    return OfScenario(FileScenario.of(runs, t_end)) if isinstance(runs, System) else OfFunction(runs, t_end)
+        return ScenarioCases(runs)
+    rule = "must be positive and finite for a system or a function"
+    check_positive("Study: t_end", t_end, "Give Study(..., t_end=1.0) in [s].", rule)
+    assert t_end is not None
+    return ScenarioCases(FileScenario.of(runs, t_end)) if isinstance(runs, System) else FunctionCases(runs, t_end)

@@ -1,4 +1,4 @@
-"""A piece of a run from one state to another, and the events that it passed."""
+"""The flow of a model from one state to a later one, and the events on the way."""
 
 from __future__ import annotations
 
@@ -7,25 +7,27 @@ from typing import final
 
 from nonsmooth.engine.memory.modes import CAUSES, Cause
 from nonsmooth.runs.model import Model
+from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
+from nonsmooth.types import Array
 
 Signature = tuple[tuple[int, int], ...]
-"""Cause and contact of each event."""
+"""Cause and contact of each event, in order."""
 
 
 @final
 @dataclass(frozen=True)
-class Passage:
-    """Where a piece of a run ended.
+class FlowSegment:
+    """A run from one state to another.
 
     Attributes
     ----------
     state : State
         Its end.
     signature : Signature
-        The events behind the start, in order.
+        The events after the start, in order.
     times : tuple of float
-        When they were [s].
+        Their times [s].
     """
 
     state: State
@@ -33,27 +35,38 @@ class Passage:
     times: tuple[float, ...]
 
 
-def passage(model: Model, start: State, t_end: float) -> Passage:
+def flow(model: Model, start: State, t_end: float) -> FlowSegment:
     """Run a model from a state to a time [s].
 
     Raises
     ------
     RunFailed
-        If it cannot go on.
+        If it cannot continue.
     KeyboardInterrupt
-        If it was interrupted: half a piece is none.
+        If it was interrupted before its end.
     """
-    run = model.run(t_end, start=start, sample_interval=t_end - start.time)
+    run = completed(model.run(t_end, start=start, sample_interval=t_end - start.time))
+    times, signature = events_of(run)
+    return FlowSegment(run.state, signature, tuple(times.tolist()))
+
+
+def completed(run: Solution) -> Solution:
+    """Return a run; raise KeyboardInterrupt if it was interrupted."""
     if run.status == "interrupted":
         raise KeyboardInterrupt
+    return run
+
+
+def events_of(run: Solution) -> tuple[Array, Signature]:
+    """Return the times [s], shape [n], and the signature of all events of a run but its start."""
     events = run.events
     kept = events.cause != Cause.START
-    told = zip(events.cause[kept].tolist(), events.contact[kept].tolist(), strict=True)
-    return Passage(run.state, tuple(told), tuple(events.time[kept].tolist()))
+    signature = zip(events.cause[kept].tolist(), events.contact[kept].tolist(), strict=True)
+    return events.time[kept], tuple(signature)
 
 
 def named(signature: Signature, model: Model, most: int = 4) -> str:
-    """Return the words for some events."""
+    """Return the first events of a signature in words."""
     names = model.system.names
     words = []
     for cause, i in signature[:most]:
