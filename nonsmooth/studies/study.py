@@ -155,9 +155,9 @@ class Study:
         Parameters
         ----------
         path : Path or str
-            The folder of the study, new, or one that this study has begun.
+            Folder of the study: a new one, or one that this study has begun, which continues.
         executor : str or Executor
-            Where the runs are computed: serial, threads or dask; all give the same bits.
+            Computes the runs: serial, threads or dask; all give the same bits.
         chunk : int, optional
             Runs that are stored together; fixed when a study begins.
         display : Display, optional

@@ -14,7 +14,7 @@ import nonsmooth as ns
 from bodies import Ball, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth import plot
-from nonsmooth.cli.telling import report
+from nonsmooth.cli.report import run_report as report
 from nonsmooth.interfaces import Cause, Engine, Measure
 from tests.runs.faulty_engines import Blind
 from tests.runs.reporting_engines import IMPULSE, Judged, Resting

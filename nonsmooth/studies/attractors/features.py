@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def features(study: xarray.Dataset, tolerances: Mapping[str, float], along: Along | None = None) -> xarray.Dataset:
-    """Return the attractor of each run, by numbers that were recorded.
+    """Find the attractor of each run by recorded numbers.
 
     Two runs are on one attractor where they agree in every feature within its tolerance, or through further runs that
     do (single linkage).  To have no such number, as a run that never came to rest has no time of it, is a feature, too.
@@ -30,7 +30,7 @@ def features(study: xarray.Dataset, tolerances: Mapping[str, float], along: Alon
     study : Dataset
         A study.
     tolerances : mapping of str to float
-        Of each feature, a record that is one number, the greatest difference that counts as none, in its unit.
+        Largest difference of each feature within an attractor, in its unit; a feature is a record that is one number.
     along : Along, optional
         A parameter along which attractors are told apart value by value, and followed.
 

@@ -49,7 +49,7 @@ class Along:
     Parameters
     ----------
     parameter : str
-        Name of the parameter.
+        Parameter along which attractors are matched.
     tolerance : float
         How far an attractor may move from one value to the next, as Hausdorff distance of its points, of which each
         coordinate counts in units of its scale, or of the tolerance of its feature.

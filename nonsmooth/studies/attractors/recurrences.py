@@ -42,8 +42,8 @@ def recurrences(study: xarray.Dataset, tolerance: float = 1e-3, along: Along | N
     study : Dataset
         A study with the record of a :class:`Stroboscope`.
     tolerance : float
-        Greatest difference of a coordinate with which a run repeats, in units of its scale: of lengths the size of the
-        body, of velocities that of a fall through it.
+        Largest difference of coordinates that repeat, in units of their scales: the size of the body, and the speed of
+        a fall through it.
     along : Along, optional
         A parameter along which attractors are told apart value by value, and followed.
 

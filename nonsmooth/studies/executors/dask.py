@@ -42,9 +42,9 @@ class Dask(Executor):
     Parameters
     ----------
     scheduler : str, optional
-        Address of a scheduler, as "tcp://10.0.0.1:8786"; processes of this machine by default.
+        Address of a scheduler of dask, as "tcp://10.0.0.1:8786"; processes of this machine by default.
     n : int, optional
-        Number of those; as many as there are processors by default.
+        Number of processes; one for each processor by default.
     """
 
     scheduler: str | None = None

@@ -116,8 +116,17 @@ class LatinHypercube(Drawn):
         return np.asarray(qmc.LatinHypercube(d, rng=np.random.default_rng(self.seed)).random(self.n))
 
 
-def random(n: int, seed: int, /, **ranges: Range) -> Random:
-    """Return ``n`` independent, uniform draws from ranges.
+def random(n: int, seed: int = 0, /, **ranges: Range) -> Random:
+    """Return independent, uniform draws from ranges.
+
+    Parameters
+    ----------
+    n : int
+        Number of draws.
+    seed : int
+        Seed of the draws.
+    **ranges : tuple of float
+        Lower and upper end of each parameter.
 
     Raises
     ------
@@ -127,7 +136,7 @@ def random(n: int, seed: int, /, **ranges: Range) -> Random:
     return Random(n, seed, ranges)
 
 
-def sobol(n: int, seed: int, /, **ranges: Range) -> Sobol:
+def sobol(n: int, seed: int = 0, /, **ranges: Range) -> Sobol:
     """Return ``n`` = 2^m scrambled points of Sobol's sequence in ranges.
 
     Raises
@@ -138,7 +147,7 @@ def sobol(n: int, seed: int, /, **ranges: Range) -> Sobol:
     return Sobol(n, seed, ranges)
 
 
-def latin_hypercube(n: int, seed: int, /, **ranges: Range) -> LatinHypercube:
+def latin_hypercube(n: int, seed: int = 0, /, **ranges: Range) -> LatinHypercube:
     """Return a Latin hypercube of ``n`` runs in ranges.
 
     Raises

@@ -145,7 +145,7 @@ def test_the_woodpecker_pecks_its_way_down() -> None:
 
 
 def test_parameters_keep_their_units() -> None:
-    assert PoincareSection("phi_m").watched(Family.of(Woodpecker())).label("bird_arm") == "bird_arm [m]"
+    assert PoincareSection("phi_m").guarded(Family.of(Woodpecker())).label("bird_arm") == "bird_arm [m]"
 
 
 @pytest.mark.slow

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from nonsmooth.cli.telling.table import lines
+from nonsmooth.cli.report.table import lines
 from nonsmooth.engine.memory.limits import LIMITS, Limit
 from nonsmooth.solution.solution import Solution
 

@@ -1,28 +1,33 @@
-"""What ``--over`` and ``--sample`` say: a sampling, the values of one parameter, or its range."""
+"""Values of a parameter in one word: lists, ranges and draws of ``--over``, and the period of ``--period``."""
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.cli.asking.request import assignments
+from nonsmooth.cli.parse.request import assignments
 from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.studies.orbits.scan import Period
 from nonsmooth.studies.sampling import Sampling, grid, latin_hypercube, random, sobol
 
-HELP = (
-    "a parameter and its values: NAME=LOW:HIGH:N for N values, both ends among them, NAME=A,B,C for these; "
-    "NAME=LOW:HIGH with --sample; may come often"
+OVER = (
+    "NAME=LOW:HIGH:N for N values, both ends among them, NAME=A,B,C for these, NAME=LOW:HIGH with --sample; may come "
+    "often"
 )
+PERIOD = "a number, or N/NAME or Npi/NAME if the parameter NAME of --over is the frequency"
 _DRAWS: Mapping[str, Callable[..., Sampling]] = {"random": random, "sobol": sobol, "latin_hypercube": latin_hypercube}
 _GRID, _RANGE = "LOW:HIGH:N, or values apart by commas", "LOW:HIGH"
 _EXAMPLE = "For example --over restitution=0.5:0.9:41"
+_PERIOD = re.compile(r"(?P<count>\d*\.?\d*)\s*(?P<pi>pi)?\s*/\s*(?P<name>\S+)")
 
 
 def sampling(words: Iterable[str], sample: str | None, seed: int) -> Sampling:
-    """Return the sampling that was asked for.
+    """Return the sampling of ``--over``, ``--sample`` and ``--seed``.
 
     Raises
     ------
@@ -41,17 +46,11 @@ def sampling(words: Iterable[str], sample: str | None, seed: int) -> Sampling:
     if kind not in _DRAWS:
         raise UnknownName("--sample", kind, _DRAWS)
     ranges = {name: _range(name, word) for name, word in named.items()}
-    return _DRAWS[kind](_whole("--sample", count), seed, **ranges)
+    return _DRAWS[kind](_count("--sample", count), seed, **ranges)
 
 
 def axis(word: str) -> tuple[str, list[float]]:
-    """Return a parameter and its values.
-
-    Raises
-    ------
-    InvalidInput
-        If the word has another form, a range is empty, or a value is no number.
-    """
+    """Return a parameter and its values; InvalidInput if they are not numbers."""
     name, values = _cut(word)
     row = _values(name, values)
     if not np.issubdtype(row.dtype, np.floating):
@@ -60,29 +59,56 @@ def axis(word: str) -> tuple[str, list[float]]:
 
 
 def span(word: str) -> tuple[str, tuple[float, float]]:
-    """Return a parameter and its range.
-
-    Raises
-    ------
-    InvalidInput
-        If the word has another form.
-    """
+    """Return a parameter and its range."""
     name, values = _cut(word)
     return name, _range(name, values)
 
 
 def check_not_set(words: Iterable[str], given: Iterable[str]) -> None:
-    """Refuse a parameter that has a value besides those it is varied over.
-
-    Raises
-    ------
-    InvalidInput
-        If there is one.
-    """
+    """Raise InvalidInput if a parameter of ``--over`` has a value of ``--set``, too."""
     fixed = assignments(given)
     for name in (_cut(word)[0] for word in words):
         if name in fixed:
             raise InvalidInput(f"--set {name}", f"must be left out with --over {name}", fixed[name], "Leave one out.")
+
+
+def period(word: str, name: str) -> Period:
+    """Return the period [s], or the function that returns it at a value of the parameter.
+
+    Parameters
+    ----------
+    word : str
+        A number of seconds, "1/frequency" or "2pi/omega".
+    name : str
+        The parameter that is varied.
+
+    Raises
+    ------
+    InvalidInput
+        If the word has another form, or names another parameter.
+    """
+    try:
+        return float(word)
+    except ValueError:
+        pass
+    found = _PERIOD.fullmatch(word.strip())
+    if found is None or not (found["count"].strip(".") or found["pi"]):
+        remedy = f"For example --period 0.04, --period 1/{name} or --period 2pi/{name}."
+        raise InvalidInput("--period", "must be a number of seconds, N/NAME or Npi/NAME", word, remedy)
+    if found["name"] != name:
+        raise UnknownName("--period: parameter of --over", found["name"], [name])
+    number = float(found["count"] or 1.0) * (math.pi if found["pi"] else 1.0)
+    return lambda value: number / value if value else math.inf
+
+
+def tolerance(thing: str, word: str) -> tuple[str, float]:
+    """Return the name and the number of NAME=TOLERANCE."""
+    name, _, number = word.partition("=")
+    try:
+        return name.strip(), float(number)
+    except ValueError:
+        remedy = f"For example {thing} {name.strip()}=1e-3."
+        raise InvalidInput(thing, "must have the form NAME=TOLERANCE", word, remedy) from None
 
 
 def _cut(word: str) -> tuple[str, str]:
@@ -100,7 +126,7 @@ def _values(name: str, word: str) -> NDArray[Any]:
         ends = _numbers(name, parts, _GRID)
         if not ends[0] < ends[1]:
             raise InvalidInput(f"--over {name}", "must be a range, the lower end first", word, f"{_EXAMPLE}.")
-        return np.linspace(*ends, _whole(f"--over {name}", n))
+        return np.linspace(*ends, _count(f"--over {name}", n))
     parts = word.split(",")
     try:
         return np.array([float(part) for part in parts])
@@ -113,7 +139,7 @@ def _range(name: str, word: str) -> tuple[float, float]:
 
 
 def _numbers(name: str, words: list[str], form: str) -> tuple[float, float]:
-    """Return two numbers out of as many words."""
+    """Return two numbers out of two words."""
     try:
         low, high = (float(word) for word in words)
     except ValueError:
@@ -125,7 +151,7 @@ def _refusal(name: str, form: str, word: str) -> InvalidInput:
     return InvalidInput(f"--over {name}", f"must have the form {form}", word, f"{_EXAMPLE}, or 0.5:0.9 for a range.")
 
 
-def _whole(thing: str, word: str) -> int:
+def _count(thing: str, word: str) -> int:
     if not word.isdigit() or int(word) < 1:
         raise InvalidInput(thing, "must have a positive whole number of values", word, "For example 41.")
     return int(word)

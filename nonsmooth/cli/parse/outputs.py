@@ -1,43 +1,33 @@
-"""Where a command writes: looked at before it starts, so that nothing is lost that was there or is computed."""
+"""Places that a command writes to, checked before it starts so that nothing is lost."""
 
 from __future__ import annotations
 
-import argparse
+import importlib.util
 from pathlib import Path
 
-from nonsmooth.errors import InvalidInput
+from nonsmooth.cli.parse.options import flag
+from nonsmooth.errors import InvalidInput, MissingPackagesError
 from nonsmooth.solution import files
 
-OVERWRITE = "--overwrite"
-_REMEDY = f"Choose another name, or add {OVERWRITE}."
+OVERWRITE = flag("--overwrite", "write there even if something is there already")
+_REMEDY = f"Choose another name, or add {OVERWRITE.name}."
 
 
-def add_to(command: argparse.ArgumentParser) -> None:
-    """Add the option to a command."""
-    command.add_argument(OVERWRITE, action="store_true", help="write there even if something is there already")
+def require_matplotlib() -> None:
+    """Raise MissingPackagesError unless matplotlib is installed; it is not imported."""
+    if importlib.util.find_spec("matplotlib") is None:
+        raise MissingPackagesError('--out needs matplotlib: pip install "nonsmooth[full]"')
 
 
 def prepare_folder(folder: Path, overwrite: bool, remedy: str = _REMEDY) -> None:
-    """Create a folder to write to.
-
-    Raises
-    ------
-    InvalidInput
-        If that is not possible, or files are in it that were not to be overwritten.
-    """
+    """Create a folder; InvalidInput if that is impossible, or files are in it that must not be overwritten."""
     if not overwrite and folder.is_dir() and any(folder.iterdir()):
         raise InvalidInput(str(folder), "must be a folder that is empty or new", "a folder with files", remedy)
     files.prepare(folder)
 
 
 def prepare_file(path: Path, overwrite: bool) -> None:
-    """Create the folder of a file to write.
-
-    Raises
-    ------
-    InvalidInput
-        If that is not possible, or there is a file that was not to be overwritten, or a folder of that name.
-    """
+    """Create the folder of a file; InvalidInput if that is impossible, or the file must not be overwritten."""
     if path.is_dir():
         raise InvalidInput(str(path), "must be a file", "a folder", "Add the name of a file.")
     if not overwrite and path.exists():

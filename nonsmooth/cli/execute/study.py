@@ -1,4 +1,4 @@
-"""What all commands that run a study have in common: run what is not stored yet, tell what came of it."""
+"""The course of a study: run everything that is not stored yet, and report the results."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from nonsmooth.cli.telling.messages import say, tell
-from nonsmooth.studies.executors.executor import Executor
+from nonsmooth.cli.report.messages import say, tell
+from nonsmooth.studies.executors import Executor
 from nonsmooth.studies.status import summary
 from nonsmooth.studies.store import Store
 from nonsmooth.studies.study import Study
@@ -21,12 +21,12 @@ if TYPE_CHECKING:
 def perform(
     study: Study, words: Mapping[str, Any], path: Path, executor: Executor, chunk: int | None = None
 ) -> xarray.Dataset:
-    """Run, or go on with, a study that was asked for in words; return all of it."""
+    """Run or continue a study; store the words of its request with it, and return its records."""
     try:
-        with contextlib.redirect_stdout(sys.stderr):  # whatever a plug-in prints
+        with contextlib.redirect_stdout(sys.stderr):  # output of a plug-in
             found = study.run(path, executor=executor, chunk=chunk, request=words)
     except KeyboardInterrupt:
-        tell(f"what is done stays: `nonsmooth study resume {path}` goes on")
+        tell(f"complete chunks stay: `nonsmooth study resume {path}` continues")
         raise
     say(summary(found))
     if texts := Store(path).texts():

@@ -1,4 +1,4 @@
-"""What goes to standard output and what to standard error, and in which form."""
+"""Messages: results go to standard output, all else to standard error."""
 
 from __future__ import annotations
 
@@ -10,14 +10,13 @@ from collections.abc import Callable
 from typing import Any
 
 from nonsmooth.errors import NonsmoothWarning
-from nonsmooth.solution.files import FileError
 
 _CONTROLS = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
 """Characters that a terminal obeys, apart from tabulators and line breaks."""
 
 
 def _printable(text: str) -> str:
-    """Return a text that a terminal only shows: names and titles may come from a file of another person."""
+    """Return a text without control characters: names and titles may come from a file of another person."""
     return _CONTROLS.sub(lambda found: repr(found[0])[1:-1], text)
 
 
@@ -27,18 +26,21 @@ def say(text: str) -> None:
     Raises
     ------
     FileError
-        If it does not take it: a full disk, a closed pipe.
+        If it cannot be written: a full disk, a closed pipe.
     """
     try:
         print(_printable(text), flush=True)
     except OSError as error:
+        # imported on use: `nonsmooth --help` starts faster without it
+        from nonsmooth.solution.files import FileError
+
         with contextlib.suppress(OSError):  # else the interpreter tries, and fails, once more when it ends
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         raise FileError("standard output", error) from error
 
 
 def tell(text: str) -> None:
-    """Print a message to standard error, if that is open and takes it: a message lost must not cost a run."""
+    """Print a message to standard error; a message that cannot be printed must not end a run."""
     if sys.stderr is not None:
         with contextlib.suppress(OSError):
             print(_printable(text), file=sys.stderr, flush=True)

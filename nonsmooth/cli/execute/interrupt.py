@@ -5,7 +5,7 @@ from __future__ import annotations
 import signal
 from types import FrameType, TracebackType
 
-from nonsmooth.cli.telling.messages import tell
+from nonsmooth.cli.report.messages import tell
 
 
 class Interrupt:

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from nonsmooth.cli.telling.messages import complain, tell
+from nonsmooth.cli.report.messages import complain, tell
 from nonsmooth.errors import NonsmoothError
 from nonsmooth.solution.files import replacing
 
