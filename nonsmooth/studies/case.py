@@ -16,7 +16,7 @@ from nonsmooth.interfaces import Scenario
 from nonsmooth.parameters import check_number
 from nonsmooth.studies.inputs import check_positive
 from nonsmooth.studies.provenance import digest
-from nonsmooth.studies.sampling.sampling import SamplePoints, Value
+from nonsmooth.studies.sampling import Sampling, Value
 from nonsmooth.system.system import System
 
 
@@ -57,7 +57,7 @@ class CaseFactory(ABC):
         """Its name in messages."""
 
     @abstractmethod
-    def check(self, points: SamplePoints) -> None:
+    def check(self, sampling: Sampling) -> None:
         """Check names and values of the varied parameters.
 
         Raises
@@ -91,10 +91,10 @@ class ScenarioCases(CaseFactory):
         """Name of the scenario."""
         return self.scenario.name
 
-    def check(self, points: SamplePoints) -> None:
+    def check(self, sampling: Sampling) -> None:
         """Check the least and the greatest value of each; each run checks rules between parameters."""
         known, owner = self.scenario.varies, self.name
-        for name, values in points.columns.items():
+        for name, values in sampling.columns.items():
             if name not in known:
                 raise UnknownName(f"parameter of {owner}", name, known)
             rule, thing = known[name], f"{owner}.{name}"
@@ -153,16 +153,16 @@ class FunctionCases(CaseFactory):
         """Name of the function."""
         return self.function.__name__
 
-    def check(self, points: SamplePoints) -> None:
+    def check(self, sampling: Sampling) -> None:
         """Check that the function takes these names, and needs no others."""
         takes = inspect.signature(self.function).parameters
         free = any(one.kind is one.VAR_KEYWORD for one in takes.values())
         named = {name: one for name, one in takes.items() if one.kind in (one.POSITIONAL_OR_KEYWORD, one.KEYWORD_ONLY)}
-        for name in points.columns:
+        for name in sampling.columns:
             if name not in named and not free:
                 raise UnknownName(f"parameter of {self.function.__name__}", name, named)
         for name, one in named.items():
-            if one.default is one.empty and name not in points.columns:
+            if one.default is one.empty and name not in sampling.columns:
                 thing = f"parameter {name} of {self.function.__name__}"
                 raise InvalidInput(thing, "must be varied, as it has no default", None, "Add it to the sampling.")
 

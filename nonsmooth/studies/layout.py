@@ -9,7 +9,7 @@ import numpy as np
 
 from nonsmooth.studies.case import CaseFactory
 from nonsmooth.studies.records.record import StudyRecord
-from nonsmooth.studies.sampling.sampling import SamplePoints
+from nonsmooth.studies.sampling import Sampling
 from nonsmooth.studies.status import UNKNOWN, RunStatus, reason_attributes
 from nonsmooth.studies.store import Coordinate, Variable
 
@@ -33,9 +33,9 @@ def variables(records: Sequence[StudyRecord]) -> list[Variable]:
     ]
 
 
-def coordinates(records: Sequence[StudyRecord], points: SamplePoints, cases: CaseFactory) -> dict[str, Coordinate]:
+def coordinates(records: Sequence[StudyRecord], sampling: Sampling, cases: CaseFactory) -> dict[str, Coordinate]:
     """Return the parameters over the runs, and the axes of records."""
-    found = {name: Coordinate(("run",), values, cases.attributes(name)) for name, values in points.columns.items()}
+    found = {name: Coordinate(("run",), values, cases.attributes(name)) for name, values in sampling.columns.items()}
     for one in records:
         for axis, labels in one.axes.items():
             told = {"units": "s", "long_name": "time"} if axis == "time" else {"long_name": axis}

@@ -25,7 +25,7 @@ from nonsmooth.studies.opening import open_study
 from nonsmooth.studies.provenance import differing, provenance
 from nonsmooth.studies.records.record import RunResult
 from nonsmooth.studies.records.recorders import Requested, records
-from nonsmooth.studies.sampling.sampling import Sampling
+from nonsmooth.studies.sampling import Sampling
 from nonsmooth.studies.status import VALUED
 from nonsmooth.studies.store import Store, is_study
 from nonsmooth.studies.work import Chunk, Work
@@ -87,8 +87,8 @@ class Study:
     ) -> None:
         check_kind("Study: sampling", sampling, Sampling, "For example studies.grid(restitution=[0.5, 0.9]).")
         self._cases = case_factory(runs, t_end)
-        self._sampling, self._points = sampling, sampling.points()
-        self._cases.check(self._points)
+        self._sampling = sampling
+        self._cases.check(self._sampling)
         integrates = EventDriven() if engine is None else engine
         check_kind("Study: engine", integrates, Engine, "Give nonsmooth.EventDriven(), or another one.")
         if budget is not None:
@@ -96,13 +96,13 @@ class Study:
         self._work = Work(self._cases, Budgeted(integrates, budget or _UNLIMITED))
         self._work = dataclasses.replace(self._work, records=records(record, self._first()))
         for name in self.records:
-            if name in self._points.columns:
+            if name in self._sampling.columns:
                 rule = "must be none of what is varied, which is kept anyway"
-                raise InvalidInput(f"record {name}", rule, list(self._points.columns), "Leave it out.")
+                raise InvalidInput(f"record {name}", rule, list(self._sampling.columns), "Leave it out.")
         self._budget = budget
 
     def __len__(self) -> int:
-        return len(self._points)
+        return len(self._sampling)
 
     def __repr__(self) -> str:
         """Return the number of runs, and the name of the scenario."""
@@ -118,7 +118,7 @@ class Study:
         last: Exception = InvalidInput("study", "must have a run", None, "Add one.")
         for run in range(min(len(self), 10)):
             try:
-                case = self._cases.case(self._points.at(run))
+                case = self._cases.case(self._sampling.at(run))
                 t_end = min(case.t_end, _FIRST_SAMPLES * (case.sample_interval or case.t_end))
                 return self._work.result(case, t_end)
             except Exception as error:  # of a function of the user, too
@@ -130,8 +130,8 @@ class Study:
         """Definition of the study as JSON; studies with the same definition have the same bits."""
         known = {
             "runs": dict(self._cases.described()),
-            "sampling": dict(self._sampling.described()),
-            "points": self._points.digest,
+            "sampling": dict(self._sampling.description),
+            "points": self._sampling.digest,
             "engine": {"type": type(self._work.engine.engine).__name__, **vars(self._work.engine.engine)},
             "budget": self._budget,
             "records": [
@@ -207,15 +207,15 @@ class Study:
 
     def _chunk(self, store: Store, number: int) -> Chunk:
         runs = range(number * store.chunk, min(len(self), (number + 1) * store.chunk))
-        return Chunk(number, runs.start, tuple(map(self._points.at, runs)))
+        return Chunk(number, runs.start, tuple(map(self._sampling.at, runs)))
 
     def _create(self, path: Path, chunk: int | None, request: Mapping[str, Any]) -> None:
         size = max(1, min(_LARGEST, -(-len(self) // _CHUNKS))) if chunk is None else chunk
         spec, records_of = self.spec, self._work.records
-        along, made = coordinates(records_of, self._points, self._cases), variables(records_of)
+        along, made = coordinates(records_of, self._sampling, self._cases), variables(records_of)
         layout = {
-            "parameters": list(self._points.columns),
-            "dims": dict(self._points.dims),
+            "parameters": list(self._sampling.columns),
+            "dims": dict(self._sampling.dims),
             "variables": [one.name for one in made],
             "labels": labels_of(along),
         }

@@ -14,7 +14,7 @@ from nonsmooth.simulate import assemble
 from nonsmooth.studies.budget import Budgeted
 from nonsmooth.studies.case import Case, CaseFactory
 from nonsmooth.studies.records.record import RunResult, StudyRecord
-from nonsmooth.studies.sampling.sampling import Value
+from nonsmooth.studies.sampling import Value
 from nonsmooth.studies.status import RAISED, WORKER_DIED, RunStatus, reason_of
 
 

@@ -84,7 +84,7 @@ def study_of(words: Mapping[str, Any], *, trust: bool, typed: bool = True) -> St
         made = job(words["scenario"], words["set"], (), words["engine"], trust=trust, typed=typed)
         sampling = values.sampling(words["over"], words["sample"], words["seed"])
         classes = [name for name in made.scenario.words if name == "attractor"]
-        usual = [name for name in (*RECORD, *classes) if name not in sampling.points().columns]
+        usual = [name for name in (*RECORD, *classes) if name not in sampling.columns]
         record: list[Requested] = [*(words["record"] or usual), *_stroboscope(words)]
         return Study(made.scenario, sampling, record, engine=made.engine, budget=words["budget"])
 
