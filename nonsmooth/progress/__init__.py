@@ -1,4 +1,4 @@
-"""How far something is that takes long, on standard error: a bar on a terminal, an occasional line elsewhere."""
+"""Progress of long computations on standard error: a bar on a terminal, an occasional line elsewhere."""
 
 from nonsmooth.progress.displays import Bar, Display, Lines, Quiet, on_standard_error
 from nonsmooth.progress.meter import ProgressMeter, RangeCovered, RunsDone, TimeReached

@@ -1,4 +1,4 @@
-"""Displays of progress: a bar on a terminal, lines elsewhere, nothing."""
+"""Displays of progress: a bar on a terminal, lines elsewhere, or nothing."""
 
 from __future__ import annotations
 
@@ -13,25 +13,35 @@ if TYPE_CHECKING:
 
 
 class Display(ABC):
-    """Where it is shown how far something is."""
+    """Shows the progress of a computation."""
 
     patience: float
-    """Wall time of what takes long before it is shown [s]."""
+    """Wall time before the first state is shown [s]."""
     interval: float
-    """Wall time between two of its states [s]."""
+    """Wall time between two states [s]."""
 
     @abstractmethod
-    def show(self, share: float, before: str, behind: str) -> None:
-        """Show which share is done, in words how far it is, and in words what else is known."""
+    def show(self, part: float, reached: str, details: str) -> None:
+        """Show a state.
+
+        Parameters
+        ----------
+        part : float
+            Completed part, from 0 to 1.
+        reached : str
+            Progress in words, "12 of 40 runs".
+        details : str
+            Percentage, counts and remaining time in words.
+        """
 
     @abstractmethod
     def close(self) -> None:
-        """Remove what should not stay."""
+        """Remove what should not stay on the screen."""
 
 
 @final
 class Bar(Display):
-    """A bar on a terminal, gone in the end.
+    """A bar on a terminal; it vanishes at the end.
 
     Parameters
     ----------
@@ -45,10 +55,10 @@ class Bar(Display):
         self._stream = stream
         self._bar: Progress | None = None
 
-    def show(self, share: float, before: str, behind: str) -> None:
-        """Draw the bar anew."""
-        self._bar = self._bar or self._begun()
-        self._bar.update(self._bar.task_ids[0], completed=share, before=before, behind=behind)
+    def show(self, part: float, reached: str, details: str) -> None:
+        """Draw the bar again."""
+        self._bar = self._bar or self._started()
+        self._bar.update(self._bar.task_ids[0], completed=part, reached=reached, details=details)
         self._bar.refresh()
 
     def close(self) -> None:
@@ -56,26 +66,26 @@ class Bar(Display):
         if self._bar is not None:
             self._bar.stop()
 
-    def _begun(self) -> Progress:
+    def _started(self) -> Progress:
         # importing it takes as long as many a run
         from rich.console import Console
         from rich.progress import BarColumn, Progress, TextColumn
 
-        columns = TextColumn("{task.fields[before]}"), BarColumn(20), TextColumn("{task.fields[behind]}")
+        columns = TextColumn("{task.fields[reached]}"), BarColumn(20), TextColumn("{task.fields[details]}")
         bar = Progress(*columns, console=Console(file=self._stream), auto_refresh=False, transient=True)
-        bar.add_task("", total=1.0, before="", behind="")
+        bar.add_task("", total=1.0, reached="", details="")
         bar.start()
         return bar
 
 
 @final
 class Lines(Display):
-    """A line now and then.
+    """An occasional line on a stream that is no terminal.
 
     Parameters
     ----------
     stream : file
-        Where to write.
+        The stream.
     """
 
     patience, interval = 2.0, 10.0
@@ -83,13 +93,13 @@ class Lines(Display):
     def __init__(self, stream: TextIO) -> None:
         self._stream = stream
 
-    def show(self, share: float, before: str, behind: str) -> None:
+    def show(self, part: float, reached: str, details: str) -> None:
         """Write a line."""
-        self._stream.write(f"{before} ({behind})\n")
+        self._stream.write(f"{reached} ({details})\n")
         self._stream.flush()
 
     def close(self) -> None:
-        """Leave what was written."""
+        """Keep the lines."""
 
 
 @final
@@ -98,14 +108,14 @@ class Quiet(Display):
 
     patience, interval = math.inf, math.inf
 
-    def show(self, share: float, before: str, behind: str) -> None:
+    def show(self, part: float, reached: str, details: str) -> None:
         """Show nothing."""
 
     def close(self) -> None:
-        """Remove nothing."""
+        """Do nothing."""
 
 
 def on_standard_error() -> Display:
-    """Return what suits the standard error of this process."""
-    stream = sys.stderr or io.StringIO()  # None where it was closed from the start
+    """Return a bar if standard error is a terminal, else lines."""
+    stream = sys.stderr or io.StringIO()  # None if it was closed from the start
     return Bar(stream) if stream.isatty() else Lines(stream)

@@ -12,11 +12,11 @@ from typing import Any
 from nonsmooth.results.output import versions
 
 _BEFORE, _SHOWN = 20, 60
-"""Characters in front of a difference, and in all, that are shown."""
+"""Characters of a text before a difference, and in all."""
 
 
 def digest(owner: Any) -> str:
-    """Return the sha256 of the text of a function or class, "" where nobody knows it, as in a terminal."""
+    """Return the sha256 of the text of a function or class, "" if it is unknown, as in a terminal."""
     try:
         text = inspect.getsource(owner)
     except (OSError, TypeError):
@@ -25,7 +25,7 @@ def digest(owner: Any) -> str:
 
 
 def differing(one: Any, other: Any) -> str:
-    """Return in words where two studies differ, as they are written down."""
+    """Return the differences of two specifications in words."""
     return "; ".join(_differing(one, other, ""))
 
 
@@ -40,14 +40,14 @@ def _differing(one: Any, other: Any, key: str) -> Iterator[str]:
 
 
 def _about(text: str, at: int) -> str:
-    """Return what stands about a place."""
+    """Return the text around a place."""
     first = max(0, at - _BEFORE)
     head, tail = "... " if first else "", " ..." if first + _SHOWN < len(text) else ""
     return f"{head}{text[first : first + _SHOWN]}{tail}"
 
 
 def provenance() -> Mapping[str, str]:
-    """Return the versions on which the last bits hang, and the processor of this machine."""
+    """Return the versions that decide the last bits, and the processor of this machine."""
     return {**versions(), "processor": _processor()}
 
 

@@ -197,9 +197,9 @@ class Study:
         if not left:
             return
         n_done = len(self) - sum(len(one.parameters) for one in left)
-        with meter(display) as shown, contextlib.closing(executor.blocks(self._work, left)) as blocks:
+        with meter(display) as shown, contextlib.closing(executor.results(self._work, left)) as results:
             counted = RunsDone(shown, len(self), n_done)
-            for block in blocks:
+            for block in results:
                 store.write(block)
                 ends = block.arrays["status"].tolist()
                 counted.add(len(ends), sum(end not in VALUED for end in ends))

@@ -102,17 +102,17 @@ class Work:
     engine: Budgeted
     records: tuple[StudyRecord, ...] = field(default=())
 
-    def block(self, chunk: Chunk, before_each: Callable[[], None] = _nothing) -> ChunkResult:
+    def chunk(self, chunk: Chunk, before_each: Callable[[], None] = _nothing) -> ChunkResult:
         """Return the result of a chunk; an exception of ``before_each`` ends it."""
         rows = []
         for parameters in chunk.parameters:
             before_each()
             rows.append(self.row(parameters))
-        return self._block(chunk, rows)
+        return self._result(chunk, rows)
 
     def crashed(self, chunk: Chunk, text: str) -> ChunkResult:
         """Return the result of runs whose process died."""
-        return self._block(chunk, [RunRow(RunStatus.CRASHED, WORKER_DIED, text) for _ in chunk.parameters])
+        return self._result(chunk, [RunRow(RunStatus.CRASHED, WORKER_DIED, text) for _ in chunk.parameters])
 
     def row(self, parameters: Mapping[str, Value]) -> RunRow:
         """Return the row of a run; an exception gives a row with status "failed".
@@ -150,7 +150,7 @@ class Work:
         solution = model.run(t_end, sample_interval=case.sample_interval)
         return RunResult(case.scenario, model, solution, case.t_end)
 
-    def _block(self, chunk: Chunk, rows: list[RunRow]) -> ChunkResult:
+    def _result(self, chunk: Chunk, rows: list[RunRow]) -> ChunkResult:
         n = len(rows)
         arrays = {one.name: np.full((n, *one.shape), one.none, one.dtype) for one in self.records}
         for place, row in enumerate(rows):

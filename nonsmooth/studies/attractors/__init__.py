@@ -1,4 +1,4 @@
-"""Attractors of a study: told apart, their basins, and how these change along a parameter."""
+"""Attractors of a study, their basins, and the change of these along a parameter."""
 
 from nonsmooth.studies.attractors.boundary import Boundary, uncertainty_exponent
 from nonsmooth.studies.attractors.features import features

@@ -11,15 +11,15 @@ Integers = NDArray[np.int64]
 
 
 def linked(points: Array) -> Integers:
-    """Return to which group each point belongs: two of which no coordinate differs by more than 1 are in the same one.
+    """Return the group of each point by single linkage: points within 1 in all coordinates are in one group.
 
-    Cells of size 1 make it quick where many points lie in few places: points of one cell are near each other, and
-    only points of neighbouring cells are compared.
+    Points are sorted into cells of size 1.  Points of one cell belong together, and only points of neighbouring cells
+    are compared, so that many points in few places are quick.
 
     Parameters
     ----------
     points : array
-        Coordinates over what counts as near, shape [n_points, n_coordinates].
+        Coordinates in units of the linking distance, shape [n_points, n_coordinates].
 
     Returns
     -------
@@ -43,41 +43,43 @@ def linked(points: Array) -> Integers:
 
 
 def nearest(points: Array, others: Array) -> Array:
-    """Return of each point the greatest difference of a coordinate to the nearest of other points, shape [n_points]."""
+    """Return the distance of each point from the nearest of other points, in the maximum norm, shape [n_points]."""
     from scipy.spatial import cKDTree
 
     return np.asarray(cKDTree(others).query(points, p=np.inf)[0])
 
 
 def distance_between(one: Array, other: Array) -> float:
-    """Return the distance of the two nearest points of two sets."""
+    """Return the distance of two sets: that of their nearest points."""
     return float(nearest(one, other).min())
 
 
 def hausdorff(one: Array, other: Array) -> float:
-    """Return the Hausdorff distance of two sets: how far a point of either is at most from the nearest of the other."""
+    """Return the Hausdorff distance of two sets: the largest distance of a point of either from the other set."""
     return float(max(nearest(one, other).max(), nearest(other, one).max()))
 
 
-SPACING, SHARE = 0.9, 0.5
-"""Two sets overlap where this share of the points of either, or more, are as near to the other set as that part of its
-points are to their own neighbours: of samples of one set about nine tenths are."""
+SPACING = 0.9
+"""Quantile of the distances of the points of a set from their neighbours: its spacing."""
+SHARE = 0.5
+"""Share of the points of either set within the spacing of the other, from which two sets overlap.  Of two samples of
+one set about nine tenths are within it."""
 
 
 def overlapping(sets: Array) -> list[Integers]:
-    """Return groups of sets that overlap, each as the numbers of its sets; those that overlap none are in no group.
+    """Return groups of sets that overlap, each as the numbers of its sets; a set that overlaps no other has no group.
 
-    Each set goes to the first one, in their order, that it overlaps.  Then groups go to a larger one where that share
-    of their points lies among its points: a sample may be of a part of the set.
+    Each set joins the first one that it overlaps.  Then a group joins a larger one if that share of its points lies
+    among those of the larger one: a sample may cover a part of the set.
 
     Parameters
     ----------
     sets : array
-        Points of each, over the scales of their coordinates, shape [n_sets, n_points, n_coordinates].
+        Points of each set over the scales of their coordinates, shape [n_sets, n_points, n_coordinates].
     """
     spacing = np.array([_spacing(points) for points in sets])
     found = list[Integers]()
-    # a sort that keeps the order of those that are as large
+    # the sort keeps the order of groups of one size
     for group in sorted(_alike(sets, spacing), key=len, reverse=True):
         points = sets[group].reshape(-1, sets.shape[2])
         for i, larger in enumerate(found):
@@ -95,7 +97,7 @@ def _alike(sets: Array, spacing: Array) -> list[Integers]:
     while len(left):
         first, others = int(left[0]), left[1:]
         one, low, high = sets[first], sets[first].min(axis=0), sets[first].max(axis=0)
-        # a sample has its mean among the points of the others, which is quickly looked at
+        # a quick test first: the mean of a sample lies within the bounds of the others
         likely = others[np.all((means[others] >= low) & (means[others] <= high), axis=1)]
         here = [i for i in likely if _within(sets[i], one, spacing[first]) and _within(one, sets[i], spacing[i])]
         groups.append(np.array([first, *here]))
@@ -108,7 +110,7 @@ def _within(points: Array, others: Array, spacing: float) -> bool:
 
 
 def _spacing(points: Array) -> float:
-    """Return how far points are from their nearest neighbours, most of them at most."""
+    """Return the spacing of a set of points."""
     from scipy.spatial import cKDTree
 
     return float(np.quantile(cKDTree(points).query(points, k=2, p=np.inf)[0][:, 1], SPACING))

@@ -9,9 +9,8 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.checks import is_finite
-from nonsmooth.errors import InvalidInput
 from nonsmooth.studies.attractors.linkage import hausdorff
+from nonsmooth.studies.inputs import check_positive
 from nonsmooth.types import Array
 
 Integers = NDArray[np.int64]
@@ -20,7 +19,7 @@ Integers = NDArray[np.int64]
 @final
 @dataclass(frozen=True, eq=False)
 class Group:
-    """Runs that go to one attractor.
+    """Runs that lead to one attractor.
 
     Attributes
     ----------
@@ -29,7 +28,7 @@ class Group:
     points : array
         The attractor over the scales of its coordinates, shape [n_points, n_coordinates].
     period : int or None
-        After how many periods it repeats, 0 where it does not; None where that is not known, or not the same in all.
+        Periods after which it repeats, 0 if it does not; None if that is unknown, or not the same for all runs.
     """
 
     runs: NDArray[np.int64]
@@ -44,17 +43,17 @@ Grouping = Callable[[Integers], list[Group]]
 @final
 @dataclass(frozen=True)
 class Along:
-    """Along which parameter attractors are followed.
+    """A parameter along which attractors are matched from value to value.
 
     Parameters
     ----------
     parameter : str
         Parameter along which attractors are matched.
     tolerance : float
-        How far an attractor may move from one value to the next, as Hausdorff distance of its points, of which each
-        coordinate counts in units of its scale, or of the tolerance of its feature.
+        Largest Hausdorff distance of an attractor from itself at the next value; coordinates count in units of their
+        scales, features in units of their tolerances.
     bins : int
-        Parts of the range where the runs are draws; of a grid each value counts.
+        Parts of the range if the runs are draws; of a grid each value counts.
     """
 
     parameter: str
@@ -62,22 +61,22 @@ class Along:
     bins: int = 10
 
     def __post_init__(self) -> None:
-        if not (is_finite(self.tolerance) and self.tolerance > 0.0):
-            remedy = "Give how far an attractor moves from one value to the next."
-            raise InvalidInput("Along: tolerance", "must be positive and finite", self.tolerance, remedy)
+        check_positive(
+            "Along: tolerance", self.tolerance, "Give how far an attractor moves from one value to the next."
+        )
 
 
 def matched(known: Sequence[Array], now: Sequence[Array], tolerance: float) -> list[int]:
-    """Return of each attractor which of the known ones it is, -1 for none.
+    """Return the number of the known attractor that matches each attractor, -1 for none.
 
-    Of all ways to pair as many as there can be pairs within the tolerance, it is that with the least sum of distances.
+    As many as possible are paired within the tolerance, with the least sum of distances.
 
     Parameters
     ----------
     known, now : sequence of array
         Points of each attractor, shape [n_points, n_coordinates].
     tolerance : float
-        Hausdorff distance beyond which two are not the same.
+        Largest Hausdorff distance of a pair.
 
     References
     ----------
@@ -87,7 +86,7 @@ def matched(known: Sequence[Array], now: Sequence[Array], tolerance: float) -> l
     from scipy.optimize import linear_sum_assignment
 
     distances = np.array([[hausdorff(one, other) for other in known] for one in now]).reshape(len(now), len(known))
-    # what is too far apart costs more than all that may be paired
+    # a forbidden pair costs more than all allowed ones together
     costs = np.where(distances <= tolerance, distances, 1.0 + 2.0 * tolerance * min(distances.shape, default=0))
     found = [-1] * len(now)
     for i, j in zip(*linear_sum_assignment(costs), strict=True):
@@ -96,10 +95,10 @@ def matched(known: Sequence[Array], now: Sequence[Array], tolerance: float) -> l
     return found
 
 
-def followed(parts: Sequence[Sequence[Group]], tolerance: float) -> list[Group]:
-    """Return the attractors of all parts, those that are the same as one group.
+def joined(parts: Sequence[Sequence[Group]], tolerance: float) -> list[Group]:
+    """Return the attractors of all parts, matched ones as one group.
 
-    An attractor that is missed for some values is looked for where it was last.
+    An attractor that is absent at some values is matched with its last points.
 
     Parameters
     ----------

@@ -8,25 +8,25 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from nonsmooth.errors import InvalidInput
-from nonsmooth.studies.attractors.labels import parts, words_of
+from nonsmooth.studies.attractors.labels import runs_by_value, words_of
 
 if TYPE_CHECKING:
     import xarray
 
 
 def basin_stability(attractor: xarray.DataArray) -> dict[str, tuple[float, float]]:
-    """Return of each attractor the share b of the starts that lead to it, and its standard error sqrt(b (1 - b) / N).
+    """Return the share b of the starts that lead to each attractor, and its standard error sqrt(b (1 - b) / N).
 
     Parameters
     ----------
     attractor : DataArray
-        The attractors of a study whose starts were drawn from the volume that is asked about; N counts the runs that
-        came to their end.
+        The attractors of a study whose starts were drawn from the volume of interest; N counts the runs that reached
+        their end.
 
     Raises
     ------
     InvalidInput
-        If it is no record of words, or no run came to its end.
+        If it is no record of words, or no run reached its end.
 
     References
     ----------
@@ -42,7 +42,7 @@ def basin_stability(attractor: xarray.DataArray) -> dict[str, tuple[float, float
 
 
 def basin_fractions(attractor: xarray.DataArray, parameter: str, bins: int = 10) -> xarray.Dataset:
-    """Return the share of the starts that lead to each attractor, value by value of a parameter.
+    """Return the share of the starts that lead to each attractor, for each value of a parameter.
 
     Parameters
     ----------
@@ -51,25 +51,25 @@ def basin_fractions(attractor: xarray.DataArray, parameter: str, bins: int = 10)
     parameter : str
         A parameter that the study varies.
     bins : int
-        Parts of its range where the runs are draws; of a grid each value counts.
+        Parts of its range if the runs are draws; of a grid each value counts.
 
     Returns
     -------
     Dataset
         Over the attractors and the parameter ``share`` b and its standard ``error`` sqrt(b (1 - b) / N); over the
-        parameter ``runs`` N, those that came to their end.  Where there is none, the share is nan.
+        parameter ``runs`` N, those that reached their end.  Without such runs the share is nan.
 
     Raises
     ------
     InvalidInput
         If it is no record of words.
     UnknownName
-        If the parameter is none that is varied.
+        If the study does not vary the parameter.
     """
     import xarray
 
     words, values = words_of(attractor, "basin_fractions"), attractor.values.ravel()
-    split = parts(attractor, parameter, bins)
+    split = runs_by_value(attractor, parameter, bins)
     counts = np.zeros((len(words), len(split.values)))
     np.add.at(counts, (values[values >= 0], split.of_runs[values >= 0]), 1.0)
     runs = counts.sum(axis=0)

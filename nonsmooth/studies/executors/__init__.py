@@ -1,4 +1,4 @@
-"""Where the runs of a study are done: here, in threads, or by the workers of dask."""
+"""Executors of studies: this thread, several threads, or workers of dask."""
 
 from nonsmooth.studies.executors.dask import Dask
 from nonsmooth.studies.executors.executor import Executor, Serial, Threads

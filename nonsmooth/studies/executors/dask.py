@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, final
 from nonsmooth.errors import InvalidInput, NonsmoothError
 from nonsmooth.plugins import file
 from nonsmooth.results.output import versions
-from nonsmooth.studies.executors.executor import Executor, check_workers
+from nonsmooth.studies.executors.executor import WINDOW, Executor, check_workers
 from nonsmooth.studies.inputs import require
 from nonsmooth.studies.work import Chunk, ChunkResult, Work
 
@@ -22,22 +22,20 @@ if TYPE_CHECKING:
     from distributed import Client, LocalCluster
 
 
-_WINDOW = 2
-"""Chunks per thread of a worker that are handed out at once."""
 _PATIENCE = 5.0
-"""So long a scheduler may take to answer [s]."""
+"""Time within which a scheduler must answer [s]."""
 _DEATHS = 3
-"""A chunk that so many workers did not survive is cut in halves."""
+"""Deaths of workers after which a chunk is halved."""
 
 
 class SchedulerLost(NonsmoothError):
-    """The scheduler ended, or cannot be reached any more, before the study did."""
+    """The scheduler ended, or cannot be reached any more, before the end of the study."""
 
 
 @final
 @dataclass(frozen=True)
 class Dask(Executor):
-    """Does chunks by workers of dask.
+    """Computes chunks by workers of dask.
 
     Parameters
     ----------
@@ -53,16 +51,16 @@ class Dask(Executor):
     def __post_init__(self) -> None:
         check_workers("Dask: n", self.n)
 
-    def blocks(self, work: Work, chunks: Sequence[Chunk]) -> Generator[ChunkResult, None, None]:
-        """Yield as workers return them.
+    def results(self, work: Work, chunks: Sequence[Chunk]) -> Generator[ChunkResult, None, None]:
+        """Yield results as workers return them.
 
-        A chunk whose workers died may have been next to the one that killed them: such ones are done last, each alone,
-        and in halves where they kill again, until the run is found that does.
+        A chunk whose workers died may only have run next to the one that killed them.  Such chunks are repeated last,
+        each alone, and in halves if their workers die again, until the run that kills them is found.
 
         Raises
         ------
         InvalidInput
-            If no scheduler answers, or workers are not like this process, or do not find what they shall run.
+            If no scheduler answers, or workers have other versions, or do not find the classes of the study.
         SchedulerLost
             If the scheduler ends before the study.
         """
@@ -74,7 +72,7 @@ class Dask(Executor):
             _check_alike(client)
             _check_open(client, parcel)
             suspects: list[Chunk] = []
-            window = _WINDOW * max(1, sum(client.nthreads().values()))
+            window = WINDOW * max(1, sum(client.nthreads().values()))
             try:
                 yield from _in_turn(client, parcel, chunks, window, suspects)
                 for chunk in suspects:
@@ -88,7 +86,7 @@ class Dask(Executor):
 
         settings = {
             "distributed.scheduler.allowed-failures": _DEATHS - 1,
-            # a worker keeps what its stacks were for an hour, of which nobody asks: 100 MB in some minutes
+            # a worker profiles its stacks for an hour: 100 MB after some minutes
             "distributed.worker.profile.enabled": False,
         }
         stack.enter_context(dask.config.set(settings))
@@ -96,7 +94,7 @@ class Dask(Executor):
         if address is None:
             n = check_workers("Dask: n", self.n)
             address = stack.enter_context(_cluster(n))
-            # what restarts a worker is gone itself where one dies at once
+            # the nanny that restarts a worker is gone, too, if the worker dies at once
             address.adapt(minimum=n, maximum=n)
         try:
             return stack.enter_context(Client(address, timeout=_PATIENCE))
@@ -124,7 +122,7 @@ def _cluster(n: int) -> LocalCluster:
 
 
 def _check_alike(client: Client) -> None:
-    """Refuse workers that would give other bits than this process."""
+    """Raise InvalidInput if workers would give other bits than this process."""
     client.wait_for_workers(1, timeout=_PATIENCE * 12)
     here = dict(versions())
     for address, there in client.run(versions).items():
@@ -135,21 +133,21 @@ def _check_alike(client: Client) -> None:
 
 
 def _check_open(client: Client, parcel: Parcel) -> None:
-    """Refuse workers that have not the modules of what is run."""
+    """Raise InvalidInput if workers do not find the modules of the study."""
     for address, fault in client.run(Parcel.fault, parcel).items():
         if fault:
             remedy = "Install it there, or start the workers where they find it (PYTHONPATH)."
             raise InvalidInput(f"worker {address}", "must find what the study runs", fault, remedy)
 
 
-def _block(parcel: Parcel, chunk: Chunk) -> ChunkResult:
-    return parcel.open().block(chunk)
+def _computed(parcel: Parcel, chunk: Chunk) -> ChunkResult:
+    return parcel.open().chunk(chunk)
 
 
 def _in_turn(
     client: Client, parcel: Parcel, chunks: Sequence[Chunk], window: int, suspects: list[Chunk]
 ) -> Generator[ChunkResult, None, None]:
-    """Yield the blocks of all chunks but of those whose workers died too often, which become suspects."""
+    """Yield the results of all chunks; those whose workers died too often become suspects."""
     from distributed import KilledWorker, as_completed
 
     left, running = iter(chunks), {}
@@ -157,7 +155,7 @@ def _in_turn(
 
     def hand_out() -> None:
         for chunk in left:
-            future = client.submit(_block, parcel, chunk, pure=False, retries=2)
+            future = client.submit(_computed, parcel, chunk, pure=False, retries=2)
             running[future.key] = chunk
             done.add(future)
             return
@@ -176,11 +174,11 @@ def _in_turn(
 
 
 def _alone(client: Client, parcel: Parcel, chunk: Chunk) -> ChunkResult:
-    """Return the block of a chunk next to which nothing else runs, so that who dies died of it."""
+    """Return the result of a chunk while nothing else runs: a worker that dies dies because of it."""
     from distributed import KilledWorker
 
     try:
-        return client.submit(_block, parcel, chunk, pure=False).result()  # type: ignore[no-any-return]
+        return client.submit(_computed, parcel, chunk, pure=False).result()  # type: ignore[no-any-return]
     except KilledWorker:
         if len(chunk.parameters) == 1:
             text = "The process that ran it died, in each of the tries that the scheduler allows."
@@ -189,7 +187,7 @@ def _alone(client: Client, parcel: Parcel, chunk: Chunk) -> ChunkResult:
 
 
 def _in_halves(client: Client, parcel: Parcel, chunk: Chunk) -> ChunkResult:
-    """Return the block of a chunk that is suspected, whose halves run alone."""
+    """Return the result of a suspected chunk; its halves run alone."""
     if len(chunk.parameters) == 1:
         return _alone(client, parcel, chunk)
     one, other = chunk.halves()
@@ -199,16 +197,16 @@ def _in_halves(client: Client, parcel: Parcel, chunk: Chunk) -> ChunkResult:
 @final
 @dataclass(frozen=True)
 class Parcel:
-    """Work on its way to a process that has imported nothing of it yet.
+    """Work for another process, with the files of its classes.
 
-    What cannot be opened is an error of the task: objects that arrive open would cut the worker's connection.
+    The task opens it, so that an error belongs to the task; objects that dask opens would end the connection.
 
     Attributes
     ----------
     content : bytes
         The work, pickled.
     files : tuple of tuple of str
-        Path and sha256 of the files that were loaded as FILE.py:CLASS.
+        Path and sha256 of the files that were named as FILE.py:CLASS.
     """
 
     content: bytes
@@ -241,7 +239,7 @@ class Parcel:
         return work
 
     def fault(self) -> str:
-        """Return why it cannot be opened here, "" where it can."""
+        """Return the reason why it cannot be opened here, "" if it can."""
         try:
             self.open()
         except Exception as error:  # of the modules of a user, too

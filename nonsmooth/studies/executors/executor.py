@@ -10,74 +10,73 @@ from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from typing import final
 
-from nonsmooth.errors import InvalidInput
+from nonsmooth.studies.inputs import check_count
 from nonsmooth.studies.work import Chunk, ChunkResult, Work
+
+WINDOW = 2
+"""Chunks per thread that are handed out at once."""
 
 
 class Executor(ABC):
-    """Does chunks.
+    """Computes the chunks of a study.
 
     The contract:
 
-    1. ``blocks`` yields the block of each chunk once, in any order, as soon as it is done.
-    2. A run is never split, and nothing of a run depends on where it is done: all executors give the same bits.
-    3. Closing the iterator, and what is raised while it is waited for, ends all work.
+    1. ``results`` yields the result of each chunk once, in any order, as soon as it is complete.
+    2. A run is never split, and does not depend on where it is computed: all executors give the same bits.
+    3. Closing the iterator, or an exception while it waits, ends all work.
     """
 
     @abstractmethod
-    def blocks(self, work: Work, chunks: Sequence[Chunk]) -> Generator[ChunkResult, None, None]:
-        """Yield what comes of the chunks.
+    def results(self, work: Work, chunks: Sequence[Chunk]) -> Generator[ChunkResult, None, None]:
+        """Yield the results of chunks.
 
         Raises
         ------
         InvalidInput
-            If nobody answers who could do it.
+            If no worker answers.
         """
 
 
 def check_workers(thing: str, n: int | None) -> int:
-    """Return a number of workers, one for each processor by default.
+    """Return a number of workers, by default one for each processor.
 
     Raises
     ------
     InvalidInput
-        If it is no positive whole number.
+        If it is not a positive whole number.
     """
     if n is None:
         return os.cpu_count() or 1
-    if not isinstance(n, int) or n < 1:
-        raise InvalidInput(thing, "must be a positive whole number", n, "Leave it out for one for each processor.")
+    check_count(thing, n, "must be a positive whole number", "Leave it out for one for each processor.")
     return n
 
 
 @final
 @dataclass(frozen=True)
 class Serial(Executor):
-    """Does everything here."""
+    """Computes one run after another in this thread."""
 
-    def blocks(self, work: Work, chunks: Sequence[Chunk]) -> Generator[ChunkResult, None, None]:
-        """Yield one after another."""
-        for chunk in chunks:
-            yield work.block(chunk)
-
-
-_WINDOW = 2
-"""Chunks per thread that are handed out at once."""
+    def results(self, work: Work, chunks: Sequence[Chunk]) -> Generator[ChunkResult, None, None]:
+        """Yield one result after another."""
+        yield from map(work.chunk, chunks)
 
 
 class _Ended(Exception):
-    """The study is over for this thread."""
+    """The study has ended; the thread stops before its next run."""
 
 
 @final
 @dataclass(frozen=True)
 class Threads(Executor):
-    """Does chunks in threads.
+    """Computes chunks in threads of this process.
+
+    The engine runs without the lock of Python; building and summarising runs do not.
 
     Parameters
     ----------
     n : int, optional
-        Number of threads; as many as there are processors by default.
+        Number of threads; one for each processor by default.
     """
 
     n: int | None = None
@@ -85,8 +84,8 @@ class Threads(Executor):
     def __post_init__(self) -> None:
         check_workers("Threads: n", self.n)
 
-    def blocks(self, work: Work, chunks: Sequence[Chunk]) -> Generator[ChunkResult, None, None]:
-        """Yield as threads come to the end of chunks."""
+    def results(self, work: Work, chunks: Sequence[Chunk]) -> Generator[ChunkResult, None, None]:
+        """Yield results as threads complete them."""
         n, ended, left = check_workers("Threads: n", self.n), threading.Event(), iter(chunks)
 
         def before_each() -> None:
@@ -98,8 +97,8 @@ class Threads(Executor):
             waiting: set[Future[ChunkResult]] = set()
             while True:
                 for chunk in left:
-                    waiting.add(pool.submit(work.block, chunk, before_each))
-                    if len(waiting) >= _WINDOW * n:
+                    waiting.add(pool.submit(work.chunk, chunk, before_each))
+                    if len(waiting) >= WINDOW * n:
                         break
                 if not waiting:
                     return
