@@ -105,7 +105,7 @@ def _points(axes: Axes, record: xarray.DataArray, along: xarray.DataArray, value
     if along.dtype.kind != "U":
         dotted(axes, along.values[~valued], _GREY)
         few_ticks(axes)
-    finish(axes, label_of(along), label_of(record), grid=False, legend=False)
+    finish(axes, label_of(along), label_of(record), grid="", legend=False)
 
 
 def _map(figure: Figure, axes: Axes, record: xarray.DataArray, valued: NDArray[np.bool_]) -> None:
@@ -123,4 +123,4 @@ def _map(figure: Figure, axes: Axes, record: xarray.DataArray, valued: NDArray[n
         bar.set_ticks(record.attrs["flag_values"][:_NAMED], labels=words[:_NAMED])
     failed = np.ma.masked_where(valued, np.ones(valued.shape))
     axes.pcolor(second.values, first.values, failed, shading="nearest", cmap=ListedColormap(["white"]), **HATCHED)
-    finish(axes, label_of(second), label_of(first), grid=False, legend=False)
+    finish(axes, label_of(second), label_of(first), grid="", legend=False)

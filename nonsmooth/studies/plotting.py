@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from nonsmooth.plot.asked import axes_of
 from nonsmooth.plot.lines import COLOURS, beside
@@ -43,7 +43,7 @@ def finish(
     y: str,
     title: str = "",
     *,
-    grid: bool = True,
+    grid: Literal["both", "y", ""] = "both",
     legend: bool | Sequence[Artist] = True,
 ) -> Axes:
     """Label axes, and add grid and legend.
@@ -56,8 +56,8 @@ def finish(
         Labels with units; an axis without a label stays as it is.
     title : str
         The statement of the picture.
-    grid : bool
-        Whether there are grid lines, behind all else.
+    grid : str
+        Axes with grid lines behind all else: "both", "y" or "".
     legend : bool or sequence of Artist
         Whether there is a legend beside the axes, or its entries.
     """
@@ -67,7 +67,7 @@ def finish(
         ax.set_ylabel(y)
     ax.set_title(title, fontsize=_TITLE)
     if grid:
-        ax.grid(color="0.9", linewidth=0.6)
+        ax.grid(color="0.9", linewidth=0.6, axis=grid)
         ax.set_axisbelow(True)
     if legend:
         beside(ax, handles=None if legend is True else legend)

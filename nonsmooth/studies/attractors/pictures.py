@@ -46,7 +46,7 @@ def shares(attractor: xarray.DataArray, ax: Axes | None = None) -> Axes:
     ax.invert_yaxis()
     ax.set_xlim(0.0, 1.0)
     x, title = "basin stability [1], with its standard error", _largest_share(attractor)
-    return finish(ax, x, "", title, grid=False, legend=False)
+    return finish(ax, x, "", title, grid="", legend=False)
 
 
 def basins(study: xarray.Dataset) -> Figure:

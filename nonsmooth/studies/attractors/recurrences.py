@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
 Integers = NDArray[np.int64]
 NEAR = 10.0
-"""Tolerance of the points of two runs over that of one run: a run that settles slowly is farther from its attractor than
-it moves."""
+"""Tolerance of points of two runs over that of one run: a run that settles is farther from its attractor than it
+moves."""
 
 
 def recurrences(study: xarray.Dataset, tolerance: float = 1e-3, along: Along | None = None) -> xarray.Dataset:

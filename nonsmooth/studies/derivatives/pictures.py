@@ -61,7 +61,7 @@ def sensitivities(found: Sensitivity, coordinate: str, ax: Axes | None = None) -
     ax.vlines(found.events, 0.0, 1.0, transform=ax.get_xaxis_transform(), color="0.75", linewidth=0.7, zorder=0)
     ax.set_xlim(0.0, float(found.t[-1]))
     title = f"Change of {coordinate} per relative change of a parameter; grey: events"
-    return finish(ax, "time [s]", f"change of {coordinate} [{unit(system, number)}]", title)
+    return finish(ax, "time [s]", f"change of {coordinate} [{unit(system, number)}]", title, grid="y")
 
 
 def fitted(found: Fit, label: str, columns: Sequence[str] = ()) -> Figure:
@@ -107,6 +107,7 @@ def _curves(upper: Axes, lower: Axes, found: Fit, label: str, columns: Sequence[
     rest = "".join(["measured - fitted ", *label.partition("[")[1:]]).strip()
     finish(upper, "", label, legend=False)
     finish(lower, "time [s]", rest, f"Standard deviation {found.deviation:.3g} (grey band)", legend=False)
+    lower.yaxis.label.set_fontsize(9)
 
 
 def _covariance(ax: Axes, found: Fit, one: str, two: str) -> None:

@@ -57,7 +57,7 @@ class Hysteresis:
         failed = self.up.failed + self.down.failed
         words = f"; {failed} runs failed (dotted)" if failed else ""
         title = f"{np.sum(self.apart)} of {len(self.up.values)} values have two motions{words}"
-        return finish(ax, "", "", title, grid=False)
+        return finish(ax, "", "", title, grid="")
 
 
 def hysteresis(

@@ -100,7 +100,7 @@ class ItineraryDiagram:
         names = [self.words[kind].replace(" of '", "\nof '") for kind in kinds]
         entries = [Patch(label=name, **_fill(place)) for place, name in enumerate(names)]
         title = f"Colours: the last event; strokes: events{words}"
-        return finish(ax, "phase of the period [1]", self.label, title, grid=False, legend=entries)
+        return finish(ax, "phase of the period [1]", self.label, title, grid="", legend=entries)
 
 
 def itinerary_diagram(
