@@ -9,11 +9,11 @@ from pathlib import Path
 from nonsmooth.cli.execute.study import perform
 from nonsmooth.cli.parse import outputs
 from nonsmooth.cli.parse.options import Command, CommandGroup, Option
-from nonsmooth.cli.parse.request import STORED_STUDY, TRUST, check_stored
-from nonsmooth.cli.parse.study import EXECUTOR, OPTIONS, RECORD, executor_given, study_of, words_of
+from nonsmooth.cli.parse.request import TRUST, check_stored
+from nonsmooth.cli.parse.study import EXECUTOR, OPTIONS, RECORD_OPTION, STUDY_WORDS, executor_given, study_of, words_of
 from nonsmooth.cli.report.messages import complain, say, tell
 from nonsmooth.errors import InvalidInput
-from nonsmooth.studies import Study, draw_study, open_study
+from nonsmooth.studies import draw_study, open_study
 from nonsmooth.studies.inputs import require, require_store
 from nonsmooth.studies.status import summary
 from nonsmooth.studies.store import Store
@@ -22,13 +22,6 @@ _MOST = 10
 """Reasons of failed runs that are printed."""
 _STUDY = Option("study", "the folder that `--out` was given", metavar="STUDY.zarr", kind=Path)
 _OUT = Option("--out", "STUDY.png by default", metavar="FILE", kind=Path)
-_RECORD = Option.of(
-    Study,
-    "record",
-    form=f"NAME,NAME,...; {','.join(RECORD)} by default, with the attractor if the scenario has one",
-    metavar="NAME",
-    repeats=True,
-)
 
 
 def _sweep(arguments: argparse.Namespace) -> bool:
@@ -60,7 +53,7 @@ def _resume(arguments: argparse.Namespace) -> bool:
     if not words:
         remedy = "Run the Python program again that began it: it goes on."
         raise InvalidInput(str(path), "must have been begun on the command line", "a study of a program", remedy)
-    check_stored(str(path), words, STORED_STUDY)
+    check_stored(str(path), words, STUDY_WORDS)
     perform(study_of(words, trust=arguments.trust, typed=False), words, path, executor_given(arguments))
     return True
 
@@ -89,4 +82,4 @@ _PARTS = {
     "verify": Command(_verify, (_STUDY,), "read all chunks; exit status 1 if one is damaged"),
     "draw": Command(_draw, (_STUDY, _OUT, outputs.OVERWRITE), "draw its records"),
 }
-COMMANDS = {"sweep": Command(_sweep, (*OPTIONS, _RECORD)), "study": CommandGroup("actions", "ACTION", _PARTS)}
+COMMANDS = {"sweep": Command(_sweep, (*OPTIONS, RECORD_OPTION)), "study": CommandGroup("actions", "ACTION", _PARTS)}

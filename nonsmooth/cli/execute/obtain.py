@@ -9,7 +9,7 @@ from typing import final
 
 from nonsmooth.cli.execute.perform import Compute, Progress, computed
 from nonsmooth.cli.parse.options import Option
-from nonsmooth.cli.parse.request import ENGINE, LAW, SET, STORED_RUN, TRUST, Job, check_stored, job
+from nonsmooth.cli.parse.request import ENGINE, LAW, RUN_WORDS, SET, TRUST, Job, check_stored, job
 from nonsmooth.cli.report.messages import tell
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files.scenario import FileScenario
@@ -69,7 +69,7 @@ def job_of(output: Output, folder: SolutionFolder, is_trusted: bool) -> tuple[st
     words = folder.said("request")
     name = str(words.get("scenario", output.folder))
     if words:
-        check_stored(f"{output.solution}", words, STORED_RUN)
+        check_stored(f"{output.solution}", words, RUN_WORDS)
     named = [("laws", str(word).partition("=")[2]) for word in words.get("law", ())]
     named += [("engines", str(words["engine"]))] if words.get("engine") else []
     code = [first for group, word in named if (first := word.partition(",")[0].strip()) not in registry.names(group)]

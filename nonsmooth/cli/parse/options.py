@@ -7,6 +7,7 @@ import inspect
 import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from types import NoneType
 from typing import Any, TypeAlias, final
 
 from nonsmooth.cli.docstrings import described_parameters
@@ -107,6 +108,14 @@ class Option:
     def place(self) -> str:
         """Name of its value in the parsed request."""
         return self.name.removeprefix("--").replace("-", "_")
+
+    @property
+    def stored_kinds(self) -> tuple[type, ...]:
+        """Types of its value in a request that was stored."""
+        if self.repeats:
+            return (list,)
+        number = {float: (int, float), int: (int,)}.get(self.kind, (str,)) if isinstance(self.kind, type) else (str,)
+        return number if self.is_required or self.default is not None else (*number, NoneType)
 
     def add_to(self, parser: argparse.ArgumentParser) -> None:
         """Add it to a parser."""

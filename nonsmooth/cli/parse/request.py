@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from types import NoneType
 from typing import Any
 
 from nonsmooth.cli.parse import components
@@ -54,25 +53,8 @@ TRUST = flag(
 )
 JSON = flag("--json", "print one JSON object and nothing else")
 
-Kinds = Mapping[str, tuple[type, ...]]
-STORED_RUN: Kinds = {"scenario": (str,), "set": (list,), "law": (list,), "engine": (str, NoneType)}
-"""Types of the words of a run that a folder stores."""
-STORED_STUDY: Kinds = {
-    "scenario": (str,),
-    "over": (list,),
-    "sample": (str, NoneType),
-    "seed": (int,),
-    "set": (list,),
-    "engine": (str, NoneType),
-    "budget": (int, NoneType),
-    "period": (int, float, NoneType),
-    "within": (str, NoneType),
-    "keep": (int,),
-    "at": (int, float),
-    "phase": (str, NoneType),
-    "record": (list,),
-}
-"""Types of the words of a study that a folder stores."""
+RUN_WORDS = (SCENARIO, SET, LAW, ENGINE)
+"""Options whose words a stored run keeps."""
 
 
 @dataclass(frozen=True)
@@ -180,13 +162,13 @@ def assignments(words: Iterable[str]) -> dict[str, str]:
     return values
 
 
-def check_stored(thing: str, words: Any, kinds: Kinds) -> None:
-    """Raise InvalidInput unless stored words have the names and types that a command writes."""
+def check_stored(thing: str, words: Any, options: Iterable[Option]) -> None:
+    """Raise InvalidInput unless stored words are as a command writes those of these options."""
     if not isinstance(words, dict):
         raise InvalidInput(f"{thing}: request", "must be a table", words, "It is damaged.")
-    for name, kind in kinds.items():
-        value = words.get(name)
-        fits = isinstance(value, kind) and not isinstance(value, bool)
+    for option in options:
+        value = words.get(option.place)
+        fits = isinstance(value, option.stored_kinds) and not isinstance(value, bool)
         if not fits or (isinstance(value, list) and not all(isinstance(one, str) for one in value)):
-            thing = f"{thing}: request: {name}"
+            thing = f"{thing}: request: {option.place}"
             raise InvalidInput(thing, "must be as a command has written it", value, "It is damaged.")

@@ -50,8 +50,16 @@ OPTIONS = (
     OUT,
 )
 """Options of all commands that run a study."""
-_STORED = [option.place for option in (SCENARIO, *_DRAWN, SET, ENGINE, *STROBOSCOPE, _BUDGET)]
-"""Words of a request that a study stores."""
+RECORD_OPTION = Option.of(
+    Study,
+    "record",
+    form=f"NAME,NAME,...; {','.join(RECORD)} by default, with the attractor if the scenario has one",
+    metavar="NAME",
+    repeats=True,
+)
+"""Option of ``sweep``."""
+STUDY_WORDS = (SCENARIO, *_DRAWN, SET, ENGINE, *STROBOSCOPE, _BUDGET, RECORD_OPTION)
+"""Options whose words a stored study keeps."""
 
 
 def words_of(arguments: argparse.Namespace, record: list[str]) -> dict[str, Any]:
@@ -64,7 +72,7 @@ def words_of(arguments: argparse.Namespace, record: list[str]) -> dict[str, Any]
     """
     check_chunk(arguments.chunk)
     values.check_not_set(arguments.over, arguments.set)
-    return {name: getattr(arguments, name) for name in _STORED} | {"record": record}
+    return {one.place: getattr(arguments, one.place, None) for one in STUDY_WORDS} | {"record": record}
 
 
 def executor_given(arguments: argparse.Namespace) -> Executor:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable, Mapping
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -13,65 +15,53 @@ from nonsmooth.solution.solution import Solution
 
 Report = dict[str, Any]
 _LONG_WORD = 80
-"""Characters of a word of modes up to which it is told; of longer ones the contacts are."""
+"""Characters of the longest word of modes that is printed as it is."""
 _NAMED = 2
-"""Contacts that are named then; the others are counted."""
+"""Contacts that are named in place of a longer word."""
 _COMMONEST = 5
-"""Words of modes that are told; the others are counted,"""
+"""Words of modes that are printed; the others are counted."""
 _INSTANT = 5e-5
-"""as are those that last for no more than this part of the time, such as those of an instant."""
-_ROUND_OFF, _NOTHING = 1e-15, 1e-9
-"""Numbers below which, in SI units, and beside the largest of their list, no run is right: 0 is told."""
-_NUMBERS = (
-    "t_end",
-    "wall_seconds",
-    "n_events",
-    "n_impacts",
-    "n_steps",
-    "step_limits",
-    "event_intervals",
-    "contacts",
-    "unseen_contacts",
-    "impulses_beyond_cone",
-    "friction_gain",
-    "mode_words",
-    "energy_residual",
-    "cause",
-    "verdict",
-)
+"""Part of the time below which a word of modes is only counted."""
+_ROUND_OFF = 1e-15
+"""Numbers below it in SI units are printed as 0."""
+_NOTHING = 1e-9
+"""Numbers below this part of the largest of their list are printed as 0."""
+_NUMBERS: Mapping[str, Callable[[Solution], Any]] = {
+    "t_end": attrgetter("t_end"),
+    "wall_seconds": attrgetter("counters.wall_seconds"),
+    "n_events": lambda solution: len(solution.events),
+    "n_impacts": attrgetter("counters.impacts"),
+    "n_steps": attrgetter("counters.steps"),
+    "step_limits": lambda solution: dict(solution.counters.limits),
+    "event_intervals": lambda solution: solution.events.intervals(),
+    "contacts": lambda solution: list(solution.system.names.contacts),
+    "unseen_contacts": lambda solution: list(solution.unseen),
+    "impulses_beyond_cone": attrgetter("impulses_beyond_cone"),
+    "friction_gain": attrgetter("friction_gain"),
+    "mode_words": lambda solution: solution.modes if solution.knows_modes else None,
+    "energy_residual": attrgetter("energy.residual"),
+    "cause": attrgetter("cause"),
+    "verdict": lambda solution: _verdict(solution),
+}
+"""Entries that a report takes from the solution."""
 UNITS = {"t_end": "s", "wall_seconds": "s", "friction_gain": "J"}
-"""Of these numbers; others have none, or are those of the scenario."""
+"""Units of these entries; the others have none."""
 
 
 def of_solution(solution: Solution | None) -> Report:
-    """Return what the report takes from the solution; nothing but None without one."""
-    if solution is None:
-        return dict.fromkeys(_NUMBERS)
-    return {
-        "t_end": solution.t_end,
-        "wall_seconds": solution.counters.wall_seconds,
-        "n_events": len(solution.events),
-        "n_impacts": solution.counters.impacts,
-        "n_steps": solution.counters.steps,
-        "step_limits": dict(solution.counters.limits),
-        "event_intervals": solution.events.intervals(),
-        "contacts": list(solution.system.names.contacts),
-        "unseen_contacts": list(solution.unseen),
-        "impulses_beyond_cone": solution.impulses_beyond_cone,
-        "friction_gain": solution.friction_gain,
-        "mode_words": solution.modes if solution.knows_modes else None,
-        "energy_residual": solution.energy.residual,
-        "cause": solution.cause,
-        "verdict": {
-            one.name: {"value": value, "unit": one.unit, "meaning": one.meaning}
-            for one, value in solution.end.verdict.items()
-        },
-    }
+    """Return the entries of a solution; None for all of them without one."""
+    return {name: None if solution is None else find(solution) for name, find in _NUMBERS.items()}
+
+
+def _verdict(solution: Solution) -> dict[str, Any]:
+    measured = solution.end.verdict.items()
+    return {one.name: {"value": value, "unit": one.unit, "meaning": one.meaning} for one, value in measured}
 
 
 def as_json(report: Report) -> str:
-    """Return one line of strictly valid JSON; what is not finite becomes null."""
-    return json.dumps(_plain(report), allow_nan=False)
+    """Return one line of strictly valid JSON; numbers that are not finite become null."""
+    plain = json.loads(json.dumps(report, default=_listed), parse_constant=lambda _: None)
+    return json.dumps(plain, allow_nan=False)
 
 
 def as_text(report: Report) -> str:
@@ -84,62 +74,53 @@ def as_text(report: Report) -> str:
         f" at t = {plain['t_end']:.6g} s in {plain['wall_seconds']:.3g} s of wall time; {plain['n_events']} events, "
         f"{plain['n_impacts']} impacts, {plain['n_steps']} steps"
     )
-    units = plain["units"] or {}
-    rows = [
-        (name.replace("_", " "), _with_unit(_spell(value), units.get(name, "")))
-        for name, value in (plain["summary"] or {}).items()
-    ]
-    residual = plain["energy_residual"]
+    units, residual = plain["units"] or {}, plain["energy_residual"]
+    rows = [(name, _with_unit(_spell(value), units.get(name, ""))) for name, value in (plain["summary"] or {}).items()]
     rows.append(("energy residual", "none" if residual is None else f"{residual:.6g}"))
     rows.append(("steps limited by", _limits(plain["step_limits"])))
-    rows += [
-        (name.replace("_", " "), f"{_with_unit(_spell(one['value']), one['unit'])}, {one['meaning']}")
-        for name, one in plain["verdict"].items()
-    ]
-    rows += [
-        ("time in modes" * (i == 0), line) for i, line in enumerate(_modes(plain["mode_words"], plain["contacts"]))
-    ]
+    for name, one in plain["verdict"].items():
+        rows.append((name, f"{_with_unit(_spell(one['value']), one['unit'])}, {one['meaning']}"))
+    for i, line in enumerate(_modes(plain["mode_words"], plain["contacts"])):
+        rows.append(("" if i else "time in modes", line))
     rows.append(("contacts", _contacts(plain["contacts"])))
-    told = (
-        ("seen by their gaps only", len(plain["unseen_contacts"])),
-        ("outside of cones", plain["impulses_beyond_cone"]),
-    )
-    rows += [(f"{what} {name}", str(n)) for what, (name, n) in zip(("contacts", "impulses"), told, strict=True) if n]
-    given = _spell(plain["friction_gain"])
-    if given != "0":
-        rows.append(("friction gave", _with_unit(given, UNITS["friction_gain"])))
+    counts = {
+        "contacts seen by their gaps only": str(len(plain["unseen_contacts"])),
+        "impulses outside of cones": str(plain["impulses_beyond_cone"]),
+        "friction gave": _with_unit(_spell(plain["friction_gain"]), UNITS["friction_gain"]),
+    }
+    rows += [(name, count) for name, count in counts.items() if count.partition(" ")[0] != "0"]
+    table = lines([(name.replace("_", " "), text) for name, text in rows])
     judged = plain.get("acceptance")
-    table = [] if judged is None else ["", *_judged(judged)]
-    return "\n".join([head, *lines(rows), *table])
+    return "\n".join([head, *table, *([] if judged is None else ["", *_judged(judged)])])
 
 
 def _modes(shares: dict[str, float] | None, names: list[str]) -> list[str]:
-    """Return the commonest words of modes with their shares of time, and how many others there are."""
+    """Return the commonest words of modes with their shares of time, and the number of others."""
     if shares is None:
         return ["unknown: the engine records no modes"]
     lasting = [(word, share) for word, share in shares.items() if share >= _INSTANT]
     before = [word for word, _ in lasting[:1] + lasting]
-    told = [(_described(word, before[i], names), share) for i, (word, share) in enumerate(lasting[:_COMMONEST])]
-    width = max((len(word) for word, _ in told), default=0)
-    found = [f"{word.ljust(width)} {share:7.2%}" for word, share in told]
+    shown = [(_described(word, before[i], names), share) for i, (word, share) in enumerate(lasting[:_COMMONEST])]
+    width = max((len(word) for word, _ in shown), default=0)
+    found = [f"{word.ljust(width)} {share:7.2%}" for word, share in shown]
     others = len(shares) - len(found)
     return [*found, f"and {others} more"] if others > 0 else found
 
 
 def _limits(counts: dict[str, int]) -> str:
-    """Return what limited the steps, the commonest first."""
+    """Return the limits of the steps with their counts, the commonest first."""
     ranked = sorted(counts.items(), key=lambda item: -item[1])
     return ", ".join(f"{limit} {n}" for limit, n in ranked if limit != LIMITS[Limit.NO_STEP]) or "none"
 
 
 def _contacts(names: list[str]) -> str:
-    """Return how many contacts there are, and, where they fit into a line, which digit of a word is whose."""
+    """Return the number of contacts, or their names in the order of the digits of a word, if these fit into a line."""
     text = f"from the right {', '.join(names)}"
     return text if names and len(text) <= _LONG_WORD else str(len(names))
 
 
 def _described(word: str, before: str, names: list[str]) -> str:
-    """Return a word of modes, or, where many contacts make it long, its counts and what differs from the one before."""
+    """Return a word of modes; of a long one the counts of its modes, and contacts that differ from the word before."""
     if len(word) <= _LONG_WORD:
         return word
     kinds, others = word.strip("{}").split(","), before.strip("{}").split(",")
@@ -152,7 +133,7 @@ def _described(word: str, before: str, names: list[str]) -> str:
 
 
 def _judged(criteria: list[dict[str, Any]]) -> list[str]:
-    """Return a line per criterion: whether it holds, the value, its bounds, where they are from."""
+    """Return a line per criterion: result, value, bounds, and their source."""
     if not criteria:
         return ["  not accepted: no criterion for these parameters"]
     word = "accepted" if all(one["fulfilled"] for one in criteria) else "not accepted"
@@ -165,18 +146,14 @@ def _judged(criteria: list[dict[str, Any]]) -> list[str]:
     return lines(rows)
 
 
-def _plain(report: Report) -> Any:
-    return json.loads(json.dumps(report, default=_listed), parse_constant=lambda _: None)
-
-
 def _listed(value: Any) -> Any:
-    """Return numpy's numbers and arrays as Python's; the words for anything else that JSON does not know."""
+    """Return numbers and arrays of numpy as those of Python; all else that JSON does not know as words."""
     listed = np.asarray(value).tolist()
     return str(value) if listed is value else listed
 
 
 def _spell(value: Any, scale: float = _ROUND_OFF) -> str:
-    """Return a value in words; a number that is round-off beside a scale, or the largest of its list, is 0."""
+    """Return a value in words; a number below a scale, or below round-off of the largest of its list, is 0."""
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, float):
