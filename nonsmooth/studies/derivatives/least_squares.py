@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 Observe = Callable[[State], Any]
 _STEP = 1e-5
 """Step of the differences of least squares, relative to the range of the parameter."""
-_TOLD = 1e-7
+_ROUND_OFF = 1e-7
 """Relative effect of a parameter below which it is round-off: that of runs, 1e-12, over the step."""
 _REFINED = 3
 """Starting points that are refined."""
@@ -106,66 +106,95 @@ def fit(
         If bounds, times or measurements are not valid, there are fewer numbers than parameters, or the measurements do
         not determine the parameters.
     """
-    from scipy.stats.qmc import Sobol
-
     check_callable("fit: observe", observe, "observe(state)")
     times = rising_times("fit: at", at)
-    data = np.asarray(measured, dtype=float)
-    if data.ndim not in (1, 2) or len(data) != len(times):
-        remedy = "Put nan where nothing was measured."
-        raise InvalidInput("fit: measured", f"must have a row for each of {len(times)} times", data.shape, remedy)
-    data = data.reshape(len(times), -1)
-    family, names = Family.of(what), tuple(bounds)
-    low, high = _bounds(family, bounds)
-    given = np.isfinite(data)
-    if not names:
+    family, data = Family.of(what), _measurements(measured, len(times))
+    problem = _Problem(family, tuple(bounds), *_bounds(family, bounds), times, data, observe)
+    n_numbers = int(np.count_nonzero(np.isfinite(data)))
+    if not bounds:
         raise InvalidInput("fit: bounds", "must name parameters", bounds, 'For example {"restitution": (0.5, 0.9)}.')
-    if np.count_nonzero(given) < len(names):
-        raise InvalidInput(
-            "fit: measured",
-            "must be more numbers than parameters",
-            int(np.count_nonzero(given)),
-            "Measure more, or fit fewer.",
-        )
+    if n_numbers < len(bounds):
+        rule, remedy = "must be more numbers than parameters", "Measure more, or fit fewer."
+        raise InvalidInput("fit: measured", rule, n_numbers, remedy)
+    found = problem.solved(starts)
+    values, width = problem.values(found.x), problem.high - problem.low
+    deviation = float(np.sqrt(np.sum(found.fun**2) / max(1, n_numbers - len(bounds))))
+    covariance = deviation**2 * _inverse(found.jac, problem.names) * np.outer(width, width)
+    errors = dict(zip(bounds, np.sqrt(np.diag(covariance)).tolist(), strict=True))
+    best = dict(zip(bounds, values.tolist(), strict=True))
+    modelled = problem.modelled(values)
+    message = str(found.message)
+    return Fit(family.at(**best), observe, best, errors, covariance, times, data, modelled, deviation, message)
 
-    def modelled(values: Array) -> Array:
-        model = family.model(**dict(zip(names, values.tolist(), strict=True)))
-        return observed(model, times, observe)
 
-    def residual(shares: Array) -> Array:
-        return np.asarray((modelled(low + shares * (high - low)) - data)[given])
+@final
+@dataclass(frozen=True, eq=False)
+class _Problem:
+    """Differences of observables and measurements, as a function of parameters scaled to their bounds."""
 
-    own = np.clip([(family[name] - a) / (b - a) for name, a, b in zip(names, low, high, strict=True)], 0.0, 1.0)
-    spread = Sobol(len(names), seed=0).random(starts) if starts else np.zeros((0, len(names)))
-    points = np.concatenate([own[None], spread])
+    family: Family
+    names: tuple[str, ...]
+    low: Array
+    high: Array
+    times: Array
+    data: Array
+    observe: Observe
 
-    def cost(point: Array) -> float:
+    def values(self, scaled: Array) -> Array:
+        """Return the parameters of scaled ones, from 0 to 1."""
+        return self.low + scaled * (self.high - self.low)
+
+    def modelled(self, values: Array) -> Array:
+        """Return the observables, shape [n, k]."""
+        model = self.family.model(**dict(zip(self.names, values.tolist(), strict=True)))
+        return observed(model, self.times, self.observe)
+
+    def residual(self, scaled: Array) -> Array:
+        """Return the differences from all measurements that are given, shape [m]."""
+        return np.asarray((self.modelled(self.values(scaled)) - self.data)[np.isfinite(self.data)])
+
+    def cost(self, scaled: Array) -> float:
+        """Return the sum of squares; infinite at a point at which no run succeeds."""
         try:
-            return float(np.sum(residual(point) ** 2))
+            return float(np.sum(self.residual(scaled) ** 2))
         except (RunFailed, InvalidInput):
-            # a point at which nothing runs is no starting point
             return np.inf
 
-    costs = np.array([cost(point) for point in points])
-    found = _deepest(residual, points[np.argsort(costs, kind="stable")][:_REFINED])
-    values = low + found.x * (high - low)
-    freedom = max(1, len(found.fun) - len(names))
-    deviation = float(np.sqrt(np.sum(found.fun**2) / freedom))
-    covariance = deviation**2 * _inverse(found.jac, names) * np.outer(high - low, high - low)
-    errors = np.sqrt(np.diag(covariance))
-    best_values = dict(zip(names, values.tolist(), strict=True))
-    return Fit(
-        family.at(**best_values),
-        observe,
-        best_values,
-        dict(zip(names, errors.tolist(), strict=True)),
-        covariance,
-        times,
-        data,
-        modelled(values),
-        deviation,
-        str(found.message),
-    )
+    def solved(self, starts: int) -> OptimizeResult:
+        """Return the best minimum reached from the best starting points; points from which a run fails are left out.
+
+        Raises
+        ------
+        RunFailed, InvalidInput
+            If runs from all points fail.
+        """
+        from scipy.optimize import least_squares
+        from scipy.stats.qmc import Sobol
+
+        pairs = zip(self.names, self.low, self.high, strict=True)
+        own = np.clip([(self.family[name] - a) / (b - a) for name, a, b in pairs], 0.0, 1.0)
+        spread = Sobol(len(self.names), seed=0).random(starts) if starts else np.zeros((0, len(self.names)))
+        points = np.concatenate([own[None], spread])
+        order = np.argsort([self.cost(point) for point in points], kind="stable")
+        found, trouble = list["OptimizeResult"](), list[RunFailed | InvalidInput]()
+        for begin in points[order][:_REFINED]:
+            inside = np.clip(begin, 1e-3, 1.0 - 1e-3)
+            try:
+                found.append(least_squares(self.residual, inside, bounds=(0.0, 1.0), diff_step=_STEP, xtol=1e-10))
+            except (RunFailed, InvalidInput) as error:
+                trouble.append(error)
+        if not found:
+            raise trouble[0]
+        return min(found, key=lambda one: float(one.cost))
+
+
+def _measurements(measured: ArrayLike, n: int) -> Array:
+    """Return the measurements with a row for each time, shape [n, k]."""
+    data = np.asarray(measured, dtype=float)
+    if data.ndim not in (1, 2) or len(data) != n:
+        remedy = "Put nan where nothing was measured."
+        raise InvalidInput("fit: measured", f"must have a row for each of {n} times", data.shape, remedy)
+    return data.reshape(n, -1)
 
 
 def observed(model: Model, times: Array, observe: Observe) -> Array:
@@ -175,43 +204,16 @@ def observed(model: Model, times: Array, observe: Observe) -> Array:
         state = flow(model, state, time).state
         row = np.atleast_1d(floats("fit: observe", observe(state)))
         if not np.all(np.isfinite(row)):
-            raise InvalidInput(
-                "fit: observe", "must return finite numbers", row.tolist(), "Of which state does it not?"
-            )
+            remedy = "Of which state does it not?"
+            raise InvalidInput("fit: observe", "must return finite numbers", row.tolist(), remedy)
         rows.append(row)
     return np.array(rows)
-
-
-def _deepest(residual: Callable[[Array], Array], begins: Array) -> OptimizeResult:
-    """Return the best minimum of those reached from some points; points from which a run fails are left out.
-
-    Raises
-    ------
-    RunFailed, InvalidInput
-        If runs from all points fail.
-    """
-    found, trouble = list["OptimizeResult"](), list[RunFailed | InvalidInput]()
-    for begin in begins:
-        try:
-            found.append(_refined(residual, begin))
-        except (RunFailed, InvalidInput) as error:
-            trouble.append(error)
-    if not found:
-        raise trouble[0]
-    return min(found, key=lambda one: float(one.cost))
-
-
-def _refined(residual: Callable[[Array], Array], begin: Array) -> OptimizeResult:
-    from scipy.optimize import least_squares
-
-    inside = np.clip(begin, 1e-3, 1.0 - 1e-3)
-    return least_squares(residual, inside, bounds=(0.0, 1.0), diff_step=_STEP, xtol=1e-10)
 
 
 def _inverse(jacobian: Array, names: Sequence[str]) -> Array:
     """Return the inverse of J^T J; InvalidInput if a combination of parameters changes nothing."""
     _, effects, ways = np.linalg.svd(jacobian, full_matrices=False)
-    idle = effects <= _TOLD * effects[0]
+    idle = effects <= _ROUND_OFF * effects[0]
     if np.any(idle):
         which = [name for name, part in zip(names, np.abs(ways[idle]).max(axis=0), strict=True) if part > 0.1]
         remedy = "Fit fewer, or measure what they change."
