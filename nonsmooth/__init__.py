@@ -16,8 +16,10 @@ from nonsmooth.queries.proximity import proximity
 from nonsmooth.restitution import restitution
 from nonsmooth.results.opening import open_solution
 from nonsmooth.results.output import Output
+from nonsmooth.run_scenario import run_scenario
 from nonsmooth.runs.model import Model
 from nonsmooth.runs.resuming import resume
+from nonsmooth.scenario import scenario
 from nonsmooth.simulate import assemble, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
@@ -57,7 +59,9 @@ __all__ = [
     "resting",
     "restitution",
     "resume",
+    "run_scenario",
     "save_system",
+    "scenario",
     "simulate",
     "solve_contact",
     "solve_impact",

@@ -41,8 +41,10 @@ class Rule:
     assumed : bool
         True where the source does not give the value and we chose it.
     law : str
-        "normal", "friction" or "impact" where a scenario's parameter is nothing but one of that law, so that it would
-        be ignored where a user puts another law in its place.
+        "normal", "friction" or "impact" if a scenario's parameter is only passed on to that law.  It would be ignored
+        if a user puts another law in its place.
+    integer : bool
+        True if the number must be an integer.  The component gets a Python int, also from 3.0.
     """
 
     doc: str
@@ -54,6 +56,7 @@ class Rule:
     choices: tuple[str, ...] = ()
     assumed: bool = False
     law: str = ""
+    integer: bool = False
 
     def describe(self) -> str:
         """Return the allowed range in words."""
@@ -66,7 +69,10 @@ class Rule:
             parts.append(f">= {self.minimum:g}")
         if self.maximum < math.inf:
             parts.append(f"<= {self.maximum:g}")
-        return " and ".join(parts) or "any finite number"
+        bounds = " and ".join(parts)
+        if self.integer:
+            return f"an integer {bounds}".rstrip()
+        return bounds or "any finite number"
 
 
 def parameter(default: Any = dataclasses.MISSING, *, doc: str, unit: str = "1", **rule: Any) -> Any:
@@ -100,6 +106,8 @@ def check_number(thing: str, value: Any, rule: Rule) -> None:
         raise InvalidInput(thing, "must be a finite number", value, f"Give it in [{rule.unit}].")
     if value < rule.minimum or value > rule.maximum or value <= rule.above:
         raise InvalidInput(thing, f"must be {rule.describe()} [{rule.unit}]", value, f"It is the {rule.doc}.")
+    if rule.integer and value != int(value):
+        raise InvalidInput(thing, "must be an integer", value, f"It is the {rule.doc}.")
     low, high = rule.usual
     if value != 0.0 and not low <= abs(value) <= high:
         warnings.warn(
@@ -161,6 +169,8 @@ class Component:
                 raise UnknownName(thing, str(value), rule.choices)
             if rule.unit != "":
                 check_number(thing, value, rule)
+            if rule.integer:
+                object.__setattr__(self, name, int(value))  # a study or a file gives 3.0
         self._check()
 
     def _check(self) -> None:

@@ -16,7 +16,7 @@ from nonsmooth.interfaces.load import Load
 from nonsmooth.interfaces.look import Look
 from nonsmooth.interfaces.motion import Motion
 from nonsmooth.interfaces.normal_law import CompliantNormalLaw, NormalLaw, RigidNormalLaw
-from nonsmooth.interfaces.scenario import Scenario
+from nonsmooth.interfaces.scenario import Run, Scenario
 from nonsmooth.interfaces.shape import Shape
 from nonsmooth.interfaces.tangential_law import TangentialLaw
 from nonsmooth.interfaces.traction_law import TractionLaw
@@ -45,6 +45,7 @@ __all__ = [
     "Motion",
     "NormalLaw",
     "RigidNormalLaw",
+    "Run",
     "Scenario",
     "Shape",
     "StatefulFrictionLaw",

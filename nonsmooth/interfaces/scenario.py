@@ -1,13 +1,15 @@
-"""Scenario: a parametrised system with its figures and the numbers that say what happened."""
+"""Scenario: a parametrised system with its figures and the numbers by which a run is judged."""
 
 from __future__ import annotations
 
 import dataclasses
 import re
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
+from nonsmooth import charts
 from nonsmooth.interfaces.criterion import Criterion
 from nonsmooth.parameters import Component, Rule, rules
 
@@ -15,63 +17,84 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
     from nonsmooth.system.system import System
 
+Run: TypeAlias = "Callable[[Scenario], Solution]"
+"""Function that simulates a scenario, as :func:`nonsmooth.run_scenario` does."""
+
 _NUMBER = re.compile(r"_\d+$")
 
 
 class Scenario(Component, ABC):
     """A ready-made system.
 
+    A subclass gives ``title``, ``t_end``, ``build`` and ``acceptance``.  All else has a default, to be replaced by
+    scenarios with coordinates, numbers or figures of their own.
+
     The contract:
 
     1. Parameters are dataclass fields declared with :func:`nonsmooth.parameters.parameter`.
-    2. ``build`` returns a new System; ``t_end`` says how long to run it.
+    2. ``build`` returns a new System; ``t_end`` is the end time of its run.
     3. ``summarise``, ``coordinates``, ``figures`` and ``acceptance`` only read the solution.
     4. A full run of the default parameters has at least one criterion, and fulfils all.
-    5. ``units`` are those of the numbers of ``summarise``, by name; the others have none.  ``coordinate_units`` are
-       those of all ``coordinates``, by name; of z_1, z_2 and so on that of z.  ``words`` are all words that a word
-       of ``summarise`` can be, by name.
+
+    Attributes
+    ----------
+    title : str
+        One line of text.
+    samples : int
+        Number of intervals between samples in a run.
+    units : mapping
+        Units of the numbers of ``summarise`` by name; numbers that are left out have none.
+    coordinate_units : mapping
+        Units of all ``coordinates`` by name.  The unit of z is also that of z_1, z_2 and so on.
+    words : mapping
+        All words that a word of ``summarise`` can be, by name.
     """
 
     title: ClassVar[str]
-    units: ClassVar[Mapping[str, str]] = {}
-    coordinate_units: ClassVar[Mapping[str, str]] = {}
-    words: ClassVar[Mapping[str, tuple[str, ...]]] = {}
+    samples: ClassVar[int] = 1000
+    units: ClassVar[Mapping[str, str]] = MappingProxyType({"restitution_loss": "J", "friction_loss": "J"})
+    coordinate_units: ClassVar[Mapping[str, str]] = MappingProxyType({})
+    words: ClassVar[Mapping[str, tuple[str, ...]]] = MappingProxyType({})
 
     @property
     @abstractmethod
     def t_end(self) -> float:
         """End time of the run [s]."""
 
-    @property
-    @abstractmethod
-    def sample_interval(self) -> float:
-        """Time between samples of the solution [s]."""
-
     @abstractmethod
     def build(self) -> System:
         """Return the system at its start."""
 
     @abstractmethod
+    def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
+        """Return the numbers by which a finished run is judged, those that hold for these parameters."""
+
+    @property
+    def sample_interval(self) -> float:
+        """Time between samples of the solution [s]."""
+        return self.t_end / self.samples
+
     def resolved(self) -> Mapping[str, Any]:
-        """Return all parameters with the values that the run uses."""
+        """Return all parameters with the values that the run uses; as they are given by default."""
+        return {name: getattr(self, name) for name in rules(type(self))}
 
     @property
     def name(self) -> str:
-        """What messages call it; its class by default."""
+        """Name in messages; that of the class by default."""
         return type(self).__name__
 
     @property
     def varies(self) -> Mapping[str, Rule]:
-        """What can be varied, by name, with what is known of it; all parameters by default."""
+        """Rules of the parameters that a study can vary, by name; of all parameters by default."""
         return {name: rule for name, (_, rule) in rules(type(self)).items()}
 
     @property
     def values(self) -> Mapping[str, Any]:
-        """The values that the run uses of what can be varied, and of what is derived from it."""
+        """Values that the run uses of the parameters that can be varied and of those derived from them, by name."""
         return self.resolved()
 
     def varied(self, **changes: Any) -> Scenario:
-        """Return the same scenario with other values; what it derives from them follows.
+        """Return the same scenario with other values of some parameters.
 
         Raises
         ------
@@ -80,32 +103,42 @@ class Scenario(Component, ABC):
         """
         return dataclasses.replace(self, **changes)  # type: ignore[type-var]
 
-    @abstractmethod
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
-        """Return the scenario's own coordinates over the samples: name -> array [n_samples]."""
+        """Return coordinates of the scenario's own over the samples, by name, shape [n_samples]; none by default."""
+        return {}
 
     def unit_of(self, coordinate: str) -> str:
-        """Return the unit of a coordinate, "" where none is declared."""
+        """Return the unit of a coordinate, "" if none is declared."""
         known = self.coordinate_units
         return known.get(coordinate) or known.get(_NUMBER.sub("", coordinate), "")
 
-    @abstractmethod
     def final(self, solution: Solution) -> Mapping[str, list[float]]:
-        """Return {q, u} at the end in the scenario's own coordinates."""
+        """Return {q, u}, coordinates and velocities at the end; those of the system by default."""
+        return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
 
-    @abstractmethod
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return the numbers that say what happened."""
+        """Return numbers and words that describe the run; by default the number of impacts and the losses [J]."""
+        account = solution.energy
+        return {
+            "impacts": solution.counters.impacts,
+            "restitution_loss": account.restitution_loss,
+            "friction_loss": account.friction_loss,
+        }
 
-    @abstractmethod
-    def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return the numbers by which a finished run is judged; those that hold for these parameters."""
-
-    @abstractmethod
     def figures(self, solution: Solution) -> Mapping[str, Any]:
-        """Return matplotlib figures of this run by file name."""
+        """Return matplotlib figures of this run by file name; by default the coordinates over time."""
+        own = {f"{name} [{self.unit_of(name)}]": x for name, x in self.coordinates(solution).items()}
+        system = solution.system
+        bodies = zip(system.bodies, system.names.bodies, strict=True)
+        labels = [f"{label} {name} [{unit}]" for body, label in bodies for name, unit in body.q_labels]
+        drawn = own or dict(zip(labels, solution.q.T, strict=True))
+        return {"coordinates": charts.histories({y: {"": (solution.t, x)} for y, x in drawn.items()}, self.title)}
 
     @classmethod
-    @abstractmethod
-    def gallery(cls, progress: Any) -> Mapping[str, Any]:
-        """Run what the scenario's published figures need and return them all by file name."""
+    def gallery(cls, run: Run) -> Mapping[str, Any]:
+        """Return the published figures by file name, and call ``run`` for the runs that they need.
+
+        By default the figures of a run of the default parameters.
+        """
+        scenario = cls()
+        return scenario.figures(run(scenario))

@@ -1,16 +1,13 @@
-"""Pictures of any run: functions from a solution to matplotlib axes, to be composed; it comes with ``nonsmooth[full]``.
+"""Pictures of any run: functions from a solution to matplotlib axes, which can be composed (``nonsmooth[full]``).
 
-Each takes axes to draw on, or makes some of its own, and returns them.  Contacts, bodies and coordinates are asked for
-by their names.
+Each takes axes to draw on, or makes new ones, and returns them.  Contacts, bodies and coordinates are given by their
+names.  Charts of other numbers than those of a solution are in :mod:`nonsmooth.charts`.
 """
 
-from nonsmooth.plot.energy import energies
-from nonsmooth.plot.force import forces
-from nonsmooth.plot.gap import gaps
-from nonsmooth.plot.impulse import impulses
-from nonsmooth.plot.mode import modes
+from nonsmooth.plot.contacts import forces, gaps, impulses, velocities
+from nonsmooth.plot.energies import energies
+from nonsmooth.plot.modes import modes
+from nonsmooth.plot.path import path
 from nonsmooth.plot.portrait import phase_portrait
-from nonsmooth.plot.route import path
-from nonsmooth.plot.velocity import velocities
 
 __all__ = ["energies", "forces", "gaps", "impulses", "modes", "path", "phase_portrait", "velocities"]

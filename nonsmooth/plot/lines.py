@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from nonsmooth.charts import line
 from nonsmooth.histories.arrays import Floats
 
 if TYPE_CHECKING:
@@ -13,20 +14,11 @@ if TYPE_CHECKING:
 
     from nonsmooth.solution.solution import Solution
 
-COLOURS = ("#000000", "#d55e00", "#0072b2", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#7f7f7f")
-_DASHES = ("-", "--", "-.", ":", (0, (6, 1)), (0, (3, 1, 1, 1)), (0, (1, 1)), (0, (8, 3)))
-
-
-def look(place: int) -> dict[str, Any]:
-    """Return how the line at a place of the legend looks."""
-    turn, which = divmod(place, len(COLOURS))
-    return {"color": COLOURS[which], "linestyle": _DASHES[which], "linewidth": 1.3 + 0.9 * turn}
-
 
 def draw_lines(ax: Axes, solution: Solution, numbers: Sequence[int], times: Floats, values: Floats) -> None:
     """Draw values [n, one for each contact] over time, with a legend; what is not a number is left out."""
-    for place, (number, line) in enumerate(zip(numbers, values.T, strict=True)):
-        ax.plot(times, line, label=solution.system.contacts[number].name, **look(place))
+    for place, (number, value) in enumerate(zip(numbers, values.T, strict=True)):
+        ax.plot(times, value, label=solution.system.contacts[number].name, **line(place))
     over_time(ax, solution)
     beside(ax, title_of(numbers, solution))
 

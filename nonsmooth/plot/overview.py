@@ -9,13 +9,11 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from nonsmooth.interfaces import Body
-from nonsmooth.plot.asked import contacts_of, pyplot
-from nonsmooth.plot.energy import energies
-from nonsmooth.plot.force import forces
-from nonsmooth.plot.gap import gaps
-from nonsmooth.plot.impulse import impulses
-from nonsmooth.plot.mode import modes
-from nonsmooth.plot.route import path
+from nonsmooth.plot.arguments import contacts_of, pyplot
+from nonsmooth.plot.contacts import forces, gaps, impulses
+from nonsmooth.plot.energies import energies
+from nonsmooth.plot.modes import modes
+from nonsmooth.plot.path import path
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from nonsmooth.errors import UnknownName
 from nonsmooth.histories.arrays import Floats, Integers
 from nonsmooth.histories.coordinate_rates import coordinate_rates
-from nonsmooth.plot.asked import axes_of, times_of
+from nonsmooth.plot.arguments import axes_of, times_of
 from nonsmooth.plot.lines import beside
 from nonsmooth.system.labels import labels
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
-from nonsmooth.plot.asked import axes_of
-from nonsmooth.plot.lines import COLOURS, beside
+from nonsmooth.charts import COLOURS
+from nonsmooth.plot.arguments import axes_of
+from nonsmooth.plot.lines import beside
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist

@@ -163,7 +163,7 @@ class _Look:
         found = self._scenario.summarise(self.solution)
         if not isinstance(found, Mapping) or not found or not all(isinstance(name, str) for name in found):
             raise Broken("it must be a mapping with names, at least one", "summarise", found)
-        unknown = sorted(set(self._scenario.units) - set(found))
+        unknown = sorted(set(self._scenario.units) - {*found, *Scenario.units})
         if unknown:
             raise Broken("it must name numbers of `summarise`", "units", unknown)
         for name, words in self._scenario.words.items():

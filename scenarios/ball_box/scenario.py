@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 from bodies import Ball, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Body, Criterion, Scenario
+from nonsmooth.interfaces import Body, Criterion, Run, Scenario
 from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.materials import ContactLaws, Materials
 from nonsmooth.system.system import System
@@ -233,15 +232,12 @@ class BallBox(Scenario):
         return {"pile": pile(self, solution), "history": history({"": (self, solution)})}
 
     @classmethod
-    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+    def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return the pile of the default run, and its history beside that of other coefficients of restitution."""
         from scenarios.ball_box.figures import history, pile
 
         runs = {}
         for restitution in (0.5, 0.8):
             scenario = cls(restitution=restitution)
-            run = simulate(
-                scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, progress=progress
-            )
-            runs[f"e = {restitution:g}"] = scenario, run
+            runs[f"e = {restitution:g}"] = scenario, run(scenario)
         return {"pile": pile(*runs["e = 0.5"]), "history": history(runs)}

@@ -14,9 +14,8 @@ from bodies import Ball, Plate, Rest
 from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Criterion, Scenario
+from nonsmooth.interfaces import Criterion, Run, Scenario
 from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 
@@ -147,12 +146,12 @@ class BeadColumn(Scenario):
         return {"heights": heights(self, solution)}
 
     @classmethod
-    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+    def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return the heights over time of an elastic and of a dissipative column."""
         from scenarios.bead_column.figures import heights
 
         drawn = {}
         for restitution, word in ((1.0, "elastic"), (0.9, "dissipative")):
             scenario = cls(restitution=restitution)
-            drawn[f"heights_{word}"] = heights(scenario, simulate(scenario.build(), scenario.t_end, progress=progress))
+            drawn[f"heights_{word}"] = heights(scenario, run(scenario))
         return drawn

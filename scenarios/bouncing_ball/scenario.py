@@ -14,11 +14,11 @@ from bodies import Ball, Harmonic, Plate
 from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Criterion, Scenario
-from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress
+from nonsmooth.interfaces import Criterion, Run, Scenario
+from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
+from scenarios.bouncing_ball import figures as draw
 from scenarios.bouncing_ball import orbits
 
 Floats = NDArray[np.float64]
@@ -56,8 +56,8 @@ class BouncingBall(Scenario):
     )
     frequency: float = parameter(25.0, doc="frequency f of the table", unit="Hz", above=0.0, usual=(1.0, 1e3))
     restitution: float = parameter(0.8, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0)
-    orbit: float = parameter(
-        1.0, doc="table periods n that a flight of the orbit takes on which it starts", minimum=1.0, maximum=100.0
+    orbit: int = parameter(
+        1, doc="table periods n of a flight on the orbit on which it starts", minimum=1, maximum=100, integer=True
     )
     start_phase: float | None = parameter(
         None,
@@ -79,8 +79,6 @@ class BouncingBall(Scenario):
     t_end: float = parameter(4.0, doc="end time", unit="s", above=0.0, usual=(1e-3, 1e4))
 
     def _check(self) -> None:
-        if self.orbit != int(self.orbit):
-            raise InvalidInput("BouncingBall.orbit", "must be a whole number", self.orbit, "Count table periods.")
         if self.gamma == 0.0 and self.height is None:
             raise InvalidInput(
                 "BouncingBall.height", "must be given on a table at rest", None, "Give it in [m], or take gamma > 0."
@@ -92,8 +90,7 @@ class BouncingBall(Scenario):
 
     def resolved(self) -> Mapping[str, Any]:
         """Return all parameters with the values that the run uses; ``height`` stays None without a drop."""
-        used = {name: getattr(self, name) for name in rules(type(self))}
-        return used | {"start_phase": self.phase, "speed": self._start()[1]}
+        return {**super().resolved(), "start_phase": self.phase, "speed": self._start()[1]}
 
     @property
     def period(self) -> float:
@@ -117,7 +114,7 @@ class BouncingBall(Scenario):
             return self.start_phase
         if self.height is not None:
             return 0.0
-        return orbits.impact_phase(self.gamma, self.restitution, int(self.orbit))
+        return orbits.impact_phase(self.gamma, self.restitution, self.orbit)
 
     def table(self, t: Floats) -> Floats:
         """Return the height of the table [m] at times [s]."""
@@ -191,7 +188,7 @@ class BouncingBall(Scenario):
         """Return the flight of a stable orbit that it starts on, or when a drop on a table at rest is over."""
         if self.height is not None:
             return self._acceptance_of_drop(solution, self.height)
-        n, e = int(self.orbit), self.restitution
+        n, e = self.orbit, self.restitution
         on_orbit = self.speed is None and self.start_phase is None
         if not (on_orbit and orbits.existence(e, n) < self.gamma < orbits.stability(e, n)):
             return ()
@@ -218,13 +215,9 @@ class BouncingBall(Scenario):
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return the last of the motion."""
-        from scenarios.bouncing_ball.figures import motion
-
-        return {"motion": motion(self, solution)}
+        return {"motion": draw.motion(self, solution)}
 
     @classmethod
-    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+    def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return the bifurcation diagram and the motion on four of its branches."""
-        from scenarios.bouncing_ball.figures import gallery
-
-        return gallery(cls, progress)
+        return {"bifurcation": draw.bifurcation(cls(restitution=0.6), run), "motions": draw.branches(cls, run)}

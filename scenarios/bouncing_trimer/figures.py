@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.simulate import Progress, simulate
+from nonsmooth.interfaces import Run
 from nonsmooth.solution.solution import Solution
 from scenarios.bouncing_trimer.scenario import GRAVITY, BouncingTrimer
 from scenarios.bouncing_trimer.survey import Entry, survey
@@ -34,11 +34,11 @@ _THRESHOLD = 1e-2
 """Where the axes become linear."""
 
 
-def gallery(owner: type[BouncingTrimer], progress: Progress | None) -> Mapping[str, Any]:
+def gallery(owner: type[BouncingTrimer], run: Run) -> Mapping[str, Any]:
     """Return all figures by name."""
-    entries = survey(owner(), GAMMAS, FREQUENCIES, PERIODS, progress)
+    entries = survey(owner(), GAMMAS, FREQUENCIES, PERIODS, run)
     scenario = owner(gamma=3.0)
-    solution = simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval)
+    solution = run(scenario)
     return {
         "regimes": regimes(owner(), entries),
         "path": path(scenario, solution),

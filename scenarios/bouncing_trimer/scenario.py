@@ -14,9 +14,8 @@ from bodies import Ball, Compound, Harmonic, Part, Plate
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Criterion, Scenario
+from nonsmooth.interfaces import Criterion, Run, Scenario
 from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.bouncing_trimer.motion import NAMES, Motion, summary
@@ -212,11 +211,11 @@ class BouncingTrimer(Scenario):
         return {"path": path(self, solution), "gaps": last_bounces(self, solution)}
 
     @classmethod
-    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+    def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return regimes and speeds over Gamma and frequency, and the path of one run."""
         from scenarios.bouncing_trimer.figures import gallery
 
-        return gallery(cls, progress)
+        return gallery(cls, run)
 
 
 def _third_row(quaternions: Floats) -> Floats:

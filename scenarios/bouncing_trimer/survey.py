@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any, cast
 
 from nonsmooth.errors import RunFailed
-from nonsmooth.simulate import Progress, simulate
+from nonsmooth.interfaces import Run
 from nonsmooth.solution.solution import Solution
 from scenarios.bouncing_trimer.scenario import BouncingTrimer
 
@@ -41,7 +41,7 @@ def survey(
     gammas: Iterable[float],
     frequencies: Iterable[float],
     periods: float,
-    progress: Progress | None,
+    run: Run,
 ) -> list[Entry]:
     """Run a scenario for so many plate periods at every pair of Gamma and frequency [Hz]."""
     runs = [
@@ -50,18 +50,16 @@ def survey(
         for gamma in gammas
     ]
     found = []
-    for i, one in enumerate(runs):
-        solution = _run(one)
+    for one in runs:
+        solution = _finished(one, run)
         numbers = one.summarise(solution)
         found.append(Entry(one.gamma, one.frequency, numbers, solution.energy.residual, solution.status))
-        if progress is not None:
-            progress((i + 1) * periods, len(runs) * periods)
     return found
 
 
-def _run(scenario: BouncingTrimer) -> Solution:
+def _finished(scenario: BouncingTrimer, run: Run) -> Solution:
     """Return the solution of a run, as far as it came: one that stops must not cost the survey."""
     try:
-        return simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval)
+        return run(scenario)
     except RunFailed as error:
         return cast("Solution", error.solution)

@@ -15,7 +15,6 @@ from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 
@@ -178,13 +177,6 @@ class DiceThrow(Scenario):
         from scenarios.dice_throw.figures import throw
 
         return {"throw": throw(self, solution)}
-
-    @classmethod
-    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
-        """Return the same for the default throw."""
-        scenario = cls()
-        run = simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, progress=progress)
-        return scenario.figures(run)
 
     @property
     def diagonal(self) -> float:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.simulate import Progress, simulate
+from nonsmooth.interfaces import Run
 from nonsmooth.solution.solution import Solution
 from scenarios.disc_ball.closed_forms import one_after_the_other, symmetric
 from scenarios.disc_ball.scenario import DiscBall
@@ -77,17 +77,17 @@ def _body(axis: Axes, place: Floats, radius: float, velocity: Floats, color: str
     axis.update_datalim([place - radius, place + radius, place + 2.0 * radius * velocity])
 
 
-def gallery(owner: type[DiscBall], progress: Progress | None) -> Mapping[str, Any]:
+def gallery(owner: type[DiscBall], run: Run) -> Mapping[str, Any]:
     """Return all figures by name."""
     scenario = owner()
-    solution = simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval)
+    solution = run(scenario)
     ratios = np.logspace(-4.0, 4.0, RATIOS)
     offsets = np.linspace(-1.95, 1.95, OFFSETS)
     # after a strike aside the disc may be slow on its way to the other ball
     slow = dataclasses.replace(scenario, t_end=_LONG)
     by_ratio = [dataclasses.replace(slow, stiffness_ratio=float(ratio)) for ratio in ratios]
     by_offset = [dataclasses.replace(slow, offset=float(offset) * scenario.radius) for offset in offsets]
-    both = _outcomes([*by_ratio, *by_offset], progress)
+    both = _outcomes([*by_ratio, *by_offset], run)
     return {
         "strike": strike(scenario, solution),
         "stiffness": over_stiffness(scenario, ratios, both[: len(ratios)]),
@@ -95,16 +95,11 @@ def gallery(owner: type[DiscBall], progress: Progress | None) -> Mapping[str, An
     }
 
 
-def _outcomes(scenarios: list[DiscBall], progress: Progress | None) -> Floats:
+def _outcomes(scenarios: list[DiscBall], run: Run) -> Floats:
     """Return the velocities after the strike, shape [n, 3, 2]."""
     found = []
-    whole = sum(scenario.t_end for scenario in scenarios)
-    done = 0.0
     for scenario in scenarios:
-        solution = simulate(scenario.build(), scenario.t_end, sample_interval=scenario.t_end)
-        done += scenario.t_end
-        if progress is not None:
-            progress(min(done, whole), whole)
+        solution = run(scenario)
         found.append(scenario.velocities(solution))
     return np.array(found)
 

@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 from bodies import Ball
 from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Criterion, Scenario
+from nonsmooth.interfaces import Criterion, Run, Scenario
 from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.disc_ball.closed_forms import half_angle, symmetric
@@ -186,8 +185,8 @@ class DiscBall(Scenario):
         return {"strike": strike(self, solution)}
 
     @classmethod
-    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+    def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return the strike, and its outcome over the ratio of stiffnesses and over the offset."""
         from scenarios.disc_ball.figures import gallery
 
-        return gallery(cls, progress)
+        return gallery(cls, run)

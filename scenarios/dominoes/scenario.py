@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 from bodies import Box, PlanarBody, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Criterion, Scenario
+from nonsmooth.interfaces import Criterion, Run, Scenario
 from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 
@@ -221,16 +220,14 @@ class Dominoes(Scenario):
         return {"row": row(self, solution), "wave": wave({"": (self, solution)})}
 
     @classmethod
-    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+    def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return the row, and the speed of the wave of rows with three distances."""
         from scenarios.dominoes.figures import row, wave
 
         runs = {}
         for spacing in (0.012, 0.016, 0.022):
             scenario = cls(spacing=spacing, t_end=0.66)
-            solution = simulate(
-                scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, progress=progress
-            )
+            solution = run(scenario)
             runs[f"distance {1e3 * spacing:g} mm"] = scenario, solution
         middle = list(runs.values())[1]
         return {"row": row(*middle), "wave": wave(runs)}

@@ -2,8 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from scenarios.dumbbell.scenario import DumbbellScenario
 
 Floats = NDArray[np.float64]
 
@@ -14,6 +20,64 @@ UNITS = _UNITS | {f"{name}_rate": f"{unit}/s" for name, unit in _UNITS.items()}
 """Their units and those of their rates, by name."""
 
 _SINGULAR = 1e-12
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A motion of the scenario's dumbbell over its plate.
+
+    Attributes
+    ----------
+    scenario : DumbbellScenario
+        The scenario of the run.
+    t : array
+        Times, ascending [s], shape [n].
+    q, u : array
+        Coordinates [m, rad] and rates, shape [n, 6].
+    """
+
+    scenario: DumbbellScenario
+    t: Floats
+    q: Floats
+    u: Floats
+
+    @classmethod
+    def of(cls, scenario: DumbbellScenario, t: Floats, q: Floats, u: Floats) -> Motion:
+        """Return the motion with coordinates and velocities of the free body, shapes [n, 7] and [n, 6]."""
+        return cls(scenario, t, *from_state(t, q, u, scenario.centre_distance))
+
+    @property
+    def heights(self) -> Floats:
+        """Lowest points of the balls [m], shape [n, 2]."""
+        first = self.q[:, 2] - self.scenario.radius
+        return np.column_stack([first, first + self.scenario.centre_distance * np.sin(self.q[:, 4])])
+
+    @property
+    def gap(self) -> Floats:
+        """Gaps between balls and plate [m], shape [n, 2]."""
+        first = self.q[:, 2] - self.scenario.radius - self.scenario.plate_height(self.t)
+        return np.column_stack([first, first + self.scenario.centre_distance * np.sin(self.q[:, 4])])
+
+    @property
+    def gap_rate(self) -> Floats:
+        """Rates of the gaps [m/s], shape [n, 2]."""
+        first = self.u[:, 2] - self.scenario.plate_velocity(self.t)
+        return np.column_stack([first, first + self.scenario.centre_distance * np.cos(self.q[:, 4]) * self.u[:, 4]])
+
+    @property
+    def centre(self) -> Floats:
+        """Horizontal position of the mass centre [m], shape [n, 2]."""
+        arm = self.scenario.centre_distance / 2.0 * np.cos(self.q[:, 4])
+        return np.column_stack([self.q[:, 0] - arm * np.sin(self.q[:, 3]), self.q[:, 1] + arm * np.cos(self.q[:, 3])])
+
+    @property
+    def slip(self) -> Floats:
+        """Slip velocity of ball 1 at its lowest point, along x and y [m/s], shape [n, 2]; N of Eq. (12)."""
+        r, c_b = self.scenario.radius, np.cos(self.q[:, 4])
+        s_t, c_t = np.sin(self.q[:, 3]), np.cos(self.q[:, 3])
+        x = self.u[:, 0] - r * s_t * self.u[:, 4] - r * c_b * c_t * self.u[:, 5]
+        y = self.u[:, 1] + r * c_t * self.u[:, 4] - r * c_b * s_t * self.u[:, 5]
+        return np.column_stack([x, y])
 
 
 def to_state(q: Floats, u: Floats, centre_distance: float) -> dict[str, Floats]:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import math
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, TypeVar, final
+from types import MappingProxyType
+from typing import Any, ClassVar, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,25 +17,48 @@ from numpy.typing import NDArray
 from bodies import Dumbbell, Harmonic, Plate
 from laws import Coulomb, Unilateral, closing_time, effective_modulus
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Criterion, ImpactLaw, Scenario
+from nonsmooth.interfaces import Criterion, ImpactLaw, Run, Scenario
 from nonsmooth.parameters import UnusualValue, parameter, rules
-from nonsmooth.simulate import Progress
+from nonsmooth.plugins.file import find
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.dumbbell import attractor, coordinates
-from scenarios.dumbbell.acceptance import criteria
-from scenarios.dumbbell.impact import impact_law
-from scenarios.dumbbell.modes import GRAVITY, defaults
+from scenarios.dumbbell import attractor, coordinates, figures
 
 Floats = NDArray[np.float64]
-Part = TypeVar("Part")
 
-_SAMPLES_PER_PERIOD = 40
-_FEWEST_PER_PERIOD = 4
-_SAMPLES = 20000
+GRAVITY = 9.81
+"""[m/s^2]"""
 
-_GRID = 20001
-"""Points of a plate period, among which the largest gap is found to 1e-9 of it."""
+_DEFAULTS = {"aspect_ratio": 3.9, "restitution": 0.65, "phase": 0.0, "vertical_velocity": 0.0, "pitch_rate": 0.0}
+_STARTS: Mapping[str, dict[str, float]] = MappingProxyType(
+    {
+        "drift": {"beta0": math.radians(10.0)},
+        "jump": {"beta0": 0.0},
+        "flutter": {
+            "aspect_ratio": 5.7,
+            "restitution": 0.8,
+            "phase": math.pi / 6.0,
+            "beta0": math.radians(11.0),
+            "vertical_velocity": 0.4,
+            "pitch_rate": -9.6,
+        },
+        "free": {"beta0": math.radians(10.0)},
+    }
+)
+"""The paper's starts and the parameters that they change, section 5.1."""
+
+_PERIODS = MappingProxyType({"drift": 1.0, "jump": 1.0, "flutter": 2.0})
+"""Plate periods after which the paper's motions repeat, section 5."""
+_REST_OF_BALL_1 = "{01,00,01}"
+"""The paper's word of the mode in which ball 1 is on the plate and ball 2 in the air."""
+
+
+@contextlib.contextmanager
+def _quiet() -> Iterator[None]:
+    """Build parts without repeating the warnings that the scenario's own parameters gave."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UnusualValue)
+        yield
 
 
 @final
@@ -137,7 +162,7 @@ class DumbbellScenario(Scenario):
     impact: str = parameter("energetic", doc="impact law, by its installed name", unit="", law="impact")
 
     def _check(self) -> None:
-        used = self.resolved()
+        used = self._used
         if used["static_friction"] < used["friction"]:
             raise InvalidInput(
                 "DumbbellScenario.static_friction",
@@ -153,29 +178,35 @@ class DumbbellScenario(Scenario):
                 used["beta0"],
                 f"Its gap would be {gap:.3g} m: raise height by as much, or take beta0 [rad] >= 0.",
             )
-        self._quietly(self._impact_law)
+        self._impact_law()
 
     def resolved(self) -> Mapping[str, Any]:
-        """Return all parameters with the values that the run uses."""
+        """Return all parameters, those that were left out as the mode and the others give them."""
         return self._used
 
     @functools.cached_property
     def _used(self) -> Mapping[str, Any]:
-        left_out = defaults(self.mode, self.frequency, self.friction)
+        left_out = _DEFAULTS | _STARTS[self.mode] | {"static_friction": self.friction}
+        if self.mode == "jump":
+            left_out["vertical_velocity"] = GRAVITY / (2.0 * self.frequency)
         left_out["contact_time"] = self._hertz_time(self.aspect_ratio or left_out["aspect_ratio"])
-        given = {name: getattr(self, name) for name in rules(type(self))}
-        return {name: left_out[name] if value is None else value for name, value in given.items()}
+        return {name: left_out[name] if value is None else value for name, value in super().resolved().items()}
+
+    def _hertz_time(self, aspect_ratio: float) -> float:
+        """Return how long the slightest impact of a ball lasts under gravity [s], the dumbbell being level."""
+        body, material = self._dumbbell(aspect_ratio), (self.young_modulus, self.poisson_ratio)
+        return closing_time(body.level_mass, self.radius, effective_modulus(material, material), GRAVITY)
 
     @property
     def sample_interval(self) -> float:
         """Time between samples [s], a whole fraction of the plate period: 1/40, down to 1/4 in long runs."""
-        fraction = int(_SAMPLES / max(1.0, self.t_end * self.frequency))
-        return 1.0 / (self.frequency * max(_FEWEST_PER_PERIOD, min(_SAMPLES_PER_PERIOD, fraction)))
+        fraction = int(20000 / max(1.0, self.t_end * self.frequency))
+        return 1.0 / (self.frequency * max(4, min(40, fraction)))
 
     @property
     def centre_distance(self) -> float:
         """Distance l of the ball centres [m]."""
-        return self._quietly(self._dumbbell).centre_distance
+        return self._dumbbell(self._used["aspect_ratio"]).centre_distance
 
     @property
     def amplitude(self) -> float:
@@ -184,152 +215,113 @@ class DumbbellScenario(Scenario):
 
     def plate_height(self, t: Floats) -> Floats:
         """Return the plate's position z_p [m] at times [s], Eq. (1)."""
-        height: Floats = self.amplitude * np.sin(self._angle(t))
-        return height
+        return np.asarray(self.amplitude * np.sin(self._angle(t)))
 
     def plate_velocity(self, t: Floats) -> Floats:
         """Return the plate's velocity [m/s] at times [s]."""
-        velocity: Floats = self.amplitude * 2.0 * math.pi * self.frequency * np.cos(self._angle(t))
-        return velocity
+        return np.asarray(self.amplitude * 2.0 * math.pi * self.frequency * np.cos(self._angle(t)))
 
     def _angle(self, t: Floats) -> Floats:
-        return 2.0 * math.pi * self.frequency * t + float(self.resolved()["phase"])
+        return 2.0 * math.pi * self.frequency * t + float(self._used["phase"])
 
+    @_quiet()
     def build(self) -> System:
         """Return dumbbell and plate at their start."""
-        return self._quietly(self._build)
-
-    def _build(self) -> System:
-        used = self.resolved()
+        used = self._used
         plate = Plate(Harmonic(self.amplitude, self.frequency, used["phase"]))
-        dumbbell = self._dumbbell()
+        dumbbell = self._dumbbell(used["aspect_ratio"])
         system = System([plate, dumbbell], gravity=GRAVITY)
-        system.contact(
-            dumbbell,
-            plate,
-            normal=Unilateral(),
-            friction=Coulomb(self.friction, used["static_friction"]),
-            impact=self._impact_law(),
-        )
         z1 = self.radius + self.height + float(self.plate_height(np.zeros(1))[0])
         q = np.array([0.0, 0.0, z1, 0.0, used["beta0"], 0.0])
         u = np.array([self.transverse_velocity, 0.0, used["vertical_velocity"], 0.0, used["pitch_rate"], 0.0])
+        friction, impact = Coulomb(self.friction, used["static_friction"]), self._impact_law()
+        system.contact(dumbbell, plate, normal=Unilateral(), friction=friction, impact=impact)
         system.place(dumbbell, **coordinates.to_state(q, u, dumbbell.centre_distance))
         return system
 
-    def _dumbbell(self) -> Dumbbell:
-        return self._dumbbell_of(self.resolved()["aspect_ratio"])
-
-    def _dumbbell_of(self, aspect_ratio: float) -> Dumbbell:
+    @_quiet()
+    def _dumbbell(self, aspect_ratio: float) -> Dumbbell:
         return Dumbbell(
             self.radius, aspect_ratio, self.density, self.rod_mass_fraction, self.young_modulus, self.poisson_ratio
         )
 
-    def _hertz_time(self, aspect_ratio: float) -> float:
-        """Return how long the slightest impact of a ball lasts under gravity [s], the dumbbell being level."""
-        dumbbell = self._quietly(lambda: self._dumbbell_of(aspect_ratio))
-        material = dumbbell.young_modulus, dumbbell.poisson_ratio
-        modulus = effective_modulus(material, material)
-        return closing_time(dumbbell.level_mass, dumbbell.radius, modulus, GRAVITY)
-
+    @_quiet()
     def _impact_law(self) -> ImpactLaw:
-        used = self.resolved()
+        """Return the installed law of the name given, with those of the scenario's parameters that it has."""
+        owner, used = find("impact law", "laws", ImpactLaw, self.impact), self._used
+        if self.restitution is not None and "restitution" not in rules(owner):
+            rule = f"must not be given with impact={self.impact}, which does not have it"
+            raise InvalidInput("DumbbellScenario.restitution", rule, self.restitution, "Leave it out.")
         offered = {"restitution": used["restitution"], "duration": used["contact_time"]}
-        return impact_law(self.impact, offered, {"restitution"} if self.restitution is not None else set())
+        law: ImpactLaw = owner(**{name: value for name, value in offered.items() if name in rules(owner)})
+        return law
 
-    def _quietly(self, make: Callable[[], Part]) -> Part:
-        """Build a part without repeating the warnings that the scenario's own parameters gave."""
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", UnusualValue)
-            return make()
-
-    def paper_motion(self, solution: Solution, since: float = 0.0) -> tuple[Floats, Floats, Floats]:
-        """Return times [n], paper coordinates and rates [n, 6] of the samples from a time on [s], and of the end."""
-        t, q, u = self._samples(solution)
-        first = int(np.searchsorted(t, since))
-        return t[first:], *coordinates.from_state(t[first:], q[first:], u[first:], self.centre_distance)
-
-    def _samples(self, solution: Solution) -> tuple[Floats, Floats, Floats]:
-        """Return times, coordinates and velocities of the samples and, if it is later, of the end."""
+    def motion(self, solution: Solution, since: float = 0.0) -> coordinates.Motion:
+        """Return the motion at the samples from a time on [s], and at the end, in the paper's coordinates."""
         t, q, u = solution.t, solution.q, solution.u
         if len(t) == 0 or solution.t_end > t[-1] + 1e-9 / self.frequency:
             t = np.append(t, solution.t_end)
             q, u = np.vstack([q, solution.q_end]), np.vstack([u, solution.u_end])
-        return t, q, u
+        first = int(np.searchsorted(t, since))
+        return coordinates.Motion.of(self, t[first:], q[first:], u[first:])
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
         """Return x1 ... gamma [m, rad] and their rates (x1_rate ...) over the samples."""
-        _, q, u = self.paper_motion(solution)
-        n = len(solution.t)
-        places = {name: q[:n, i] for i, name in enumerate(coordinates.NAMES)}
-        return places | {f"{name}_rate": u[:n, i] for i, name in enumerate(coordinates.NAMES)}
+        motion, n = self.motion(solution), len(solution.t)
+        places = {name: motion.q[:n, i] for i, name in enumerate(coordinates.NAMES)}
+        return places | {f"{name}_rate": motion.u[:n, i] for i, name in enumerate(coordinates.NAMES)}
 
     def final(self, solution: Solution) -> Mapping[str, list[float]]:
         """Return {q, u} at the end: (x1, y1, z1, theta, beta, gamma) [m, rad] and their rates."""
-        _, q, u = self.paper_motion(solution)
-        return {"q": q[-1].tolist(), "u": u[-1].tolist()}
+        motion = self.motion(solution)
+        return {"q": motion.q[-1].tolist(), "u": motion.u[-1].tolist()}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
         """Return attractor, period [plate periods], drift_velocity [m/s], max_gap [m], beta_range [rad]."""
-        return attractor.summary(*self.settled(solution))
-
-    def settled(self, solution: Solution) -> tuple[attractor.Motion, int]:
-        """Return the settled part of a run, and how many plate periods it has."""
-        t, *_ = self._samples(solution)
-        cycles, start = attractor.settled(t, 1.0 / self.frequency)
-        return self.motion(solution, start - 1e-9 / self.frequency), cycles
-
-    def motion(self, solution: Solution, since: float = 0.0) -> attractor.Motion:
-        """Return gaps, tilt and path of a run from a time on [s], for its classification."""
-        t, q, u = self.paper_motion(solution, since)
-        between = self.centre_distance
-        beta, beta_rate = q[:, 4], u[:, 4]
-        events = solution.events
-        first = q[:, 2] - self.radius - self.plate_height(t)
-        first_rate = u[:, 2] - self.plate_velocity(t)
-        reach = between / 2.0 * np.cos(beta)
-        length = max(self.amplitude, 1e-3 * self.radius)
-        return attractor.Motion(
-            t,
-            np.column_stack([first, first + between * np.sin(beta)]),
-            np.column_stack([first_rate, first_rate + between * np.cos(beta) * beta_rate]),
-            beta,
-            coordinates.tilt(events.q),
-            np.column_stack([q[:, 0] - reach * np.sin(q[:, 3]), q[:, 1] + reach * np.cos(q[:, 3])]),
-            events,
-            1.0 / self.frequency,
-            length,
-            2.0 * math.pi * self.frequency * length,
-        )
+        return attractor.Settled.of(self, solution).summary()
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return what the paper and the orbits of a ball say of a settled run of this mode."""
-        return criteria(self.mode, self._is_nominal(), self.summarise(solution), solution, self.orbit_gap())
+        """Return, of a settled run of a mode with its own parameters, the period and a number of that mode."""
+        if self.mode not in _PERIODS or not self._is_nominal():
+            return ()
+        paper, summary = "the paper, section 5", self.summarise(solution)
+        period = summary["period"] if summary["attractor"] == self.mode else None
+        name = f"plate periods after which the {self.mode} repeats"
+        found = [Criterion.near(name, period, _PERIODS[self.mode], 0.0, paper)]
+        if self.mode == "drift":
+            part, source = float(solution.modes.get(_REST_OF_BALL_1, 0.0)), f"{paper}: ball 1 rests most of the cycle"
+            found.append(Criterion(f"share of time in {_REST_OF_BALL_1}", part, 0.5, 1.0, source))
+        if self.mode == "jump":
+            orbit, source = self._orbit_gap(), "both balls on the orbit of a bouncing ball, n = 1"
+            for ball, gap in enumerate(summary["max_gap"], 1):
+                found.append(Criterion.near(f"largest gap of ball {ball} [m]", gap, orbit, 1e-3 * orbit, source))
+        if self.mode == "flutter":
+            source = "the compliant limit with the same parameters: +-10.4 degrees"
+            for word, sign, value in zip(("least", "largest"), (-1.0, 1.0), summary["beta_range"], strict=True):
+                tilt = sign * math.radians(10.4)
+                found.append(Criterion.near(f"{word} tilt [rad]", value, tilt, math.radians(0.2), source))
+        return tuple(found)
 
     def _is_nominal(self) -> bool:
-        free = ("mode", "t_end", "transverse_velocity")
-        return all(
-            getattr(self, name) == field.default for name, (field, _) in rules(type(self)).items() if name not in free
-        )
+        """Return True if all parameters are those of the mode, but for the length of the run and a push aside."""
+        declared = rules(type(self)).items()
+        changed = {name for name, (field, _) in declared if getattr(self, name) != field.default}
+        return changed <= {"mode", "t_end", "transverse_velocity"}
 
-    def orbit_gap(self) -> float:
+    def _orbit_gap(self) -> float:
         """Return the largest gap [m] of a ball that flies one plate period from impact to impact."""
-        used, f = self.resolved(), self.frequency
-        e = used["restitution"]
+        e, f = self._used["restitution"], self.frequency
         phase = math.acos(min(1.0, math.pi * (1.0 - e) / ((1.0 + e) * self.gamma))) if self.gamma > 0.0 else 0.0
-        t = np.linspace(0.0, 1.0 / f, _GRID)
+        # the largest of 20 001 gaps is that of the orbit to 1e-9 of it
+        t = np.linspace(0.0, 1.0 / f, 20001)
         plate = self.amplitude * (np.sin(phase + 2.0 * math.pi * f * t) - math.sin(phase))
         return float(np.max(GRAVITY / (2.0 * f) * t - 0.5 * GRAVITY * t**2 - plate))
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return the published figures of this mode, drawn from this run."""
-        from scenarios.dumbbell.figures.gallery import of_run
-
-        return of_run(self, solution)
+        return figures.of_run(self, solution)
 
     @classmethod
-    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+    def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return Figs. 2 to 11 of the paper and the comparison of impact laws."""
-        from scenarios.dumbbell.figures.gallery import all_figures
-
-        return all_figures(cls, progress)
+        return figures.of_paper(cls, run)

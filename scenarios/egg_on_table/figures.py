@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from nonsmooth.simulate import Progress, simulate
+from nonsmooth.interfaces import Run
 from nonsmooth.solution.solution import Solution
 from scenarios.egg_on_table.scenario import EggOnTable
 
@@ -49,7 +49,7 @@ def history(scenario: EggOnTable, solution: Solution) -> Figure:
     return figure
 
 
-def gallery(owner: type[EggOnTable], progress: Progress | None) -> Mapping[str, Any]:
+def gallery(owner: type[EggOnTable], run: Run) -> Mapping[str, Any]:
     """Return all figures by name."""
     base = owner()
     groups: dict[str, tuple[str, list[tuple[str, EggOnTable]]]] = {
@@ -64,16 +64,11 @@ def gallery(owner: type[EggOnTable], progress: Progress | None) -> Mapping[str, 
         ),
         "jumps": ("", [("", dataclasses.replace(base, spin=250.0, t_end=2.0))]),
     }
-    whole = sum(scenario.t_end for _, group in groups.values() for _, scenario in group)
-    done = 0.0
     drawn = {}
     for name, (title, group) in groups.items():
         runs = []
         for label, scenario in group:
-            solution = simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval)
-            done += scenario.t_end
-            if progress is not None:
-                progress(min(done, whole), whole)
+            solution = run(scenario)
             runs.append((label, scenario, solution))
         if title:
             drawn[name] = _tilts(runs, title)

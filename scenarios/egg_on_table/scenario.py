@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 
 from bodies import EllipsoidBody, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
-from nonsmooth.interfaces import Criterion, Scenario
+from nonsmooth.interfaces import Criterion, Run, Scenario
 from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 
@@ -212,8 +211,8 @@ class EggOnTable(Scenario):
         return {"history": history(self, solution)}
 
     @classmethod
-    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+    def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return the history of the default egg, the rise for other spin and friction, and a fast egg's jumps."""
         from scenarios.egg_on_table.figures import gallery
 
-        return gallery(cls, progress)
+        return gallery(cls, run)

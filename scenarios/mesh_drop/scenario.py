@@ -19,7 +19,6 @@ from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
 from nonsmooth.placing.starts import at_height
 from nonsmooth.rotations import rotation
-from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.mesh_drop.bracket import bracket
@@ -224,10 +223,3 @@ class MeshDrop(Scenario):
         from scenarios.mesh_drop.figures import history, poses
 
         return {"poses": poses(self, solution), "history": history(self, solution)}
-
-    @classmethod
-    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
-        """Return the same for the bracket."""
-        scenario = cls()
-        run = simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, progress=progress)
-        return scenario.figures(run)

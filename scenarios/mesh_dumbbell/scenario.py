@@ -14,14 +14,14 @@ from numpy.typing import NDArray
 from bodies import Dumbbell, RigidBody, TriangleMesh
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Criterion, Scenario
+from nonsmooth.interfaces import Criterion, Run, Scenario
 from nonsmooth.parameters import UnusualValue, parameter, rules
 from nonsmooth.rotations import rotation
-from nonsmooth.simulate import Progress, simulate
+from nonsmooth.run_scenario import run_scenario
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.dumbbell.modes import GRAVITY
-from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.dumbbell import DumbbellScenario
+from scenarios.dumbbell.scenario import GRAVITY
 from scenarios.mesh_dumbbell.ball import ball
 
 Floats = NDArray[np.float64]
@@ -97,7 +97,7 @@ class MeshDumbbell(Scenario):
 
     def beside(self) -> Solution:
         """Return a run of the dumbbell with balls."""
-        return simulate(self.exact.build(), self.t_end, sample_interval=self.sample_interval)
+        return run_scenario(self.exact)
 
     def gaps(self, t: Floats, q: Floats, meshes: bool) -> Floats:
         """Return the gaps of both balls over the plate [m], shape [n, 2], of polyhedra or of balls."""
@@ -153,13 +153,10 @@ class MeshDumbbell(Scenario):
         return {"gaps": gaps([(self, solution)], self.beside())}
 
     @classmethod
-    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+    def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return the same for balls of 80 and of 1280 triangles."""
         from scenarios.mesh_dumbbell.figures import gaps
 
         scenarios = [cls(subdivisions=1.0), cls(subdivisions=3.0)]
-        runs = [
-            (one, simulate(one.build(), one.t_end, sample_interval=one.sample_interval, progress=progress))
-            for one in scenarios
-        ]
+        runs = [(one, run(one)) for one in scenarios]
         return {"gaps": gaps(runs, scenarios[0].beside())}

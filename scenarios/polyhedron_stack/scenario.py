@@ -16,7 +16,6 @@ from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 
@@ -156,10 +155,3 @@ class PolyhedronStack(Scenario):
         from scenarios.polyhedron_stack.figures import tower
 
         return {"tower": tower(self, solution)}
-
-    @classmethod
-    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
-        """Return the same for the default push."""
-        scenario = cls()
-        run = simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, progress=progress)
-        return scenario.figures(run)

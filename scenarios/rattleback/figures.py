@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from nonsmooth.simulate import Progress, simulate
+from nonsmooth.interfaces import Run
 from nonsmooth.solution.solution import Solution
 from scenarios.rattleback.scenario import Rattleback
 
@@ -45,7 +45,7 @@ def history(scenario: Rattleback, solution: Solution) -> Figure:
     return figure
 
 
-def gallery(owner: type[Rattleback], progress: Progress | None) -> Mapping[str, Any]:
+def gallery(owner: type[Rattleback], run: Run) -> Mapping[str, Any]:
     """Return all figures by name."""
     base = owner()
     groups: dict[str, tuple[str, list[tuple[str, Rattleback]]]] = {
@@ -59,16 +59,11 @@ def gallery(owner: type[Rattleback], progress: Progress | None) -> Mapping[str, 
             [(f"mu = {mu:g}", dataclasses.replace(base, friction=mu)) for mu in (1.0, 0.5, 0.3, 0.2)],
         ),
     }
-    whole = sum(scenario.t_end for _, group in groups.values() for _, scenario in group)
-    done = 0.0
     drawn = {}
     for name, (title, group) in groups.items():
         runs = []
         for label, scenario in group:
-            solution = simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval)
-            done += scenario.t_end
-            if progress is not None:
-                progress(min(done, whole), whole)
+            solution = run(scenario)
             runs.append((label, scenario, solution))
         drawn[name] = _spins(runs, title) if title else history(*runs[0][1:])
     return drawn

@@ -12,9 +12,8 @@ from numpy.typing import NDArray
 
 from bodies import Ellipsoid, Plate, Rest, RigidBody
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
-from nonsmooth.interfaces import Criterion, Scenario
+from nonsmooth.interfaces import Criterion, Run, Scenario
 from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.rattleback.rolling import contact_point, roll
@@ -209,8 +208,8 @@ class Rattleback(Scenario):
         return {"history": history(self, solution)}
 
     @classmethod
-    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+    def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return the history of the published body, and the spin for either sense and other friction."""
         from scenarios.rattleback.figures import gallery
 
-        return gallery(cls, progress)
+        return gallery(cls, run)

@@ -11,19 +11,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bodies import PlanarBody, Plate, Point, Rest
+from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.memory.modes import Cause
-from nonsmooth.interfaces import Criterion, Scenario
-from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress, simulate
+from nonsmooth.interfaces import Criterion, Run, Scenario
+from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.rocking_block.contact_laws import laws_of
+from scenarios.rocking_block import figures as draw
 from scenarios.rocking_block.housner import frictionless_fall
 
 Floats = NDArray[np.float64]
 
-_SAMPLES = 1000
-_GRAVITY = 9.81
+GRAVITY = 9.81
+"""[m/s^2]"""
+
+
+def laws_of(block: Any) -> dict[str, Any]:
+    """Return normal, friction and impact law of a block's contact, the same in two and three dimensions."""
+    return {
+        "normal": Unilateral(),
+        "friction": Coulomb(block.friction) if block.friction > 0.0 else Frictionless(),
+        "impact": EnergeticImpact(block.restitution, exponent=block.exponent),
+    }
 
 
 @final
@@ -39,7 +48,6 @@ class RockingBlock(Scenario):
 
     title: ClassVar[str] = "Rocking block"
     coordinate_units: ClassVar[Mapping[str, str]] = {"x": "m", "z": "m", "tilt": "rad"}
-    units: ClassVar[Mapping[str, str]] = {"restitution_loss": "J", "friction_loss": "J"}
 
     base: float = parameter(1.0, doc="length L of the side that it stands on", unit="m", above=0.0, usual=(1e-3, 1e2))
     height: float = parameter(0.5, doc="height H", unit="m", above=0.0, usual=(1e-3, 1e2))
@@ -56,15 +64,6 @@ class RockingBlock(Scenario):
     friction: float = parameter(0.0, doc="friction coefficient mu", minimum=0.0, usual=(0.0, 2.0), law="friction")
     t_end: float = parameter(2.0, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))
 
-    def resolved(self) -> Mapping[str, Any]:
-        """Return all parameters as given."""
-        return {name: getattr(self, name) for name in rules(type(self))}
-
-    @property
-    def sample_interval(self) -> float:
-        """A thousandth of the run [s]."""
-        return self.t_end / _SAMPLES
-
     @property
     def corners(self) -> Floats:
         """The corners in the body frame [m], left and right lower, left and right upper, shape [4, 2]."""
@@ -76,8 +75,8 @@ class RockingBlock(Scenario):
         moment = self.mass * (self.base**2 + self.height**2) / 12.0
         ground = Plate(Rest())
         block = PlanarBody(self.mass, moment, tuple(Point(x, 0.0, z) for x, z in self.corners.tolist()))
-        system = System([ground, block], gravity=_GRAVITY)
-        system.contact(ground, block, **laws_of(self.restitution, self.exponent, self.friction))
+        system = System([ground, block], gravity=GRAVITY)
+        system.contact(ground, block, **laws_of(self))
         # the angle of a planar body is positive where its first axis points down
         lift = 0.5 * (self.base * math.sin(self.tilt) + self.height * math.cos(self.tilt))
         system.place(block, position=(0.0, lift), angle=-self.tilt)
@@ -111,16 +110,14 @@ class RockingBlock(Scenario):
                 "tilt_rate_before": (-events.u_before[first, 2]).tolist(),
                 "tilt_rate_after": (-events.u_after[first, 2]).tolist(),
             },
-            "impacts": solution.counters.impacts,
-            "restitution_loss": solution.energy.restitution_loss,
-            "friction_loss": solution.energy.friction_loss,
+            **super().summarise(solution),
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
         """Return when and how fast a block without friction lies flat, whose mass centre falls along a vertical."""
         if self.friction > 0.0 or self.base * math.cos(self.tilt) <= self.height * math.sin(self.tilt):
             return ()
-        time, rate = frictionless_fall(self.base, self.height, self.tilt, _GRAVITY)
+        time, rate = frictionless_fall(self.base, self.height, self.tilt, GRAVITY)
         first = self.summarise(solution)["first_impact"]
         values = [(first[name] or [None])[0] for name in ("time", "tilt_rate_before", "velocity_before")]
         source = "energy of the fall without friction"
@@ -136,22 +133,18 @@ class RockingBlock(Scenario):
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return the heights of the lower corners over time."""
-        from scenarios.rocking_block.figures import corners
-
         words = f"e = {self.restitution:g}, η = {self.exponent:g}, μ = {self.friction:g}"
-        return {"corners": corners(self, solution, f"Its corners strike {solution.counters.impacts} times ({words})")}
+        title = f"Its corners strike {solution.counters.impacts} times ({words})"
+        return {"corners": draw.corners(self, solution, title)}
 
     @classmethod
-    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+    def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return the double impact, the velocity ratio over the slenderness, and the decay of a rocking motion."""
-        from scenarios.rocking_block.figures import corners, rocking, velocity_ratios
-
         double = cls(t_end=1.4)
-        run = simulate(double.build(), double.t_end, sample_interval=double.sample_interval, progress=progress)
         slender = cls(base=0.25, height=1.0, tilt=0.15, restitution=0.0, friction=0.5, t_end=4.0)
-        decay = simulate(slender.build(), slender.t_end, sample_interval=slender.sample_interval, progress=progress)
+        claim = "The first impact of a frictionless block lifts both corners at once"
         return {
-            "corners": corners(double, run, "The first impact of a frictionless block lifts both corners at once"),
-            "velocity_ratio": velocity_ratios(cls, progress),
-            "rocking": rocking(slender, decay),
+            "corners": draw.corners(double, run(double), claim),
+            "velocity_ratio": draw.velocity_ratios(cls, run),
+            "rocking": draw.rocking(slender, run(slender)),
         }

@@ -13,17 +13,14 @@ from numpy.typing import NDArray
 from bodies import BoxBody, Plate, Rest
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Criterion, Scenario
-from nonsmooth.parameters import parameter, rules
+from nonsmooth.parameters import parameter
 from nonsmooth.placing.starts import touching
-from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.rocking_block.contact_laws import laws_of
+from scenarios.rocking_block import figures as draw
+from scenarios.rocking_block.scenario import GRAVITY, laws_of
 
 Floats = NDArray[np.float64]
-
-_SAMPLES = 1000
-_GRAVITY = 9.81
 
 
 @final
@@ -36,7 +33,7 @@ class RockingBlock3D(Scenario):
 
     title: ClassVar[str] = "Rocking block in space"
     coordinate_units: ClassVar[Mapping[str, str]] = {"x": "m", "y": "m", "z": "m", "lean_x": "1", "lean_y": "1"}
-    units: ClassVar[Mapping[str, str]] = {"largest_lean": "rad", "restitution_loss": "J", "friction_loss": "J"}
+    units: ClassVar[Mapping[str, str]] = {**Scenario.units, "largest_lean": "rad"}
 
     base: float = parameter(0.3, doc="side along x", unit="m", above=0.0, usual=(1e-3, 1e2))
     depth: float = parameter(0.2, doc="side along y", unit="m", above=0.0, usual=(1e-3, 1e2))
@@ -57,21 +54,12 @@ class RockingBlock3D(Scenario):
     friction: float = parameter(0.6, doc="friction coefficient mu", minimum=0.0, usual=(0.0, 2.0), law="friction")
     t_end: float = parameter(3.0, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))
 
-    def resolved(self) -> Mapping[str, Any]:
-        """Return all parameters as given."""
-        return {name: getattr(self, name) for name in rules(type(self))}
-
-    @property
-    def sample_interval(self) -> float:
-        """A thousandth of the run [s]."""
-        return self.t_end / _SAMPLES
-
     def build(self) -> System:
         """Return ground, block and the contacts of its eight corners."""
         ground = Plate(Rest())
         block = BoxBody(0.5 * self.base, 0.5 * self.depth, 0.5 * self.height, mass=self.mass)
-        system = System([ground, block], gravity=_GRAVITY)
-        system.contact(ground, block, **laws_of(self.restitution, self.exponent, self.friction))
+        system = System([ground, block], gravity=GRAVITY)
+        system.contact(ground, block, **laws_of(self))
         half = 0.5 * self.tilt
         axis_x, axis_y = math.sin(self.direction), -math.cos(self.direction)
         orientation = (math.cos(half), math.sin(half) * axis_x, math.sin(half) * axis_y, 0.0)
@@ -102,10 +90,6 @@ class RockingBlock3D(Scenario):
         position = {name: solution.q[:, i] for i, name in enumerate("xyz")}
         return {**position, "lean_x": lean[:, 0], "lean_y": lean[:, 1]}
 
-    def final(self, solution: Solution) -> Mapping[str, list[float]]:
-        """Return {q, u}: position [m], quaternion, velocity [m/s], angular velocity in body axes [rad/s] at the end."""
-        return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
-
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
         """Return the times of the first impacts, their modes, and what is lost in all."""
         events = solution.events
@@ -113,10 +97,8 @@ class RockingBlock3D(Scenario):
         words = events.words("during")
         return {
             "first_impacts": [{"time": float(events.time[i]), "mode": words[i]} for i in impacts[:5]],
-            "impacts": solution.counters.impacts,
             "largest_lean": float(np.max(np.hypot(*self.lean(solution).T))),
-            "restitution_loss": solution.energy.restitution_loss,
-            "friction_loss": solution.energy.friction_loss,
+            **super().summarise(solution),
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
@@ -126,7 +108,7 @@ class RockingBlock3D(Scenario):
         moments = np.array(BoxBody(0.5 * self.base, 0.5 * self.depth, 0.5 * self.height, mass=self.mass).inertia)
         u = solution.u_end
         kinetic = 0.5 * float(self.mass * u[:3] @ u[:3] + moments @ u[3:] ** 2)
-        given = self.mass * _GRAVITY * (start - float(solution.q_end[2])) - kinetic
+        given = self.mass * GRAVITY * (start - float(solution.q_end[2])) - kinetic
         return (
             Criterion(
                 "largest height of the mass centre over that at the start",
@@ -146,13 +128,4 @@ class RockingBlock3D(Scenario):
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return the path of the upright axis and the heights of the lower corners."""
-        from scenarios.rocking_block.figures import spatial
-
-        return {"spatial": spatial(self, solution)}
-
-    @classmethod
-    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
-        """Return the same for the default block."""
-        scenario = cls()
-        run = simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, progress=progress)
-        return scenario.figures(run)
+        return {"spatial": draw.spatial(self, solution)}

@@ -14,9 +14,8 @@ from bodies import DiscBody, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.errors import InvalidInput
 from nonsmooth.histories.states import States
-from nonsmooth.interfaces import Criterion, Scenario
+from nonsmooth.interfaces import Criterion, Run, Scenario
 from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.rolling_disc import steady
@@ -192,15 +191,14 @@ class RollingDisc(Scenario):
         }
 
     @classmethod
-    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+    def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return a disc that settles through air, and the paths of three discs without air."""
         from scenarios.rolling_disc.figures import paths, settling
 
         discs = {"rolls, μ = 0.3": cls(), "slips on a smooth table, μ = 0": cls(friction=0.0)}
         settled = {}
         for name, disc in discs.items():
-            run = simulate(disc.build(), disc.t_end, sample_interval=disc.sample_interval, progress=progress)
-            settled[name] = disc, run
+            settled[name] = disc, run(disc)
         starts = {
             "steady rolling": cls(tilt=0.5, viscosity=0.0, t_end=0.6),
             "precession 0.8 times as fast": cls(tilt=0.5, viscosity=0.0, pace=0.8, t_end=0.6),
@@ -208,8 +206,7 @@ class RollingDisc(Scenario):
         }
         runs = {}
         for name, scenario in starts.items():
-            rolled = simulate(scenario.build(), scenario.t_end, sample_interval=2e-4, progress=progress)
-            runs[name] = scenario, rolled
+            runs[name] = scenario, run(scenario)
         return {
             "settling": settling(settled, "The flatter the disc, the faster its contact runs round"),
             "paths": paths(runs, "Only steady rolling keeps the centre at rest (no air)"),

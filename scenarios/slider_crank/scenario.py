@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 from bodies import Coordinate, GeneralisedBody, Plate, Point, Rest, TurningFrame
 from laws import Coulomb, EnergeticImpact, NewtonImpact, Unilateral
 from nonsmooth.engine.memory.modes import Cause
-from nonsmooth.interfaces import Criterion, Scenario
+from nonsmooth.interfaces import Criterion, Run, Scenario
 from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.slider_crank import mechanism
@@ -160,15 +159,12 @@ class SliderCrank(Scenario):
         return {"height": heights({self.law: (self, solution)}, title)}
 
     @classmethod
-    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+    def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return the slider's height with either impact law."""
         from scenarios.slider_crank.figures import heights
 
         runs = {}
         for law in _LAWS:
             scenario = cls(law=law)
-            run = simulate(
-                scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, progress=progress
-            )
-            runs[law] = scenario, run
+            runs[law] = scenario, run(scenario)
         return {"heights": heights(runs, "The slider crosses its clearance, rattles at the guide, and lets go again")}

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.memory.modes import Cause
-from nonsmooth.simulate import Progress, simulate
+from nonsmooth.interfaces import Run
 from nonsmooth.solution.solution import Solution
 from scenarios.sliding_rod.scenario import SlidingRod
 
@@ -124,21 +124,19 @@ def history(scenario: SlidingRod, solution: Solution) -> Figure:
     return figure
 
 
-def gallery(owner: type[SlidingRod], progress: Progress | None) -> Mapping[str, Any]:
+def gallery(owner: type[SlidingRod], run: Run) -> Mapping[str, Any]:
     """Return all figures by name."""
-    return {"paradox": _paradox(owner, progress), "histories": _histories(owner, progress)}
+    return {"paradox": _paradox(owner, run), "histories": _histories(owner, run)}
 
 
-def _histories(owner: type[SlidingRod], progress: Progress | None) -> Figure:
+def _histories(owner: type[SlidingRod], run: Run) -> Figure:
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(9.6, 6.8), layout="constrained")
     grid = figure.subplots(3, len(_CASES), sharex="col")
     for column, (name, start) in enumerate(_CASES):
         scenario = owner(**start)
-        solution = simulate(
-            scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, progress=progress
-        )
+        solution = run(scenario)
         _draw(list(grid[:, column]), scenario, solution)
         critical = scenario.rod.critical_friction(scenario.tilt)
         grid[0, column].set_title(
@@ -153,7 +151,7 @@ def _histories(owner: type[SlidingRod], progress: Progress | None) -> Figure:
     return figure
 
 
-def _paradox(owner: type[SlidingRod], progress: Progress | None) -> Figure:
+def _paradox(owner: type[SlidingRod], run: Run) -> Figure:
     from matplotlib.figure import Figure
 
     base = owner(t_end=1e-6)
@@ -161,13 +159,11 @@ def _paradox(owner: type[SlidingRod], progress: Progress | None) -> Figure:
     coefficients = np.linspace(1.0, 2.0, COEFFICIENTS)
     runs = [dataclasses.replace(base, tilt=float(a), friction=float(mu)) for a in angles for mu in coefficients]
     outcome: list[bool] = []
-    for i, scenario in enumerate(runs):
-        events = simulate(scenario.build(), scenario.t_end, sample_interval=scenario.t_end).events
+    for scenario in runs:
+        events = run(scenario).events
         outcome.append(events.count(Cause.PAINLEVE) > 0)
-        if progress is not None:
-            progress((i + 1) * base.t_end, len(runs) * base.t_end)
     struck = np.array(outcome)
-    places = np.array([(math.degrees(run.tilt), run.friction) for run in runs])
+    places = np.array([(math.degrees(one.tilt), one.friction) for one in runs])
     figure = Figure(figsize=(7.2, 4.8), layout="constrained")
     axis = figure.subplots()
     fine = np.linspace(angles[0], angles[-1], 400)

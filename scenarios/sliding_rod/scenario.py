@@ -14,9 +14,8 @@ from bodies import Plate, Rest, RigidBody, Sphere
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Criterion, Scenario
+from nonsmooth.interfaces import Criterion, Run, Scenario
 from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.sliding_rod.paradox import Rod
@@ -177,8 +176,8 @@ class SlidingRod(Scenario):
         return {"history": history(self, solution)}
 
     @classmethod
-    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+    def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return where the paradox begins, and three runs: lift-off, jamming, impact without collision."""
         from scenarios.sliding_rod.figures import gallery
 
-        return gallery(cls, progress)
+        return gallery(cls, run)

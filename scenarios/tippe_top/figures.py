@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from nonsmooth.simulate import Progress, simulate
+from nonsmooth.interfaces import Run
 from nonsmooth.solution.solution import Solution
 from scenarios.tippe_top.scenario import TippeTop
 
@@ -67,7 +67,7 @@ def history(scenario: TippeTop, solution: Solution) -> Figure:
     return figure
 
 
-def gallery(owner: type[TippeTop], progress: Progress | None) -> Mapping[str, Any]:
+def gallery(owner: type[TippeTop], run: Run) -> Mapping[str, Any]:
     """Return all figures by name."""
     base = owner()
     groups: dict[str, list[tuple[str, TippeTop]]] = {
@@ -79,16 +79,11 @@ def gallery(owner: type[TippeTop], progress: Progress | None) -> Mapping[str, An
         "contact_radius": "Friction at a point makes the top roll, and it stays upright; a spinning disc lets it slip",
         "spin": "A fast top rises onto its stem, slower ones come to lean, a slow one does not turn",
     }
-    whole = sum(scenario.t_end for group in groups.values() for _, scenario in group)
-    done = 0.0
     drawn = {}
     for name, group in groups.items():
         runs = []
         for label, scenario in group:
-            solution = simulate(scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval)
-            done += scenario.t_end
-            if progress is not None:
-                progress(min(done, whole), whole)
+            solution = run(scenario)
             runs.append((label, scenario, solution))
         drawn[name] = _tilts(runs, titles[name]) if name in titles else history(*runs[0][1:])
     return drawn

@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 from bodies import Plate, Rest, RigidBody, Sphere
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Criterion, FrictionLaw, Scenario
+from nonsmooth.interfaces import Criterion, FrictionLaw, Run, Scenario
 from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.tippe_top.friction import SpinningCoulomb
@@ -243,8 +242,8 @@ class TippeTop(Scenario):
         return {"history": history(self, solution)}
 
     @classmethod
-    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+    def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return the history of the source's top, and the inversion for other friction and spin."""
         from scenarios.tippe_top.figures import gallery
 
-        return gallery(cls, progress)
+        return gallery(cls, run)

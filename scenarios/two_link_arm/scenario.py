@@ -14,9 +14,8 @@ from bodies import ConstantVelocity, Coordinate, DrivenBody, GeneralisedBody, Pl
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Criterion, Scenario
+from nonsmooth.interfaces import Criterion, Run, Scenario
 from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.two_link_arm import arm, painleve
@@ -182,17 +181,14 @@ class TwoLinkArm(Scenario):
         return {"gap": gaps(runs, title)}
 
     @classmethod
-    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+    def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return the critical friction over the postures, and the gap for the springs and dampers of the source."""
         from scenarios.two_link_arm.figures import critical_friction, gaps
 
         runs: dict[str, list[tuple[TwoLinkArm, Solution]]] = {}
         for damping, spring in itertools.product((0.1, 2.0), (100.0, 150.0)):
             scenario = cls(spring=spring, damping=damping)
-            run = simulate(
-                scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, progress=progress
-            )
-            runs.setdefault(f"damper {damping:g} N m s/rad", []).append((scenario, run))
+            runs.setdefault(f"damper {damping:g} N m s/rad", []).append((scenario, run(scenario)))
         title = (
             f"An impact without collision (x) throws the tip off the belt; it bounces, with e = {cls().restitution:g}"
         )

@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 from bodies import Coordinate, GeneralisedBody, Plate, Point, PointFrame, Rest
 from laws import Coulomb, EnergeticImpact, NewtonImpact, Unilateral
 from nonsmooth.engine.memory.modes import Cause
-from nonsmooth.interfaces import Criterion, Scenario
+from nonsmooth.interfaces import Criterion, Run, Scenario
 from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress, simulate
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.woodpecker import toy
@@ -172,15 +171,12 @@ class Woodpecker(Scenario):
         return {"cycles": cycles(self, solution)}
 
     @classmethod
-    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+    def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return the cycles with Newton's law, and the limit cycles of both laws in the bird's phase plane."""
         from scenarios.woodpecker.figures import cycles, limit_cycles
 
         runs = {}
         for law in _LAWS:
             scenario = cls(law=law, t_end=6.0)
-            run = simulate(
-                scenario.build(), scenario.t_end, sample_interval=scenario.sample_interval, progress=progress
-            )
-            runs[law] = scenario, run
+            runs[law] = scenario, run(scenario)
         return {"cycles": cycles(*runs["newton"]), "limit_cycles": limit_cycles(runs)}

@@ -16,7 +16,7 @@ from collections.abc import Callable
 import numpy as np
 
 from nonsmooth import simulate
-from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.dumbbell import DumbbellScenario
 from tests.benchmarks.engines import Motion, MuJoCo, PyBullet, damping_ratio
 
 T_END = 10.0

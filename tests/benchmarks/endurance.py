@@ -21,7 +21,7 @@ import numpy as np
 from nonsmooth import simulate
 from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, LISTED
 from nonsmooth.engine.memory.layout import BOOKED
-from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.dumbbell import DumbbellScenario
 
 
 def resident() -> int:

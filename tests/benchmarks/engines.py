@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bodies import Dumbbell
-from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.dumbbell import DumbbellScenario
 
 Floats = NDArray[np.float64]
 GRAVITY = 9.81

@@ -17,7 +17,7 @@ from collections.abc import Callable
 
 from nonsmooth import simulate
 from scenarios.ball_box.scenario import BallBox
-from scenarios.newtons_cradle.scenario import NewtonsCradle
+from scenarios.newtons_cradle import NewtonsCradle
 from tests.benchmarks.spheres import MuJoCoBox, PyBulletBox, own_depth
 
 CHAINS = (10, 30, 100, 300, 1000)
@@ -33,7 +33,7 @@ def chains() -> None:
     print(f"{'balls':>8}{'impact steps':>14}" + "".join(f"{name:>11}" for name in columns) + f"{'energy':>10}")
     last: tuple[float, ...] = ()
     for n in CHAINS:
-        scenario = NewtonsCradle(n_balls=float(n))
+        scenario = NewtonsCradle(n_balls=n)
         strike = scenario.distance / scenario.speed
         runs, seconds = [], []
         for t_end in (strike * (1.0 - 1e-6), strike * (1.0 + 1e-6)):

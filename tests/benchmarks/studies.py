@@ -22,8 +22,8 @@ from distributed import LocalCluster
 
 from nonsmooth import simulate, studies
 from nonsmooth.interfaces import Scenario
-from scenarios.bouncing_ball.scenario import BouncingBall
-from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.bouncing_ball import BouncingBall
+from scenarios.dumbbell import DumbbellScenario
 
 RUNS, CHUNK = 400, 50
 Ranges = dict[str, tuple[float, float]]

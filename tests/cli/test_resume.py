@@ -50,7 +50,7 @@ def test_an_interrupted_run_ends_as_the_whole_one(
     }[kind]
     if kind == "file":
         assert call("save", "dumbbell", asked[0])[0] == 0
-    (tmp_path / "mine.py").write_text("from scenarios.dumbbell.scenario import DumbbellScenario as Mine  # noqa\n")
+    (tmp_path / "mine.py").write_text("from scenarios.dumbbell import DumbbellScenario as Mine  # noqa\n")
     trust = ["--trust"] if kind == "class" else []
     folder = tmp_path / "results"
     with monkeypatch.context() as patch:

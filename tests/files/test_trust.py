@@ -34,7 +34,7 @@ import pathlib
 pathlib.Path(__file__).with_name({MARK!r}).touch()
 from bodies import Ball, Rest, Spring, Sphere, Hinge
 from laws import EnergeticImpact, Frictionless, Unilateral
-from scenarios.bouncing_ball.scenario import BouncingBall
+from scenarios.bouncing_ball import BouncingBall
 def function(t):
     return 0.0, 0.0, 0.0
 """

@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from laws import closing_time, contact_time, effective_modulus
-from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.dumbbell import DumbbellScenario
 
 MASS, RADIUS, MODULUS = 3.5e-3, 4.76e-3, 1.15e11
 

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from nonsmooth import simulate
-from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.dumbbell import DumbbellScenario
 from tests.environments import ROOT, Environment
 
 SOURCE = ROOT / "tests" / "external_plugin"

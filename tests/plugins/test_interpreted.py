@@ -19,7 +19,7 @@ from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.binding.compile import bind, evaluate
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.native.kernel import PLAIN
-from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.dumbbell import DumbbellScenario
 from tests.plugins import failing_laws as dummies
 
 NATIVE = pytest.mark.skipif(PLAIN, reason="nothing is compiled")

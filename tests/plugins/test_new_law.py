@@ -13,7 +13,7 @@ from laws import Coulomb
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import FrictionLaw
 from nonsmooth.plugins.file import load
-from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.dumbbell import DumbbellScenario
 
 _TEXT = """
 from dataclasses import dataclass

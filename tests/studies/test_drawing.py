@@ -11,8 +11,8 @@ import pytest
 
 import nonsmooth as ns
 from nonsmooth import studies
-from scenarios.bouncing_ball.scenario import BouncingBall
-from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.bouncing_ball import BouncingBall
+from scenarios.dumbbell import DumbbellScenario
 from tests.studies.ball import T_END, drop
 
 pytest.importorskip("zarr", "3.1.3")

@@ -109,12 +109,12 @@ from dataclasses import dataclass
 
 from bodies import Ball
 from nonsmooth import System
+from nonsmooth.interfaces import Scenario
 from nonsmooth.parameters import parameter
-from nonsmooth.simple_scenario import SimpleScenario
 
 
 @dataclass(frozen=True)
-class Falling(SimpleScenario):
+class Falling(Scenario):
     title = "A ball that falls"
     t_end: float = parameter(0.1, doc="end time", unit="s", above=0.0)
 

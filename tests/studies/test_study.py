@@ -14,14 +14,14 @@ import pytest
 import nonsmooth as ns
 from nonsmooth import studies
 from nonsmooth.engine.memory.modes import Status
+from nonsmooth.interfaces import Scenario
 from nonsmooth.parameters import parameter
-from nonsmooth.simple_scenario import SimpleScenario
 from nonsmooth.studies import status
 from nonsmooth.studies.records.recorders import Requested
 from nonsmooth.studies.status import RunStatus
 from nonsmooth.studies.store import Store
-from scenarios.bouncing_ball.scenario import BouncingBall
-from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.bouncing_ball import BouncingBall
+from scenarios.dumbbell import DumbbellScenario
 from tests.studies.ball import RECORD, T_END, draws, drop, shaken
 
 pytest.importorskip("zarr", "3.1.3")
@@ -37,7 +37,7 @@ def _raises(scenario: BouncingBall, solution: ns.Solution) -> float:
 
 
 @dataclasses.dataclass(frozen=True)
-class _Telling(SimpleScenario):
+class _Telling(Scenario):
     """A drop that is told of in words that nobody listed."""
 
     title: ClassVar[str] = "A drop"

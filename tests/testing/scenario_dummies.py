@@ -91,10 +91,6 @@ class Bounce(Scenario):
             figure.add_subplot().plot(solution.t, solution.q[:, 2])
         return {"height": figure}
 
-    @classmethod
-    def gallery(cls, progress: Any) -> Mapping[str, Any]:
-        return {}
-
 
 @dataclass(frozen=True)
 class Unjudged(Bounce):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Mapping
+from functools import partial
 from typing import Any
 
 from nonsmooth.cli.execute import saving
@@ -14,6 +15,7 @@ from nonsmooth.cli.report.messages import complain, say
 from nonsmooth.plugins import registry
 from nonsmooth.progress import ProgressMeter, TimeReached, on_standard_error
 from nonsmooth.results.output import Output
+from nonsmooth.run_scenario import run_scenario
 
 _OPTIONS = (
     Option("scenario", "a name of `nonsmooth list scenarios`", metavar="SCENARIO"),
@@ -49,7 +51,7 @@ def _draw(owner: Any) -> Mapping[str, Any] | None:
     with ProgressMeter(on_standard_error()) as meter, Interrupt() as interrupt:
         progress = TimeReached(meter)
         try:
-            drawn: Mapping[str, Any] = owner.gallery(after_steps)
+            drawn: Mapping[str, Any] = owner.gallery(partial(run_scenario, progress=after_steps))
         except (Exception, KeyboardInterrupt):
             if not interrupt.asked:
                 raise

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nonsmooth.plot.asked import pyplot
-from nonsmooth.plot.lines import look
+from nonsmooth.charts import line
+from nonsmooth.plot.arguments import pyplot
 from nonsmooth.studies.derivatives.coordinates import coordinate_number, unit
 from nonsmooth.studies.derivatives.forward import Sensitivity
 from nonsmooth.studies.derivatives.least_squares import Fit, observed
@@ -53,11 +53,11 @@ def sensitivities(found: Sensitivity, coordinate: str, ax: Axes | None = None) -
     by = np.concatenate([found.q_by, found.u_by], axis=1)[:, number]
     times = np.concatenate([found.t, found.events])
     order = np.argsort(times, kind="stable")
-    for place, (name, line) in enumerate(zip(found.parameters, by.T, strict=True)):
+    for place, (name, change) in enumerate(zip(found.parameters, by.T, strict=True)):
         value = found.family[name]
-        broken = np.concatenate([line * (abs(value) or 1.0), np.full(len(found.events), np.nan)])
+        broken = np.concatenate([change * (abs(value) or 1.0), np.full(len(found.events), np.nan)])
         word = f"{found.family.label(name)} of {value:.4g}" if value else f"{found.family.label(name)} of 0, by 1"
-        ax.plot(times[order], broken[order], marker=".", markersize=3, label=word, **look(place))
+        ax.plot(times[order], broken[order], marker=".", markersize=3, label=word, **line(place))
     ax.vlines(found.events, 0.0, 1.0, transform=ax.get_xaxis_transform(), color="0.75", linewidth=0.7, zorder=0)
     ax.set_xlim(0.0, float(found.t[-1]))
     title = f"Change of {coordinate} per relative change of a parameter; grey: events"

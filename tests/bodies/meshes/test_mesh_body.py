@@ -34,8 +34,8 @@ from nonsmooth.errors import MissingPackagesError
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.model.assembly import assemble
 from nonsmooth.parameters import UnusualValue
-from scenarios.dumbbell.scenario import DumbbellScenario
-from scenarios.rocking_block.spatial import RockingBlock3D
+from scenarios.dumbbell import DumbbellScenario
+from scenarios.rocking_block import RockingBlock3D
 from tests.bodies.carriers import Carrier
 from tests.bodies.meshes import parts
 

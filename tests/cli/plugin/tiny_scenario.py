@@ -11,9 +11,9 @@ import numpy as np
 
 from bodies import Ball, Harmonic, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
-from nonsmooth import Solution, System, simulate
+from nonsmooth import Solution, System
 from nonsmooth.engine.memory.modes import Cause
-from nonsmooth.interfaces import Criterion, FrictionLaw, RigidNormalLaw, Scenario
+from nonsmooth.interfaces import Criterion, FrictionLaw, RigidNormalLaw, Run, Scenario
 from nonsmooth.parameters import parameter
 
 NUMBER = 1.0
@@ -24,6 +24,7 @@ class Tiny(Scenario):
     """A ball on a vibrating plate."""
 
     title: ClassVar[str] = "A ball on a vibrating plate"
+    samples: ClassVar[int] = 100
     coordinate_units: ClassVar[Mapping[str, str]] = {"height": "m"}
 
     t_end: float = parameter(0.1, doc="end time", unit="s", above=0.0)
@@ -34,11 +35,6 @@ class Tiny(Scenario):
         unit="",
         choices=("bounce", "nan law", "bad figure", "bad summary", "missed", "none"),
     )
-
-    @property
-    def sample_interval(self) -> float:
-        """A hundredth of the run [s]."""
-        return self.t_end / 100.0
 
     def build(self) -> System:
         """Drop the ball from a radius above the plate."""
@@ -51,17 +47,9 @@ class Tiny(Scenario):
         system.contact(ball, plate, normal=Unilateral(), friction=friction, impact=EnergeticImpact(restitution=0.9))
         return system
 
-    def resolved(self) -> Mapping[str, Any]:
-        """Return everything."""
-        return {"t_end": self.t_end, "radius": self.radius, "mode": self.mode}
-
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
         """Return the height [m]."""
         return {"height": solution.q[:, 2]}
-
-    def final(self, solution: Solution) -> Mapping[str, list[float]]:
-        """Return the state at the end."""
-        return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
         """Return something of every type."""
@@ -99,14 +87,10 @@ class Tiny(Scenario):
         return {"height": figure}
 
     @classmethod
-    def gallery(cls, progress: Any) -> Mapping[str, Any]:
+    def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return the heights of two runs."""
-        drawn = {}
-        for t_end in (0.05, 0.1):
-            tiny = cls(t_end=t_end)
-            figures = tiny.figures(simulate(tiny.build(), tiny.t_end, progress=progress))
-            drawn[f"height_{t_end:g}"] = figures["height"]
-        return drawn
+        scenarios = {f"height_{t_end:g}": cls(t_end=t_end) for t_end in (0.05, 0.1)}
+        return {name: tiny.figures(run(tiny))["height"] for name, tiny in scenarios.items()}
 
 
 @final

@@ -69,7 +69,7 @@ def test_figures(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     scenario = BeadColumn(n_beads=4.0)
     solution = ns.simulate(scenario.build(), scenario.t_end)
-    drawn = {**scenario.figures(solution), **BeadColumn.gallery(None)}
+    drawn = {**scenario.figures(solution), **BeadColumn.gallery(ns.run_scenario)}
     assert sorted(drawn) == ["heights", "heights_dissipative", "heights_elastic"]
     for name, figure in drawn.items():
         axis = figure.axes[0]

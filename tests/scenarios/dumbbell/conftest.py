@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 import nonsmooth as ns
-from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.dumbbell import DumbbellScenario
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ import pytest
 
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.parameters import UnusualValue, from_words, rules
-from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.dumbbell import DumbbellScenario
 
 NUMBERS = [name for name, (_, rule) in rules(DumbbellScenario).items() if rule.unit != ""]
 POSITIVE = ["t_end", "radius", "density", "frequency", "aspect_ratio"]

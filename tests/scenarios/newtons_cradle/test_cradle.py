@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,7 +10,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import nonsmooth as ns
-from scenarios.newtons_cradle.scenario import NewtonsCradle
+from scenarios.newtons_cradle import NewtonsCradle
 
 EXACT = ns.EventDriven(impact_tolerance=1e-11)
 
@@ -39,18 +38,18 @@ def _on_springs(scenario: NewtonsCradle) -> Any:
     return done.y[n:, -1]
 
 
-CASES: list[dict[str, float]] = [
-    *({"n_balls": float(n), "exponent": eta} for n, eta in itertools.product((3, 5, 10), (1.0, 1.5))),
-    {"n_strikers": 2.0},
-    {"n_balls": 6.0, "n_strikers": 3.0, "exponent": 1.0},
-    {"n_balls": 3.0, "mass_ratio": 0.5},
-    {"n_balls": 4.0, "stiffness_ratio": 2.0},
+CASES: list[dict[str, Any]] = [
+    *({"n_balls": n, "exponent": eta} for n, eta in itertools.product((3, 5, 10), (1.0, 1.5))),
+    {"n_strikers": 2},
+    {"n_balls": 6, "n_strikers": 3, "exponent": 1.0},
+    {"n_balls": 3, "mass_ratio": 0.5},
+    {"n_balls": 4, "stiffness_ratio": 2.0},
 ]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("case", CASES, ids=str)
-def test_against_springs_in_real_time(case: dict[str, float]) -> None:
+def test_against_springs_in_real_time(case: dict[str, Any]) -> None:
     """The multiple impact is the limit of springs, whatever their scale: the same velocities to 1e-8."""
     scenario = NewtonsCradle(**case)
     np.testing.assert_allclose(_velocities(scenario), _on_springs(scenario), rtol=0, atol=1e-8)
@@ -87,14 +86,14 @@ def _with_losses(scenario: NewtonsCradle) -> Any:
 @pytest.mark.parametrize(
     "case",
     [
-        {"n_balls": 3.0},
-        {"n_balls": 5.0},
-        {"n_balls": 10.0},
-        {"n_balls": 4.0, "stiffness_ratio": 2.0, "mass_ratio": 0.5},
+        {"n_balls": 3},
+        {"n_balls": 5},
+        {"n_balls": 10},
+        {"n_balls": 4, "stiffness_ratio": 2.0, "mass_ratio": 0.5},
     ],
     ids=str,
 )
-def test_against_springs_with_losses(case: dict[str, float], exponent: float, restitution: float) -> None:
+def test_against_springs_with_losses(case: dict[str, Any], exponent: float, restitution: float) -> None:
     """Several coefficients of restitution, against an integration of the compliant model in real time: 1e-9."""
     scenario = NewtonsCradle(**case, exponent=exponent, restitution=restitution)
     np.testing.assert_allclose(_velocities(scenario), _with_losses(scenario), rtol=0, atol=1e-9)
@@ -104,7 +103,7 @@ def test_against_springs_with_losses(case: dict[str, float], exponent: float, re
 @pytest.mark.filterwarnings("ignore::nonsmooth.parameters.UnusualValue")
 def test_limits_of_the_stiffness_ratio(ratio: float, expected: Any) -> None:
     """Ever softer contacts behind: one collision after the other.  Ever stiffer: the struck balls move as one."""
-    after = _velocities(NewtonsCradle(n_balls=3.0, stiffness_ratio=ratio, exponent=1.0))
+    after = _velocities(NewtonsCradle(n_balls=3, stiffness_ratio=ratio, exponent=1.0))
     np.testing.assert_allclose(after, expected, rtol=0, atol=2e-3)
 
 
@@ -125,33 +124,16 @@ def test_losses(restitution: float) -> None:
 @pytest.mark.parametrize(
     ("wrong", "words"),
     [
-        ({"n_balls": 2.5}, ("NewtonsCradle.n_balls", "whole number", "2.5")),
-        ({"n_strikers": 5.0}, ("NewtonsCradle.n_strikers", "less than the number of balls 5", "5.0")),
-        ({"n_balls": 1.0}, ("NewtonsCradle.n_balls", ">= 2", "1.0")),
+        ({"n_balls": 2.5}, ("NewtonsCradle.n_balls", "an integer", "2.5")),
+        ({"n_strikers": 5}, ("NewtonsCradle.n_strikers", "less than the number of balls 5", "5")),
+        ({"n_balls": 1}, ("NewtonsCradle.n_balls", ">= 2", "it is 1.")),
         ({"mass_ratio": -1.0}, ("NewtonsCradle.mass_ratio", "> 0", "-1.0")),
         ({"speed": float("nan")}, ("NewtonsCradle.speed", "finite", "nan")),
     ],
 )
-def test_wrong_input(wrong: dict[str, float], words: tuple[str, ...]) -> None:
+def test_wrong_input(wrong: dict[str, Any], words: tuple[str, ...]) -> None:
     """The message names the parameter, the rule and the value."""
     with pytest.raises(ns.InvalidInput) as caught:
         NewtonsCradle(**wrong)
     for word in words:
         assert word in str(caught.value)
-
-
-@pytest.mark.slow
-def test_figures(tmp_path: Path) -> None:
-    """One figure of a run, two of the gallery, with title, axes and one line per row of balls."""
-    pytest.importorskip("matplotlib")
-    scenario = NewtonsCradle(n_balls=4.0)
-    solution = ns.simulate(scenario.build(), scenario.t_end)
-    drawn = {**scenario.figures(solution), **NewtonsCradle.gallery(None)}
-    assert sorted(drawn) == ["velocities", "velocities_hertz", "velocities_linear"]
-    for name, figure in drawn.items():
-        axis = figure.axes[0]
-        assert axis.get_title()
-        assert axis.get_xlabel()
-        assert axis.get_ylabel()
-        assert len(axis.get_legend().get_texts()) == (1 if name == "velocities" else 3)
-        figure.savefig(tmp_path / f"{name}.png")

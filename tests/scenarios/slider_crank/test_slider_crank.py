@@ -127,7 +127,7 @@ def test_figures(tmp_path: Path) -> None:
     """One panel per run."""
     pytest.importorskip("matplotlib")
     scenario = SliderCrank(t_end=0.01)
-    drawn: dict[str, Any] = {**scenario.figures(_run(scenario)), **SliderCrank.gallery(None)}
+    drawn: dict[str, Any] = {**scenario.figures(_run(scenario)), **SliderCrank.gallery(ns.run_scenario)}
     assert sorted(drawn) == ["height", "heights"]
     assert [len(figure.axes) for _, figure in sorted(drawn.items())] == [1, 2]
     for name, figure in drawn.items():

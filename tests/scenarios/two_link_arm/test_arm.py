@@ -127,7 +127,7 @@ def test_figures(tmp_path: Path) -> None:
     """Titles, labels, and as many lines as runs."""
     pytest.importorskip("matplotlib")
     scenario = dataclasses.replace(TwoLinkArm(), t_end=0.2)
-    drawn: dict[str, Any] = {**scenario.figures(_run(scenario)), **TwoLinkArm.gallery(None)}
+    drawn: dict[str, Any] = {**scenario.figures(_run(scenario)), **TwoLinkArm.gallery(ns.run_scenario)}
     assert sorted(drawn) == ["bouncing", "critical_friction", "gap"]
     assert [len(axis.get_legend().get_texts()) for axis in drawn["bouncing"].axes] == [2, 2]
     for name, figure in drawn.items():

@@ -118,7 +118,7 @@ def test_figures(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     short = Woodpecker(t_end=0.05)
     drawn: dict[str, Any] = {f"short_{k}": v for k, v in short.figures(_run(short)).items()}
-    drawn |= Woodpecker.gallery(None)
+    drawn |= Woodpecker.gallery(ns.run_scenario)
     assert sorted(drawn) == ["cycles", "limit_cycles", "short_cycles"]
     for name, figure in drawn.items():
         assert figure.axes[-1].get_xlabel()

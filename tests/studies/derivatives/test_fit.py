@@ -12,7 +12,7 @@ from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.derivatives.flow import flow
 from nonsmooth.studies.derivatives.least_squares import fit
-from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.dumbbell import DumbbellScenario
 from scenarios.sliding_rod.scenario import SlidingRod
 
 Floats = NDArray[np.float64]

@@ -18,8 +18,8 @@ from nonsmooth.studies.derivatives.differences import CENTRAL
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.derivatives.flow import flow
 from nonsmooth.studies.derivatives.forward import NotDifferentiable, sensitivity
-from scenarios.dumbbell.scenario import DumbbellScenario
-from scenarios.rocking_block.scenario import RockingBlock
+from scenarios.dumbbell import DumbbellScenario
+from scenarios.rocking_block import RockingBlock
 
 Floats = NDArray[np.float64]
 pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of runs take minutes in plain mode")

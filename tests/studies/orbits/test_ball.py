@@ -17,7 +17,7 @@ from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.orbits.continuation import continuation
 from nonsmooth.studies.orbits.exponents import lyapunov
 from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit, orbit
-from scenarios.bouncing_ball.scenario import BouncingBall
+from scenarios.bouncing_ball import BouncingBall
 
 pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of runs take minutes in plain mode")
 E = 0.8

@@ -16,8 +16,8 @@ from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.orbits.continuation import continuation
 from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit, orbit
 from nonsmooth.studies.orbits.symmetries import Spin, Turn
-from scenarios.bouncing_ball.scenario import BouncingBall
-from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.bouncing_ball import BouncingBall
+from scenarios.dumbbell import DumbbellScenario
 
 pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of runs take minutes in plain mode")
 E, PERIOD = 0.8, 0.04

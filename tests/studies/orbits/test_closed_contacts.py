@@ -20,8 +20,8 @@ from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.orbits.continuation import continuation
 from nonsmooth.studies.orbits.exponents import lyapunov
 from nonsmooth.studies.orbits.periodic import Orbit, orbit
-from scenarios.bouncing_ball.scenario import BouncingBall
-from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.bouncing_ball import BouncingBall
+from scenarios.dumbbell import DumbbellScenario
 
 pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of runs take minutes in plain mode")
 RADIUS, FRICTION, FREQUENCY = 0.01, 0.1, 10.0

@@ -17,8 +17,7 @@ from nonsmooth.progress import Display
 from nonsmooth.studies.derivatives.family import Family
 from nonsmooth.studies.orbits.diagram import Diagram, bifurcation
 from nonsmooth.studies.orbits.hysteresis import Hysteresis, hysteresis
-from scenarios.bouncing_ball import orbits
-from scenarios.bouncing_ball.scenario import BouncingBall
+from scenarios.bouncing_ball import BouncingBall, orbits
 
 pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of periods take minutes in plain mode")
 

@@ -13,7 +13,7 @@ from bodies import Dumbbell
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.studies.orbits.continuation import continuation
 from nonsmooth.studies.orbits.periodic import Orbit, orbit
-from scenarios.dumbbell.scenario import DumbbellScenario
+from scenarios.dumbbell import DumbbellScenario
 
 pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of runs take minutes in plain mode")
 PLANE = ("z", "ry", "vz", "wy")

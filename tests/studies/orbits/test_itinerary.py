@@ -12,8 +12,8 @@ from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.studies.orbits.diagram import bifurcation
 from nonsmooth.studies.orbits.itinerary import itinerary_diagram, itinerary_of_run
+from scenarios.bouncing_ball import BouncingBall
 from scenarios.bouncing_ball.orbits import impact_phase
-from scenarios.bouncing_ball.scenario import BouncingBall
 
 pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of periods take minutes in plain mode")
 BALL = BouncingBall(gamma=0.8, start_phase=1.0, speed=0.25)

@@ -19,7 +19,7 @@ from nonsmooth.studies.orbits.hysteresis import hysteresis
 from nonsmooth.studies.orbits.periodic import orbit
 from nonsmooth.studies.orbits.scan import check_period
 from nonsmooth.studies.periods import settling
-from scenarios.bouncing_ball.scenario import BouncingBall
+from scenarios.bouncing_ball import BouncingBall
 
 pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of periods take minutes in plain mode")
 

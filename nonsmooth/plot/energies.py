@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from nonsmooth.plot.asked import axes_of, times_of
+from nonsmooth.plot.arguments import axes_of, times_of
 from nonsmooth.plot.lines import beside, over_time
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body
-from nonsmooth.plot.asked import axes_of, times_of
+from nonsmooth.plot.arguments import axes_of, times_of
 from nonsmooth.plot.lines import beside
 from nonsmooth.system.asked import body_number
 

@@ -5,26 +5,28 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, final
+from typing import TYPE_CHECKING, Any, ClassVar, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bodies import ConstantVelocity, PlanarBody, Plate, Point, Rest, Spring
 from laws import EnergeticImpact, Stribeck, Unilateral
+from nonsmooth import charts
 from nonsmooth.engine.memory.modes import Cause
-from nonsmooth.interfaces import Criterion, Scenario
-from nonsmooth.parameters import parameter, rules
-from nonsmooth.simulate import Progress, simulate
+from nonsmooth.interfaces import Criterion, Run, Scenario
+from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 Floats = NDArray[np.float64]
 
-_SAMPLES = 2000
 _GRAVITY = 9.81
-_ROOM = 10.0
-"""Length of the spring over the largest way that the block can be expected to go."""
+_LENGTH = 10.0
+"""Length of the spring relative to the reach of the block, so that the spring stays nearly level."""
 
 
 @final
@@ -42,6 +44,7 @@ class BlockOnBelt(Scenario):
     """
 
     title: ClassVar[str] = "Block on a belt"
+    samples: ClassVar[int] = 2000
     coordinate_units: ClassVar[Mapping[str, str]] = {"elongation": "m", "elongation_rate": "m/s"}
     units: ClassVar[Mapping[str, str]] = {
         "breakaway": "m",
@@ -62,9 +65,8 @@ class BlockOnBelt(Scenario):
     t_end: float = parameter(40.0, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e4))
 
     def resolved(self) -> Mapping[str, Any]:
-        """Return all parameters, the velocity at the start as taken."""
-        values = {name: getattr(self, name) for name in rules(type(self))}
-        return values | {"velocity": self.start_velocity}
+        """Return all parameters, the velocity at the start as the run takes it."""
+        return {**super().resolved(), "velocity": self.start_velocity}
 
     @property
     def start_velocity(self) -> float:
@@ -72,20 +74,15 @@ class BlockOnBelt(Scenario):
         return self.belt_speed if self.velocity is None else self.velocity
 
     @property
-    def sample_interval(self) -> float:
-        """A two-thousandth of the run [s]."""
-        return self.t_end / _SAMPLES
-
-    @property
     def reach(self) -> float:
-        """The elongation at breakaway, how far the speeds carry the block, and the start, added [m]."""
+        """Bound of the elongation [m]: at breakaway, how far the speeds carry the block, and the start, added."""
         swing = (self.belt_speed + abs(self.start_velocity)) * math.sqrt(self.mass / self.stiffness)
         return self.static_force / self.stiffness + swing + abs(self.elongation)
 
     def build(self) -> System:
         """Return wall, belt and block, which touches the belt at its mass centre: no force has an arm to tilt it."""
         reach, half = self.reach, math.sqrt(0.5)
-        length = _ROOM * reach
+        length = _LENGTH * reach
         wall = Plate(Rest(position=(-length, 0.0, 0.0), orientation=(half, 0.0, half, 0.0)))
         belt = Plate(ConstantVelocity((self.belt_speed, 0.0, 0.0)))
         block = PlanarBody(self.mass, self.mass * reach**2 / 12.0, (Point(),))
@@ -98,15 +95,11 @@ class BlockOnBelt(Scenario):
 
     def breakaways(self, solution: Solution) -> Floats:
         """Return the times at which slip starts [s]."""
-        events = solution.events
-        times: Floats = events.time[events.cause == Cause.STICK_TO_SLIP]
-        return times
+        return np.asarray(solution.events.time[solution.events.cause == Cause.STICK_TO_SLIP])
 
     def catches(self, solution: Solution) -> Floats:
         """Return the times at which the belt catches the block [s]."""
-        events = solution.events
-        times: Floats = events.time[events.cause == Cause.SLIP_TO_STICK]
-        return times
+        return np.asarray(solution.events.time[solution.events.cause == Cause.SLIP_TO_STICK])
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
         """Return the elongation [m] and its rate [m/s] over the samples."""
@@ -117,7 +110,10 @@ class BlockOnBelt(Scenario):
         return {"q": [float(solution.q_end[0])], "u": [float(solution.u_end[0])]}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return where slip starts, the last period and its share of stick (None before two cycles), the extremes."""
+        """Return where slip starts, the extremes, and of the last cycle the period and the fraction of stick.
+
+        The last two are None before the second cycle.
+        """
         events, starts = solution.events, self.breakaways(solution)
         caught = self.catches(solution)
         last = caught[caught < starts[-1]][-1:] if len(starts) >= 2 else caught[:0]
@@ -136,13 +132,11 @@ class BlockOnBelt(Scenario):
         """Return when slip starts first, for a block that starts with the belt, and where it starts each time."""
         source = "Leine et al. (1998): it sticks until the spring and damper pull with F_s"
         place = (self.static_force - self.damping * self.belt_speed) / self.stiffness
-        events = solution.events
-        places, found = events.q[events.cause == Cause.STICK_TO_SLIP, 0], []
+        places, found = self.summarise(solution)["breakaway"], []
         for name, value in (("first", places[:1]), ("last", places[-1:])):
-            at = float(value[0]) if len(value) else None
-            found.append(
-                Criterion.near(f"elongation at the {name} breakaway [m]", at, place, 1e-6 * self.reach, source)
-            )
+            at = value[0] if value else None
+            name = f"elongation at the {name} breakaway [m]"
+            found.append(Criterion.near(name, at, place, 1e-6 * self.reach, source))
         way = place - self.elongation
         if self.start_velocity == self.belt_speed and way > 0.0:
             times = self.breakaways(solution)
@@ -153,25 +147,33 @@ class BlockOnBelt(Scenario):
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return phase portrait and elongation over time."""
-        from scenarios.block_on_belt.figures import portrait
-
-        words = f"δ = {self.decay:g} s/m, belt {self.belt_speed:g} m/s"
-        share = self.summarise(solution)["stick_share"]
-        said = "The block slides on" if share is None else f"Of each period the block sticks {100.0 * share:.0f} %"
-        return {"portrait": portrait({"run": (self, solution)}, f"{said} ({words})")}
+        sticks = self.summarise(solution)["stick_share"]
+        claim = "The block slides on" if sticks is None else f"Of each period the block sticks {100.0 * sticks:.0f} %"
+        title = f"{claim} (δ = {self.decay:g} s/m, belt {self.belt_speed:g} m/s)"
+        return {"portrait": _portrait({"": (self, solution)}, title)}
 
     @classmethod
-    def gallery(cls, progress: Progress | None) -> Mapping[str, Any]:
+    def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return the limit cycle from two starts."""
-        from scenarios.block_on_belt.figures import portrait
-
-        runs = {}
         starts = {
             "starts at rest on the belt, q = 0": cls(),
             "starts near the balance of spring and friction": cls(elongation=0.65, velocity=0.0),
         }
-        for name, scenario in starts.items():
-            interval = scenario.sample_interval
-            run = simulate(scenario.build(), scenario.t_end, sample_interval=interval, progress=progress)
-            runs[name] = scenario, run
-        return {"limit_cycle": portrait(runs, "Stick with the belt, slip back: both starts end in one limit cycle")}
+        runs = {label: (block, run(block)) for label, block in starts.items()}
+        return {"limit_cycle": _portrait(runs, "Stick with the belt, slip back: both starts end in one limit cycle")}
+
+
+def _portrait(runs: Mapping[str, tuple[BlockOnBelt, Solution]], title: str) -> Figure:
+    """Draw velocity over elongation, and elongation over time."""
+    figure, (phase, time) = charts.panels(1, 2, title, (9.6, 4.4), width_ratios=(1.0, 1.3))
+    block = next(iter(runs.values()))[0]
+    q = "elongation of the spring q [m]"
+    cycles = {label: (run.q[:, 0], run.u[:, 0]) for label, (_, run) in runs.items()}
+    charts.portrait(cycles, q, "velocity of the block [m/s]", ax=phase)
+    charts.histories({q: {label: (run.t, run.q[:, 0]) for label, (_, run) in runs.items()}}, axes=[time])
+    phase.axhline(block.belt_speed, color="0.6", linewidth=0.8, zorder=0)
+    phase.set_title("grey: speed of the belt", fontsize=9)
+    time.axhline(block.static_force / block.stiffness, color="0.6", linewidth=0.8, zorder=0)
+    time.set_title("grey: where static friction ends, q = F_s / k", fontsize=9)
+    charts.legend(figure)
+    return figure

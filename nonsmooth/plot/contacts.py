@@ -1,0 +1,195 @@
+"""Gaps, velocities, forces and impulses of contacts over time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from nonsmooth.charts import marker
+from nonsmooth.histories.arrays import Floats
+from nonsmooth.plot.arguments import Contacts, axes_of, contacts_of, part_of, times_of
+from nonsmooth.plot.lines import beside, draw_lines, over_time, title_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from nonsmooth.histories.contact_history import ContactHistory
+    from nonsmooth.solution.solution import Solution
+
+_SEEN = 1e-6
+"""Range of gaps that the axes show at least, relative to the smallest shape: round-off is no motion to be seen."""
+
+
+def gaps(
+    solution: Solution, contacts: Contacts | None = None, ax: Axes | None = None, *, times: ArrayLike | None = None
+) -> Axes:
+    """Draw gaps [m] over time [s], one line for each contact; lines are interrupted while bodies are far apart.
+
+    Parameters
+    ----------
+    solution : Solution
+        The run.
+    contacts : Contact, str, int or sequence of them, optional
+        Which contacts; by default those with most events, eight at most.
+    ax : Axes, optional
+        Axes to draw on; those of a new figure by default.
+    times : array, optional
+        Times of the run [s], shape [n]; by default those of its samples and both sides of its events, if there are no
+        more than 2000 of these.
+
+    Returns
+    -------
+    Axes
+        The axes.
+
+    Raises
+    ------
+    InvalidInput, UnknownName
+        If the system has no such contact, or none at all, or a time is not within the run.
+    """
+    where, declared = "nonsmooth.plot.gaps", solution.system.contacts
+    numbers, row = contacts_of(where, solution, contacts), times_of(where, solution, times)
+    ax = axes_of(ax)
+    draw_lines(ax, solution, numbers, row, solution.contact_motion(row, numbers).gap)
+    ax.axhline(0.0, color="0.4", linewidth=0.8)
+    least, (low, high) = _SEEN * min(declared[number].size for number in numbers), ax.get_ylim()
+    ax.set_ylim(min(low, -least), max(high, least))
+    ax.set_ylabel("gap [m]")
+    return ax
+
+
+def velocities(
+    solution: Solution,
+    contacts: Contacts | None = None,
+    ax: Axes | None = None,
+    *,
+    part: str = "normal",
+    times: ArrayLike | None = None,
+) -> Axes:
+    """Draw velocities of contacts [m/s] over time [s].
+
+    Parameters
+    ----------
+    solution, contacts, ax, times
+        As for :func:`nonsmooth.plot.gaps`.
+    part : str
+        "normal" for the rate of the gap, "slip" for the speed across the normal.
+
+    Returns
+    -------
+    Axes
+        The axes.
+
+    Raises
+    ------
+    InvalidInput, UnknownName
+        As for :func:`nonsmooth.plot.gaps`, or if there is no such part.
+    """
+    where = "nonsmooth.plot.velocities"
+    which = part_of(where, part, ("normal", "slip"))
+    numbers, row = contacts_of(where, solution, contacts), times_of(where, solution, times)
+    motion, ax = solution.contact_motion(row, numbers), axes_of(ax)
+    draw_lines(ax, solution, numbers, row, (motion.normal_velocity, motion.slip_speed)[which])
+    ax.axhline(0.0, color="0.4", linewidth=0.8)
+    ax.set_ylabel(("normal velocity [m/s]", "slip speed [m/s]")[which])
+    return ax
+
+
+def forces(
+    solution: Solution,
+    contacts: Contacts | None = None,
+    ax: Axes | None = None,
+    *,
+    part: str = "normal",
+    times: ArrayLike | None = None,
+) -> Axes:
+    """Draw forces of closed contacts [N] over time [s]; impacts have impulses instead.
+
+    Parameters
+    ----------
+    solution, contacts, ax
+        As for :func:`nonsmooth.plot.gaps`.
+    part : str
+        "normal", or "friction" for the magnitude of friction.
+    times : array, optional
+        Times of the run [s], shape [n]; those of its samples and events by default.
+
+    Returns
+    -------
+    Axes
+        The axes.
+
+    Raises
+    ------
+    InvalidInput, UnknownName
+        As for :func:`nonsmooth.plot.gaps`, or if there is no such part.
+    """
+    where = "nonsmooth.plot.forces"
+    part_of(where, part, tuple(_FORCES))
+    numbers = contacts_of(where, solution, contacts)
+    # before the event that ends a mode, forces that are not unique may be out of their bounds
+    row = times_of(where, solution, times, before=False)
+    found, ax = solution.contact_forces(row), axes_of(ax)
+    force, label = _FORCES[part]
+    histories = [found.history(number) for number in numbers]
+    values = np.column_stack([np.where(one.mode > 0, force(one), np.nan) for one in histories])
+    draw_lines(ax, solution, numbers, row, values)
+    ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
+    ax.set_ylabel(label)
+    return ax
+
+
+def _normal(history: ContactHistory) -> Floats:
+    return history.normal_force
+
+
+def _friction(history: ContactHistory) -> Floats:
+    return np.asarray(np.linalg.norm(history.friction_force, axis=1))
+
+
+_FORCES: MappingProxyType[str, tuple[Callable[[ContactHistory], Floats], str]] = MappingProxyType(
+    {"normal": (_normal, "normal force [N]"), "friction": (_friction, "friction [N]")}
+)
+
+
+def impulses(
+    solution: Solution, contacts: Contacts | None = None, ax: Axes | None = None, *, part: str = "normal"
+) -> Axes:
+    """Draw the impulses of impacts [N s] as stems at their times [s].
+
+    Parameters
+    ----------
+    solution, contacts, ax
+        As for :func:`nonsmooth.plot.gaps`.
+    part : str
+        "normal", or "friction" for the magnitude of the tangential impulse.
+
+    Returns
+    -------
+    Axes
+        The axes.
+
+    Raises
+    ------
+    InvalidInput, UnknownName
+        As for :func:`nonsmooth.plot.gaps`, or if there is no such part.
+    """
+    where = "nonsmooth.plot.impulses"
+    which = part_of(where, part, ("normal", "friction"))
+    numbers, events = contacts_of(where, solution, contacts), solution.events
+    ax, times = axes_of(ax), np.repeat(events.time, np.diff(events.first))
+    size = (events.listed_impulse[:, 0], np.hypot(*events.listed_impulse[:, 1:].T))[which]
+    for place, number in enumerate(numbers):
+        struck = (events.listed == number) & (size > 0.0)
+        style, name = marker(place), solution.system.contacts[number].name
+        ax.vlines(times[struck], 0.0, size[struck], color=style["color"], linewidth=0.9)
+        ax.plot(times[struck], size[struck], markersize=4, label=name, **style)
+    over_time(ax, solution)
+    ax.set_ylim(bottom=0.0)
+    ax.set_ylabel(f"{part} impulse [N s]")
+    beside(ax, title_of(numbers, solution))
+    return ax

@@ -1,1 +1,0 @@
-"""A block on a moving belt, held by a spring: stick-slip."""

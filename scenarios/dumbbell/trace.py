@@ -1,0 +1,103 @@
+"""What the figures draw: the end of a run with its jumps, and a note of the parameters."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.engine.memory.modes import Cause
+from nonsmooth.parameters import rules
+from nonsmooth.solution.solution import Solution
+from scenarios.dumbbell.coordinates import Motion
+
+if TYPE_CHECKING:
+    from scenarios.dumbbell.scenario import DumbbellScenario
+
+Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+_SYMBOLS = MappingProxyType(
+    {
+        "radius": ("r", 1e3, "mm"),
+        "rod_mass_fraction": ("rod mass share", 1.0, ""),
+        "density": ("density", 1.0, "kg/m³"),
+        "restitution": ("e", 1.0, ""),
+        "friction": ("µ", 1.0, ""),
+        "static_friction": ("µ$_s$", 1.0, ""),
+        "young_modulus": ("E", 1e-9, "GPa"),
+        "poisson_ratio": ("$\\nu$", 1.0, ""),
+    }
+)
+
+
+@dataclass(frozen=True)
+class Trace:
+    """The last part of a run: samples, and the states before and after every event.
+
+    Attributes
+    ----------
+    motion : Motion
+        The motion; times are repeated at events.
+    touching : array
+        True for balls that are on the plate from this point to the next, shape [n, 2].
+    struck : array
+        True for balls that take part in the impact that leads from this point to the next, shape [n, 2].
+    """
+
+    motion: Motion
+    touching: Flags
+    struck: Flags
+
+    @classmethod
+    def of(cls, scenario: DumbbellScenario, solution: Solution, periods: float) -> Trace:
+        """Return the trace of the last plate periods."""
+        events = solution.events
+        begin = solution.t_end - periods / scenario.frequency
+        inside = np.flatnonzero(events.time >= begin)
+        padded = np.concatenate([[-np.inf], events.time, [np.inf]])
+        near = np.searchsorted(events.time, solution.t)
+        apart = np.minimum(solution.t - padded[near], padded[near + 1] - solution.t) > 1e-12
+        plain = (solution.t >= begin) & apart
+        # rows of samples have the event -1, those of events come twice: late 0 before and 1 after the event
+        event = np.concatenate([np.full(plain.sum(), -1), np.repeat(inside, 2)])
+        late = np.concatenate([np.full(plain.sum(), -1), np.tile([0, 1], len(inside))])
+        t = np.concatenate([solution.t[plain], np.repeat(events.time[inside], 2)])
+        q = np.concatenate([solution.q[plain], np.repeat(events.q[inside], 2, axis=0)])
+        jumps = np.stack([events.u_before[inside], events.u_after[inside]], axis=1).reshape(-1, solution.u.shape[1])
+        u = np.concatenate([solution.u[plain], jumps])
+        order = np.lexsort((late, event, t))
+        t, event, late = t[order], event[order], late[order]
+        last = np.where(event >= 0, event, np.searchsorted(events.time, t, side="right") - 1)
+        touching = (events.after[np.maximum(last, 0)] & 1) > 0
+        hit = (late == 0) & (events.cause[np.maximum(event, 0)] == Cause.IMPACT)
+        struck = hit[:, None] & ((events.during[np.maximum(event, 0)] & 1) > 0)
+        return cls(Motion.of(scenario, t, q[order], u[order]), touching, struck)
+
+    @property
+    def scenario(self) -> DumbbellScenario:
+        """The scenario of the run."""
+        return self.motion.scenario
+
+    @property
+    def clock(self) -> Floats:
+        """Time since the start of the trace [ms]."""
+        return np.asarray(1e3 * (self.motion.t - self.motion.t[0]))
+
+
+def note(*scenarios: DumbbellScenario, impact: str = "") -> str:
+    """Return the parameters of the runs and which of them are assumed; ``impact`` names other laws than theirs."""
+    rows = [scenario.resolved() for scenario in scenarios]
+
+    def values(name: str, factor: float = 1.0) -> str:
+        return " / ".join(dict.fromkeys(f"{row[name] * factor:.4g}" for row in rows))
+
+    laws = impact or ", ".join(dict.fromkeys(row["impact"] for row in rows))
+    given = f"Γ = {values('gamma')}, f = {values('frequency')} Hz, A$_r$ = {values('aspect_ratio')}"
+    assumed = [name for name, (_, rule) in rules(type(scenarios[0])).items() if rule.assumed and name in _SYMBOLS]
+    symbols = {name: _SYMBOLS[name] for name in assumed}
+    words = [f"{symbol} = {values(name, factor)} {unit}".strip() for name, (symbol, factor, unit) in symbols.items()]
+    return f"{given}; impact law: {laws}\nassumed (not given in the paper): {', '.join(words)}"

@@ -1,1 +1,0 @@
-"""Newton's cradle: a row of balls that touch, struck at one end."""
