@@ -16,7 +16,8 @@ from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.studies.attractors.linkage import hausdorff, linked
 from nonsmooth.studies.status import RunStatus
 from nonsmooth.studies.store import Store
-from scenarios.bouncing_ball.scenario import GRAVITY, BouncingBall, orbits
+from scenarios.bouncing_ball import orbits
+from scenarios.bouncing_ball.scenario import GRAVITY, BouncingBall
 from scenarios.dumbbell import DumbbellScenario
 from tests.studies.attractors.made import Floats, logistic, study
 
