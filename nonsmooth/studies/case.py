@@ -190,7 +190,7 @@ def case_factory(runs: Scenario | System | Callable[..., System], t_end: float |
     """
     if isinstance(runs, Scenario):
         if t_end is not None:
-            remedy = "Give the scenario another one, where it has such a parameter."
+            remedy = "Change the end time of the scenario."
             raise InvalidInput("Study: t_end", "must be left out, as the scenario has its own", t_end, remedy)
         return ScenarioCases(runs)
     rule = "must be positive and finite for a system or a function"

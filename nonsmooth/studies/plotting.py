@@ -28,7 +28,7 @@ HATCHED: dict[str, Any] = {"edgecolor": "0.6", "hatch": "xxx", "linewidth": 0.0}
 DOTTED: dict[str, Any] = {"linewidth": 0.9, "linestyle": ":"}
 """Lines at runs without records."""
 MOST_CLASSES = 12
-"""Classes that one picture tells apart."""
+"""Classes that one picture distinguishes."""
 _TITLE, _TICKS = 10, 6
 """Size of a title [pt], and ticks of an axis at most: labels of eight characters fit."""
 

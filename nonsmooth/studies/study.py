@@ -59,7 +59,7 @@ class Study:
         Parameters of the runs: :func:`grid`, :func:`random`, :func:`sobol`, :func:`latin_hypercube`, :func:`listed`,
         :func:`columns`.
     record : sequence
-        What is kept of each run, besides ``status`` and ``reason``: q_end, u_end, t_end, impacts, events, steps,
+        Records of each run, besides ``status`` and ``reason``: q_end, u_end, t_end, impacts, events, steps,
         energy_residual, a name of the scenario's summary, a function ``f(scenario, solution) -> number``, or a
         :class:`Trajectory`.
     t_end : float, optional
@@ -97,7 +97,7 @@ class Study:
         self._work = dataclasses.replace(self._work, records=records(record, self._first()))
         for name in self.records:
             if name in self._sampling.columns:
-                rule = "must be none of what is varied, which is kept anyway"
+                rule = "must not be a varied parameter, which is kept anyway"
                 raise InvalidInput(f"record {name}", rule, list(self._sampling.columns), "Leave it out.")
         self._budget = budget
 
@@ -242,8 +242,8 @@ class Study:
         known = store.attributes
         if known["sha256"] != hashlib.sha256(self.spec.encode()).hexdigest():
             where = differing(json.loads(str(known["spec"])), json.loads(self.spec))
-            remedy = "Choose another folder, or ask for what began there."
-            raise InvalidInput(str(store.path), "must hold the study that goes on there", where, remedy)
+            remedy = "Choose another folder, or give the arguments with which it began."
+            raise InvalidInput(str(store.path), "must hold the study that continues there", where, remedy)
         if chunk is not None and chunk != store.chunk:
             thing = f"{store.path}: chunk"
             raise InvalidInput(thing, f"must be that of the beginning, {store.chunk}", chunk, "Leave it out.")

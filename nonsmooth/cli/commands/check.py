@@ -1,4 +1,4 @@
-"""``nonsmooth check``: the conformance kit on what is installed."""
+"""``nonsmooth check``: the conformance kit on an installed component."""
 
 from __future__ import annotations
 

@@ -51,7 +51,7 @@ def _status(arguments: argparse.Namespace) -> bool:
 def _resume(arguments: argparse.Namespace) -> bool:
     words, path = json.loads(str(_store(arguments).attributes["request"])), arguments.study
     if not words:
-        remedy = "Run the Python program again that began it: it goes on."
+        remedy = "Run the Python program again that began it: the study continues."
         raise InvalidInput(str(path), "must have been begun on the command line", "a study of a program", remedy)
     check_stored(str(path), words, STUDY_WORDS)
     perform(study_of(words, trust=arguments.trust, typed=False), words, path, executor_given(arguments))

@@ -1,18 +1,19 @@
-"""Ctrl-C while the engine runs: stop where nothing is lost."""
+"""Ctrl-C during a run: it stops at the next safe point."""
 
 from __future__ import annotations
 
 import signal
-from types import FrameType, TracebackType
+from types import FrameType
+from typing import Any
 
 from nonsmooth.cli.report.messages import tell
 
 
 class Interrupt:
-    """While entered, the first Ctrl-C is a wish that :meth:`check` grants; a second one stops at once.
+    """While entered, the first Ctrl-C stops the run in :meth:`check`, a second one at once.
 
-    Without it the interrupt could strike between two halves of a record.  A process in the background of
-    a script is started with Ctrl-C ignored; there, too, ``kill -INT`` stops the run and keeps its results.
+    Without it an interrupt could divide a record.  A background process of a script ignores Ctrl-C from the start;
+    ``kill -INT`` stops its run, too, and keeps the results.
     """
 
     def __init__(self) -> None:
@@ -22,9 +23,7 @@ class Interrupt:
         self._previous = signal.signal(signal.SIGINT, self._ask)
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *error: Any) -> None:
         signal.signal(signal.SIGINT, self._previous)
 
     def _ask(self, number: int, frame: FrameType | None) -> None:
@@ -34,6 +33,6 @@ class Interrupt:
         tell("\ninterrupt: stopping at the next safe point; once more stops at once")
 
     def check(self) -> None:
-        """Raise KeyboardInterrupt if it was asked for."""
+        """Raise KeyboardInterrupt after a first Ctrl-C."""
         if self.asked:
             raise KeyboardInterrupt

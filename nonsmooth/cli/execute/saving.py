@@ -1,4 +1,4 @@
-"""The files of a run or a gallery; a failure is told at once, noted, and keeps nothing else from being saved."""
+"""Saving pictures and texts of a run; a failure is printed and noted, and all else is still saved."""
 
 from __future__ import annotations
 
@@ -13,11 +13,12 @@ from nonsmooth.errors import NonsmoothError
 from nonsmooth.solution.files import replacing
 
 _DPI = 150
+"""Resolution of pictures [dots per inch]."""
 
 
 @contextlib.contextmanager
 def noting(troubles: list[str], what: str) -> Iterator[None]:
-    """Note and tell a failure instead of raising it."""
+    """Note and print a failure instead of raising it."""
     try:
         yield
     except NonsmoothError as error:

@@ -68,7 +68,7 @@ def basins(study: xarray.Dataset) -> Figure:
 
 
 def largest(stability: Mapping[str, tuple[float, float]]) -> list[str]:
-    """Return the attractors with the largest shares, in their order, as many as a picture tells apart."""
+    """Return the attractors with the largest shares, in their order, as many as a picture distinguishes."""
     found = [word for word, (share, _) in stability.items() if share > 0.0]
     return sorted(found, key=lambda word: -stability[word][0])[:MOST_CLASSES]
 

@@ -110,15 +110,15 @@ def sensitivity(what: Varied, parameters: Sequence[str], *, at: ArrayLike) -> Se
 
 def _states(model: Model, times: Array) -> tuple[Array, Signature, Array]:
     """Return the states at times, shape [n, n_q + n_u], the events between them, and the times of these [s]."""
-    state, rows, told, when = model.start, list[Array](), list[tuple[int, int]](), list[float]()
+    state, rows, passed, when = model.start, list[Array](), list[tuple[int, int]](), list[float]()
     for time in times.tolist():
         piece = flow(model, state, time)
         state = piece.state
         rows.append(values_of(state))
         # a mark between events tells on which side of a time they are
-        told += [*piece.signature, (-1, -1)]
+        passed += [*piece.signature, (-1, -1)]
         when += piece.times
-    return np.array(rows), tuple(told), np.array(when)
+    return np.array(rows), tuple(passed), np.array(when)
 
 
 def _steady(family: Family, name: str, times: Array, expected: Signature) -> tuple[Array, float]:

@@ -78,7 +78,9 @@ class Dask(Executor):
                 for chunk in suspects:
                     yield _in_halves(client, parcel, chunk)
             except CancelledError as error:
-                raise SchedulerLost("The scheduler is gone. What is stored stays: start one, and go on.") from error
+                raise SchedulerLost(
+                    "The scheduler is gone. Complete chunks stay: start a scheduler, and run the study again."
+                ) from error
 
     def _client(self, stack: contextlib.ExitStack) -> Client:
         import dask

@@ -153,5 +153,5 @@ class Path:
                 break
         raise NoOrbit(
             f"Newton's method leaves {here.orbit.residual:.2g} of the scales near {self.name} = {there:.9g}; "
-            "orbit(...) there tells whether there is one"
+            "call orbit(...) there to see whether there is one"
         )

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 _FILLS = COLOURS[1:]
 _HATCHES = ("", "////", "....", "xxxx")
 _KINDS = len(_FILLS) * len(_HATCHES)
-"""Kinds of events that a picture tells apart; all others look like the last of them."""
+"""Kinds of events that a picture distinguishes; all others have the style of the last of them."""
 
 
 @final

@@ -146,7 +146,7 @@ def _free(system: System) -> Iterator[tuple[str, int, int]]:
 @final
 @dataclass(frozen=True)
 class RelativeSection(Section):
-    """A section modulo symmetries: each end of a period is turned back to where it is nearest to the start.
+    """A section modulo symmetries: each end of a period is turned back as near to the start as possible.
 
     Attributes
     ----------

@@ -40,7 +40,7 @@ class Trajectory(Recorder):
     def record(self, first: RunResult) -> StudyRecord:
         """Return the record; InvalidInput if the runs end before the last time."""
         if max(self.times) > first.t_end:
-            rule, remedy = f"must lie within a run of {first.t_end:g} s", "Raise t_end, or leave out what is behind it."
+            rule, remedy = f"must lie within a run of {first.t_end:g} s", "Raise t_end, or leave out later times."
             raise InvalidInput("Trajectory: times", rule, max(self.times), remedy)
         axis = _AXES[self.name]
         text = described(f"{axis} over time")
