@@ -197,7 +197,7 @@ def _ball(record: Requested) -> studies.Study:
         ),
         (
             lambda: studies.Study(BouncingBall(), studies.grid(t_end=[0.1, 0.2]), ["t_end"]),
-            ("record t_end", "none of what is varied"),
+            ("record t_end", "must not be a varied parameter"),
         ),
         (lambda: _ball(studies.Trajectory("q", (0.1, 0.3))), ("times", "within a run of 0.2 s", "0.3")),
         (lambda: studies.Trajectory("q", (-0.1, 0.3)), ("times", "none negative")),
