@@ -173,7 +173,7 @@ def test_a_scheduler_that_ends_is_told_and_the_study_goes_on(tmp_path: Path) -> 
 
         ender = threading.Thread(target=end)
         ender.start()
-        with pytest.raises(SchedulerLost, match="What is stored stays"):
+        with pytest.raises(SchedulerLost, match="Complete chunks stay"):
             ball.slow_study().run(path, executor=studies.Dask(made.scheduler_address), chunk=5)
         ender.join()
     whole = ball.slow_study().run(tmp_path / "whole.zarr", executor="serial")
