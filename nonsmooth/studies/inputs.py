@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib.util
-from importlib.metadata import version
 from typing import Any
 
 import numpy as np
@@ -15,8 +14,6 @@ from nonsmooth.progress import Display, ProgressMeter, on_standard_error
 from nonsmooth.types import Array
 
 _REMEDY = 'pip install "nonsmooth[studies]"'
-_OLDEST = (3, 1, 3)
-"""First version of zarr that gives a file its name when the file is complete."""
 
 
 def require(what: str, *packages: str) -> None:
@@ -27,12 +24,8 @@ def require(what: str, *packages: str) -> None:
 
 
 def require_store() -> None:
-    """Raise MissingPackagesError unless xarray and a recent zarr are installed."""
-    require("a study", "xarray", "zarr")
-    found = version("zarr")
-    if tuple(int(part) for part in found.split(".")[:3] if part.isdigit()) < _OLDEST:
-        oldest = ".".join(map(str, _OLDEST))
-        raise MissingPackagesError(f"a study needs zarr {oldest} or newer, not {found}: {_REMEDY}")
+    """Raise MissingPackagesError unless xarray is installed."""
+    require("a study", "xarray")
 
 
 def meter(display: Display | None) -> ProgressMeter:

@@ -13,21 +13,22 @@ from typing import TYPE_CHECKING, Any, final
 
 from nonsmooth.checks import check_kind, path_of
 from nonsmooth.engines.event_driven import EventDriven
-from nonsmooth.errors import InvalidInput, NonsmoothWarning, UnknownName
+from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.interfaces import Engine, Scenario
 from nonsmooth.progress import Display, RunsDone
+from nonsmooth.results.output import OtherVersions
 from nonsmooth.studies.budget import Budgeted
 from nonsmooth.studies.case import case_factory
 from nonsmooth.studies.executors import Dask, Executor, Serial, Threads
 from nonsmooth.studies.inputs import check_count, meter, require_store
-from nonsmooth.studies.layout import coordinates, labels_of, stored, variables
+from nonsmooth.studies.layout import coordinates, variables
 from nonsmooth.studies.opening import open_study
 from nonsmooth.studies.provenance import differing, provenance
 from nonsmooth.studies.records.record import RunResult
 from nonsmooth.studies.records.recorders import Requested, records
 from nonsmooth.studies.sampling import Sampling
 from nonsmooth.studies.status import VALUED
-from nonsmooth.studies.store import Store, is_study
+from nonsmooth.studies.study_folder import StudyFolder, is_study
 from nonsmooth.studies.work import Chunk, Work
 from nonsmooth.system.system import System
 
@@ -40,10 +41,6 @@ _CHUNKS, _LARGEST = 40, 1000
 _UNLIMITED = 1 << 62
 _FIRST_SAMPLES = 2
 """Samples of the first run, from which the records are made."""
-
-
-class OtherStudyVersions(NonsmoothWarning):
-    """A study continues with other versions than it began with."""
 
 
 @final
@@ -185,13 +182,13 @@ class Study:
         place = path_of("study", path)
         if not is_study(place):
             self._create(place, chunk, request or {})
-        store = Store(place)
+        store = StudyFolder(place)
         self._check_same(store, chunk)
         with store.writing():
             self._run(store, does, display)
         return open_study(place)
 
-    def _run(self, store: Store, executor: Executor, display: Display | None) -> None:
+    def _run(self, store: StudyFolder, executor: Executor, display: Display | None) -> None:
         done = set(store.committed())
         left = [self._chunk(store, number) for number in range(store.n_chunks) if number not in done]
         if not left:
@@ -203,21 +200,19 @@ class Study:
                 store.write(block)
                 ends = block.arrays["status"].tolist()
                 counted.add(len(ends), sum(end not in VALUED for end in ends))
-        store.finish()
 
-    def _chunk(self, store: Store, number: int) -> Chunk:
+    def _chunk(self, store: StudyFolder, number: int) -> Chunk:
         runs = range(number * store.chunk, min(len(self), (number + 1) * store.chunk))
         return Chunk(number, runs.start, tuple(map(self._sampling.at, runs)))
 
     def _create(self, path: Path, chunk: int | None, request: Mapping[str, Any]) -> None:
         size = max(1, min(_LARGEST, -(-len(self) // _CHUNKS))) if chunk is None else chunk
         spec, records_of = self.spec, self._work.records
-        along, made = coordinates(records_of, self._sampling, self._cases), variables(records_of)
+        made = variables(records_of, len(self), size)
         layout = {
             "parameters": list(self._sampling.columns),
             "dims": dict(self._sampling.dims),
-            "variables": [one.name for one in made],
-            "labels": labels_of(along),
+            "variables": list(made),
         }
         attributes = {
             "Conventions": "CF-1.11",
@@ -228,15 +223,14 @@ class Study:
             "provenance": json.dumps([dict(provenance())]),
             "request": json.dumps(dict(request)),
         }
-        kept = {name: stored(one) for name, one in along.items()}
-        Store.create(path, len(self), size, made, kept, attributes)
+        StudyFolder.create(path, made, coordinates(records_of, self._sampling, self._cases), attributes)
 
-    def _check_same(self, store: Store, chunk: int | None) -> None:
+    def _check_same(self, store: StudyFolder, chunk: int | None) -> None:
         """Refuse the store of another study; add versions and processor to its provenance.
 
         Warns
         -----
-        OtherStudyVersions
+        OtherVersions
             If it continues with other versions.
         """
         known = store.attributes
@@ -252,7 +246,7 @@ class Study:
             store.note({"provenance": json.dumps([*before, here])})
             differ = {name: here[name] for name in here if here[name] != before[0].get(name)}
             text = f"{store.path} began elsewhere or with other versions; here are {differ}: last digits may differ."
-            warnings.warn(text, OtherStudyVersions, stacklevel=3)
+            warnings.warn(text, OtherVersions, stacklevel=3)
 
 
 def check_chunk(chunk: int | None) -> None:

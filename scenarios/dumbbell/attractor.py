@@ -46,7 +46,7 @@ class Settled:
 
     Attributes
     ----------
-    motion : Motion
+    motion : DumbbellMotion
         The motion at its samples.
     events : Events
         Events of the whole run; contacts 0 and 1 are balls 1 and 2.
@@ -54,7 +54,7 @@ class Settled:
         Number of plate periods.
     """
 
-    motion: coordinates.Motion
+    motion: coordinates.DumbbellMotion
     events: Events
     cycles: int
 

@@ -23,7 +23,7 @@ _SINGULAR = 1e-12
 
 
 @dataclass(frozen=True)
-class Motion:
+class DumbbellMotion:
     """A motion of the scenario's dumbbell over its plate.
 
     Attributes
@@ -42,7 +42,7 @@ class Motion:
     u: Floats
 
     @classmethod
-    def of(cls, scenario: DumbbellScenario, t: Floats, q: Floats, u: Floats) -> Motion:
+    def of(cls, scenario: DumbbellScenario, t: Floats, q: Floats, u: Floats) -> DumbbellMotion:
         """Return the motion with coordinates and velocities of the free body, shapes [n, 7] and [n, 6]."""
         return cls(scenario, t, *from_state(t, q, u, scenario.centre_distance))
 

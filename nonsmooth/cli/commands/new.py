@@ -17,7 +17,7 @@ from nonsmooth.cli.parse.options import Command, CommandGroup, Option
 from nonsmooth.cli.report.messages import say
 from nonsmooth.errors import InvalidInput
 from nonsmooth.plugins import registry
-from nonsmooth.solution.files import replacing
+from nonsmooth.storage.files import replacing
 
 _FILES = {
     "pyproject.toml": "pyproject.toml.txt",

@@ -17,7 +17,8 @@ from nonsmooth.cli.parse.request import ENGINE, JSON, LAW, SCENARIO, SET, TRUST,
 from nonsmooth.cli.report import run_report
 from nonsmooth.cli.report.messages import say
 from nonsmooth.results.output import Output
-from nonsmooth.results.solution_folder import SolutionFolder, check_free
+from nonsmooth.results.overwriting import check_free
+from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.runs.resuming import check_resumable
 from nonsmooth.simulate import assemble
 from nonsmooth.solution.solution import Solution

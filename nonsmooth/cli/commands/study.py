@@ -16,7 +16,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.studies import draw_study, open_study
 from nonsmooth.studies.inputs import require, require_store
 from nonsmooth.studies.status import summary
-from nonsmooth.studies.store import Store
+from nonsmooth.studies.study_folder import StudyFolder
 
 _MOST = 10
 """Reasons of failed runs that are printed."""
@@ -32,9 +32,9 @@ def _sweep(arguments: argparse.Namespace) -> bool:
     return True
 
 
-def _store(arguments: argparse.Namespace) -> Store:
+def _store(arguments: argparse.Namespace) -> StudyFolder:
     require_store()
-    return Store(arguments.study)
+    return StudyFolder(arguments.study)
 
 
 def _status(arguments: argparse.Namespace) -> bool:

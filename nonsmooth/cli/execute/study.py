@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 from nonsmooth.cli.report.messages import say, tell
 from nonsmooth.studies.executors import Executor
 from nonsmooth.studies.status import summary
-from nonsmooth.studies.store import Store
 from nonsmooth.studies.study import Study
+from nonsmooth.studies.study_folder import StudyFolder
 
 if TYPE_CHECKING:
     import xarray
@@ -29,7 +29,7 @@ def perform(
         tell(f"complete chunks stay: `nonsmooth study resume {path}` continues")
         raise
     say(summary(found))
-    if texts := Store(path).texts():
+    if texts := StudyFolder(path).texts():
         first = min(texts)
         tell(f"{len(texts)} runs have no records; the first is run {first}: {texts[first]}")
     tell(f"the study is in {path}")

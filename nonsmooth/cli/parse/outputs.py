@@ -7,7 +7,7 @@ from pathlib import Path
 
 from nonsmooth.cli.parse.options import flag
 from nonsmooth.errors import InvalidInput, MissingPackagesError
-from nonsmooth.solution import files
+from nonsmooth.storage import files
 
 OVERWRITE = flag("--overwrite", "write there even if something is there already")
 _REMEDY = f"Choose another name, or add {OVERWRITE.name}."

@@ -32,7 +32,7 @@ def say(text: str) -> None:
         print(_printable(text), flush=True)
     except OSError as error:
         # imported on use: `nonsmooth --help` starts faster without it
-        from nonsmooth.solution.files import FileError
+        from nonsmooth.storage.files import FileError
 
         with contextlib.suppress(OSError):  # else the interpreter tries, and fails, once more when it ends
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
