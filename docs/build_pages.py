@@ -17,7 +17,7 @@ from parameter_tables import markdown, table
 from PIL import Image
 
 import nonsmooth as ns
-from nonsmooth.cli.telling.table import first_line
+from nonsmooth.cli.docstrings import first_line
 from nonsmooth.interfaces import Criterion, Scenario
 from nonsmooth.plugins import registry
 

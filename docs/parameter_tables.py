@@ -12,7 +12,7 @@ from typing import Any
 
 import griffe
 
-from nonsmooth.cli.telling.parameter_rows import ASSUMED, HEAD, parameter_rows
+from nonsmooth.cli.report.table import ASSUMED, HEAD, parameter_rows
 from nonsmooth.parameters import rules
 
 _SECTION = re.compile(r"^\w[\w ]*\n-{3,}$", re.MULTILINE)

@@ -1,40 +1,34 @@
-"""``nonsmooth``: reads the request, hands it to a command, turns errors into lines and exit statuses."""
+"""``nonsmooth``: parses a request, executes its command, turns errors into lines and exit statuses."""
 
 from __future__ import annotations
 
 import argparse
+import sys
 import warnings
 from collections.abc import Sequence
-from importlib.metadata import version
+from importlib import import_module
+from typing import Any
 
-from nonsmooth.cli.commands import (
-    basin,
-    bifurcation,
-    check,
-    export,
-    figures,
-    list,
-    new,
-    orbit,
-    resume,
-    run,
-    save,
-    show,
-    study,
-    sweep,
-    view,
-)
-from nonsmooth.cli.telling.messages import complain, warn_plainly
+from nonsmooth.cli.commands import COMMANDS
+from nonsmooth.cli.report.messages import complain, warn_plainly
 from nonsmooth.errors import InvalidInput, MissingPackagesError, NonsmoothError, NonsmoothWarning
 
 DONE, FAILED, WRONG_REQUEST = 0, 1, 2
 """Exit statuses."""
 
-_COMMANDS = (list, show, check, run, view, export, resume, save, figures, sweep, basin, study, orbit, bifurcation, new)
+
+class _Version(argparse.Action):
+    """Prints the installed version; the metadata of packages are read only then."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *given: Any) -> None:
+        from importlib.metadata import version
+
+        print(f"nonsmooth {version('nonsmooth')}")
+        parser.exit()
 
 
-def parser() -> argparse.ArgumentParser:
-    """Return the parser of all commands."""
+def parser(words: Sequence[str]) -> argparse.ArgumentParser:
+    """Return the parser of all commands, with the options of the one that a request names."""
     top = argparse.ArgumentParser(
         prog="nonsmooth",
         description="Event-driven multibody dynamics with friction and energetic multiple impacts.",
@@ -42,22 +36,26 @@ def parser() -> argparse.ArgumentParser:
         "does not hold, 2 the request was wrong.",
         allow_abbrev=False,
     )
-    top.add_argument("--version", action="version", version=f"nonsmooth {version('nonsmooth')}")
+    top.add_argument("--version", action=_Version, nargs=0, help="print the version and exit")
     commands = top.add_subparsers(title="commands", required=True, metavar="COMMAND")
-    for command in _COMMANDS:
-        command.add_to(commands)
+    named = next((word for word in words if not word.startswith("-")), "")
+    for name, (module, text) in COMMANDS.items():
+        command = commands.add_parser(name, help=text, allow_abbrev=False)
+        if name == named:
+            import_module(f"nonsmooth.cli.commands.{module}").COMMANDS[name].fill(command)
     return top
 
 
 def main(words: Sequence[str] | None = None) -> int:
-    """Run one command; return the exit status.
+    """Execute one command; return the exit status.
 
     Parameters
     ----------
     words : sequence of str, optional
         The words after the program's name; those of the process by default.
     """
-    arguments = parser().parse_args(words)
+    words = sys.argv[1:] if words is None else words
+    arguments = parser(words).parse_args(words)
     with warnings.catch_warnings():
         warnings.simplefilter("always", NonsmoothWarning)
         warnings.showwarning = warn_plainly(warnings.showwarning)

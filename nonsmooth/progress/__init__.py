@@ -1,13 +1,16 @@
-"""How far something is that takes long, on standard error: a bar on a terminal, an occasional line elsewhere."""
+"""Progress of long computations on standard error: a bar on a terminal, an occasional line elsewhere."""
 
-from nonsmooth.progress.bar import Bar
-from nonsmooth.progress.display import Display
-from nonsmooth.progress.lines import Lines
-from nonsmooth.progress.pace import Pace
-from nonsmooth.progress.quiet import Quiet
-from nonsmooth.progress.range_covered import RangeCovered
-from nonsmooth.progress.runs_done import RunsDone
-from nonsmooth.progress.standard_error import on_standard_error
-from nonsmooth.progress.time_reached import TimeReached
+from nonsmooth.progress.displays import Bar, Display, Lines, Quiet, on_standard_error
+from nonsmooth.progress.meter import ProgressMeter, RangeCovered, RunsDone, TimeReached
 
-__all__ = ["Bar", "Display", "Lines", "Pace", "Quiet", "RangeCovered", "RunsDone", "TimeReached", "on_standard_error"]
+__all__ = [
+    "Bar",
+    "Display",
+    "Lines",
+    "ProgressMeter",
+    "Quiet",
+    "RangeCovered",
+    "RunsDone",
+    "TimeReached",
+    "on_standard_error",
+]

@@ -1,4 +1,4 @@
-"""Studies: many runs over parameters, stored as they come; attractors, orbits, derivatives, and fits."""
+"""Studies: many runs over parameters, attractors, periodic orbits, derivatives, and fits."""
 
 from nonsmooth.studies.attractors import (
     Along,
@@ -15,6 +15,7 @@ from nonsmooth.studies.opening import open_study
 from nonsmooth.studies.orbits import bifurcation, continuation, hysteresis, lyapunov, orbit
 from nonsmooth.studies.records import Stroboscope, Trajectory
 from nonsmooth.studies.sampling import Sampling, columns, grid, latin_hypercube, listed, random, sobol
+from nonsmooth.studies.status import RunStatus
 from nonsmooth.studies.study import Study
 
 __all__ = [
@@ -22,6 +23,7 @@ __all__ = [
     "Dask",
     "Executor",
     "Family",
+    "RunStatus",
     "Sampling",
     "Serial",
     "Stroboscope",

@@ -1,4 +1,4 @@
-"""A budget in steps: the end of runs that would take too long, the same on every machine."""
+"""A budget in steps: it ends long runs at the same step on every machine."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ if TYPE_CHECKING:
 @final
 @dataclass(frozen=True)
 class Budgeted(Engine):
-    """Another engine, which stops where its steps of the flow are used up; until then all bits are those of the other.
+    """Another engine that stops after a number of steps of the flow; until then all bits are those of the other.
 
     Attributes
     ----------
     engine : Engine
-        What integrates.
+        The other engine.
     steps : int
-        Steps of the flow at most.
+        Most steps of the flow.
     """
 
     engine: Engine
@@ -35,36 +35,36 @@ class Budgeted(Engine):
 
     @property
     def uses_flow(self) -> bool:
-        """As the engine."""
+        """As of the engine."""
         return self.engine.uses_flow
 
     @property
     def own(self) -> type[Part] | None:
-        """Those of the engine."""
+        """As of the engine."""
         return self.engine.own
 
     @property
     def records_contacts(self) -> bool:
-        """As the engine."""
+        """As of the engine."""
         return self.engine.records_contacts
 
     @property
     def verdict(self) -> tuple[Measure, ...]:
-        """That of the engine."""
+        """As of the engine."""
         return self.engine.verdict
 
     @property
     def causes(self) -> tuple[EndCause, ...]:
-        """Those of the engine."""
+        """As of the engine."""
         return self.engine.causes
 
     @property
     def promised_residual(self) -> float | None:
-        """That of the engine."""
+        """As of the engine."""
         return self.engine.promised_residual
 
     def check(self, system: System) -> None:
-        """Ask the engine."""
+        """Check as the engine."""
         self.engine.check(system)
 
     def counts(self, n_slots: int) -> Mapping[str, int]:
@@ -76,13 +76,13 @@ class Budgeted(Engine):
         return self.engine.settings(time_scale)
 
     def advance(self, call: Callable[..., Any], memory: Memory, most_steps: int, wary: bool) -> int:
-        """Go on as far as the budget reaches."""
+        """Advance as far as the budget allows."""
         left = self.steps - int(memory[owners.Totals.n_steps])
         status = self.engine.advance(call, memory, min(most_steps, left), wary) if left > 0 else Status.PAUSED
         spent = status == Status.PAUSED and int(memory[owners.Totals.n_steps]) >= self.steps
         return Status.STOPPED if spent else status
 
     def spent(self, solution: Solution) -> bool:
-        """Tell whether a run ended because of it."""
+        """Return True if the budget ended a run."""
         stopped = solution.message == REASONS[Status.STOPPED]
         return stopped and solution.counters.steps >= self.steps

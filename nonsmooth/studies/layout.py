@@ -9,10 +9,10 @@ import numpy as np
 
 from nonsmooth.histories.history import LabelledArray
 from nonsmooth.storage.chunks import ArrayLayout
-from nonsmooth.studies.records.record import Record
-from nonsmooth.studies.sampling.points import Points
-from nonsmooth.studies.status import NOT_RUN, STATUSES, UNKNOWN, reason_attributes
-from nonsmooth.studies.target import Target
+from nonsmooth.studies.case import CaseFactory
+from nonsmooth.studies.records.record import StudyRecord
+from nonsmooth.studies.sampling import Sampling
+from nonsmooth.studies.status import UNKNOWN, RunStatus, reason_attributes
 
 
 def _classes(words: Sequence[str]) -> dict[str, Any]:
@@ -20,7 +20,7 @@ def _classes(words: Sequence[str]) -> dict[str, Any]:
     return {"flag_values": list(range(len(words))), "flag_meanings": " ".join(word.replace(" ", "_") for word in words)}
 
 
-def variables(records: Sequence[Record], n_runs: int, chunk: int) -> dict[str, ArrayLayout]:
+def variables(records: Sequence[StudyRecord], n_runs: int, chunk: int) -> dict[str, ArrayLayout]:
     """Arrays of the records, of the reason and of the status, over the runs."""
     found = {}
     for one in records:
@@ -29,14 +29,16 @@ def variables(records: Sequence[Record], n_runs: int, chunk: int) -> dict[str, A
         found[one.name] = ArrayLayout(
             ("run", *one.axes), np.dtype(one.dtype).name, shape, chunk, np.array(one.none, one.dtype).item(), attributes
         )
-    ended = {"long_name": "how it ended", **_classes(STATUSES)}
+    ended = {"long_name": "how it ended", **_classes(list(RunStatus))}
     found["reason"] = ArrayLayout(("run",), "int8", (n_runs,), chunk, UNKNOWN, reason_attributes())
-    return found | {"status": ArrayLayout(("run",), "int8", (n_runs,), chunk, NOT_RUN, ended)}
+    return found | {"status": ArrayLayout(("run",), "int8", (n_runs,), chunk, RunStatus.NOT_RUN.code, ended)}
 
 
-def coordinates(records: Sequence[Record], points: Points, target: Target) -> list[LabelledArray]:
+def coordinates(records: Sequence[StudyRecord], sampling: Sampling, cases: CaseFactory) -> list[LabelledArray]:
     """The parameters over the runs, and the axes of records."""
-    found = {name: LabelledArray(name, ("run",), values, target.told(name)) for name, values in points.columns.items()}
+    found = {
+        name: LabelledArray(name, ("run",), values, cases.attributes(name)) for name, values in sampling.columns.items()
+    }
     for one in records:
         for axis, labels in one.axes.items():
             attributes = {"units": "s", "long_name": "time"} if axis == "time" else {"long_name": axis}

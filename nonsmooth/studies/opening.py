@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from nonsmooth.checks import path_of
-from nonsmooth.studies.extras import require_store
+from nonsmooth.studies.inputs import require_store
 from nonsmooth.studies.study_folder import StudyFolder
 
 if TYPE_CHECKING:

@@ -1,41 +1,43 @@
-"""After how many looks a motion repeats that is looked at once a period."""
+"""Periods of motions that are sampled once a period, and whether they still settle."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.types import Array
+
 _ALIKE = 1e-5
-"""Part of the range of all points within which two count as one."""
+"""Part of the range of all points within which two points count as equal."""
 _LEAST = 1e-3
-"""Part of the scale of a coordinate that counts as the range where that is less: of one point only there is none."""
+"""Smallest range, as a part of the scale of the coordinate: a single point has no range."""
 
 
-def alike(points: NDArray[np.float64], scale: float) -> float:
-    """Return the greatest difference within which points of a diagram count as one, in their unit.
+def alike(points: Array, scale: float) -> float:
+    """Return the largest difference of points of a diagram that count as equal, in their unit.
 
     Parameters
     ----------
     points : array
-        All of them, nan where a run failed; any shape.
+        All points, nan if a run failed; any shape.
     scale : float
-        Of the coordinate, by the size of its body, in its unit.
+        Scale of the coordinate by the size of its body, in its unit.
     """
     known = points[np.isfinite(points)]
     return _ALIKE * max(float(np.ptp(known)) if len(known) else 0.0, _LEAST * scale)
 
 
-def periods(points: NDArray[np.float64], near: float) -> NDArray[np.int64]:
-    """Return of each motion the least n after which all its points repeat, up to half of them; 0 where none does.
+def periods(points: Array, near: float) -> NDArray[np.int64]:
+    """Return the least n after which all points of each motion repeat, up to half of them; 0 if none does.
 
-    Points that are n, 2 n, 3 n ... looks apart must all agree: what only settles slowly does not repeat.
+    Points that are n, 2 n, 3 n ... samples apart must all agree: a motion that settles slowly does not repeat.
 
     Parameters
     ----------
     points : array
-        What it was, look by look, shape [n_motions, n_looks, n_coordinates]; one with a nan does not repeat.
+        Samples, shape [n_motions, n_samples, n_coordinates]; a motion with a nan does not repeat.
     near : float
-        Greatest difference of a coordinate within which points count as one.
+        Largest difference of a coordinate of equal points.
     """
     found = np.zeros(len(points), np.int64)
     for n in range(points.shape[1] // 2, 0, -1):
@@ -44,19 +46,19 @@ def periods(points: NDArray[np.float64], near: float) -> NDArray[np.int64]:
     return found
 
 
-def settling(points: NDArray[np.float64], near: float) -> NDArray[np.bool_]:
-    """Return whether each motion still approaches what it settles to.
+def settling(points: Array, near: float) -> NDArray[np.bool_]:
+    """Return True for each motion that still approaches its attractor.
 
-    Points n looks apart then differ less and less: by less than half as much in the second half of the looks, or always
-    to the same side and never more.  Differences below a thousandth of ``near`` count as none: tolerances of runs leave
-    as much.  A spiral that loses less than half in half of the looks is not noticed.
+    Points n samples apart then differ less and less: by less than half as much in the second half of the samples, or
+    always to the same side and never more.  Differences below a thousandth of ``near`` count as zero, as tolerances of
+    runs cause them.  A spiral that loses less than half in half of the samples is not noticed.
 
     Parameters
     ----------
     points : array
-        What it was, look by look, shape [n_motions, n_looks, n_coordinates]; one with a nan does not settle.
+        Samples, shape [n_motions, n_samples, n_coordinates]; a motion with a nan does not settle.
     near : float
-        Greatest difference of a coordinate within which points count as one.
+        Largest difference of a coordinate of equal points.
     """
     found, repeats = np.zeros(len(points), np.bool_), periods(points, near)
     for i, one in enumerate(points):

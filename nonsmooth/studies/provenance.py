@@ -1,16 +1,53 @@
-"""Where the last bits of a study come from."""
+"""Origin of the numbers of a study: text of functions and classes, versions, processor."""
 
 from __future__ import annotations
 
+import hashlib
+import inspect
 import platform
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 from nonsmooth.results.output import versions
 
+_BEFORE, _SHOWN = 20, 60
+"""Characters of a text before a difference, and in all."""
+
+
+def digest(owner: Any) -> str:
+    """Return the sha256 of the text of a function or class, "" if it is unknown, as in a terminal."""
+    try:
+        text = inspect.getsource(owner)
+    except (OSError, TypeError):
+        return ""
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def differing(one: Any, other: Any) -> str:
+    """Return the differences of two specifications in words."""
+    return "; ".join(_differing(one, other, ""))
+
+
+def _differing(one: Any, other: Any, key: str) -> Iterator[str]:
+    if isinstance(one, dict) and isinstance(other, dict):
+        for name in {**one, **other}:
+            yield from _differing(one.get(name), other.get(name), f"{key}.{name}" if key else name)
+    elif one != other:
+        before, now = str(one), str(other)
+        at = next((i for i, (a, b) in enumerate(zip(before, now, strict=False)) if a != b), 0)
+        yield f"{key} was {_about(before, at)} and is {_about(now, at)}"
+
+
+def _about(text: str, at: int) -> str:
+    """Return the text around a place."""
+    first = max(0, at - _BEFORE)
+    head, tail = "... " if first else "", " ..." if first + _SHOWN < len(text) else ""
+    return f"{head}{text[first : first + _SHOWN]}{tail}"
+
 
 def provenance() -> Mapping[str, str]:
-    """Return the versions on which the last bits hang, and the processor of this machine."""
+    """Return the versions that decide the last bits, and the processor of this machine."""
     return {**versions(), "processor": _processor()}
 
 

@@ -1,29 +1,92 @@
-"""How a run of a study ended, as numbers that a store keeps."""
+"""Status and reason of the runs of a study, as codes of a store and in words."""
 
 from __future__ import annotations
 
 import re
+from enum import StrEnum
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from nonsmooth.engine.memory import modes
 
-NOT_RUN, DONE, FAILED, BUDGET, CRASHED, SUSPECT = range(6)
-STATUSES = ("not_run", "done", "failed", "budget", "crashed", "suspect")
-"""Their names; a suspect run reached its end, but its own checks found something."""
-VALUED = (DONE, SUSPECT)
-"""Runs of these have records."""
+if TYPE_CHECKING:
+    import xarray
 
+ALWAYS = ("status", "reason")
+"""Records of every study."""
+
+
+class RunStatus(StrEnum):
+    """How a run of a study ended; a store keeps its ``code``."""
+
+    NOT_RUN = "not_run"
+    """It is not stored yet."""
+    DONE = "done"
+    """It reached its end."""
+    FAILED = "failed"
+    """It could not be built, or failed."""
+    BUDGET = "budget"
+    """Its steps were used up."""
+    CRASHED = "crashed"
+    """Its process died."""
+    SUSPECT = "suspect"
+    """It reached its end, but its own checks found something."""
+
+    @property
+    def code(self) -> int:
+        """Place among the statuses."""
+        return list(RunStatus).index(self)
+
+
+VALUED = (RunStatus.DONE.code, RunStatus.SUSPECT.code)
+"""Codes of runs that have records."""
 WORKER_DIED, RAISED, UNKNOWN = -2, -1, 0
-"""Reasons that are none of the engine: the process of the run died, it raised something, it has not run."""
+"""Reasons beyond those of the engine: the process died, an exception was raised, the run has not begun."""
 
 
 def reason_of(message: str) -> int:
-    """Return the engine's code for why a run ended, by the sentence that says so."""
+    """Return the engine's code of the sentence that says why a run ended."""
     return next((code for code, sentence in modes.REASONS.items() if sentence in message), RAISED)
 
 
 def reason_attributes() -> dict[str, object]:
-    """Return values and names of the reasons, as the CF conventions have them."""
+    """Return codes and names of the reasons as CF attributes."""
     own = {WORKER_DIED: "worker died", RAISED: "raised", UNKNOWN: "not run"}
     named = own | {code: re.split("[,:]", sentence)[0] for code, sentence in sorted(modes.REASONS.items())}
     words = [re.sub(r"\W+", "_", sentence).strip("_") for sentence in named.values()]
     return {"long_name": "why it ended", "flag_values": list(named), "flag_meanings": " ".join(words)}
+
+
+def summary(study: xarray.Dataset) -> str:
+    """Return the number of runs by status, and the range or the counts of each record with one value per run."""
+    valued = np.isin(study.status.values, VALUED)
+    lines = [f"  {name}: {of_record(one, valued)}" for name, one in records_of(study).items()]
+    return "\n".join([f"{study.status.size} runs: {ends(study.status.values)}", *lines])
+
+
+def ends(status: NDArray[Any]) -> str:
+    """Return the number of runs by status."""
+    counts = ((word.replace("_", " "), (status == word.code).sum()) for word in RunStatus)
+    return ", ".join(f"{count} {word}" for word, count in counts if count)
+
+
+def records_of(study: xarray.Dataset) -> dict[str, xarray.DataArray]:
+    """Return the records that are one number, or one word, per run."""
+    runs = study.status.dims
+    return {str(name): one for name, one in study.data_vars.items() if one.dims == runs and name not in ALWAYS}
+
+
+def of_record(record: xarray.DataArray, valued: NDArray[np.bool_]) -> str:
+    """Return the range of the numbers, or the count of each word, over the runs that have records."""
+    values = record.values[valued]
+    if words := record.attrs.get("flag_meanings"):
+        counted = ((word, int((values == i).sum())) for i, word in enumerate(words.split(" ")))
+        return ", ".join(f"{word} {n}" for word, n in counted if n) or "none"
+    known = values[np.isfinite(values)]
+    unit = record.attrs.get("units", "1")
+    if not len(known):
+        return "none"
+    low, high = f"{known.min():.6g}", f"{known.max():.6g}"
+    return f"{low if low == high else f'{low} to {high}'}{'' if unit == '1' else f' {unit}'}"

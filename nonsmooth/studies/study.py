@@ -1,4 +1,4 @@
-"""Study: many runs of a scenario, or of a function that builds a system, over parameters; stored as they come."""
+"""Study: many runs over parameters, stored while they are computed."""
 
 from __future__ import annotations
 
@@ -15,22 +15,20 @@ from nonsmooth.checks import check_kind, path_of
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.interfaces import Engine, Scenario
-from nonsmooth.progress import Display, Pace, RunsDone
+from nonsmooth.progress import Display, RunsDone
 from nonsmooth.results.output import OtherVersions
 from nonsmooth.studies.budget import Budgeted
-from nonsmooth.studies.definition import differing
-from nonsmooth.studies.displays import display_of
+from nonsmooth.studies.case import case_factory
 from nonsmooth.studies.executors import Dask, Executor, Serial, Threads
-from nonsmooth.studies.extras import require_store
+from nonsmooth.studies.inputs import check_count, meter, require_store
 from nonsmooth.studies.layout import coordinates, variables
 from nonsmooth.studies.opening import open_study
-from nonsmooth.studies.provenance import provenance
-from nonsmooth.studies.records.asked import Asked, records
-from nonsmooth.studies.records.record import Outcome
-from nonsmooth.studies.sampling.sampling import Sampling
+from nonsmooth.studies.provenance import differing, provenance
+from nonsmooth.studies.records.record import RunResult
+from nonsmooth.studies.records.recorders import Requested, records
+from nonsmooth.studies.sampling import Sampling
 from nonsmooth.studies.status import VALUED
 from nonsmooth.studies.study_folder import StudyFolder, is_study
-from nonsmooth.studies.target import Case, target
 from nonsmooth.studies.work import Chunk, Work
 from nonsmooth.system.system import System
 
@@ -39,10 +37,10 @@ if TYPE_CHECKING:
 
 EXECUTORS: Mapping[str, Callable[[], Executor]] = {"serial": Serial, "threads": Threads, "dask": Dask}
 _CHUNKS, _LARGEST = 40, 1000
-"""By default so many chunks, with so many runs at most."""
+"""Default number of chunks, and most runs in one of them."""
 _UNLIMITED = 1 << 62
-_LOOK = 2
-"""Samples of the first look at a run, which tells what there is to record."""
+_FIRST_SAMPLES = 2
+"""Samples of the first run, from which the records are made."""
 
 
 @final
@@ -55,81 +53,82 @@ class Study:
         A scenario, whose parameters are varied by name; a system, whose numbers are varied by the dotted keys of its
         file (:func:`save_system`), "bodies.ball.radius"; or a function of a module, ``f(**parameters) -> System``.
     sampling : Sampling
-        Which parameters: :func:`grid`, :func:`random`, :func:`sobol`, :func:`latin_hypercube`, :func:`listed`,
+        Parameters of the runs: :func:`grid`, :func:`random`, :func:`sobol`, :func:`latin_hypercube`, :func:`listed`,
         :func:`columns`.
     record : sequence
-        What is kept of each run, besides ``status`` and ``reason``: names of numbers that every run has (``q_end``,
-        ``u_end``, ``t_end``, ``impacts``, ``events``, ``steps``, ``energy_residual``), names of numbers of the
-        scenario's summary, functions ``f(scenario, solution) -> number``, or a :class:`Trajectory`.
+        Records of each run, besides ``status`` and ``reason``: q_end, u_end, t_end, impacts, events, steps,
+        energy_residual, a name of the scenario's summary, a function ``f(scenario, solution) -> number``, or a
+        :class:`Trajectory`.
     t_end : float, optional
-        End time of a system, or of those that a function builds [s]; a scenario has its own.
+        End time of a system or function [s]; a scenario has its own.
     engine : Engine, optional
-        What integrates, with its options.
+        Engine of all runs, with its options.
     budget : int, optional
-        Steps of the flow after which a run is given up; none by default.
+        Steps of the flow after which a run is given up.
 
     Raises
     ------
     InvalidInput
-        If something of it is not valid: nothing has run then.
+        If an argument is not valid; nothing has run then.
     """
 
     def __init__(
         self,
         runs: Scenario | System | Callable[..., System],
         sampling: Sampling,
-        record: Sequence[Asked],
+        record: Sequence[Requested],
         *,
         t_end: float | None = None,
         engine: Engine | None = None,
         budget: int | None = None,
     ) -> None:
         check_kind("Study: sampling", sampling, Sampling, "For example studies.grid(restitution=[0.5, 0.9]).")
-        self._target = target(runs, t_end)
-        self._sampling, self._points = sampling, sampling.points()
-        self._target.check(self._points)
+        self._cases = case_factory(runs, t_end)
+        self._sampling = sampling
+        self._cases.check(self._sampling)
         integrates = EventDriven() if engine is None else engine
         check_kind("Study: engine", integrates, Engine, "Give nonsmooth.EventDriven(), or another one.")
-        if budget is not None and (not isinstance(budget, int) or budget < 1):
-            raise InvalidInput("Study: budget", "must be a positive whole number of steps", budget, "Leave it out.")
-        self._work = Work(self._target, Budgeted(integrates, budget or _UNLIMITED))
-        self._work = dataclasses.replace(self._work, records=records(record, self._look()))
+        if budget is not None:
+            check_count("Study: budget", budget, "must be a positive whole number of steps", "Leave it out.")
+        self._work = Work(self._cases, Budgeted(integrates, budget or _UNLIMITED))
+        self._work = dataclasses.replace(self._work, records=records(record, self._first()))
         for name in self.records:
-            if name in self._points.columns:
-                rule = "must be none of what is varied, which is kept anyway"
-                raise InvalidInput(f"record {name}", rule, list(self._points.columns), "Leave it out.")
+            if name in self._sampling.columns:
+                rule = "must not be a varied parameter, which is kept anyway"
+                raise InvalidInput(f"record {name}", rule, list(self._sampling.columns), "Leave it out.")
         self._budget = budget
 
     def __len__(self) -> int:
-        return len(self._points)
+        return len(self._sampling)
 
     def __repr__(self) -> str:
-        """Return how many runs of what it is."""
-        return f"Study({len(self)} runs of {self._target.name})"
+        """Return the number of runs, and the name of the scenario."""
+        return f"Study({len(self)} runs of {self._cases.name})"
 
     @property
     def records(self) -> tuple[str, ...]:
-        """Names of what is kept of each run, besides ``status`` and ``reason``."""
+        """Names of the records of each run, besides ``status`` and ``reason``."""
         return tuple(one.name for one in self._work.records)
 
-    def _look(self) -> Outcome:
-        """Begin the first run that can be built: what cannot be is a row later."""
+    def _first(self) -> RunResult:
+        """Return the first samples of the first run that can be built; a run that cannot fails later."""
         last: Exception = InvalidInput("study", "must have a run", None, "Add one.")
         for run in range(min(len(self), 10)):
             try:
-                case = self._target.case(self._points.at(run))
-                return self._work.outcome(case, _end_of_look(case))
-            except Exception as error:  # of the user, too
+                case = self._cases.case(self._sampling.at(run))
+                t_end = min(case.t_end, _FIRST_SAMPLES * (case.sample_interval or case.t_end))
+                return self._work.result(case, t_end)
+            except Exception as error:  # of a function of the user, too
                 last = error
         raise last
 
     @property
     def spec(self) -> str:
-        """What is computed, as JSON: two studies with the same one have the same bits."""
+        """Definition of the study as JSON; studies with the same definition have the same bits."""
         known = {
-            "runs": dict(self._target.described()),
-            "sampling": dict(self._sampling.described()),
-            "points": self._points.digest,
+            "runs": dict(self._cases.described()),
+            "sampling": dict(self._sampling.description),
+            "points": self._sampling.digest,
             "engine": {"type": type(self._work.engine.engine).__name__, **vars(self._work.engine.engine)},
             "budget": self._budget,
             "records": [
@@ -148,34 +147,34 @@ class Study:
         display: Display | None = None,
         request: Mapping[str, Any] | None = None,
     ) -> xarray.Dataset:
-        """Run what is not stored yet, and return all.
+        """Run everything that is not stored yet, and return all records.
 
         Parameters
         ----------
         path : Path or str
-            The folder of the study, new, or one that this study has begun: it goes on.
+            Folder of the study: a new one, or one that this study has begun, which continues.
         executor : str or Executor
-            "serial", "threads", "dask", or one of these with options; all give the same bits.
+            Computes the runs: serial, threads or dask; all give the same bits.
         chunk : int, optional
-            Runs that are stored as one, and done anew as one where they were cut off: fixed when a study begins.
+            Runs that are stored together; fixed when a study begins.
         display : Display, optional
             Where progress is shown; on standard error by default, ``nonsmooth.progress.Quiet()`` shows nothing.
         request : mapping, optional
-            The words of the command line.
+            The request of the command line.
 
         Returns
         -------
         xarray.Dataset
-            As :func:`open_study`.
+            The result of :func:`open_study`.
 
         Raises
         ------
         InvalidInput
-            If the folder holds something else, or another process writes there, or no scheduler answers.
+            If the folder contains something else, or another process writes there, or no scheduler answers.
         MissingPackagesError
             If the extra `studies` is not installed.
         FileError
-            If it cannot be written: what was stored before is.
+            If it cannot be written; complete chunks stay.
         """
         require_store()
         check_chunk(chunk)
@@ -186,59 +185,59 @@ class Study:
         store = StudyFolder(place)
         self._check_same(store, chunk)
         with store.writing():
-            self._run(store, does, display_of(display))
+            self._run(store, does, display)
         return open_study(place)
 
-    def _run(self, store: StudyFolder, executor: Executor, display: Display) -> None:
+    def _run(self, store: StudyFolder, executor: Executor, display: Display | None) -> None:
         done = set(store.committed())
         left = [self._chunk(store, number) for number in range(store.n_chunks) if number not in done]
         if not left:
             return
         n_done = len(self) - sum(len(one.parameters) for one in left)
-        with Pace(display) as pace, contextlib.closing(executor.blocks(self._work, left)) as blocks:
-            counted = RunsDone(pace, len(self), n_done)
-            for block in blocks:
+        with meter(display) as shown, contextlib.closing(executor.results(self._work, left)) as results:
+            counted = RunsDone(shown, len(self), n_done)
+            for block in results:
                 store.write(block)
                 ends = block.arrays["status"].tolist()
                 counted.add(len(ends), sum(end not in VALUED for end in ends))
 
     def _chunk(self, store: StudyFolder, number: int) -> Chunk:
         runs = range(number * store.chunk, min(len(self), (number + 1) * store.chunk))
-        return Chunk(number, runs.start, tuple(map(self._points.at, runs)))
+        return Chunk(number, runs.start, tuple(map(self._sampling.at, runs)))
 
     def _create(self, path: Path, chunk: int | None, request: Mapping[str, Any]) -> None:
         size = max(1, min(_LARGEST, -(-len(self) // _CHUNKS))) if chunk is None else chunk
         spec, records_of = self.spec, self._work.records
         made = variables(records_of, len(self), size)
         layout = {
-            "parameters": list(self._points.columns),
-            "dims": dict(self._points.dims),
+            "parameters": list(self._sampling.columns),
+            "dims": dict(self._sampling.dims),
             "variables": list(made),
         }
         attributes = {
             "Conventions": "CF-1.11",
-            "title": f"{len(self)} runs of {self._target.name}",
+            "title": f"{len(self)} runs of {self._cases.name}",
             "spec": spec,
             "sha256": hashlib.sha256(spec.encode()).hexdigest(),
             "layout": json.dumps(layout),
             "provenance": json.dumps([dict(provenance())]),
             "request": json.dumps(dict(request)),
         }
-        StudyFolder.create(path, made, coordinates(records_of, self._points, self._target), attributes)
+        StudyFolder.create(path, made, coordinates(records_of, self._sampling, self._cases), attributes)
 
     def _check_same(self, store: StudyFolder, chunk: int | None) -> None:
-        """Refuse the store of another study; note that it goes on elsewhere.
+        """Refuse the store of another study; add versions and processor to its provenance.
 
         Warns
         -----
         OtherVersions
-            If it goes on with other versions, so that its runs are not all of the same.
+            If it continues with other versions.
         """
         known = store.attributes
         if known["sha256"] != hashlib.sha256(self.spec.encode()).hexdigest():
             where = differing(json.loads(str(known["spec"])), json.loads(self.spec))
-            remedy = "Choose another folder, or ask for what began there."
-            raise InvalidInput(str(store.path), "must hold the study that goes on there", where, remedy)
+            remedy = "Choose another folder, or give the arguments with which it began."
+            raise InvalidInput(str(store.path), "must hold the study that continues there", where, remedy)
         if chunk is not None and chunk != store.chunk:
             thing = f"{store.path}: chunk"
             raise InvalidInput(thing, f"must be that of the beginning, {store.chunk}", chunk, "Leave it out.")
@@ -251,15 +250,9 @@ class Study:
 
 
 def check_chunk(chunk: int | None) -> None:
-    """Look at how many runs are stored as one.
-
-    Raises
-    ------
-    InvalidInput
-        If it is no positive whole number.
-    """
-    if chunk is not None and (not isinstance(chunk, int) or chunk < 1):
-        raise InvalidInput("chunk", "must be a positive whole number of runs", chunk, "Leave it out.")
+    """Raise InvalidInput unless a size of chunks is a positive whole number."""
+    if chunk is not None:
+        check_count("chunk", chunk, "must be a positive whole number of runs", "Leave it out.")
 
 
 def executor_of(executor: str | Executor) -> Executor:
@@ -275,8 +268,3 @@ def executor_of(executor: str | Executor) -> Executor:
     if executor not in EXECUTORS:
         raise UnknownName("executor", str(executor), EXECUTORS)
     return EXECUTORS[executor]()
-
-
-def _end_of_look(case: Case) -> float:
-    """Return when the first look ends [s]."""
-    return min(case.t_end, _LOOK * (case.sample_interval or case.t_end))

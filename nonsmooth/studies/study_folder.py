@@ -22,7 +22,7 @@ from nonsmooth.storage.array_folder import ArrayFolder
 from nonsmooth.storage.chunks import TEXT, ArrayLayout
 from nonsmooth.storage.files import writing
 from nonsmooth.storage.lock import LOCK, WRITER, check_no_links, locked
-from nonsmooth.studies.work import Block
+from nonsmooth.studies.work import ChunkResult
 
 _STATUS, _FAILURE = "status", "failure"
 """Arrays of the status, and of the messages of runs without records."""
@@ -150,7 +150,7 @@ class StudyFolder:
         names = (file.name.removeprefix("c.") for file in (self.path / _STATUS).glob("c.*"))
         return sorted(int(name) for name in names if name.isdigit())
 
-    def write(self, block: Block) -> None:
+    def write(self, block: ChunkResult) -> None:
         """Commit a chunk.
 
         Raises

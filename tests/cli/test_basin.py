@@ -33,7 +33,7 @@ def test_attractors_by_recurrences_which_go_on(call: Call, tmp_path: Path) -> No
     assert sum(shares) == pytest.approx(1.0, abs=2e-4)
     assert "no uncertainty exponent" in errors
     assert _pictures(tmp_path / "s") == ["basins", "shares"]
-    (path / "status" / "c" / "5").unlink()
+    (path / "status" / "c.5").unlink()
     status, _, errors = call("basin", "bouncing_ball", *STARTS, *STROBE, "--out", str(path))
     assert status == 2
     assert "--overwrite" in errors

@@ -10,9 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from nonsmooth.cli.commands import run
-from nonsmooth.cli.running import perform
-from nonsmooth.cli.running.interrupt import Interrupt
+from nonsmooth.cli.execute import obtain, perform
+from nonsmooth.cli.execute.interrupt import Interrupt
 
 Call = Callable[..., tuple[int, str, str]]
 
@@ -60,7 +59,7 @@ def test_ctrl_c_before_the_run_began(call: Call, monkeypatch: pytest.MonkeyPatch
     def stopped(*words: object, **more: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(run, "assemble", stopped)
+    monkeypatch.setattr(obtain, "assemble", stopped)
     status, output, _ = call("run", "tiny", "--json")
     report = json.loads(output)
     assert status == 1

@@ -7,7 +7,7 @@ from importlib.metadata import version
 
 import pytest
 
-from nonsmooth.cli.telling.messages import say
+from nonsmooth.cli.report.messages import say
 from nonsmooth.storage.files import FileError
 
 Call = Callable[..., tuple[int, str, str]]

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from nonsmooth.cli.telling.report import _modes, as_json, as_text
+from nonsmooth.cli.report.run_report import _modes, as_json, as_text
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from nonsmooth.cli.running import perform
+from nonsmooth.cli.execute import perform
 
 Call = Callable[..., tuple[int, str, str]]
 

@@ -26,7 +26,7 @@ def test_a_sweep_its_status_and_its_picture(tmp_path: Path, capsys: pytest.Captu
     found = studies.open_study(path)
     assert found.restitution.values.tolist() == [0.5, 0.7, 0.9]
     for number in "2", "5":
-        (path / "status" / "c" / number).unlink()
+        (path / "status" / f"c.{number}").unlink()
     assert main(["study", "status", str(path)]) == 0
     assert "6 runs: 2 not run, 4 done" in (told := capsys.readouterr().out)
     assert "4 of 6 chunks are stored" in told
@@ -109,7 +109,7 @@ def test_a_file_is_swept_and_goes_on(call: Call, tmp_path: Path) -> None:
     words = ("--over", "bodies.ball.start.position.2=0.03,0.05", "--set", "contacts.0.impact.restitution=0.5")
     assert call("sweep", str(file), *words, "--record", "q_end", "--out", str(path))[0] == 0
     before = studies.open_study(path).q_end.values
-    (path / "status" / "c" / "1").unlink()
+    (path / "status" / "c.1").unlink()
     assert call("study", "resume", str(path))[0] == 0
     assert studies.open_study(path).q_end.values.tobytes() == before.tobytes()
     status, _, errors = call("sweep", str(file), "--over", "bodies.ball.radus=0.01,0.02", "--out", f"{path}.2")

@@ -6,7 +6,17 @@ import io
 
 import pytest
 
-from nonsmooth.progress import Bar, Display, Lines, Pace, Quiet, RangeCovered, RunsDone, TimeReached, on_standard_error
+from nonsmooth.progress import (
+    Bar,
+    Display,
+    Lines,
+    ProgressMeter,
+    Quiet,
+    RangeCovered,
+    RunsDone,
+    TimeReached,
+    on_standard_error,
+)
 
 
 class _Clock:
@@ -25,7 +35,7 @@ class _Terminal(io.StringIO):
 def _shown(display: Display, seconds: float) -> None:
     """Run ten simulated seconds in so many seconds of wall time, reported a hundred times."""
     clock = _Clock()
-    with Pace(display, clock) as pace:
+    with ProgressMeter(display, clock) as pace:
         progress = TimeReached(pace)
         for i in range(1, 101):
             clock.now = seconds * i / 100
@@ -69,7 +79,7 @@ def test_a_terminal_has_one_line_that_is_gone_in_the_end(monkeypatch: pytest.Mon
 def test_what_came_before_the_run_does_not_count() -> None:
     """The engine may have been compiled for half a minute."""
     clock, stream = _Clock(), io.StringIO()
-    progress = TimeReached(Pace(Lines(stream), clock))
+    progress = TimeReached(ProgressMeter(Lines(stream), clock))
     clock.now = 30.0
     progress(1.0, 10.0)
     assert stream.getvalue() == ""
@@ -80,7 +90,7 @@ def test_what_came_before_the_run_does_not_count() -> None:
 
 def test_the_next_of_several_runs_is_estimated_by_itself() -> None:
     clock, stream = _Clock(), io.StringIO()
-    progress = TimeReached(Pace(Lines(stream), clock))
+    progress = TimeReached(ProgressMeter(Lines(stream), clock))
     for now, t in ((0.0, 1.0), (100.0, 10.0), (101.0, 0.1), (111.0, 5.0)):
         clock.now = now
         progress(t, 10.0)
@@ -89,7 +99,7 @@ def test_the_next_of_several_runs_is_estimated_by_itself() -> None:
 
 def test_runs_have_a_rate_that_leaves_out_those_done_before() -> None:
     clock, stream = _Clock(), io.StringIO()
-    counted = RunsDone(Pace(Lines(stream), clock), 1000, 100)
+    counted = RunsDone(ProgressMeter(Lines(stream), clock), 1000, 100)
     for _ in range(4):
         clock.now += 20.0
         counted.add(100, 1)
@@ -98,7 +108,7 @@ def test_runs_have_a_rate_that_leaves_out_those_done_before() -> None:
 
 def test_the_last_of_all_runs_leaves_no_time() -> None:
     clock, stream = _Clock(), io.StringIO()
-    counted = RunsDone(Pace(Lines(stream), clock), 5)
+    counted = RunsDone(ProgressMeter(Lines(stream), clock), 5)
     clock.now = 4.0
     counted.add(5, 5)
     assert stream.getvalue() == "5 of 5 runs (100%, 5 failed, 1.25 per s, about 0 s to go)\n"
@@ -107,7 +117,7 @@ def test_the_last_of_all_runs_leaves_no_time() -> None:
 def test_orbits_cover_a_range_both_ways() -> None:
     """Behind a fold, where the parameter turns back, no more of the range is covered."""
     clock, stream = _Clock(), io.StringIO()
-    covered = RangeCovered(Pace(Lines(stream), clock), "gamma", 2.0, (1.0, 5.0))
+    covered = RangeCovered(ProgressMeter(Lines(stream), clock), "gamma", 2.0, (1.0, 5.0))
     for value in (1.5, 1.0, 2.5, 3.0, 2.8):
         clock.now += 20.0
         covered.add(value)

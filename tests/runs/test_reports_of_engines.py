@@ -14,7 +14,7 @@ import nonsmooth as ns
 from bodies import Ball, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth import plot
-from nonsmooth.cli.telling import report
+from nonsmooth.cli.report import run_report as report
 from nonsmooth.interfaces import EndCause, Engine, Measure
 from nonsmooth.solution import modes
 from tests.runs.faulty_engines import Blind

@@ -69,7 +69,7 @@ def test_a_study_goes_on_where_it_began_only(tmp_path: Path) -> None:
     before = (path / "status" / "c.0").stat().st_mtime_ns
     ball.study(6).run(path, executor="serial")
     assert (path / "status" / "c.0").stat().st_mtime_ns == before
-    with pytest.raises(ns.InvalidInput, match=r"must hold the study that goes on there.*sampling"):
+    with pytest.raises(ns.InvalidInput, match=r"must hold the study that continues there.*sampling"):
         ball.study(8).run(path)
     with pytest.raises(ns.InvalidInput, match="must be that of the beginning, 2"):
         ball.study(6).run(path, chunk=3)
@@ -106,7 +106,7 @@ def test_a_program_that_was_changed_does_not_go_on_there(
     begin("drop(height)", "1.0")
     begin("drop(height)", "1.0")
     other = {"runs": ("drop(height, 0.6)", "1.0"), "record": ("drop(height)", "2.0")}[changed]
-    with pytest.raises(ns.InvalidInput, match=rf"must hold the study that goes on there.*{changed}.* was .* and is "):
+    with pytest.raises(ns.InvalidInput, match=rf"must hold the study that continues there.*{changed}.* was .* and is "):
         begin(*other)
 
 

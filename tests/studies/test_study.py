@@ -17,7 +17,8 @@ from nonsmooth.engine.memory.modes import Status
 from nonsmooth.interfaces import Scenario
 from nonsmooth.parameters import parameter
 from nonsmooth.studies import status
-from nonsmooth.studies.records.asked import Asked
+from nonsmooth.studies.records.recorders import Requested
+from nonsmooth.studies.status import RunStatus
 from nonsmooth.studies.study_folder import StudyFolder
 from scenarios.bouncing_ball import BouncingBall
 from scenarios.dumbbell import DumbbellScenario
@@ -57,7 +58,14 @@ class _Telling(Scenario):
 @pytest.mark.slow
 def test_a_study_of_a_scenario_has_what_single_runs_have(tmp_path: Path) -> None:
     scenario = BouncingBall(t_end=0.2)
-    record: list[Asked] = ["impacts", "last_flight", "q_end", _double, studies.Trajectory("q", (0.0, 0.1)), "reason"]
+    record: list[Requested] = [
+        "impacts",
+        "last_flight",
+        "q_end",
+        _double,
+        studies.Trajectory("q", (0.0, 0.1)),
+        "reason",
+    ]
     axes = {"restitution": [0.5, 0.8], "gamma": [0.3, 0.6, 0.9]}
     found = studies.Study(scenario, studies.grid(**axes), record).run(tmp_path / "s.zarr", executor="serial")
     assert dict(found.sizes) == {"restitution": 2, "gamma": 3, "coordinate": 7, "time": 2}
@@ -112,7 +120,7 @@ def test_chunks_without_a_value_are_whole(tmp_path: Path) -> None:
 def test_a_run_that_fails_is_a_row(tmp_path: Path) -> None:
     study = studies.Study(drop, studies.grid(height=[0.01, -1.0, 0.05]), [*RECORD, _raises], t_end=T_END)
     found = study.run(tmp_path / "s.zarr", executor="serial", chunk=2)
-    assert found.status.values.tolist() == [status.FAILED] * 3
+    assert found.status.values.tolist() == [RunStatus.FAILED.code] * 3
     assert found.reason.values.tolist() == [status.RAISED] * 3
     texts = StudyFolder(tmp_path / "s.zarr").texts()
     assert texts[1] == "ArithmeticError: no ball at -1.0"
@@ -136,7 +144,7 @@ def test_a_budget_ends_a_run_by_its_steps(tmp_path: Path) -> None:
     free = studies.Study(drop, studies.grid(restitution=[0.2, 0.9], height=[0.05]), RECORD, t_end=2.0)
     whole = free.run(tmp_path / "free.zarr", executor="serial")
     assert (whole.steps.values.ravel() <= 60).tolist() == [True, False]
-    assert found.status.values.ravel().tolist() == [status.DONE, status.BUDGET]
+    assert found.status.values.ravel().tolist() == [RunStatus.DONE.code, RunStatus.BUDGET.code]
     assert found.q_end.values[0].tobytes() == whole.q_end.values[0].tobytes()
     assert "its 60 steps were used up" in StudyFolder(tmp_path / "s.zarr").texts()[1]
 
@@ -162,7 +170,7 @@ def test_others_open_it_without_a_warning(tmp_path: Path) -> None:
 _BALL, _GRID = BouncingBall(t_end=0.1), studies.grid(gamma=[0.5])
 
 
-def _ball(record: Asked) -> studies.Study:
+def _ball(record: Requested) -> studies.Study:
     return studies.Study(BouncingBall(t_end=0.2), studies.grid(gamma=[0.5]), [record])
 
 
@@ -189,7 +197,7 @@ def _ball(record: Asked) -> studies.Study:
         ),
         (
             lambda: studies.Study(BouncingBall(), studies.grid(t_end=[0.1, 0.2]), ["t_end"]),
-            ("record t_end", "none of what is varied"),
+            ("record t_end", "must not be a varied parameter"),
         ),
         (lambda: _ball(studies.Trajectory("q", (0.1, 0.3))), ("times", "within a run of 0.2 s", "0.3")),
         (lambda: studies.Trajectory("q", (-0.1, 0.3)), ("times", "none negative")),

@@ -72,7 +72,7 @@ def test_a_study_of_a_system_has_what_single_runs_have(tmp_path: Path) -> None:
             assert row.q_end.values.tobytes() == run.q_end.tobytes()
             assert row.impacts == run.counters.impacts
     other = studies.Study(_dropped(restitution=0.6), studies.grid(**axes), ["q_end", "impacts"], t_end=0.3)
-    with pytest.raises(ns.InvalidInput, match="must hold the study that goes on there"):
+    with pytest.raises(ns.InvalidInput, match="must hold the study that continues there"):
         other.run(tmp_path / "s.zarr")
 
 

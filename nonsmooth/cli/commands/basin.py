@@ -4,75 +4,50 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from nonsmooth.cli.asking import outputs, study
-from nonsmooth.cli.running import results
-from nonsmooth.cli.running.study import perform
-from nonsmooth.cli.telling.messages import say, tell
+from nonsmooth.cli.execute import saving
+from nonsmooth.cli.execute.study import perform
+from nonsmooth.cli.parse import outputs, study
+from nonsmooth.cli.parse.options import Command, Option
+from nonsmooth.cli.parse.values import tolerance
+from nonsmooth.cli.report.messages import say, tell
 from nonsmooth.errors import InvalidInput
-from nonsmooth.studies.attractors import (
-    Along,
-    basin_fractions,
-    basin_stability,
-    features,
-    pictures,
-    recurrences,
-    uncertainty_exponent,
-)
-from nonsmooth.studies.extras import require
+from nonsmooth.studies import Along, basin_fractions, basin_stability, features, recurrences, uncertainty_exponent
+from nonsmooth.studies.attractors import pictures
+from nonsmooth.studies.inputs import require
 from nonsmooth.studies.study import Study
 
 if TYPE_CHECKING:
     import xarray
 
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = commands.add_parser("basin", help="tell which starts lead to which attractor", allow_abbrev=False)
-    study.add_to(command)
-    command.add_argument(
-        "--tolerance",
-        type=float,
-        default=1e-3,
-        metavar="X",
-        help="with --period: what counts as one point, in units of the size of bodies and of the speed of a fall "
-        "through it; 1e-3 by default",
-    )
-    command.add_argument(
-        "--features",
-        metavar="NAME=TOLERANCE,...",
-        help="tell attractors apart by these numbers of the scenario's summary, each with the difference that counts "
-        "as none, in its unit",
-    )
-    command.add_argument(
-        "--along",
-        metavar="NAME[=TOLERANCE]",
-        help="draw the shares along this parameter; attractors told apart by --period or --features are followed from "
-        "value to value, no farther than the tolerance each",
-    )
-    command.add_argument("--figures", type=Path, metavar="DIR", help="where pictures go; STUDY by default")
-    outputs.add_to(command)
-    command.set_defaults(execute=execute)
+_OPTIONS = (
+    *study.OPTIONS,
+    Option.of(recurrences, "tolerance"),
+    Option.of(features, "tolerances", name="features", form="NAME=TOLERANCE,...", metavar="TOLERANCES"),
+    Option.of(Along, "parameter", name="along", form="NAME, or NAME=TOLERANCE with --period or --features"),
+    Option("--figures", "folder of the pictures; STUDY by default", metavar="DIR", kind=Path),
+    outputs.OVERWRITE,
+)
 
 
-def execute(arguments: argparse.Namespace) -> bool:
-    """Run the study, tell the attractors apart, print their shares, draw them; tell whether all could be saved."""
+def _execute(arguments: argparse.Namespace) -> bool:
+    """Run the study, find the attractors, print and draw their shares; return whether all could be saved."""
     require("basin", "matplotlib")
-    tolerances = _features(arguments.features)
+    tolerances = dict(tolerance("--features", part) for part in (arguments.features or "").split(",") if part)
     parameter, along = _along(arguments.along, followed=bool(tolerances) or arguments.period is not None)
-    words, path = study.asked(arguments, list(tolerances)), Path(arguments.out)
+    words, path = study.words_of(arguments, list(tolerances)), Path(arguments.out)
     job = study.study_of(words, trust=arguments.trust)
     _check(job, tolerances, arguments, parameter)
     folder = arguments.figures or path.with_suffix("" if path.suffix else ".figures")
     outputs.prepare_folder(folder, arguments.overwrite)
-    results.without_display()
-    found = perform(job, words, path, study.executor_asked(arguments), arguments.chunk)
+    saving.without_display()
+    found = perform(job, words, path, study.executor_given(arguments), arguments.chunk)
     if tolerances:
         found = found.assign(features(found, tolerances, along))
     elif arguments.period is not None:
         found = found.assign(recurrences(found, arguments.tolerance, along))
-    _tell_shares(found.attractor)
+    say(_shares(found.attractor))
     drawn = {"basins": pictures.basins(found), "shares": pictures.shares(found.attractor).figure}
     if found.attractor.ndim > 1:
         try:
@@ -85,12 +60,12 @@ def execute(arguments: argparse.Namespace) -> bool:
     if parameter:
         drawn["fractions"] = pictures.fractions(basin_fractions(found.attractor, parameter)).figure
     troubles: list[str] = []
-    say("\n".join(map(str, results.save_figures(drawn, folder, troubles))))
+    say("\n".join(map(str, saving.save_figures(drawn, folder, troubles))))
     return not troubles
 
 
 def _check(job: Study, tolerances: dict[str, float], arguments: argparse.Namespace, parameter: str) -> None:
-    """Look whether there will be attractors."""
+    """Check before the runs that there will be attractors."""
     if tolerances and arguments.period is not None:
         raise InvalidInput("--features", "must be left out with --period", arguments.features, "Take one of them.")
     if not (tolerances or arguments.period is not None or "attractor" in job.records):
@@ -101,38 +76,23 @@ def _check(job: Study, tolerances: dict[str, float], arguments: argparse.Namespa
         raise InvalidInput("--along", "must name a parameter of --over", parameter, f"Varied: {', '.join(varied)}.")
 
 
-def _features(word: str | None) -> dict[str, float]:
-    """Return the tolerance of each feature."""
-    found: dict[str, float] = {}
-    for part in word.split(",") if word else ():
-        name, _, tolerance = part.partition("=")
-        found[name.strip()] = _number("--features", tolerance, word, "For example --features last_flight=1e-3.")
-    return found
-
-
 def _along(word: str | None, *, followed: bool) -> tuple[str, Along | None]:
-    """Return the parameter, "" for none, and how attractors are followed along it."""
-    name, _, tolerance = (word or "").partition("=")
-    if not (name and followed):
-        return name, None
-    return name, Along(name, _number("--along", tolerance, word, f"For example --along {name}=0.5."))
+    """Return the parameter of ``--along``, "" for none, and how attractors are matched along it."""
+    name = (word or "").partition("=")[0]
+    return name, Along(*tolerance("--along", word)) if word and followed else None
 
 
-def _number(thing: str, number: str, word: str | None, remedy: str) -> float:
-    try:
-        return float(number)
-    except ValueError:
-        raise InvalidInput(thing, "must have the form NAME=TOLERANCE", word, remedy) from None
-
-
-def _tell_shares(attractor: xarray.DataArray) -> None:
+def _shares(attractor: xarray.DataArray) -> str:
     stability = basin_stability(attractor)
-    told = pictures.largest(stability)
-    lines = ["{}: basin stability {:.4f} ± {:.4f}".format(word, *stability[word]) for word in told]
-    more = sum(share > 0.0 for share, _ in stability.values()) - len(told)
+    named = pictures.largest(stability)
+    lines = ["{}: basin stability {:.4f} ± {:.4f}".format(word, *stability[word]) for word in named]
+    more = sum(share > 0.0 for share, _ in stability.values()) - len(named)
     if more:
         lines.append(f"and {more} more: a larger tolerance, or longer runs, may leave fewer")
     failed = int((attractor < 0).sum())
     if failed:
         lines.append(f"{failed} runs failed: see `nonsmooth study status`")
-    say("\n".join(lines))
+    return "\n".join(lines)
+
+
+COMMANDS = {"basin": Command(_execute, _OPTIONS)}

@@ -4,47 +4,48 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import inspect
 import sys
-from collections.abc import Mapping
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
-from typing import Any
 
-from nonsmooth.cli.asking import outputs
-from nonsmooth.cli.running import obtain
-from nonsmooth.cli.telling.messages import tell
-from nonsmooth.export.camera import VIEWS
-from nonsmooth.solution.csv_tables import SERIES
+from nonsmooth.cli.execute import obtain
+from nonsmooth.cli.parse import outputs
+from nonsmooth.cli.parse.options import Command, Option
+from nonsmooth.cli.report.messages import tell
 from nonsmooth.solution.exports import FORMATS, exporter
 
-_OPTIONS: Mapping[str, tuple[type, str]] = {
-    "view": (str, f"of pictures, where they are seen from: {', '.join(VIEWS)}"),
-    "speed": (float, "of pictures, time of the run that passes in one second watched"),
-    "frames_per_second": (float, "of pictures, how many in one second watched"),
-    "size": (int, "of pictures, the longer side in pixels"),
-    "series": (str, f"of a table, what is in it: {', '.join(SERIES)}"),
-    "count": (int, "of a VTK series, at how many times"),
-    "most_knots": (int, "of GLB, at how many times besides the instants of events"),
-}
+
+def _options_of_formats() -> tuple[Option, ...]:
+    """Return the options of all formats; the help of each begins with the suffixes that have it."""
+    found = dict[str, tuple[list[str], Option]]()
+    for suffix, form in FORMATS.items():
+        owner = form.func if isinstance(form, partial) else form
+        given = len(form.args) if isinstance(form, partial) else 0
+        for name in list(inspect.signature(owner).parameters)[given:]:
+            suffixes, _ = found.setdefault(name, ([], Option.of(owner, name)))
+            suffixes.append(suffix)
+    # an option that is left out is not given: it may be none of the format
+    return tuple(
+        replace(one, text=f"of {', '.join(suffixes)}: {one.text}", default=None) for suffixes, one in found.values()
+    )
 
 
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = commands.add_parser("export", help="write a run for other programs", allow_abbrev=False)
-    obtain.add_to(command)
-    command.add_argument("file", metavar="FILE", help=f"where to; its suffix is the format: {', '.join(FORMATS)}")
-    for name, (kind, words) in _OPTIONS.items():
-        command.add_argument(f"--{name.replace('_', '-')}", type=kind, help=words)
-    outputs.add_to(command)
-    command.set_defaults(execute=execute)
+_FORMATS = _options_of_formats()
+_FILE = Option("file", f"the file to write; its suffix is the format: {', '.join(FORMATS)}", metavar="FILE")
 
 
-def execute(arguments: argparse.Namespace) -> bool:
-    """Write the file; tell whether the run came to its end."""
-    given = {name: getattr(arguments, name) for name in _OPTIONS}
+def _execute(arguments: argparse.Namespace) -> bool:
+    """Write the file; return whether the run reached its end."""
+    given = {one.place: getattr(arguments, one.place) for one in _FORMATS}
     with contextlib.redirect_stdout(sys.stderr):
         write = exporter(arguments.file, **{name: value for name, value in given.items() if value is not None})
         outputs.prepare_file(Path(arguments.file), arguments.overwrite)
         run = obtain.obtain("export", arguments)
         if run.solution is not None:
             tell(f"the run is in {write(run.solution)}")
-    return run.whole
+    return run.is_complete
+
+
+COMMANDS = {"export": Command(_execute, (*obtain.OPTIONS, _FILE, *_FORMATS, outputs.OVERWRITE))}

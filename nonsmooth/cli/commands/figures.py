@@ -7,39 +7,36 @@ from collections.abc import Mapping
 from functools import partial
 from typing import Any
 
-from nonsmooth.cli.asking import extras, outputs
-from nonsmooth.cli.running import results
-from nonsmooth.cli.running.interrupt import Interrupt
-from nonsmooth.cli.telling.messages import complain, say
+from nonsmooth.cli.execute import saving
+from nonsmooth.cli.execute.interrupt import Interrupt
+from nonsmooth.cli.parse import outputs
+from nonsmooth.cli.parse.options import Command, Option
+from nonsmooth.cli.report.messages import complain, say
 from nonsmooth.plugins import registry
-from nonsmooth.progress import Pace, TimeReached, on_standard_error
+from nonsmooth.progress import ProgressMeter, TimeReached, on_standard_error
 from nonsmooth.results.output import Output
 from nonsmooth.runs.simulate import run_scenario
 
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = commands.add_parser("figures", help="draw all figures of a scenario", allow_abbrev=False)
-    command.add_argument("scenario", metavar="SCENARIO", help="see `nonsmooth list scenarios`")
-    command.add_argument("--out", metavar="DIR", required=True, help="save them there, in an empty or new folder")
-    outputs.add_to(command)
-    command.set_defaults(execute=execute)
+_OPTIONS = (
+    Option("scenario", "a name of `nonsmooth list scenarios`", metavar="SCENARIO"),
+    Option("--out", "folder of the figures, empty or new", metavar="DIR", is_required=True),
+    outputs.OVERWRITE,
+)
 
 
-def execute(arguments: argparse.Namespace) -> bool:
-    """Draw and save the figures; print their paths; tell whether all went well."""
+def _execute(arguments: argparse.Namespace) -> bool:
+    """Draw and save the figures; print their paths; return whether all could be saved."""
     owner = registry.load("scenarios", arguments.scenario)
-    extras.require(extras.PICTURES)
+    outputs.require_matplotlib()
     folder = Output.to(arguments.out).folder
     outputs.prepare_folder(folder, arguments.overwrite)
-    results.without_display()
+    saving.without_display()
     drawn = _draw(owner)
     if drawn is None:
         complain("interrupted: no figure was saved")
         return False
     troubles: list[str] = []
-    paths = results.save_figures(drawn, folder, troubles)
-    say("\n".join(map(str, paths)))
+    say("\n".join(map(str, saving.save_figures(drawn, folder, troubles))))
     return not troubles
 
 
@@ -51,11 +48,14 @@ def _draw(owner: Any) -> Mapping[str, Any] | None:
         if t < t_end:
             interrupt.check()
 
-    with Pace(on_standard_error()) as pace, Interrupt() as interrupt:
-        progress = TimeReached(pace)
+    with ProgressMeter(on_standard_error()) as meter, Interrupt() as interrupt:
+        progress = TimeReached(meter)
         try:
             drawn: Mapping[str, Any] = owner.gallery(partial(run_scenario, progress=after_steps))
         except (Exception, KeyboardInterrupt):
             if not interrupt.asked:
                 raise
     return None if interrupt.asked else drawn
+
+
+COMMANDS = {"figures": Command(_execute, _OPTIONS)}

@@ -11,10 +11,10 @@ import sys
 from importlib import metadata, resources
 from pathlib import Path
 from string import Template
-from typing import Any
 
-from nonsmooth.cli.asking import outputs
-from nonsmooth.cli.telling.messages import say
+from nonsmooth.cli.parse import outputs
+from nonsmooth.cli.parse.options import Command, CommandGroup, Option
+from nonsmooth.cli.report.messages import say
 from nonsmooth.errors import InvalidInput
 from nonsmooth.plugins import registry
 from nonsmooth.storage.files import replacing
@@ -31,19 +31,13 @@ _FILES = {
 """Where each text goes."""
 
 
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = commands.add_parser("new", help="write a package to start from", allow_abbrev=False)
-    kinds = command.add_subparsers(title="kinds", required=True, metavar="KIND")
-    plugin = kinds.add_parser(
-        "plugin", help="a package with a friction law, a scenario, and their tests", allow_abbrev=False
-    )
-    plugin.add_argument("name", metavar="NAME", help="of the package and of its law, in lower case")
-    plugin.add_argument("--dir", type=Path, metavar="DIR", help="the folder to write it to, ./NAME by default")
-    plugin.set_defaults(execute=execute)
+_PLUGIN = (
+    Option("name", "of the package and of its law, in lower case", metavar="NAME"),
+    Option("--dir", "the folder to write it to, ./NAME by default", metavar="DIR", kind=Path),
+)
 
 
-def execute(arguments: argparse.Namespace) -> bool:
+def _execute(arguments: argparse.Namespace) -> bool:
     """Write the package; print the paths of its files."""
     name = arguments.name
     _check_name(name)
@@ -72,7 +66,7 @@ def _check_name(name: str) -> None:
 
 
 def _holder(name: str) -> str:
-    """Return what has the name already, that the package would hide or replace; nothing where it is free."""
+    """Return the owner of a name that the package would hide or replace; "" if it is free."""
     if name in registry.names("laws"):
         return f"a law of {registry.source('laws', name)}"
     if name == "tests":
@@ -82,5 +76,9 @@ def _holder(name: str) -> str:
     with contextlib.suppress(metadata.PackageNotFoundError):
         return f"the installed package {name} {metadata.version(name)}"
     found = importlib.util.find_spec(name)
-    # a folder without __init__.py has a specification, too, but no origin, and is hidden by anything
+    # a folder without __init__.py has a specification but no origin; any module hides it
     return f"the module {found.origin}" if found is not None and found.origin is not None else ""
+
+
+_PARTS = {"plugin": Command(_execute, _PLUGIN, "a package with a friction law, a scenario, and their tests")}
+COMMANDS = {"new": CommandGroup("kinds", "KIND", _PARTS)}

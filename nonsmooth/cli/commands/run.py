@@ -1,4 +1,4 @@
-"""``nonsmooth run``: run a scenario, say what happened, save it."""
+"""``nonsmooth run`` and ``resume``: run a scenario or continue an interrupted run, report the results, save them."""
 
 from __future__ import annotations
 
@@ -6,82 +6,90 @@ import argparse
 import contextlib
 import json
 import sys
-from typing import Any
+from pathlib import Path
 
-from nonsmooth.cli.asking import engine, extras, law, outputs, request, trust
 from nonsmooth.cli.commands import view
-from nonsmooth.cli.running import acceptance, obtain
-from nonsmooth.cli.running.perform import Told, perform
-from nonsmooth.cli.telling import report
-from nonsmooth.cli.telling.messages import say
+from nonsmooth.cli.execute.obtain import computation, job_of, title_of
+from nonsmooth.cli.execute.perform import Progress, check_acceptance, is_accepted, perform
+from nonsmooth.cli.parse import outputs
+from nonsmooth.cli.parse.options import Command, Option, flag
+from nonsmooth.cli.parse.request import ENGINE, JSON, LAW, SCENARIO, SET, TRUST, job
+from nonsmooth.cli.report import run_report
+from nonsmooth.cli.report.messages import say
 from nonsmooth.results.output import Output
 from nonsmooth.results.overwriting import check_free
+from nonsmooth.results.solution_folder import SolutionFolder
+from nonsmooth.runs.resuming import check_resumable
 from nonsmooth.runs.simulate import assemble
 from nonsmooth.solution.solution import Solution
 
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = commands.add_parser("run", help="run a scenario", allow_abbrev=False)
-    command.add_argument(
-        "scenario",
-        metavar="SCENARIO",
-        help="a name of `nonsmooth list scenarios`, a FILE.toml or FILE.yaml, or FILE.py:CLASS",
-    )
-    command.add_argument(
-        "--set",
-        action="append",
-        default=[],
-        metavar="NAME=VALUE",
-        help="a parameter of `nonsmooth show SCENARIO`, in SI units; may come often",
-    )
-    command.add_argument("--law", action="append", default=[], metavar="ROLE=LAW", help=law.HELP)
-    command.add_argument("--engine", metavar="ENGINE", help=engine.HELP)
-    trust.add_to(command)
-    command.add_argument("--out", metavar="DIR", help="save results and figures there, an empty or new folder")
-    outputs.add_to(command)
-    command.add_argument(
-        "--accept", action="store_true", help="judge the run by the scenario's own criteria; exit status 1 if one fails"
-    )
-    command.add_argument("--view", action="store_true", help="play it in the browser")
-    command.add_argument("--json", action="store_true", help="print one JSON object and nothing else")
-    command.set_defaults(execute=execute)
+_RUN = (
+    SCENARIO,
+    SET,
+    LAW,
+    ENGINE,
+    TRUST,
+    Option("--out", "folder of results and figures, empty or new", metavar="DIR"),
+    outputs.OVERWRITE,
+    flag("--accept", "judge the run by the scenario's own criteria; exit status 1 if one fails"),
+    flag("--view", "play it in the browser"),
+    JSON,
+)
+_RESUME = (Option("folder", "the folder that `run --out` was given", metavar="DIR", kind=Path), TRUST, JSON)
 
 
-def execute(arguments: argparse.Namespace) -> bool:
-    """Run the scenario; tell whether all went well."""
+def _run(arguments: argparse.Namespace) -> bool:
     troubles: list[str] = []
-    with contextlib.redirect_stdout(sys.stderr):  # whatever a plug-in prints: standard output is for the result
-        outcome = _perform(arguments, troubles)
-    say(report.as_json(outcome) if arguments.json else report.as_text(outcome))
-    accepted = not arguments.accept or acceptance.passed(outcome)
-    return outcome["status"] == "done" and not troubles and accepted
+    with contextlib.redirect_stdout(sys.stderr):  # output of a plug-in: standard output is for the result
+        report = _performed(arguments, troubles)
+    accepted = not arguments.accept or is_accepted(report)
+    return _said(report, troubles, arguments.json) and accepted
 
 
-def _perform(arguments: argparse.Namespace, troubles: list[str]) -> report.Report:
-    job = request.job(arguments.scenario, arguments.set, arguments.law, arguments.engine, trust=arguments.trust)
-    scenario = job.scenario
+def _performed(arguments: argparse.Namespace, troubles: list[str]) -> run_report.Report:
+    made = job(arguments.scenario, arguments.set, arguments.law, arguments.engine, trust=arguments.trust)
+    title = title_of(made.scenario)
     if arguments.accept:
-        acceptance.check_request(job)
-    head, folder, output = {"scenario": arguments.scenario, **job.head()}, None, None
-    system = job.build()
+        check_acceptance(made)
+    head, folder, output = {"scenario": arguments.scenario, **made.head()}, None, None
     if arguments.out is not None:
-        extras.require(extras.PICTURES)
-        asked = {name: getattr(arguments, name) for name in ("scenario", "set", "law", "engine")}
+        outputs.require_matplotlib()
+        words = {name: getattr(arguments, name) for name in ("scenario", "set", "law", "engine")}
         folder = Output.to(arguments.out).folder
-        described = json.loads(report.as_json(head))
-        output = Output(folder, obtain.title_of(scenario), asked, described, arguments.overwrite)
+        output = Output(folder, title, words, json.loads(run_report.as_json(head)), arguments.overwrite)
+    compute = computation(made, output)
+    if output is not None:
         check_free(output)
-        outputs.prepare_folder(folder, arguments.overwrite)
+        outputs.prepare_folder(output.folder, arguments.overwrite)
+    further = [view.in_browser(title)] if arguments.view else []
+    return perform(made, head, compute, folder, arguments.accept, troubles, further)
 
-    def compute(told: Told) -> Solution:
-        model = assemble(system, job.engine)
-        return model.run(
-            scenario.t_end,
-            sample_interval=scenario.sample_interval,
-            progress=lambda t, t_end: told(t, t_end, model.n_events),
-            output=output,
-        )
 
-    looks = [view.in_browser(obtain.title_of(scenario))] if arguments.view else []
-    return perform(job, head, compute, folder, arguments.accept, troubles, looks)
+def _resume(arguments: argparse.Namespace) -> bool:
+    troubles: list[str] = []
+    with contextlib.redirect_stdout(sys.stderr):
+        report = _continued(Output(arguments.folder), arguments.trust, troubles)
+    return _said(report, troubles, arguments.json)
+
+
+def _continued(output: Output, is_trusted: bool, troubles: list[str]) -> run_report.Report:
+    outputs.require_matplotlib()
+    folder = SolutionFolder.opened(output)
+    name, made = job_of(output, folder, is_trusted)
+    system = made.build()
+    check_resumable(output)
+
+    def compute(progress: Progress) -> Solution:
+        model = assemble(system, made.engine)
+        return model.resume(output, progress=lambda t, t_end: progress(t, t_end, model.n_events))
+
+    return perform(made, {"scenario": name, **made.head()}, compute, output.folder, False, troubles)
+
+
+def _said(report: run_report.Report, troubles: list[str], as_json: bool) -> bool:
+    """Print a report; return whether the run reached its end and all was saved."""
+    say(run_report.as_json(report) if as_json else run_report.as_text(report))
+    return report["status"] == "done" and not troubles
+
+
+COMMANDS = {"run": Command(_run, _RUN), "resume": Command(_resume, _RESUME)}

@@ -4,41 +4,33 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import Any
 
-from nonsmooth.cli.asking import engine, law, outputs, request, trust
-from nonsmooth.cli.running import obtain
-from nonsmooth.cli.telling.messages import tell
+from nonsmooth.cli.execute.obtain import title_of
+from nonsmooth.cli.parse import outputs
+from nonsmooth.cli.parse.options import Command, Option
+from nonsmooth.cli.parse.request import ENGINE, LAW, SCENARIO, SET, TRUST, job
+from nonsmooth.cli.report.messages import tell
 from nonsmooth.files import formats
 from nonsmooth.files.writing import save_system
 
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = commands.add_parser("save", help="write a scenario to a file that `run` reads", allow_abbrev=False)
-    command.add_argument("scenario", metavar="SCENARIO", help="see `nonsmooth list scenarios`")
-    command.add_argument("file", type=Path, metavar="FILE", help="the file to write, .toml or .yaml")
-    command.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="as for `run`")
-    command.add_argument("--law", action="append", default=[], metavar="ROLE=LAW", help=law.HELP)
-    command.add_argument("--engine", metavar="ENGINE", help=engine.HELP)
-    trust.add_to(command)
-    outputs.add_to(command)
-    command.set_defaults(execute=execute)
+_FILE = Option("file", "the file to write, .toml or .yaml", metavar="FILE", kind=Path)
 
 
-def execute(arguments: argparse.Namespace) -> bool:
-    """Write the file; tell where it is."""
-    job = request.job(arguments.scenario, arguments.set, arguments.law, arguments.engine, trust=arguments.trust)
-    scenario = job.scenario
+def _execute(arguments: argparse.Namespace) -> bool:
+    made = job(arguments.scenario, arguments.set, arguments.law, arguments.engine, trust=arguments.trust)
+    scenario = made.scenario
     formats.of(arguments.file)
     outputs.prepare_file(arguments.file, arguments.overwrite)
     save_system(
-        job.build(),
+        made.build(),
         arguments.file,
         t_end=scenario.t_end,
         sample_interval=scenario.sample_interval,
-        engine=job.engine,
-        title=obtain.title_of(scenario),
+        engine=made.engine,
+        title=title_of(scenario),
     )
     tell(f"the system is in {arguments.file}")
     return True
+
+
+COMMANDS = {"save": Command(_execute, (SCENARIO, _FILE, SET, LAW, ENGINE, TRUST, outputs.OVERWRITE))}

@@ -1,61 +1,106 @@
-"""``nonsmooth show``: the parameters of a scenario, body, joint, load or law."""
+"""``nonsmooth list`` and ``show``: installed components, their parameters, and bodies near each other at the start."""
 
 from __future__ import annotations
 
 import argparse
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
-from nonsmooth.cli.asking import trust
-from nonsmooth.cli.commands.list import GROUPS
-from nonsmooth.cli.telling.messages import say
-from nonsmooth.cli.telling.parameter_rows import ASSUMED, HEAD, parameter_rows
-from nonsmooth.cli.telling.table import first_line, lines
+from nonsmooth.cli.docstrings import first_line
+from nonsmooth.cli.parse.components import ROLES
+from nonsmooth.cli.parse.options import Command, Option, flag
+from nonsmooth.cli.parse.request import TRUST, job
+from nonsmooth.cli.report.messages import say
+from nonsmooth.cli.report.table import ASSUMED, HEAD, folded, lines, parameter_rows
+from nonsmooth.files.formats import SUFFIXES
+from nonsmooth.files.reading import read
 from nonsmooth.plugins import file, registry
 
+if TYPE_CHECKING:
+    from nonsmooth.queries.proximity import NearPair
 
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = commands.add_parser(
-        "show", help="parameters with units, defaults, ranges, and what is assumed", allow_abbrev=False
-    )
-    command.add_argument(
-        "name",
-        metavar="NAME",
-        help="name or class of `nonsmooth list`, FILE.py:CLASS, or a scenario file for --proximity",
-    )
-    command.add_argument(
-        "--proximity",
-        action="store_true",
-        help="of a scenario or a file: which bodies are near each other at the start, and what is said of them",
-    )
-    trust.add_to(command)
-    command.set_defaults(execute=execute)
+GROUPS = ("scenarios", "bodies", "shapes", "motions", "joints", "loads", "guards", "laws", "engines")
+_NEAR = ("gap [m]", "", "bodies", "found by", "contact")
+"""Head of the table of near bodies."""
+_GROUP = Option("group", "all by default", choices=GROUPS)
+_SHOW = (
+    Option("name", "name or class of `nonsmooth list`, FILE.py:CLASS, or a scenario file", metavar="NAME"),
+    flag("--proximity", "of a scenario or a file: bodies near each other at the start, and their contacts"),
+    TRUST,
+)
 
 
-def execute(arguments: argparse.Namespace) -> bool:
-    """Print everything of that name: a scenario and a body may share one."""
+def _list(arguments: argparse.Namespace) -> bool:
+    """Print name, kind of a law, source, class and first docstring line of every usable plug-in."""
+    registry.check_groups()
+    wanted = (arguments.group,) if arguments.group else GROUPS
+    say("\n\n".join(_section(group) for group in wanted))
+    return True
+
+
+def _section(group: str) -> str:
+    rows = [
+        (name, *_kind(group, owner), registry.source(group, name), f"{owner.__name__}: {first_line(owner)}")
+        for name, owner in registry.load_all(group).items()
+    ]
+    return "\n".join([f"{group}:", *(folded(rows) or ["  none"])])
+
+
+def _kind(group: str, owner: type) -> tuple[str, ...]:
+    """Return the role of a law; other groups have no such column."""
+    return tuple(role for role, base in ROLES.items() if issubclass(owner, base)) if group == "laws" else ()
+
+
+def _show(arguments: argparse.Namespace) -> bool:
+    """Print everything of a name: a scenario and a body may share one."""
     if arguments.proximity:
-        # imported when asked for: the other commands start faster without it
-        from nonsmooth.cli.commands import near
-
-        say(near.table(arguments.name, arguments.trust))
-        return True
-    if file.is_file(arguments.name):
+        say(_near_bodies(arguments.name, arguments.trust))
+    elif file.is_file(arguments.name):
         owner = file.load("show", registry.INTERFACES, arguments.name)
-        say(_describe(owner, f"{owner.__name__}: {registry.kind_of(owner)} of {arguments.name.rpartition(':')[0]}"))
-        return True
-    say("\n\n".join(_installed(group, name) for group, name in registry.called(arguments.name, GROUPS)))
+        say(_described(owner, f"{owner.__name__}: {registry.kind_of(owner)} of {arguments.name.rpartition(':')[0]}"))
+    else:
+        say("\n\n".join(_installed(group, name) for group, name in registry.called(arguments.name, GROUPS)))
     return True
 
 
 def _installed(group: str, name: str) -> str:
     title = f"{name}: {registry.KINDS[group]} of {registry.source(group, name)}"
-    return _describe(registry.load(group, name), title, registry.imported(group, name))
+    return _described(registry.load(group, name), title, registry.imported(group, name))
 
 
-def _describe(owner: Any, title: str, *imported: str) -> str:
+def _described(owner: Any, title: str, *imported: str) -> str:
     rows = parameter_rows(owner)
     table = lines([HEAD, *rows]) if rows else ["  no parameters"]
     legend = [f"  {ASSUMED}"] if any(row[1].endswith("*") for row in rows) else []
-    told = [f"  {line}" for line in (first_line(owner), *imported)]
-    return "\n".join([title, *told, "", *table, *legend])
+    head = [f"  {line}" for line in (first_line(owner), *imported)]
+    return "\n".join([title, *head, "", *table, *legend])
+
+
+def _near_bodies(name: str, trust: bool) -> str:
+    """Return the table of near bodies of a scenario file, which may be trusted, or of a scenario with its defaults."""
+    # imported on use: the other commands start faster without it
+    from nonsmooth.queries.proximity import proximity
+
+    system = read(Path(name), trust).system if name.endswith(SUFFIXES) else job(name, (), trust=trust).build()
+    pairs, names = proximity(system), system.names.bodies
+    if not pairs:
+        return f"{name}: no two bodies are near each other at the start."
+    rows = [
+        (
+            f"{pair.distance.gap:.3g}",
+            pair.state,
+            " and ".join(names[number] for number in pair.numbers),
+            pair.distance.how,
+            _contact(pair),
+        )
+        for pair in pairs
+    ]
+    return "\n".join([f"{name}: bodies near each other at the start", "", *lines([_NEAR, *rows])])
+
+
+def _contact(pair: NearPair) -> str:
+    words = {"declared": pair.declared, "joined": pair.joined, "excluded": pair.excluded}
+    return ", ".join(word for word, holds in words.items() if holds) or "none"
+
+
+COMMANDS = {"list": Command(_list, (_GROUP,)), "show": Command(_show, _SHOW)}

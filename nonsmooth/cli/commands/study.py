@@ -1,45 +1,35 @@
-"""``nonsmooth study``: looks at a study that was stored, goes on with it, draws it."""
+"""``nonsmooth sweep``, which runs a study, and ``nonsmooth study``, which shows, continues, checks or draws one."""
 
 from __future__ import annotations
 
 import argparse
 import json
 from pathlib import Path
-from typing import Any
 
-from nonsmooth.cli.asking import outputs, stored
-from nonsmooth.cli.asking.study import add_executor_to, executor_asked, study_of
-from nonsmooth.cli.asking.trust import add_to as add_trust_to
-from nonsmooth.cli.running.study import perform
-from nonsmooth.cli.telling.messages import complain, say, tell
+from nonsmooth.cli.execute.study import perform
+from nonsmooth.cli.parse import outputs
+from nonsmooth.cli.parse.options import Command, CommandGroup, Option
+from nonsmooth.cli.parse.request import TRUST, check_stored
+from nonsmooth.cli.parse.study import EXECUTOR, OPTIONS, RECORD_OPTION, STUDY_WORDS, executor_given, study_of, words_of
+from nonsmooth.cli.report.messages import complain, say, tell
 from nonsmooth.errors import InvalidInput
-from nonsmooth.studies.drawing import draw_study
-from nonsmooth.studies.extras import require, require_store
-from nonsmooth.studies.opening import open_study
+from nonsmooth.studies import draw_study, open_study
+from nonsmooth.studies.inputs import require, require_store
+from nonsmooth.studies.status import summary
 from nonsmooth.studies.study_folder import StudyFolder
-from nonsmooth.studies.summary import summary
 
-_TOLD = 10
-"""Sentences on runs without records that are told."""
+_MOST = 10
+"""Reasons of failed runs that are printed."""
+_STUDY = Option("study", "the folder that `--out` was given", metavar="STUDY.zarr", kind=Path)
+_OUT = Option("--out", "STUDY.png by default", metavar="FILE", kind=Path)
 
 
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = commands.add_parser("study", help="look at a stored study, go on with it, draw it", allow_abbrev=False)
-    parts = command.add_subparsers(title="what to do", required=True, metavar="WHAT")
-    for name, execute, words in (
-        ("status", status, "how far it is, and how its runs ended"),
-        ("resume", resume, "go on with it"),
-        ("verify", verify, "read all that is stored; exit status 1 if something is damaged"),
-        ("draw", draw, "draw its records"),
-    ):
-        part = parts.add_parser(name, help=words, allow_abbrev=False)
-        part.add_argument("study", type=Path, metavar="STUDY.zarr", help="what `--out` was given")
-        part.set_defaults(execute=execute)
-    add_executor_to(parts.choices["resume"])
-    add_trust_to(parts.choices["resume"])
-    parts.choices["draw"].add_argument("--out", type=Path, metavar="FILE", help="STUDY.png by default")
-    outputs.add_to(parts.choices["draw"])
+def _sweep(arguments: argparse.Namespace) -> bool:
+    record = [name for word in arguments.record for name in word.split(",")]
+    words = words_of(arguments, record)
+    study, path = study_of(words, trust=arguments.trust), Path(arguments.out)
+    perform(study, words, path, executor_given(arguments), arguments.chunk)
+    return True
 
 
 def _store(arguments: argparse.Namespace) -> StudyFolder:
@@ -47,37 +37,28 @@ def _store(arguments: argparse.Namespace) -> StudyFolder:
     return StudyFolder(arguments.study)
 
 
-def status(arguments: argparse.Namespace) -> bool:
-    """Tell how far it is, and why runs have no records."""
+def _status(arguments: argparse.Namespace) -> bool:
     store = _store(arguments)
     texts = store.texts()
     lines = [summary(open_study(arguments.study)), f"{len(store.committed())} of {store.n_chunks} chunks are stored"]
-    lines += [f"  run {run}: {text}" for run, text in sorted(texts.items())[:_TOLD]]
-    if len(texts) > _TOLD:
-        lines.append(f"  and {len(texts) - _TOLD} more")
+    lines += [f"  run {run}: {text}" for run, text in sorted(texts.items())[:_MOST]]
+    if len(texts) > _MOST:
+        lines.append(f"  and {len(texts) - _MOST} more")
     say("\n".join(lines))
     return True
 
 
-def resume(arguments: argparse.Namespace) -> bool:
-    """Go on with it.
-
-    Raises
-    ------
-    InvalidInput
-        If it was not begun on the command line.
-    """
+def _resume(arguments: argparse.Namespace) -> bool:
     words, path = json.loads(str(_store(arguments).attributes["request"])), arguments.study
     if not words:
-        remedy = "Run the Python program again that began it: it goes on."
+        remedy = "Run the Python program again that began it: the study continues."
         raise InvalidInput(str(path), "must have been begun on the command line", "a study of a program", remedy)
-    stored.check(str(path), words, stored.STUDY)
-    perform(study_of(words, trust=arguments.trust, typed=False), words, path, executor_asked(arguments))
+    check_stored(str(path), words, STUDY_WORDS)
+    perform(study_of(words, trust=arguments.trust, typed=False), words, path, executor_given(arguments))
     return True
 
 
-def verify(arguments: argparse.Namespace) -> bool:
-    """Read all of it."""
+def _verify(arguments: argparse.Namespace) -> bool:
     store = _store(arguments)
     damage = store.damage()
     for sentence in damage:
@@ -86,11 +67,19 @@ def verify(arguments: argparse.Namespace) -> bool:
     return not damage
 
 
-def draw(arguments: argparse.Namespace) -> bool:
-    """Draw it."""
+def _draw(arguments: argparse.Namespace) -> bool:
     require("study draw", "matplotlib")
     path = arguments.out or arguments.study.with_suffix(".png")
     outputs.prepare_file(path, arguments.overwrite)
     draw_study(open_study(arguments.study)).savefig(path, dpi=150)
     tell(f"the picture is in {path}")
     return True
+
+
+_PARTS = {
+    "status": Command(_status, (_STUDY,), "number of stored runs, and how they ended"),
+    "resume": Command(_resume, (_STUDY, *EXECUTOR, TRUST), "continue it"),
+    "verify": Command(_verify, (_STUDY,), "read all chunks; exit status 1 if one is damaged"),
+    "draw": Command(_draw, (_STUDY, _OUT, outputs.OVERWRITE), "draw its records"),
+}
+COMMANDS = {"sweep": Command(_sweep, (*OPTIONS, RECORD_OPTION)), "study": CommandGroup("actions", "ACTION", _PARTS)}

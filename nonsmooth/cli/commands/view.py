@@ -7,48 +7,43 @@ import contextlib
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
-from nonsmooth.cli.asking import outputs
-from nonsmooth.cli.running import obtain
-from nonsmooth.cli.telling.messages import tell
+from nonsmooth.cli.execute import obtain
+from nonsmooth.cli.parse import outputs
+from nonsmooth.cli.parse.options import Command, Option
+from nonsmooth.cli.report.messages import tell
 from nonsmooth.solution.solution import Solution
 
-
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command = commands.add_parser("view", help="play a run in the browser", allow_abbrev=False)
-    obtain.add_to(command)
-    command.add_argument("--html", type=Path, metavar="FILE", help="write the page there and open nothing")
-    outputs.add_to(command)
-    command.set_defaults(execute=execute)
+_HTML = Option("--html", "write the page there and open nothing", metavar="FILE", kind=Path)
 
 
-def execute(arguments: argparse.Namespace) -> bool:
-    """Write the page and open it; tell whether the run came to its end."""
+def _execute(arguments: argparse.Namespace) -> bool:
+    """Write the page and open it; return whether the run reached its end."""
     if arguments.html is not None:
         outputs.prepare_file(arguments.html, arguments.overwrite)
     with contextlib.redirect_stdout(sys.stderr):
         run = obtain.obtain("view", arguments)
         if run.solution is not None:
-            look = in_browser(run.title) if arguments.html is None else to_file(run.title, arguments.html)
-            look(run.solution)
-    return run.whole
+            play = in_browser(run.title) if arguments.html is None else _to_file(run.title, arguments.html)
+            play(run.solution)
+    return run.is_complete
 
 
 def in_browser(title: str) -> Callable[[Solution], None]:
-    """Return what plays a run in the browser and says where its page is."""
+    """Return a function that plays a run in the browser and prints the path of its page."""
 
-    def look(solution: Solution) -> None:
-        # imported when asked for: the other commands start faster without it
+    def play(solution: Solution) -> None:
+        # imported on use: the other commands start faster without it
         from nonsmooth.solution.pages import MOST_KNOTS, not_opened, show
 
         path, opened = show(solution, title, MOST_KNOTS)
         tell(f"the run plays in the browser, from {path}" if opened else not_opened(path))
 
-    return look
+    return play
 
 
-def to_file(title: str, path: Path) -> Callable[[Solution], None]:
-    """Return what writes the page of a run and says where it is."""
+def _to_file(title: str, path: Path) -> Callable[[Solution], None]:
     return lambda solution: tell(f"the page is {solution.to_html(path, title=title)}")
+
+
+COMMANDS = {"view": Command(_execute, (*obtain.OPTIONS, _HTML, outputs.OVERWRITE))}

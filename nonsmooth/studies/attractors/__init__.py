@@ -1,11 +1,10 @@
-"""Attractors of a study: told apart, their basins, and how these change along a parameter."""
+"""Attractors of a study, their basins, and the change of these along a parameter."""
 
 from nonsmooth.studies.attractors.boundary import Boundary, uncertainty_exponent
 from nonsmooth.studies.attractors.features import features
-from nonsmooth.studies.attractors.following import Along, matched
-from nonsmooth.studies.attractors.fractions import basin_fractions
+from nonsmooth.studies.attractors.matching import Along, matched
 from nonsmooth.studies.attractors.recurrences import recurrences
-from nonsmooth.studies.attractors.stability import basin_stability
+from nonsmooth.studies.attractors.shares import basin_fractions, basin_stability
 
 __all__ = [
     "Along",

@@ -1,4 +1,4 @@
-"""The uncertainty exponent of a basin boundary: how much is gained by knowing the start better."""
+"""Uncertainty exponent of a basin boundary."""
 
 from __future__ import annotations
 
@@ -10,46 +10,46 @@ from numpy.typing import NDArray
 
 from nonsmooth.errors import InvalidInput
 from nonsmooth.studies.attractors.labels import words_of
+from nonsmooth.types import Array
 
 if TYPE_CHECKING:
     import xarray
 
-Floats = NDArray[np.float64]
 _MARGIN = 8
-"""The largest distance is such a part of the shortest side of the grid."""
+"""Shortest side of the grid over the largest distance."""
 _FEWEST = 3
-"""Distances that a fit with an error needs."""
+"""Distances of a fit with an error, at least."""
 _SMOOTH = 1.0
-"""Exponent of a smooth boundary, the largest that there is."""
+"""Exponent of a smooth boundary, the largest possible one."""
 _SATURATED = 0.5
-"""Above this share of uncertain starts a distance is no longer small beside the basins."""
+"""Share of uncertain starts above which a distance is not small compared with the basins."""
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class Boundary:
-    """How uncertain the attractor is by the distance eps of starts: f ~ eps^exponent.
+    """Share f of uncertain starts over their distance eps: f ~ eps^exponent.
 
     Attributes
     ----------
     steps : array
         Distances eps, in steps of the grid, shape [n].
     uncertain : array
-        Share f of the starts that have a neighbour at that distance, along an axis of the grid, with another
-        attractor, shape [n].
+        Share f of the starts that have a neighbour at this distance along an axis of the grid with another attractor,
+        shape [n].
     starts : int
-        Starts that were looked at.
+        Number of starts.
     exponent, error : float
-        The uncertainty exponent, 1 for a smooth boundary, and its standard error, out of the scatter about the fit.  A
-        fit above 1, which no boundary has, is off by its excess at least: the error covers 1.
+        The uncertainty exponent, 1 for a smooth boundary, and its standard error from the scatter about the fit.  No
+        boundary has an exponent above 1: the error is at least the excess of the fit.
     offset : float
-        ln f of the fit at one step.
+        Value of ln f of the fit at one step.
     dimension : float
-        Of the boundary: that of the grid less the exponent, which is 1 at most here.
+        Dimension of the boundary: dimension of the grid less the exponent.
     """
 
-    steps: Floats
-    uncertain: Floats
+    steps: Array
+    uncertain: Array
     starts: int
     exponent: float
     error: float
@@ -60,20 +60,20 @@ class Boundary:
 def uncertainty_exponent(attractor: xarray.DataArray) -> Boundary:
     """Return the uncertainty exponent of the boundaries between all attractors of a grid of starts.
 
-    Distances are 1, 2, 4 ... steps of the grid, up to an eighth of its shortest side; the starts are those that have
-    all neighbours, all of which came to their end.  The fit is of ln f over ln eps, by least squares, for f up to
-    a half: beyond, a distance is as large as the basins.
+    Distances are 1, 2, 4 ... steps of the grid, up to an eighth of its shortest side.  Starts count if all of their
+    neighbours exist and reached their end.  The exponent is the slope of ln f over ln eps by least squares, for f up
+    to a half.
 
     Parameters
     ----------
     attractor : DataArray
-        The attractors of a study over a grid of evenly spaced starts; of a study that varies a parameter as well, those
-        of one value, ``attractor.sel(gamma=0.8)``.
+        The attractors of a study over a grid of evenly spaced starts; if the study varies a parameter, too, those of
+        one value, ``attractor.sel(gamma=0.8)``.
 
     Raises
     ------
     InvalidInput
-        If it is no record of words, not over an even grid, over too small a one, or has no boundary.
+        If it is no record of words, or the grid is uneven, too small, or without a boundary.
 
     References
     ----------
@@ -123,7 +123,7 @@ def _check_even(attractor: xarray.DataArray) -> None:
 
 
 def _neighbours(labels: NDArray[np.int64], step: int, margin: int) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Return of the starts within a margin whether all neighbours are known, and whether one has another attractor."""
+    """Return for starts within a margin whether all neighbours are known, and whether one has another attractor."""
     inner = tuple(slice(margin, n - margin) for n in labels.shape)
     known, other = labels[inner] >= 0, np.zeros(labels[inner].shape, bool)
     for axis in range(labels.ndim):

@@ -8,33 +8,31 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.checks import is_finite
 from nonsmooth.errors import InvalidInput, UnknownName
-from nonsmooth.studies.attractors.following import Along
-from nonsmooth.studies.attractors.group import Group
 from nonsmooth.studies.attractors.labels import labelled
 from nonsmooth.studies.attractors.linkage import linked
-from nonsmooth.studies.status import VALUED
-from nonsmooth.studies.summary import records_of
+from nonsmooth.studies.attractors.matching import Along, Group
+from nonsmooth.studies.inputs import check_positive
+from nonsmooth.studies.status import VALUED, records_of
 
 if TYPE_CHECKING:
     import xarray
 
 
 def features(study: xarray.Dataset, tolerances: Mapping[str, float], along: Along | None = None) -> xarray.Dataset:
-    """Return the attractor of each run, by numbers that were recorded.
+    """Find the attractor of each run by recorded numbers.
 
-    Two runs are on one attractor where they agree in every feature within its tolerance, or through further runs that
-    do (single linkage).  To have no such number, as a run that never came to rest has no time of it, is a feature, too.
+    Two runs are on one attractor if they agree in every feature within its tolerance, or through further runs that
+    do (single linkage).  A missing number is a feature, too: a run that never comes to rest has no time of it.
 
     Parameters
     ----------
     study : Dataset
         A study.
     tolerances : mapping of str to float
-        Of each feature, a record that is one number, the greatest difference that counts as none, in its unit.
+        Largest difference of each feature within an attractor, in its unit; a feature is a record that is one number.
     along : Along, optional
-        A parameter along which attractors are told apart value by value, and followed.
+        A parameter: attractors are found for each of its values, and matched.
 
     Returns
     -------
@@ -47,7 +45,7 @@ def features(study: xarray.Dataset, tolerances: Mapping[str, float], along: Alon
     InvalidInput
         If there is no feature, or a tolerance is not valid.
     UnknownName
-        If a feature is no record that is one number, or the parameter is none that is varied.
+        If a feature is no record with one number per run, or the study does not vary the parameter.
     """
     known = records_of(study)
     if not tolerances:
@@ -55,13 +53,11 @@ def features(study: xarray.Dataset, tolerances: Mapping[str, float], along: Alon
     for name, tolerance in tolerances.items():
         if name not in known:
             raise UnknownName("features: record", name, known)
-        if not (is_finite(tolerance) and tolerance > 0.0):
-            thing = f"features: tolerance of {name}"
-            raise InvalidInput(thing, "must be positive and finite", tolerance, "Give it in the unit of the record.")
+        check_positive(f"features: tolerance of {name}", tolerance, "Give it in the unit of the record.")
     columns = [known[name].values.ravel() / tolerance for name, tolerance in tolerances.items()]
     values = np.stack(columns, axis=1).astype(float)
     missing = np.isnan(values)
-    # numbers that are missing agree, and are apart from all that are there
+    # missing numbers agree with each other, and with no other number
     points = np.concatenate([np.where(missing, 0.0, values), 2.0 * missing], axis=1)
 
     def grouping(runs: NDArray[np.int64]) -> list[Group]:

@@ -1,23 +1,24 @@
-"""From groups of runs to the labels of a study."""
+"""Labels of the attractors of a study."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.errors import InvalidInput
-from nonsmooth.studies.attractors.following import Along, Grouping, followed
-from nonsmooth.studies.attractors.group import Group
-from nonsmooth.studies.attractors.parts import parts
+from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.studies.attractors.matching import Along, Group, Grouping, joined
+from nonsmooth.studies.inputs import check_count
 
 if TYPE_CHECKING:
     import xarray
 
+
 UNSETTLED = "unsettled"
-"""Runs of which no other one tells that they are on an attractor."""
+"""Attractor of runs that agree with no other run."""
 
 
 def labelled(
@@ -30,11 +31,11 @@ def labelled(
     study : Dataset
         The study.
     valued : array
-        Which runs have records, shape [n_runs].
+        True for runs that have records, shape [n_runs].
     grouping : callable
         Groups some runs.
     along : Along, optional
-        Along which parameter they are followed.
+        The parameter along which groups are matched.
     """
     import xarray
 
@@ -42,9 +43,9 @@ def labelled(
     if along is None:
         found = grouping(runs)
     else:
-        split = parts(study.status, along.parameter, along.bins)
+        split = runs_by_value(study.status, along.parameter, along.bins)
         rows = [runs[split.of_runs[runs] == part] for part in range(len(split.values))]
-        found = followed([grouping(row) for row in rows], along.tolerance)
+        found = joined([grouping(row) for row in rows], along.tolerance)
     found.sort(key=lambda one: (-len(one.runs), one.runs.min()))
     labels, words = np.full(len(valued), -1, "int32"), [_word(i, one) for i, one in enumerate(found, 1)]
     for i, one in enumerate(found):
@@ -53,16 +54,16 @@ def labelled(
     if left.any():
         labels[left] = len(words)
         words.append(UNSETTLED)
-    told = {"long_name": "attractor", "flag_values": list(range(len(words))), "flag_meanings": " ".join(words)}
-    return xarray.Dataset({"attractor": over_runs(study, labels, told)}, attrs=study.attrs)
+    attributes = {"long_name": "attractor", "flag_values": list(range(len(words))), "flag_meanings": " ".join(words)}
+    return xarray.Dataset({"attractor": over_runs(study, labels, attributes)}, attrs=study.attrs)
 
 
-def over_runs(study: xarray.Dataset, values: NDArray[Any], told: dict[str, Any]) -> xarray.DataArray:
+def over_runs(study: xarray.Dataset, values: NDArray[Any], attributes: dict[str, Any]) -> xarray.DataArray:
     """Return one value for each run over the axes of the study."""
     import xarray
 
     status = study.status
-    return xarray.DataArray(values.reshape(status.shape), status.coords, status.dims, attrs=told)
+    return xarray.DataArray(values.reshape(status.shape), status.coords, status.dims, attrs=attributes)
 
 
 def _word(number: int, group: Group) -> str:
@@ -83,3 +84,44 @@ def words_of(attractor: xarray.DataArray, thing: str) -> Sequence[str]:
         remedy = "Give dataset.attractor of a scenario that classifies, or what recurrences or features return."
         raise InvalidInput(thing, "needs a record of words", attractor.name, remedy)
     return str(words).split(" ")
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class RunsByValue:
+    """The runs of a study by the values of one parameter.
+
+    Attributes
+    ----------
+    values : array
+        Value of each part, or the middle of its values, shape [n_parts].
+    of_runs : array
+        Part of each run, shape [n_runs].
+    """
+
+    values: NDArray[Any]
+    of_runs: NDArray[np.int64]
+
+
+def runs_by_value(runs: xarray.DataArray, parameter: str, bins: int) -> RunsByValue:
+    """Return the runs by the values of a parameter: values of a grid, or ``bins`` equal parts of the range of draws.
+
+    Raises
+    ------
+    UnknownName
+        If the study does not vary the parameter.
+    InvalidInput
+        If the number of parts is not positive.
+    """
+    known = [str(name) for name, one in runs.coords.items() if set(one.dims) <= set(runs.dims)]
+    if parameter not in known:
+        raise UnknownName("varied parameter", parameter, known)
+    check_count("bins", bins, "must be a positive whole number", "Leave it out.")
+    values = runs[parameter].broadcast_like(runs).transpose(*runs.dims).values.ravel()
+    if parameter in runs.dims or values.dtype.kind == "U":
+        one, of_runs = np.unique(values, return_inverse=True)
+        return RunsByValue(one, of_runs.reshape(-1))
+    edges = np.linspace(values.min(), values.max(), bins + 1)
+    return RunsByValue(
+        0.5 * (edges[1:] + edges[:-1]), np.clip(np.searchsorted(edges, values, "right") - 1, 0, bins - 1)
+    )

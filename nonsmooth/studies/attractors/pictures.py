@@ -8,39 +8,29 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nonsmooth.plot.arguments import axes_of
-from nonsmooth.plot.lines import beside
 from nonsmooth.studies.attractors.boundary import Boundary
-from nonsmooth.studies.attractors.stability import basin_stability
-from nonsmooth.studies.colours import class_colours
+from nonsmooth.studies.attractors.shares import basin_stability
 from nonsmooth.studies.drawing import draw_study, label_of
+from nonsmooth.studies.plotting import BLUE, MOST_CLASSES, axes_of, class_colours, finish
 
 if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-
-_MOST = 12
-"""Attractors that are drawn at most, those of most starts."""
 _LINE = 72
 """Characters of a title that fit above the axes."""
 
 
 def shares(attractor: xarray.DataArray, ax: Axes | None = None) -> Axes:
-    """Draw the basin stability of each attractor that was found, with its standard error.
+    """Draw the basin stability of each attractor, with its standard error.
 
     Parameters
     ----------
     attractor : DataArray
         The attractors of a study.
     ax : Axes, optional
-        Where; a new figure by default.
-
-    Returns
-    -------
-    Axes
-        The axes.
+        The axes; of a new figure by default.
 
     Raises
     ------
@@ -55,13 +45,12 @@ def shares(attractor: xarray.DataArray, ax: Axes | None = None) -> Axes:
     ax.barh(list(found), width, xerr=error, color=[colours[word] for word in found], capsize=3.0)
     ax.invert_yaxis()
     ax.set_xlim(0.0, 1.0)
-    ax.set_xlabel("basin stability [1], with its standard error")
-    ax.set_title(_largest_share(attractor), fontsize=10)
-    return ax
+    x, title = "basin stability [1], with its standard error", _largest_share(attractor)
+    return finish(ax, x, "", title, grid="", legend=False)
 
 
 def basins(study: xarray.Dataset) -> Figure:
-    """Draw the attractors of a study over its starts, with the runs hatched that did not come to their end.
+    """Draw the attractors of a study over its starts, with failed runs hatched.
 
     Parameters
     ----------
@@ -71,7 +60,7 @@ def basins(study: xarray.Dataset) -> Figure:
     Returns
     -------
     Figure
-        What :func:`draw_study` makes of it.
+        The figure of :func:`draw_study`.
     """
     figure = draw_study(study[["attractor", "status"]])
     figure.suptitle(_largest_share(study.attractor), fontsize=10)
@@ -79,9 +68,9 @@ def basins(study: xarray.Dataset) -> Figure:
 
 
 def largest(stability: Mapping[str, tuple[float, float]]) -> list[str]:
-    """Return the attractors that starts lead to, that of most first, not more than can be told apart in a picture."""
+    """Return the attractors with the largest shares, in their order, as many as a picture distinguishes."""
     found = [word for word, (share, _) in stability.items() if share > 0.0]
-    return sorted(found, key=lambda word: -stability[word][0])[:_MOST]
+    return sorted(found, key=lambda word: -stability[word][0])[:MOST_CLASSES]
 
 
 def _largest_share(attractor: xarray.DataArray) -> str:
@@ -97,33 +86,21 @@ def fractions(found: xarray.Dataset, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     found : Dataset
-        What :func:`basin_fractions` returns.
+        The result of :func:`basin_fractions`.
     ax : Axes, optional
-        Where; a new figure by default.
-
-    Returns
-    -------
-    Axes
-        The axes.
+        The axes; of a new figure by default.
     """
-    ax = axes_of(ax)
-    parameter = str(found.runs.dims[0])
-    along = found[parameter]
-    colours = class_colours(found.sizes["attractor"])
+    ax, parameter = axes_of(ax), str(found.runs.dims[0])
+    along, colours = found[parameter], class_colours(found.sizes["attractor"])
     peaks = np.nan_to_num(found.share.values).max(axis=1)
-    for place in np.argsort(-peaks, kind="stable")[: min(_MOST, np.count_nonzero(peaks))].tolist():
+    for place in np.argsort(-peaks, kind="stable")[: min(MOST_CLASSES, np.count_nonzero(peaks))].tolist():
         one, colour = found.isel(attractor=place), colours[place]
         low, high = one.share - one.error, one.share + one.error
         ax.plot(along, one.share, "o-", markersize=3.0, linewidth=1.3, color=colour, label=one.attractor.item())
         ax.fill_between(along, low, high, color=colour, alpha=0.2, linewidth=0.0)
     ax.set_ylim(-0.02, 1.02)
-    ax.set_xlabel(label_of(along))
-    ax.set_ylabel("share of the starts [1]")
-    ax.set_title(textwrap.fill(_largest_change(found, parameter), _LINE), fontsize=10)
-    ax.grid(color="0.9", linewidth=0.6)
-    ax.set_axisbelow(True)
-    beside(ax)
-    return ax
+    title = textwrap.fill(_largest_change(found, parameter), _LINE)
+    return finish(ax, label_of(along), "share of the starts [1]", title)
 
 
 def _largest_change(found: xarray.Dataset, parameter: str) -> str:
@@ -140,33 +117,22 @@ def _value(value: object) -> str:
 
 
 def uncertainty(found: Boundary, ax: Axes | None = None) -> Axes:
-    """Draw the share of uncertain starts over their distance, and the fit whose slope is the uncertainty exponent.
+    """Draw the share of uncertain starts over their distance, and the fit; its slope is the uncertainty exponent.
 
     Parameters
     ----------
     found : Boundary
-        What :func:`uncertainty_exponent` returns.
+        The result of :func:`uncertainty_exponent`.
     ax : Axes, optional
-        Where; a new figure by default.
-
-    Returns
-    -------
-    Axes
-        The axes.
+        The axes; of a new figure by default.
     """
-    ax = axes_of(ax)
-    share = found.uncertain
+    ax, share = axes_of(ax), found.uncertain
     ax.plot(found.steps, np.exp(found.offset) * found.steps**found.exponent, "-", color="0.4", label="fit")
-    ax.plot(found.steps[share > 0.0], share[share > 0.0], "o", color="#0072b2", label="starts")
+    ax.plot(found.steps[share > 0.0], share[share > 0.0], "o", color=BLUE, label="starts")
     for axis, scale in (ax.xaxis, ax.set_xscale), (ax.yaxis, ax.set_yscale):
         scale("log", base=2)
         axis.set_major_formatter("{x:g}")
     ax.set_ylim(2.0 ** np.floor(np.log2(share[share > 0.0].min())), 1.0)
-    ax.set_xlabel("distance [steps of the grid]")
-    ax.set_ylabel("share with another\nattractor that far away [1]")
     exponent = f"{found.exponent:.3f} ± {found.error:.3f}"
-    ax.set_title(f"Uncertainty exponent {exponent}: a boundary of dimension {found.dimension:.2f}", fontsize=10)
-    ax.grid(color="0.9", linewidth=0.6)
-    ax.set_axisbelow(True)
-    beside(ax)
-    return ax
+    title = f"Uncertainty exponent {exponent}: a boundary of dimension {found.dimension:.2f}"
+    return finish(ax, "distance [steps of the grid]", "share with another\nattractor that far away [1]", title)

@@ -1,4 +1,4 @@
-"""Attractors by recurrences of the stroboscopic map: what repeats, and which runs come to the same points."""
+"""Attractors by recurrences of the stroboscopic map."""
 
 from __future__ import annotations
 
@@ -8,59 +8,56 @@ from typing import TYPE_CHECKING, final
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.checks import is_finite
 from nonsmooth.errors import InvalidInput
-from nonsmooth.studies.attractors.following import Along
-from nonsmooth.studies.attractors.group import Group
 from nonsmooth.studies.attractors.labels import labelled, over_runs
-from nonsmooth.studies.attractors.linkage import linked
-from nonsmooth.studies.attractors.overlap import overlapping
+from nonsmooth.studies.attractors.linkage import linked, overlapping
+from nonsmooth.studies.attractors.matching import Along, Group
+from nonsmooth.studies.inputs import check_positive
 from nonsmooth.studies.periods import periods
 from nonsmooth.studies.records.stroboscope import NAME
 from nonsmooth.studies.status import VALUED
+from nonsmooth.types import Array
 
 if TYPE_CHECKING:
     import xarray
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+Integers = NDArray[np.int64]
 NEAR = 10.0
-"""Points of two runs agree within so many times what points of one run differ by where they repeat: a run that settles
-slowly is farther from its attractor than it moves."""
+"""Tolerance of points of two runs over that of one run: a run that settles is farther from its attractor than it
+moves."""
 
 
 def recurrences(study: xarray.Dataset, tolerance: float = 1e-3, along: Along | None = None) -> xarray.Dataset:
-    """Return the attractor of each run, and after how many periods it repeats.
+    """Find the attractor of each run by recurrences, and the period of its motion.
 
-    A run repeats after n periods where all sections that were kept do, within the tolerance.  Runs of the same n are
-    on one attractor where each of their points agrees within ten times the tolerance, as they may be on their way
-    still, or through points of further runs that do (single linkage).  Runs that do not repeat are on one attractor
-    where their points overlap: half of those of either run, or more, are as near to the other's as nine tenths of these
-    are to each other; a smaller set that lies in a larger one is a part of it.  One that overlaps no other run is
-    "unsettled".
+    A run repeats after n periods if all of its sections do, within the tolerance.  Runs of the same n are on one
+    attractor if all of their points agree within ten times the tolerance, as they may still settle, or through further
+    runs that do (single linkage).  Runs that do not repeat are on one attractor if their points overlap: at least half
+    of the points of either run are as near to the other run as nine tenths of its points are to each other.  A smaller
+    set within a larger one belongs to it.  A run that overlaps no other is "unsettled".
 
     Parameters
     ----------
     study : Dataset
         A study with the record of a :class:`Stroboscope`.
     tolerance : float
-        Greatest difference of a coordinate with which a run repeats, in units of its scale: of lengths the size of the
-        body, of velocities that of a fall through it.
+        Largest difference of coordinates that repeat, in units of their scales: the size of the body, and the speed of
+        a fall through it.
     along : Along, optional
-        A parameter along which attractors are told apart value by value, and followed.
+        A parameter: attractors are found for each of its values, and matched.
 
     Returns
     -------
     Dataset
         ``attractor``, numbers with names in ``flag_meanings``, the largest first, -1 for runs without records; and
-        ``period``, 0 where a run does not repeat, -1 for runs without records.  Add them by ``study.assign(...)``.
+        ``period``, 0 if a run does not repeat, -1 for runs without records.  Add them by ``study.assign(...)``.
 
     Raises
     ------
     InvalidInput
         If the study has no such record, or a number is not valid.
     UnknownName
-        If the parameter is none that is varied.
+        If the study does not vary the parameter.
 
     References
     ----------
@@ -70,15 +67,14 @@ def recurrences(study: xarray.Dataset, tolerance: float = 1e-3, along: Along | N
     if NAME not in study:
         remedy = "Record studies.Stroboscope(period=..., within=...)."
         raise InvalidInput("recurrences", f"needs the record {NAME}", list(map(str, study.data_vars)), remedy)
-    if not (is_finite(tolerance) and tolerance > 0.0):
-        raise InvalidInput("recurrences: tolerance", "must be positive and finite", tolerance, "For example 1e-3.")
+    check_positive("recurrences: tolerance", tolerance, "For example 1e-3.")
     record = study[NAME]
     points = record.values.reshape(-1, *record.shape[-2:]) / np.asarray(record.attrs["scales"])
     valued = np.isin(study.status.values.ravel(), VALUED)
     after = np.where(valued, periods(points, tolerance), -1)
     found = labelled(study, valued, _Recurrences(points, after, tolerance), along)
-    told = {"units": "1", "long_name": "periods after which it repeats, 0 where it does not"}
-    return found.assign(period=over_runs(study, after.astype("int16"), told))
+    attributes = {"units": "1", "long_name": "periods after which it repeats, 0 where it does not"}
+    return found.assign(period=over_runs(study, after.astype("int16"), attributes))
 
 
 @final
@@ -86,11 +82,11 @@ def recurrences(study: xarray.Dataset, tolerance: float = 1e-3, along: Along | N
 class _Recurrences:
     """Groups runs: ``points`` [n_runs, n_sections, n_coordinates] over their scales, ``after`` [n_runs] the periods."""
 
-    points: Floats
-    after: Ints
+    points: Array
+    after: Integers
     tolerance: float
 
-    def __call__(self, runs: Ints) -> list[Group]:
+    def __call__(self, runs: Integers) -> list[Group]:
         """Return the groups of some runs."""
         found, after = list[Group](), self.after[runs]
         for n in np.unique(after[after > 0]).tolist():
@@ -100,7 +96,7 @@ class _Recurrences:
             found.append(Group(loose[members], self.points[loose[members[0]]], 0))
         return found
 
-    def _periodic(self, runs: Ints, n: int) -> list[Group]:
+    def _periodic(self, runs: Integers, n: int) -> list[Group]:
         looks = self.points[runs]
         whole = looks.shape[1] // n
         means = looks[:, looks.shape[1] - whole * n :].reshape(len(runs), whole, n, -1).mean(axis=1)

@@ -1,4 +1,4 @@
-"""Directions in which a state can be moved: unit quaternions stay unit, closed contacts closed."""
+"""Chart: directions in which a state can be moved while quaternions stay unit and closed contacts stay closed."""
 
 from __future__ import annotations
 
@@ -10,22 +10,72 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import RigidNormalLaw, StatefulFrictionLaw, TractionLaw
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
-from nonsmooth.studies.derivatives.coordinates import TURNS, labels_of, labels_within, quaternions_of
-from nonsmooth.studies.derivatives.held import Held
+from nonsmooth.studies.derivatives.coordinates import (
+    TURNS,
+    labels_of,
+    labels_within,
+    quaternions_of,
+    scales_of,
+    values_of,
+)
 from nonsmooth.system.system import System
+from nonsmooth.types import Array
 
-Floats = NDArray[np.float64]
 _PROBE = 1e-6
-"""Change that derivatives of what is held are taken with, in units of scales."""
+"""Step of the derivatives of gaps and rates, in units of scales."""
 _DEPENDS = 1e-6
-"""Part of the largest derivative below which one is none,"""
+"""Derivatives below this part of the largest one count as zero."""
 _EARLIER = 0.1
-"""and of the largest that is left, above which the first one is taken: so that neighbours have the same directions."""
+"""The first direction above this part of the largest one is eliminated: neighbours then have the same directions."""
 _MOST = 20
 """Steps of Newton's method."""
+
+
+@final
+@dataclass(frozen=True)
+class ClosedContacts:
+    """Contacts of rigid bodies that are closed in a state.
+
+    Attributes
+    ----------
+    closed, stuck : array
+        Numbers of the closed contacts, and of those that stick, shapes [n_closed] and [n_stuck].
+    """
+
+    closed: NDArray[np.int64]
+    stuck: NDArray[np.int64]
+
+    @classmethod
+    def at(cls, model: Model, state: State) -> ClosedContacts:
+        """Return the closed contacts of a state.
+
+        Raises
+        ------
+        InvalidInput
+            If the law of a closed contact has inner states, which are no coordinates.
+        """
+        contacts = model.system.contacts
+        for number in np.flatnonzero(state.modes != Mode.OPEN).tolist():
+            if isinstance(contacts[number].friction, (StatefulFrictionLaw, TractionLaw)):
+                raise InvalidInput(
+                    f"section: the {contacts[number]}",
+                    "must be open there, as its law has inner states",
+                    "closed",
+                    "Choose a section where it is open, or a law without inner states.",
+                )
+        rigid = np.array([isinstance(contact.normal, RigidNormalLaw) for contact in contacts], dtype=bool)
+        closed = rigid & (state.modes != Mode.OPEN)
+        return cls(np.flatnonzero(closed), np.flatnonzero(closed & (state.modes == Mode.STICK)))
+
+    def residual(self, model: Model, state: State) -> Array:
+        """Return gaps of closed contacts [m], their rates, and slips of contacts that stick [m/s]; all zero if held."""
+        gaps, rates = model.contact_rates(state)
+        return np.concatenate([gaps[self.closed], rates[self.closed, 0], rates[self.stuck, 1:].ravel()])
 
 
 @final
@@ -33,34 +83,34 @@ _MOST = 20
 class Chart:
     """Directions about a state, in units of the scales of the bodies.
 
-    Closed contacts take directions away: along the rest a state moves freely, and those that were taken away follow,
-    so that gaps stay closed, and what sticks goes on sticking.
+    Each closed contact takes directions away.  A state moves freely along the others; the eliminated directions follow,
+    so that gaps stay closed and sticking contacts keep sticking.
 
     Attributes
     ----------
     basis : array
-        A direction a column, shape [n_q + n_u, m].
+        A free direction a column, shape [n_q + n_u, m].
     names : tuple of str
-        What each moves: a coordinate or a velocity, or the turn of a body.
+        The coordinate, velocity or turn of a body that each direction changes.
     quaternions : tuple of int
         Where the quaternions begin.
-    held : Held
+    contacts : ClosedContacts
         The closed contacts.
     following : array
-        The directions that follow, shape [n_q + n_u, k].
+        The eliminated directions, shape [n_q + n_u, k].
     inverse : array
-        How far these go for what is left of gaps and rates, shape [k, n_held].
+        Steps along these that remove a residual of gaps and rates, shape [k, n_residual].
     ignored : array
-        Directions in which states are taken for the same, shape [n_q + n_u, s].
+        Directions along which states count as equal, shape [n_q + n_u, s].
     """
 
-    basis: Floats
+    basis: Array
     names: tuple[str, ...]
     quaternions: tuple[int, ...]
-    held: Held
-    following: Floats
-    inverse: Floats
-    ignored: Floats
+    contacts: ClosedContacts
+    following: Array
+    inverse: Array
+    ignored: Array
 
     @classmethod
     def at(
@@ -69,7 +119,7 @@ class Chart:
         state: State,
         within: Collection[str] | None = None,
         without: Collection[str] = (),
-        ignored: Floats | None = None,
+        ignored: Array | None = None,
     ) -> Chart:
         """Return the directions about a state.
 
@@ -80,100 +130,94 @@ class Chart:
         state : State
             The state.
         within : collection of str, optional
-            Names of the coordinates and velocities that may change ("z", or "ball.z" where only that of one body is
-            meant), and of turns about a body's own axes ("rx", "ry", "rz"); all by default.
+            Names of the coordinates and velocities that may change ("z", or "ball.z" for one body), and of turns about
+            a body's own axes ("rx", "ry", "rz"); all by default.
         without : collection of str
-            Whole names of those that do not ("ball.z").
+            Whole names of coordinates that stay as they are ("ball.z").
         ignored : array, optional
-            Directions in which states are taken for the same, shape [n_q + n_u, s].
+            Directions along which states count as equal, shape [n_q + n_u, s].
 
         Raises
         ------
         UnknownName
             If a coordinate has no such name.
         InvalidInput
-            If the law of a closed contact has inner states.
+            If the law of a closed contact has inner states, or closed contacts leave no direction free.
         """
-        system, held = model.system, Held.at(model, state)
-        columns, names = _columns(system, state, within, without)
-        # what may not change tells nothing of how far something went
-        same = (
-            np.zeros((len(columns), 0)) if ignored is None else np.where(np.any(columns, axis=1)[:, None], ignored, 0.0)
-        )
+        contacts, quaternions = ClosedContacts.at(model, state), tuple(quaternions_of(model.system).values())
+        columns, names = _columns(model.system, state, within, without)
+        # a direction is ignored only as far as coordinates that may change have a part in it
+        changes = np.any(columns, axis=1)[:, None]
+        same = np.zeros((len(columns), 0)) if ignored is None else np.where(changes, ignored, 0.0)
         kept = _independent(columns, same)
         columns, names = columns[:, kept], tuple(names[i] for i in kept)
-        if not names and len(held.closed):
+        if not names and len(contacts.closed):
             rule = (
                 "must leave a coordinate or velocity free besides the one of the section, as contacts are closed there"
             )
             raise InvalidInput("section: within", rule, within, "Name more coordinates, or choose another section.")
-        quaternions = quaternions_of(system)[1]
-        whole = cls(columns, names, quaternions, held, columns[:, :0], np.zeros((0, 0)), same)
+        whole = cls(columns, names, quaternions, contacts, columns[:, :0], np.zeros((0, 0)), same)
         rows = whole._slopes(model, state)
-        follow = _following(rows)
+        follow = _eliminated(rows)
         free = [i for i in range(len(names)) if i not in follow]
         inverse = np.asarray(np.linalg.pinv(rows[:, follow], rcond=_DEPENDS), dtype=np.float64)
         chosen = tuple(names[i] for i in free)
-        return cls(columns[:, free], chosen, quaternions, held, columns[:, follow], inverse, same)
+        return cls(columns[:, free], chosen, quaternions, contacts, columns[:, follow], inverse, same)
 
-    def moved(self, model: Model, state: State, way: Floats) -> State:
-        """Return a state moved along the directions, shape [m]; what is closed in it is closed in this model."""
+    def moved(self, model: Model, state: State, way: Array) -> State:
+        """Return a state moved along the directions, shape [m], with its closed contacts closed in this model."""
         return self.held_in(model, self._stepped(state, self.basis @ way))
 
     def held_in(self, model: Model, state: State) -> State:
-        """Return a state near another one, in which contacts are as closed as they can be in a model."""
+        """Return the nearest state whose closed contacts are closed in a model, as far as Newton's method reaches."""
         if not self.following.size:
             return state
-        left = self.held.left(model, state)
+        left = self.contacts.residual(model, state)
         for _ in range(_MOST):
             there = self._stepped(state, -self.following @ (self.inverse @ left))
-            smaller = self.held.left(model, there)
+            smaller = self.contacts.residual(model, there)
             if not np.max(np.abs(smaller)) < np.max(np.abs(left)):
                 break
             state, left = there, smaller
         return state
 
-    def between(self, one: State, two: State) -> Floats:
-        """Return how far along the directions the second state is from the first, shape [m]."""
+    def between(self, one: State, two: State) -> Array:
+        """Return the coefficients of the difference of two states along the free directions, shape [m]."""
         columns = np.column_stack([self.basis, self.ignored])
         return self._along(columns, one, two)[: self.basis.shape[1]]
 
-    def following_between(self, one: State, two: State) -> Floats:
-        """Return how far along the directions that follow the second state is from the first, shape [k]."""
+    def following_between(self, one: State, two: State) -> Array:
+        """Return the coefficients of the difference of two states along the eliminated directions, shape [k]."""
         columns = np.column_stack([self.following, self.basis, self.ignored])
         return self._along(columns, one, two)[: self.following.shape[1]]
 
-    def _along(self, columns: Floats, one: State, two: State) -> Floats:
+    def _along(self, columns: Array, one: State, two: State) -> Array:
         """Return the coefficients of columns in the difference of two states, by least squares."""
         q = two.q.copy()
         for start in self.quaternions:
             # after a whole turn a body has the other one of the two quaternions of its orientation
             if q[start : start + 4] @ one.q[start : start + 4] < 0.0:
                 q[start : start + 4] *= -1.0
-        x = np.concatenate([q - one.q, two.u - one.u])
-        return np.asarray(np.linalg.lstsq(columns, x, rcond=None)[0])
+        return np.asarray(np.linalg.lstsq(columns, np.concatenate([q - one.q, two.u - one.u]), rcond=None)[0])
 
-    def _stepped(self, state: State, change: Floats) -> State:
-        x = np.concatenate([state.q, state.u]) + change
+    def _stepped(self, state: State, change: Array) -> State:
+        x = values_of(state) + change
         for start in self.quaternions:
             x[start : start + 4] /= np.linalg.norm(x[start : start + 4])
         return dataclasses.replace(state, q=x[: len(state.q)], u=x[len(state.q) :])
 
-    def _slopes(self, model: Model, state: State) -> Floats:
-        """Return the derivatives of what is held along all directions, shape [n_held, m]."""
+    def _slopes(self, model: Model, state: State) -> Array:
+        """Return the derivatives of gaps and rates along all directions, shape [n_residual, m]."""
 
-        def left(change: Floats) -> Floats:
-            return self.held.left(model, self._stepped(state, change))
+        def left(change: Array) -> Array:
+            return self.contacts.residual(model, self._stepped(state, change))
 
         found = [(left(_PROBE * way) - left(-_PROBE * way)) / (2.0 * _PROBE) for way in self.basis.T]
-        return np.array(found).reshape(len(found), -1).T if len(self.held.closed) else np.zeros((0, len(found)))
+        return np.array(found).reshape(len(found), -1).T if len(self.contacts.closed) else np.zeros((0, len(found)))
 
 
-def _following(rows: Floats) -> list[int]:
-    """Return directions that follow all others, as many as there are independent rows.
-
-    One after the other is taken, and what it does is taken off the rest.
-    """
+def _eliminated(rows: Array) -> list[int]:
+    """Return as many directions as there are independent rows, by Gram-Schmidt with pivots."""
     # gaps and rates have other units
     sizes = np.linalg.norm(rows, axis=1, keepdims=True)
     left, found = rows / np.where(sizes > 0.0, sizes, 1.0), list[int]()
@@ -190,16 +234,15 @@ def _following(rows: Floats) -> list[int]:
         left[:, i] = 0.0
 
 
-def _independent(columns: Floats, same: Floats) -> list[int]:
-    """Return the directions that are left of some where others are taken for none, in their order."""
+def _independent(columns: Array, same: Array) -> list[int]:
+    """Return the columns that stay independent modulo the columns of ``same``, in their order."""
     basis, kept = np.linalg.qr(same)[0], list[int]()
     while True:
-        # what the others leave of each
         left = columns - basis @ (basis.T @ columns)
-        shares = np.linalg.norm(left, axis=0) / np.linalg.norm(columns, axis=0)
-        shares[kept] = 0.0
-        i = int(np.argmax(shares)) if len(shares) else 0
-        if not len(shares) or shares[i] <= _DEPENDS:
+        parts = np.linalg.norm(left, axis=0) / np.linalg.norm(columns, axis=0)
+        parts[kept] = 0.0
+        i = int(np.argmax(parts)) if len(parts) else 0
+        if not len(parts) or parts[i] <= _DEPENDS:
             return sorted(kept)
         kept.append(i)
         basis = np.column_stack([basis, left[:, i] / np.linalg.norm(left[:, i])])
@@ -207,19 +250,22 @@ def _independent(columns: Floats, same: Floats) -> list[int]:
 
 def _columns(
     system: System, state: State, within: Collection[str] | None, without: Collection[str]
-) -> tuple[Floats, tuple[str, ...]]:
+) -> tuple[Array, tuple[str, ...]]:
     """Return all directions about a state that may change, shape [n_q + n_u, m], and their names."""
-    labels, chosen = list(labels_of(system)), labels_within(system, within)
-    scale = np.concatenate([*(b.scales[0] for b in system.bodies), *(b.scales[1] for b in system.bodies)])
-    y, (turning, starts) = np.concatenate([state.q, state.u]), quaternions_of(system)
-    columns, names = list[Floats](), list[str]()
-    for i, (body, label) in enumerate(labels):
+    chosen, scale, y, quaternions = (
+        labels_within(system, within),
+        scales_of(system),
+        values_of(state),
+        quaternions_of(system),
+    )
+    columns, names = list[Array](), list[str]()
+    for i, (body, label, _) in enumerate(labels_of(system)):
         name = f"{body}.{label}"
         free = label in chosen[body] and name not in without
-        if free and not any(start <= i < start + 4 for start in starts):
+        if free and not any(start <= i < start + 4 for start in quaternions.values()):
             columns.append(scale[i] * np.eye(len(y))[i])
             names.append(name)
-    for body, start in zip(turning, starts, strict=True):
+    for body, start in quaternions.items():
         for turn, column in zip(TURNS, _turns(y[start : start + 4]), strict=True):
             if turn in chosen[body]:
                 columns.append(np.zeros(len(y)))
@@ -228,7 +274,7 @@ def _columns(
     return np.array(columns).reshape(-1, len(y)).T, tuple(names)
 
 
-def _turns(q: Floats) -> Floats:
-    """Return how a unit quaternion changes with turns about the three axes of its body, shape [3, 4]."""
+def _turns(q: Array) -> Array:
+    """Return the change of a unit quaternion per turn about each of the three axes of its body, shape [3, 4]."""
     w, x, y, z = q
     return 0.5 * np.array([[-x, w, z, -y], [-y, -z, w, x], [-z, y, -x, w]])

@@ -1,38 +1,52 @@
-"""The names of the coordinates and velocities of a system, and where they stand."""
+"""Names, units, scales and places of the coordinates and velocities of a system."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection
 
 import numpy as np
 
 from nonsmooth.errors import UnknownName
+from nonsmooth.solution.state import State
 from nonsmooth.system.system import System
+from nonsmooth.types import Array
 
 TURNS = ("rx", "ry", "rz")
-"""Turns of a body with a quaternion about its own axes, which stand for the quaternion's four numbers."""
+"""Turns of a body about its own axes; they stand for the four numbers of its quaternion."""
 
 
-def labels_of(system: System) -> Iterator[tuple[str, str]]:
-    """Give body and name of each coordinate, then of each velocity."""
-    for kind in ("q_labels", "u_labels"):
-        for name, body in zip(system.names.bodies, system.bodies, strict=True):
-            yield from ((name, label) for label, _ in getattr(body, kind))
+def values_of(state: State) -> Array:
+    """Return coordinates, then velocities, of a state, shape [n_q + n_u]."""
+    return np.concatenate([state.q, state.u])
 
 
-def quaternions_of(system: System) -> tuple[tuple[str, ...], tuple[int, ...]]:
-    """Return the bodies that have a quaternion, and where these begin."""
+def scales_of(system: System) -> Array:
+    """Return the scale of each coordinate, then of each velocity, in their units, shape [n_q + n_u]."""
+    return np.concatenate([body.scales[i] for i in (0, 1) for body in system.bodies])
+
+
+def labels_of(system: System) -> list[tuple[str, str, str]]:
+    """Return body, name and unit of each coordinate, then of each velocity."""
+    named = list(zip(system.names.bodies, system.bodies, strict=True))
+    coordinates = [(name, *one) for name, body in named for one in body.q_labels]
+    return coordinates + [(name, *one) for name, body in named for one in body.u_labels]
+
+
+def quaternions_of(system: System) -> dict[str, int]:
+    """Return where the quaternion of each body that has one begins among the coordinates."""
     firsts = np.cumsum([0, *(body.n_q for body in system.bodies)]).tolist()
-    found = [
-        (name, first + body.quaternion)
-        for name, body, first in zip(system.names.bodies, system.bodies, firsts, strict=False)
-        if body.quaternion >= 0
-    ]
-    return tuple(name for name, _ in found), tuple(start for _, start in found)
+    rows = zip(system.names.bodies, system.bodies, firsts, strict=False)
+    return {name: first + body.quaternion for name, body, first in rows if body.quaternion >= 0}
 
 
 def labels_within(system: System, within: Collection[str] | None) -> dict[str, set[str]]:
-    """Return the names that may change, by body."""
+    """Return the names of ``within`` by body; all names by default.
+
+    Raises
+    ------
+    UnknownName
+        If a coordinate has no such name.
+    """
     known = {
         name: {label for label, _ in (*body.q_labels, *body.u_labels)} | (set(TURNS) if body.quaternion >= 0 else set())
         for name, body in zip(system.names.bodies, system.bodies, strict=True)
@@ -50,32 +64,30 @@ def labels_within(system: System, within: Collection[str] | None) -> dict[str, s
 
 
 def coordinate_number(system: System, name: str) -> int:
-    """Return where a coordinate or velocity stands behind one another with all coordinates and velocities.
+    """Return the place of a coordinate or velocity, "z" or "ball.z", in :func:`values_of` a state.
 
     Raises
     ------
     UnknownName
         If there is none of that name.
     """
-    labels = list(labels_of(system))
-    for i, (body, label) in enumerate(labels):
+    labels = labels_of(system)
+    for i, (body, label, _) in enumerate(labels):
         if name in (label, f"{body}.{label}"):
             return i
-    raise UnknownName("coordinate", name, {f"{body}.{label}" for body, label in labels})
+    raise UnknownName("coordinate", name, {f"{body}.{label}" for body, label, _ in labels})
 
 
 def whole_name(system: System, number: int) -> str:
-    """Return the name of a coordinate or velocity with that of its body, "ball.z"."""
-    return ".".join(list(labels_of(system))[number])
+    """Return the name of a coordinate or velocity with its body, "ball.z"."""
+    return ".".join(labels_of(system)[number][:2])
 
 
 def unit(system: System, number: int) -> str:
     """Return the unit of a coordinate or velocity."""
-    bodies = system.bodies
-    labels = [*(one for body in bodies for one in body.q_labels), *(one for body in bodies for one in body.u_labels)]
-    return labels[number][1]
+    return labels_of(system)[number][2]
 
 
-def turns(system: System, number: int) -> bool:
-    """Tell whether a coordinate is one of the four numbers of a quaternion."""
-    return any(start <= number < start + 4 for start in quaternions_of(system)[1])
+def is_in_quaternion(system: System, number: int) -> bool:
+    """Return True if a coordinate is one of the four numbers of a quaternion."""
+    return any(start <= number < start + 4 for start in quaternions_of(system).values())

@@ -12,20 +12,21 @@ from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.files.scenario import FileScenario
 from nonsmooth.interfaces import Engine, Scenario
 from nonsmooth.runs.model import Model
+from nonsmooth.studies.plotting import with_unit
 from nonsmooth.system.system import System
 
 EXACT = EventDriven(tolerance=1e-12, impact_tolerance=1e-12, time_tolerance=1e-14)
-"""What derivatives are taken with: what the default tolerances leave at an event is as large as a small difference."""
+"""Engine of derivatives: the default tolerances leave errors at events that are as large as small differences."""
 _UNUSED = 1.0
-"""End time of a system in a family, which says itself how far it runs [s]."""
+"""End time that a file of a system needs; studies run each model to times of their own [s]."""
 _KEPT = 64
-"""Models that are kept at most: those of the differences about one point, and of some more."""
+"""Cached models at most: those of the differences about one point, and some more."""
 
 
 @final
 @dataclass(frozen=True)
 class Family:
-    """What makes systems out of values of parameters.
+    """Systems that differ in the values of parameters.
 
     Attributes
     ----------
@@ -34,7 +35,7 @@ class Family:
     values : mapping of str to float
         The values of all parameters that may be changed.
     engine : Engine
-        What integrates the systems; :data:`EXACT` by default.
+        Integrates the systems; :data:`EXACT` by default.
     units : mapping of str to str
         Units of the parameters, as far as they are known.
     """
@@ -47,10 +48,10 @@ class Family:
 
     @classmethod
     def of(cls, what: Varied, engine: Engine = EXACT) -> Family:
-        """Return the family of a scenario, whose parameters are those that have a number; a family as it is.
+        """Return the family of a scenario or a system; a family as it is.
 
-        Parameters of a system are all numbers of the file that :func:`save_system` would write, by dotted key:
-        "bodies.ball.radius", "bodies.ball.start.u.2", "laws.coulomb.friction".
+        The parameters of a scenario are those that have a number.  The parameters of a system are all numbers of the
+        file that :func:`save_system` would write, by dotted key: "bodies.ball.radius", "laws.coulomb.friction".
 
         Raises
         ------
@@ -66,7 +67,7 @@ class Family:
         known = {name: float(value) for name, value in scenario.values.items() if is_finite(value)}
 
         def make(**values: float) -> System:
-            # what the scenario derives from others goes on following them, unless it is changed itself
+            # parameters that the scenario derives from others keep following them, unless they are changed themselves
             return scenario.varied(**{name: x for name, x in values.items() if x != known[name]}).build()
 
         units = {name: rule.unit for name, rule in scenario.varies.items() if name in known}
@@ -86,8 +87,7 @@ class Family:
 
     def label(self, name: str) -> str:
         """Return the name of a parameter with its unit, for the axis of a picture."""
-        unit = self.units.get(name, "")
-        return f"{name} [{unit}]" if unit not in ("", "1") else name
+        return with_unit(name, self.units.get(name, ""))
 
     def at(self, **changed: float) -> Family:
         """Return the family with other values, which shares its models."""
@@ -96,7 +96,7 @@ class Family:
         return replace(self, values={**self.values, **changed})
 
     def model(self, **changed: float) -> Model:
-        """Return the model of the system with some values changed; it may start elsewhere than where it is placed."""
+        """Return the model of the system with some values changed; it may start in any state."""
         values = self.at(**changed).values
         key = tuple(values.values())
         if key not in self._models:
@@ -107,4 +107,4 @@ class Family:
 
 
 Varied: TypeAlias = Scenario | System | Family
-"""What has numbers that can be varied."""
+"""A scenario, a system or a family: its numbers can be varied."""

@@ -1,4 +1,4 @@
-"""Sensitivities: how the state at given times changes with parameters, through flow, impacts, stick and slip."""
+"""Sensitivities: derivatives of states at given times by parameters, through flow, impacts, stick and slip."""
 
 from __future__ import annotations
 
@@ -7,65 +7,66 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from nonsmooth.checks import floats
 from nonsmooth.errors import InvalidInput
 from nonsmooth.runs.model import Model
+from nonsmooth.studies.derivatives.coordinates import values_of
+from nonsmooth.studies.derivatives.differences import BACKWARD, CENTRAL, FORWARD, OrderOfEvents, slope, steady
 from nonsmooth.studies.derivatives.family import Family, Varied
-from nonsmooth.studies.derivatives.passage import Signature, named, passage
-from nonsmooth.studies.derivatives.slope import BACKWARD, CENTRAL, FORWARD, OrderOfEvents, Stencil, slope, steady
+from nonsmooth.studies.derivatives.flow import Signature, flow, named
+from nonsmooth.studies.inputs import rising_times
+from nonsmooth.types import Array
 
-Floats = NDArray[np.float64]
 _STEPS = (1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6)
-"""Changes of a parameter that derivatives are tried with, over its value; of a parameter that is 0, in its unit."""
+"""Steps of the differences, relative to the value of the parameter; in its unit if it is 0."""
 
 
 class NotDifferentiable(InvalidInput):
-    """A state has no derivative with respect to a parameter: the smallest change reorders events."""
+    """A state has no derivative by a parameter: the smallest change reorders events."""
 
 
 @final
 @dataclass(frozen=True)
 class Sensitivity:
-    """Derivatives of a motion with respect to parameters.
+    """Derivatives of a motion by parameters.
 
     Attributes
     ----------
     family : Family
-        What was differentiated, at its values.
+        The systems, at the values of the parameters.
     t : array
         Times [s], shape [n].
     parameters : tuple of str
-        With respect to what.
+        Names of the parameters.
     q, u : array
         Coordinates and velocities there, shapes [n, n_q] and [n, n_u].
     q_by, u_by : array
         Their derivatives, shapes [n, n_q, p] and [n, n_u, p], in units of q and u over that of the parameter.
     error : array
-        By how much those of the next smaller step differ, relative to the largest one, per parameter; nan where only
-        one step keeps the order of events; shape [p].
+        Difference from the derivatives of the next smaller step, relative to the largest one, per parameter; nan if
+        only one step keeps the order of events; shape [p].
     events : array
-        Times of the events up to the last of the times [s], where derivatives jump.
+        Times of the events up to the last of the times [s]: derivatives jump there.
     """
 
     family: Family
-    t: Floats
+    t: Array
     parameters: tuple[str, ...]
-    q: Floats
-    u: Floats
-    q_by: Floats
-    u_by: Floats
-    error: Floats
-    events: Floats
+    q: Array
+    u: Array
+    q_by: Array
+    u_by: Array
+    error: Array
+    events: Array
 
 
 def sensitivity(what: Varied, parameters: Sequence[str], *, at: ArrayLike) -> Sensitivity:
-    """Return how the states at given times change with parameters.
+    """Differentiate the states at given times by parameters.
 
-    Runs with parameters a little changed pass the same events at other times, to which the derivative is due where a
-    velocity jumps; differences of fourth order of whole runs, each with its events located, hold all of it.  A change
-    that reorders events, adds some or takes some away is made smaller; where that does not help there is none.
+    A changed parameter shifts the times of events, and with them the jumps of velocities.  Differences of fourth order
+    of whole runs, each with its events located, contain this shift.  A change that reorders, adds or removes events is
+    made smaller, until none is left.
 
     Parameters
     ----------
@@ -74,7 +75,7 @@ def sensitivity(what: Varied, parameters: Sequence[str], *, at: ArrayLike) -> Se
     parameters : sequence of str
         Names of parameters.
     at : array
-        Times, rising [s], shape [n].  Just where a velocity jumps it has no derivative.
+        Times, rising [s], shape [n].  At the instant of a jump a velocity has no derivative.
 
     Raises
     ------
@@ -83,23 +84,17 @@ def sensitivity(what: Varied, parameters: Sequence[str], *, at: ArrayLike) -> Se
     InvalidInput
         If times do not rise from 0.
     NotDifferentiable
-        If the smallest change of a parameter reorders events; it says which.
+        If the smallest change of a parameter reorders events; the message names them.
     """
     if isinstance(parameters, str):
         remedy = f'For example ("{parameters}",).'
         raise InvalidInput("sensitivity: parameters", "must be a list of names", parameters, remedy)
-    times = np.atleast_1d(floats("sensitivity: at", at))
-    if not (len(times) and times[0] > 0.0 and np.all(np.diff(times) > 0.0)):
-        raise InvalidInput("sensitivity: at", "must be positive, rising times", times.tolist(), "Give them in [s].")
+    times = rising_times("sensitivity: at", at)
     family = Family.of(what)
-    states, expected, events = _course(family.model(), times)
-    columns, errors = list[Floats](), list[float]()
-    for name in parameters:
-        column, error = _steady(family, name, times, expected)
-        columns.append(column)
-        errors.append(error)
+    states, expected, events = _states(family.model(), times)
+    found = [_steady(family, name, times, expected) for name in parameters]
     n_q = len(family.model().start.q)
-    by = np.stack(columns, axis=-1) if columns else np.zeros((*states.shape, 0))
+    by = np.stack([column for column, _ in found], axis=-1) if found else np.zeros((*states.shape, 0))
     return Sensitivity(
         family,
         times,
@@ -108,24 +103,25 @@ def sensitivity(what: Varied, parameters: Sequence[str], *, at: ArrayLike) -> Se
         states[:, n_q:],
         by[:, :n_q],
         by[:, n_q:],
-        np.array(errors),
+        np.array([error for _, error in found]),
         events,
     )
 
 
-def _course(model: Model, times: Floats) -> tuple[Floats, Signature, Floats]:
-    """Return the states at times, shape [n, n_q + n_u], all events, between which the times are marks, and when."""
-    state, rows, told, when = model.start, list[Floats](), list[tuple[int, int]](), list[float]()
+def _states(model: Model, times: Array) -> tuple[Array, Signature, Array]:
+    """Return the states at times, shape [n, n_q + n_u], the events between them, and the times of these [s]."""
+    state, rows, passed, when = model.start, list[Array](), list[tuple[int, int]](), list[float]()
     for time in times.tolist():
-        piece = passage(model, state, time)
+        piece = flow(model, state, time)
         state = piece.state
-        rows.append(np.concatenate([state.q, state.u]))
-        told += [*piece.signature, (-1, -1)]
+        rows.append(values_of(state))
+        # a mark between events tells on which side of a time they are
+        passed += [*piece.signature, (-1, -1)]
         when += piece.times
-    return np.array(rows), tuple(told), np.array(when)
+    return np.array(rows), tuple(passed), np.array(when)
 
 
-def _steady(family: Family, name: str, times: Floats, expected: Signature) -> tuple[Floats, float]:
+def _steady(family: Family, name: str, times: Array, expected: Signature) -> tuple[Array, float]:
     value = family[name]
     unit = abs(value) if value else 1.0
     try:
@@ -135,15 +131,14 @@ def _steady(family: Family, name: str, times: Floats, expected: Signature) -> tu
     return found, differs
 
 
-def _slope(family: Family, name: str, times: Floats, expected: Signature, step: float) -> Floats:
-    """Return the derivatives with a step; from one side where the parameter has no other."""
+def _slope(family: Family, name: str, times: Array, expected: Signature, step: float) -> Array:
+    """Return the derivatives with a step; one-sided if the parameter has values on one side only."""
 
-    def sampled(change: float) -> tuple[Floats, Signature]:
-        return _course(family.model(**{name: family[name] + change}), times)[:2]
+    def sampled(change: float) -> tuple[Array, Signature]:
+        return _states(family.model(**{name: family[name] + change}), times)[:2]
 
     trouble: InvalidInput | None = None
-    stencils: tuple[Stencil, ...] = (CENTRAL, FORWARD, BACKWARD)
-    for stencil in stencils:
+    for stencil in (CENTRAL, FORWARD, BACKWARD):
         try:
             return slope(sampled, step, expected, stencil)
         except InvalidInput as error:

@@ -1,4 +1,4 @@
-"""Parameters fitted to what was measured, by least squares."""
+"""Parameters fitted to measurements by least squares."""
 
 from __future__ import annotations
 
@@ -7,63 +7,64 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, final
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from nonsmooth.checks import check_callable, floats, is_finite
 from nonsmooth.errors import InvalidInput, RunFailed
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.family import Family, Varied
-from nonsmooth.studies.derivatives.passage import passage
+from nonsmooth.studies.derivatives.flow import flow
+from nonsmooth.studies.inputs import rising_times
+from nonsmooth.types import Array
 
 if TYPE_CHECKING:
     from scipy.optimize import OptimizeResult
 
-Floats = NDArray[np.float64]
 Observe = Callable[[State], Any]
 _STEP = 1e-5
-"""Change of a parameter over its range in differences: of least squares, which need no more."""
-_TOLD = 1e-7
-"""Effect over the largest one below which it is round-off: that of runs is 1e-12, over the step."""
+"""Step of the differences of least squares, relative to the range of the parameter."""
+_ROUND_OFF = 1e-7
+"""Relative effect of a parameter below which it is round-off: that of runs, 1e-12, over the step."""
 _REFINED = 3
-"""Points from which the search begins."""
+"""Starting points that are refined."""
 
 
 @final
 @dataclass(frozen=True)
 class Fit:
-    """A fit.
+    """Parameters fitted to measurements.
 
     Attributes
     ----------
     family : Family
-        What was fitted, at the values found.
+        The systems, at the values found.
     observe : callable
-        ``observe(state)`` returns what was measured of a state.
+        ``observe(state)`` returns the observables of a state.
     values : mapping of str to float
-        The parameters found.
+        The fitted parameters.
     standard_errors : mapping of str to float
-        Of each, from the covariance.
+        Standard error of each parameter, from the covariance.
     covariance : array
-        Of the parameters, shape [p, p].
+        Covariance of the parameters, shape [p, p].
     t : array
         Times [s], shape [n].
     measured, modelled : array
-        What was measured, and what the fitted system has, shape [n, k].
+        Observables as measured, and of the fitted system, shape [n, k].
     deviation : float
-        Standard deviation of their difference, in the unit of what was measured.
+        Standard deviation of their difference, in the unit of the measurements.
     message : str
-        Why the search ended.
+        Reason for the end of the search.
     """
 
     family: Family
     observe: Observe
     values: Mapping[str, float]
     standard_errors: Mapping[str, float]
-    covariance: Floats
-    t: Floats
-    measured: Floats
-    modelled: Floats
+    covariance: Array
+    t: Array
+    measured: Array
+    modelled: Array
     deviation: float
     message: str
 
@@ -77,25 +78,25 @@ def fit(
     observe: Observe,
     starts: int = 64,
 ) -> Fit:
-    """Fit parameters so that what is observed at given times comes closest to what was measured.
+    """Fit parameters to observations at given times by least squares.
 
-    Where impacts come and go with a parameter, least squares have many hollows: the search begins in the deepest of
-    those that points spread evenly over the bounds lie in.
+    If impacts come and go with a parameter, the sum of squares has many local minima.  Points are spread evenly over
+    the bounds (Sobol), and the search starts from the three best.
 
     Parameters
     ----------
     what : Scenario, System or Family
-        The system; its values are where the search begins.
+        The system; its values are the first starting point.
     bounds : mapping of str to tuple of float
         Least and largest value of each parameter that is fitted.
     at : array
         Times of the measurements, rising [s], shape [n].
     measured : array
-        Shape [n, k], or [n]; nan where nothing was measured.
+        Measurements, shape [n, k], or [n]; nan where one is missing.
     observe : callable
-        ``observe(state)`` returns what is measured of a state, shape [k].
+        ``observe(state)`` returns the observables of a state, shape [k].
     starts : int
-        Points besides that of the system from which the search may begin, a power of two; it does from the best three.
+        Further starting points, a power of two.
 
     Raises
     ------
@@ -103,116 +104,116 @@ def fit(
         If there is no such parameter.
     InvalidInput
         If bounds, times or measurements are not valid, there are fewer numbers than parameters, or the measurements do
-        not tell what these are.
+        not determine the parameters.
     """
-    from scipy.stats.qmc import Sobol
-
     check_callable("fit: observe", observe, "observe(state)")
-    times = np.atleast_1d(floats("fit: at", at))
-    if not (len(times) and times[0] > 0.0 and np.all(np.diff(times) > 0.0)):
-        raise InvalidInput("fit: at", "must be positive, rising times", times.tolist(), "Give them in [s].")
-    data = np.asarray(measured, dtype=float)
-    if data.ndim not in (1, 2) or len(data) != len(times):
-        remedy = "Put nan where nothing was measured."
-        raise InvalidInput("fit: measured", f"must have a row for each of {len(times)} times", data.shape, remedy)
-    data = data.reshape(len(times), -1)
-    family, names = Family.of(what), tuple(bounds)
-    low, high = _bounds(family, bounds)
-    given = np.isfinite(data)
-    if not names:
+    times = rising_times("fit: at", at)
+    family, data = Family.of(what), _measurements(measured, len(times))
+    problem = _Problem(family, tuple(bounds), *_bounds(family, bounds), times, data, observe)
+    n_numbers = int(np.count_nonzero(np.isfinite(data)))
+    if not bounds:
         raise InvalidInput("fit: bounds", "must name parameters", bounds, 'For example {"restitution": (0.5, 0.9)}.')
-    if np.count_nonzero(given) < len(names):
-        raise InvalidInput(
-            "fit: measured",
-            "must be more numbers than parameters",
-            int(np.count_nonzero(given)),
-            "Measure more, or fit fewer.",
-        )
+    if n_numbers < len(bounds):
+        rule, remedy = "must be more numbers than parameters", "Measure more, or fit fewer."
+        raise InvalidInput("fit: measured", rule, n_numbers, remedy)
+    found = problem.solved(starts)
+    values, width = problem.values(found.x), problem.high - problem.low
+    deviation = float(np.sqrt(np.sum(found.fun**2) / max(1, n_numbers - len(bounds))))
+    covariance = deviation**2 * _inverse(found.jac, problem.names) * np.outer(width, width)
+    errors = dict(zip(bounds, np.sqrt(np.diag(covariance)).tolist(), strict=True))
+    best = dict(zip(bounds, values.tolist(), strict=True))
+    modelled = problem.modelled(values)
+    message = str(found.message)
+    return Fit(family.at(**best), observe, best, errors, covariance, times, data, modelled, deviation, message)
 
-    def modelled(values: Floats) -> Floats:
-        model = family.model(**dict(zip(names, values.tolist(), strict=True)))
-        return observed(model, times, observe)
 
-    def residual(shares: Floats) -> Floats:
-        return np.asarray((modelled(low + shares * (high - low)) - data)[given])
+@final
+@dataclass(frozen=True, eq=False)
+class _Problem:
+    """Differences of observables and measurements, as a function of parameters scaled to their bounds."""
 
-    own = np.clip([(family[name] - a) / (b - a) for name, a, b in zip(names, low, high, strict=True)], 0.0, 1.0)
-    spread = Sobol(len(names), seed=0).random(starts) if starts else np.zeros((0, len(names)))
-    points = np.concatenate([own[None], spread])
+    family: Family
+    names: tuple[str, ...]
+    low: Array
+    high: Array
+    times: Array
+    data: Array
+    observe: Observe
 
-    def cost(point: Floats) -> float:
+    def values(self, scaled: Array) -> Array:
+        """Return the parameters of scaled ones, from 0 to 1."""
+        return self.low + scaled * (self.high - self.low)
+
+    def modelled(self, values: Array) -> Array:
+        """Return the observables, shape [n, k]."""
+        model = self.family.model(**dict(zip(self.names, values.tolist(), strict=True)))
+        return observed(model, self.times, self.observe)
+
+    def residual(self, scaled: Array) -> Array:
+        """Return the differences from all measurements that are given, shape [m]."""
+        return np.asarray((self.modelled(self.values(scaled)) - self.data)[np.isfinite(self.data)])
+
+    def cost(self, scaled: Array) -> float:
+        """Return the sum of squares; infinite at a point at which no run succeeds."""
         try:
-            return float(np.sum(residual(point) ** 2))
+            return float(np.sum(self.residual(scaled) ** 2))
         except (RunFailed, InvalidInput):
-            # a point in which nothing runs is no place to begin
             return np.inf
 
-    costs = np.array([cost(point) for point in points])
-    found = _deepest(residual, points[np.argsort(costs, kind="stable")][:_REFINED])
-    values = low + found.x * (high - low)
-    freedom = max(1, len(found.fun) - len(names))
-    deviation = float(np.sqrt(np.sum(found.fun**2) / freedom))
-    covariance = deviation**2 * _inverse(found.jac, names) * np.outer(high - low, high - low)
-    errors = np.sqrt(np.diag(covariance))
-    best_values = dict(zip(names, values.tolist(), strict=True))
-    return Fit(
-        family.at(**best_values),
-        observe,
-        best_values,
-        dict(zip(names, errors.tolist(), strict=True)),
-        covariance,
-        times,
-        data,
-        modelled(values),
-        deviation,
-        str(found.message),
-    )
+    def solved(self, starts: int) -> OptimizeResult:
+        """Return the best minimum reached from the best starting points; points from which a run fails are left out.
+
+        Raises
+        ------
+        RunFailed, InvalidInput
+            If runs from all points fail.
+        """
+        from scipy.optimize import least_squares
+        from scipy.stats.qmc import Sobol
+
+        pairs = zip(self.names, self.low, self.high, strict=True)
+        own = np.clip([(self.family[name] - a) / (b - a) for name, a, b in pairs], 0.0, 1.0)
+        spread = Sobol(len(self.names), seed=0).random(starts) if starts else np.zeros((0, len(self.names)))
+        points = np.concatenate([own[None], spread])
+        order = np.argsort([self.cost(point) for point in points], kind="stable")
+        found, trouble = list["OptimizeResult"](), list[RunFailed | InvalidInput]()
+        for begin in points[order][:_REFINED]:
+            inside = np.clip(begin, 1e-3, 1.0 - 1e-3)
+            try:
+                found.append(least_squares(self.residual, inside, bounds=(0.0, 1.0), diff_step=_STEP, xtol=1e-10))
+            except (RunFailed, InvalidInput) as error:
+                trouble.append(error)
+        if not found:
+            raise trouble[0]
+        return min(found, key=lambda one: float(one.cost))
 
 
-def observed(model: Model, times: Floats, observe: Observe) -> Floats:
-    """Return what is observed of a motion at rising times [s], shape [n, k]."""
-    state, rows = model.start, list[Floats]()
+def _measurements(measured: ArrayLike, n: int) -> Array:
+    """Return the measurements with a row for each time, shape [n, k]."""
+    data = np.asarray(measured, dtype=float)
+    if data.ndim not in (1, 2) or len(data) != n:
+        remedy = "Put nan where nothing was measured."
+        raise InvalidInput("fit: measured", f"must have a row for each of {n} times", data.shape, remedy)
+    return data.reshape(n, -1)
+
+
+def observed(model: Model, times: Array, observe: Observe) -> Array:
+    """Return the observables of a motion at rising times [s], shape [n, k]."""
+    state, rows = model.start, list[Array]()
     for time in times.tolist():
-        state = passage(model, state, time).state
+        state = flow(model, state, time).state
         row = np.atleast_1d(floats("fit: observe", observe(state)))
         if not np.all(np.isfinite(row)):
-            raise InvalidInput(
-                "fit: observe", "must return finite numbers", row.tolist(), "Of which state does it not?"
-            )
+            remedy = "Of which state does it not?"
+            raise InvalidInput("fit: observe", "must return finite numbers", row.tolist(), remedy)
         rows.append(row)
     return np.array(rows)
 
 
-def _deepest(residual: Callable[[Floats], Floats], begins: Floats) -> OptimizeResult:
-    """Return the best of what is found from some points; what leads where no run is counts for nothing.
-
-    Raises
-    ------
-    RunFailed, InvalidInput
-        If all do.
-    """
-    found, trouble = list["OptimizeResult"](), list[RunFailed | InvalidInput]()
-    for begin in begins:
-        try:
-            found.append(_refined(residual, begin))
-        except (RunFailed, InvalidInput) as error:
-            trouble.append(error)
-    if not found:
-        raise trouble[0]
-    return min(found, key=lambda one: float(one.cost))
-
-
-def _refined(residual: Callable[[Floats], Floats], begin: Floats) -> OptimizeResult:
-    from scipy.optimize import least_squares
-
-    inside = np.clip(begin, 1e-3, 1.0 - 1e-3)
-    return least_squares(residual, inside, bounds=(0.0, 1.0), diff_step=_STEP, xtol=1e-10)
-
-
-def _inverse(jacobian: Floats, names: Sequence[str]) -> Floats:
-    """Return the inverse of J^T J; without one there are combinations of parameters that change nothing."""
+def _inverse(jacobian: Array, names: Sequence[str]) -> Array:
+    """Return the inverse of J^T J; InvalidInput if a combination of parameters changes nothing."""
     _, effects, ways = np.linalg.svd(jacobian, full_matrices=False)
-    idle = effects <= _TOLD * effects[0]
+    idle = effects <= _ROUND_OFF * effects[0]
     if np.any(idle):
         which = [name for name, part in zip(names, np.abs(ways[idle]).max(axis=0), strict=True) if part > 0.1]
         remedy = "Fit fewer, or measure what they change."
@@ -220,7 +221,7 @@ def _inverse(jacobian: Floats, names: Sequence[str]) -> Floats:
     return np.asarray((ways.T / effects**2) @ ways)
 
 
-def _bounds(family: Family, bounds: Mapping[str, tuple[float, float]]) -> tuple[Floats, Floats]:
+def _bounds(family: Family, bounds: Mapping[str, tuple[float, float]]) -> tuple[Array, Array]:
     for name, (low, high) in bounds.items():
         value = family[name]
         if not (is_finite(low) and is_finite(high) and low < high and low <= value <= high):

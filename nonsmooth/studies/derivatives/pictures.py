@@ -1,4 +1,4 @@
-"""Pictures of derivatives over time, and of fits."""
+"""Pictures of sensitivities over time, and of fits."""
 
 from __future__ import annotations
 
@@ -9,30 +9,30 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nonsmooth.charts import COLOURS, line
-from nonsmooth.plot.arguments import axes_of, pyplot
-from nonsmooth.plot.lines import beside
+from nonsmooth.charts import line
+from nonsmooth.plot.arguments import pyplot
 from nonsmooth.studies.derivatives.coordinates import coordinate_number, unit
 from nonsmooth.studies.derivatives.forward import Sensitivity
 from nonsmooth.studies.derivatives.least_squares import Fit, observed
+from nonsmooth.studies.plotting import COLOURS, VERMILION, axes_of, finish
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _FINE = 400
-"""Times of a fitted curve."""
+"""Points of a fitted curve."""
 _PAIRS = 3
-"""Pairs of parameters at most, of which the covariance is drawn."""
+"""Pairs of parameters with a drawn covariance, at most."""
 _LEVELS = ((1.0, "-"), (-2.0 * math.log(0.05), ":"))
 """Squared radii of ellipses: one standard error, and 95 % by the chi-squared distribution of two numbers."""
 
 
 def sensitivities(found: Sensitivity, coordinate: str, ax: Axes | None = None) -> Axes:
-    """Draw how a coordinate changes with each parameter, over time [s]: derivatives times the parameter.
+    """Draw the derivatives of a coordinate by each parameter, times the parameter, over time [s].
 
-    So all have the unit of the coordinate: a change of the parameter by 1 % moves it by a hundredth of what is drawn.
-    Lines are broken where events are, at which derivatives jump.
+    All lines have the unit of the coordinate: a change of the parameter by 1 % changes it by a hundredth of the line.
+    Lines are broken at events, at which derivatives jump.
 
     Parameters
     ----------
@@ -41,12 +41,7 @@ def sensitivities(found: Sensitivity, coordinate: str, ax: Axes | None = None) -
     coordinate : str
         Name of a coordinate or velocity, "vz" or "ball.vz".
     ax : Axes, optional
-        Where; a new figure by default.
-
-    Returns
-    -------
-    Axes
-        The axes.
+        The axes; of a new figure by default.
 
     Raises
     ------
@@ -65,31 +60,21 @@ def sensitivities(found: Sensitivity, coordinate: str, ax: Axes | None = None) -
         ax.plot(times[order], broken[order], marker=".", markersize=3, label=word, **line(place))
     ax.vlines(found.events, 0.0, 1.0, transform=ax.get_xaxis_transform(), color="0.75", linewidth=0.7, zorder=0)
     ax.set_xlim(0.0, float(found.t[-1]))
-    ax.set_xlabel("time [s]")
-    ax.set_ylabel(f"change of {coordinate} [{unit(system, number)}]")
-    ax.set_title(f"Change of {coordinate} per relative change of a parameter; grey: events", fontsize=10)
-    ax.grid(color="0.9", linewidth=0.6, axis="y")
-    ax.set_axisbelow(True)
-    beside(ax)
-    return ax
+    title = f"Change of {coordinate} per relative change of a parameter; grey: events"
+    return finish(ax, "time [s]", f"change of {coordinate} [{unit(system, number)}]", title, grid="y")
 
 
 def fitted(found: Fit, label: str, columns: Sequence[str] = ()) -> Figure:
-    """Draw what was measured, the fitted motion, what is left between them, and the covariance of the parameters.
+    """Draw measurements and fitted motion, their difference, and the covariance of the parameters.
 
     Parameters
     ----------
     found : Fit
         The fit.
     label : str
-        What was measured, with its unit.
+        The observable, with its unit.
     columns : sequence of str
-        Names of the numbers that were measured at each time, where these are several.
-
-    Returns
-    -------
-    Figure
-        The figure.
+        Names of the observables, if there are several.
     """
     pairs = list(itertools.combinations(found.values, 2))[:_PAIRS]
     figure: Figure = pyplot().figure(figsize=(7.2 + 3.2 * bool(pairs), 5.0), layout="constrained")
@@ -116,16 +101,13 @@ def _curves(upper: Axes, lower: Axes, found: Fit, label: str, columns: Sequence[
         lower.plot(found.t, rest, "o", color=colour, markersize=3)
     lower.axhline(0.0, color="0.5", linewidth=0.8)
     lower.axhspan(-found.deviation, found.deviation, color="0.92", zorder=0)
-    lower.set_ylabel("".join(["measured - fitted ", *label.partition("[")[1:]]).strip(), fontsize=9)
-    lower.set_xlabel("time [s]")
     lower.ticklabel_format(axis="y", scilimits=(-2, 3))
-    upper.set_ylabel(label)
     upper.tick_params(labelbottom=False)
     upper.legend(fontsize=8, frameon=False, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4)
-    lower.set_title(f"Standard deviation {found.deviation:.3g} (grey band)", fontsize=9)
-    for ax in (upper, lower):
-        ax.grid(color="0.9", linewidth=0.6)
-        ax.set_axisbelow(True)
+    rest = "".join(["measured - fitted ", *label.partition("[")[1:]]).strip()
+    finish(upper, "", label, legend=False)
+    finish(lower, "time [s]", rest, f"Standard deviation {found.deviation:.3g} (grey band)", legend=False)
+    lower.yaxis.label.set_fontsize(9)
 
 
 def _covariance(ax: Axes, found: Fit, one: str, two: str) -> None:
@@ -138,15 +120,12 @@ def _covariance(ax: Axes, found: Fit, one: str, two: str) -> None:
     for level, style in _LEVELS:
         ax.plot(x + np.sqrt(level) * circle[0], y + np.sqrt(level) * circle[1], style, color="black")
     ax.errorbar(
-        x, y, found.standard_errors[two], found.standard_errors[one], fmt="o", color="#d55e00", markersize=4, capsize=3
+        x, y, found.standard_errors[two], found.standard_errors[one], fmt="o", color=VERMILION, markersize=4, capsize=3
     )
-    ax.set_xlabel(found.family.label(one))
-    ax.set_ylabel(found.family.label(two))
-    # dotted keys are whole along the axes
+    # the labels of the axes have dotted keys in full
     words = {name: name.rpartition(".")[2] for name in (one, two)}
-    told = [f"{word} = {found.values[name]:.6g} ± {found.standard_errors[name]:.1g}" for name, word in words.items()]
-    ax.set_title("\n".join([*told, "full: one standard error; dotted: 95 %"]), fontsize=9)
+    lines = [f"{word} = {found.values[name]:.6g} ± {found.standard_errors[name]:.1g}" for name, word in words.items()]
     ax.locator_params(nbins=4)
     ax.ticklabel_format(useOffset=False)
-    ax.grid(color="0.9", linewidth=0.6)
-    ax.set_axisbelow(True)
+    title = "\n".join([*lines, "full: one standard error; dotted: 95 %"])
+    finish(ax, found.family.label(one), found.family.label(two), title, legend=False)

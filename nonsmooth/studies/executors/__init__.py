@@ -1,8 +1,6 @@
-"""Where the runs of a study are done: here, in threads, or by the workers of dask."""
+"""Executors of studies: this thread, several threads, or workers of dask."""
 
 from nonsmooth.studies.executors.dask import Dask
-from nonsmooth.studies.executors.executor import Executor
-from nonsmooth.studies.executors.serial import Serial
-from nonsmooth.studies.executors.threads import Threads
+from nonsmooth.studies.executors.executor import Executor, Serial, Threads
 
 __all__ = ["Dask", "Executor", "Serial", "Threads"]

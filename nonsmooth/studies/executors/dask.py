@@ -1,46 +1,48 @@
-"""Workers of dask: processes of this machine, or those of a scheduler somewhere."""
+"""Workers of dask: processes of this machine, or of a scheduler elsewhere."""
 
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import logging
+import pickle
 from collections.abc import Generator, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, final
 
 from nonsmooth.errors import InvalidInput, NonsmoothError
+from nonsmooth.plugins import file
 from nonsmooth.results.output import versions
-from nonsmooth.studies.executors.executor import Executor, check_workers
-from nonsmooth.studies.executors.parcel import Parcel
-from nonsmooth.studies.extras import require
-from nonsmooth.studies.work import Block, Chunk, Work
+from nonsmooth.studies.executors.executor import WINDOW, Executor, check_workers
+from nonsmooth.studies.inputs import require
+from nonsmooth.studies.work import Chunk, ChunkResult, Work
 
 if TYPE_CHECKING:
     from distributed import Client, LocalCluster
 
-_WINDOW = 2
-"""Chunks per thread of a worker that are handed out at once."""
+
 _PATIENCE = 5.0
-"""So long a scheduler may take to answer [s]."""
+"""Time within which a scheduler must answer [s]."""
 _DEATHS = 3
-"""A chunk that so many workers did not survive is cut in halves."""
+"""Deaths of workers after which a chunk is halved."""
 
 
 class SchedulerLost(NonsmoothError):
-    """The scheduler ended, or cannot be reached any more, before the study did."""
+    """The scheduler ended, or cannot be reached any more, before the end of the study."""
 
 
 @final
 @dataclass(frozen=True)
 class Dask(Executor):
-    """Does chunks by workers of dask.
+    """Computes chunks by workers of dask.
 
     Parameters
     ----------
     scheduler : str, optional
-        Address of a scheduler, as "tcp://10.0.0.1:8786"; processes of this machine by default.
+        Address of a scheduler of dask, as "tcp://10.0.0.1:8786"; processes of this machine by default.
     n : int, optional
-        Number of those; as many as there are processors by default.
+        Number of processes; one for each processor by default.
     """
 
     scheduler: str | None = None
@@ -49,16 +51,16 @@ class Dask(Executor):
     def __post_init__(self) -> None:
         check_workers("Dask: n", self.n)
 
-    def blocks(self, work: Work, chunks: Sequence[Chunk]) -> Generator[Block, None, None]:
-        """Yield as workers return them.
+    def results(self, work: Work, chunks: Sequence[Chunk]) -> Generator[ChunkResult, None, None]:
+        """Yield results as workers return them.
 
-        A chunk whose workers died may have been next to the one that killed them: such ones are done last, each alone,
-        and in halves where they kill again, until the run is found that does.
+        A chunk whose workers died may only have run next to the one that killed them.  Such chunks are repeated last,
+        each alone, and in halves if their workers die again, until the run that kills them is found.
 
         Raises
         ------
         InvalidInput
-            If no scheduler answers, or workers are not like this process, or do not find what they shall run.
+            If no scheduler answers, or workers have other versions, or do not find the classes of the study.
         SchedulerLost
             If the scheduler ends before the study.
         """
@@ -70,13 +72,15 @@ class Dask(Executor):
             _check_alike(client)
             _check_open(client, parcel)
             suspects: list[Chunk] = []
-            window = _WINDOW * max(1, sum(client.nthreads().values()))
+            window = WINDOW * max(1, sum(client.nthreads().values()))
             try:
                 yield from _in_turn(client, parcel, chunks, window, suspects)
                 for chunk in suspects:
                     yield _in_halves(client, parcel, chunk)
             except CancelledError as error:
-                raise SchedulerLost("The scheduler is gone. What is stored stays: start one, and go on.") from error
+                raise SchedulerLost(
+                    "The scheduler is gone. Complete chunks stay: start a scheduler, and run the study again."
+                ) from error
 
     def _client(self, stack: contextlib.ExitStack) -> Client:
         import dask
@@ -84,7 +88,7 @@ class Dask(Executor):
 
         settings = {
             "distributed.scheduler.allowed-failures": _DEATHS - 1,
-            # a worker keeps what its stacks were for an hour, of which nobody asks: 100 MB in some minutes
+            # a worker profiles its stacks for an hour: 100 MB after some minutes
             "distributed.worker.profile.enabled": False,
         }
         stack.enter_context(dask.config.set(settings))
@@ -92,7 +96,7 @@ class Dask(Executor):
         if address is None:
             n = check_workers("Dask: n", self.n)
             address = stack.enter_context(_cluster(n))
-            # what restarts a worker is gone itself where one dies at once
+            # the nanny that restarts a worker is gone, too, if the worker dies at once
             address.adapt(minimum=n, maximum=n)
         try:
             return stack.enter_context(Client(address, timeout=_PATIENCE))
@@ -120,7 +124,7 @@ def _cluster(n: int) -> LocalCluster:
 
 
 def _check_alike(client: Client) -> None:
-    """Refuse workers that would give other bits than this process."""
+    """Raise InvalidInput if workers would give other bits than this process."""
     client.wait_for_workers(1, timeout=_PATIENCE * 12)
     here = dict(versions())
     for address, there in client.run(versions).items():
@@ -131,21 +135,21 @@ def _check_alike(client: Client) -> None:
 
 
 def _check_open(client: Client, parcel: Parcel) -> None:
-    """Refuse workers that have not the modules of what is run."""
+    """Raise InvalidInput if workers do not find the modules of the study."""
     for address, fault in client.run(Parcel.fault, parcel).items():
         if fault:
             remedy = "Install it there, or start the workers where they find it (PYTHONPATH)."
             raise InvalidInput(f"worker {address}", "must find what the study runs", fault, remedy)
 
 
-def _block(parcel: Parcel, chunk: Chunk) -> Block:
-    return parcel.open().block(chunk)
+def _computed(parcel: Parcel, chunk: Chunk) -> ChunkResult:
+    return parcel.open().chunk(chunk)
 
 
 def _in_turn(
     client: Client, parcel: Parcel, chunks: Sequence[Chunk], window: int, suspects: list[Chunk]
-) -> Generator[Block, None, None]:
-    """Yield the blocks of all chunks but of those whose workers died too often, which become suspects."""
+) -> Generator[ChunkResult, None, None]:
+    """Yield the results of all chunks; those whose workers died too often become suspects."""
     from distributed import KilledWorker, as_completed
 
     left, running = iter(chunks), {}
@@ -153,7 +157,7 @@ def _in_turn(
 
     def hand_out() -> None:
         for chunk in left:
-            future = client.submit(_block, parcel, chunk, pure=False, retries=2)
+            future = client.submit(_computed, parcel, chunk, pure=False, retries=2)
             running[future.key] = chunk
             done.add(future)
             return
@@ -171,12 +175,12 @@ def _in_turn(
             yield block
 
 
-def _alone(client: Client, parcel: Parcel, chunk: Chunk) -> Block:
-    """Return the block of a chunk next to which nothing else runs, so that who dies died of it."""
+def _alone(client: Client, parcel: Parcel, chunk: Chunk) -> ChunkResult:
+    """Return the result of a chunk while nothing else runs: a worker that dies dies because of it."""
     from distributed import KilledWorker
 
     try:
-        return client.submit(_block, parcel, chunk, pure=False).result()  # type: ignore[no-any-return]
+        return client.submit(_computed, parcel, chunk, pure=False).result()  # type: ignore[no-any-return]
     except KilledWorker:
         if len(chunk.parameters) == 1:
             text = "The process that ran it died, in each of the tries that the scheduler allows."
@@ -184,9 +188,66 @@ def _alone(client: Client, parcel: Parcel, chunk: Chunk) -> Block:
     return _in_halves(client, parcel, chunk)
 
 
-def _in_halves(client: Client, parcel: Parcel, chunk: Chunk) -> Block:
-    """Return the block of a chunk that is suspected, whose halves run alone."""
+def _in_halves(client: Client, parcel: Parcel, chunk: Chunk) -> ChunkResult:
+    """Return the result of a suspected chunk; its halves run alone."""
     if len(chunk.parameters) == 1:
         return _alone(client, parcel, chunk)
     one, other = chunk.halves()
     return _alone(client, parcel, one).joined(_alone(client, parcel, other))
+
+
+@final
+@dataclass(frozen=True)
+class Parcel:
+    """Work for another process, with the files of its classes.
+
+    The task opens it, so that an error belongs to the task; objects that dask opens would end the connection.
+
+    Attributes
+    ----------
+    content : bytes
+        The work, pickled.
+    files : tuple of tuple of str
+        Path and sha256 of the files that were named as FILE.py:CLASS.
+    """
+
+    content: bytes
+    files: tuple[tuple[str, str], ...]
+
+    @classmethod
+    def of(cls, work: Work) -> Parcel:
+        """Pack work."""
+        import cloudpickle
+
+        return cls(cloudpickle.dumps(work), tuple((str(path), _digest(path)) for path in file.loaded()))
+
+    def open(self) -> Work:
+        """Return the work.
+
+        Raises
+        ------
+        InvalidInput
+            If a file is not there, or is another one.
+        ImportError
+            If a module is not installed.
+        """
+        for name, digest in self.files:
+            path = Path(name)
+            if not path.is_file() or _digest(path) != digest:
+                remedy = "Start workers where they see the same files."
+                raise InvalidInput("worker", "must find the file that the study was begun with", name, remedy)
+            file.again(path)
+        work: Work = pickle.loads(self.content)
+        return work
+
+    def fault(self) -> str:
+        """Return the reason why it cannot be opened here, "" if it can."""
+        try:
+            self.open()
+        except Exception as error:  # of the modules of a user, too
+            return f"{type(error).__name__}: {error}"
+        return ""
+
+
+def _digest(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()

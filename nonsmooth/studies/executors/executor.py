@@ -1,46 +1,110 @@
-"""Executor: does the chunks of a study, in any order, each whole."""
+"""Executors: compute the chunks of a study in this thread, or in several."""
 
 from __future__ import annotations
 
 import os
+import threading
 from abc import ABC, abstractmethod
 from collections.abc import Generator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from dataclasses import dataclass
+from typing import final
 
-from nonsmooth.errors import InvalidInput
-from nonsmooth.studies.work import Block, Chunk, Work
+from nonsmooth.studies.inputs import check_count
+from nonsmooth.studies.work import Chunk, ChunkResult, Work
+
+WINDOW = 2
+"""Chunks per thread that are handed out at once."""
 
 
 class Executor(ABC):
-    """Does chunks.
+    """Computes the chunks of a study.
 
     The contract:
 
-    1. ``blocks`` yields the block of each chunk once, in any order, as soon as it is done.
-    2. A run is never split, and nothing of a run depends on where it is done: all executors give the same bits.
-    3. Closing the iterator, and what is raised while it is waited for, ends all work.
+    1. ``results`` yields the result of each chunk once, in any order, as soon as it is complete.
+    2. A run is never split, and does not depend on where it is computed: all executors give the same bits.
+    3. Closing the iterator, or an exception while it waits, ends all work.
     """
 
     @abstractmethod
-    def blocks(self, work: Work, chunks: Sequence[Chunk]) -> Generator[Block, None, None]:
-        """Yield what comes of the chunks.
+    def results(self, work: Work, chunks: Sequence[Chunk]) -> Generator[ChunkResult, None, None]:
+        """Yield the results of chunks.
 
         Raises
         ------
         InvalidInput
-            If nobody answers who could do it.
+            If no worker answers.
         """
 
 
 def check_workers(thing: str, n: int | None) -> int:
-    """Return a number of workers, one for each processor by default.
+    """Return a number of workers, by default one for each processor.
 
     Raises
     ------
     InvalidInput
-        If it is no positive whole number.
+        If it is not a positive whole number.
     """
     if n is None:
         return os.cpu_count() or 1
-    if not isinstance(n, int) or n < 1:
-        raise InvalidInput(thing, "must be a positive whole number", n, "Leave it out for one for each processor.")
+    check_count(thing, n, "must be a positive whole number", "Leave it out for one for each processor.")
     return n
+
+
+@final
+@dataclass(frozen=True)
+class Serial(Executor):
+    """Computes one run after another in this thread."""
+
+    def results(self, work: Work, chunks: Sequence[Chunk]) -> Generator[ChunkResult, None, None]:
+        """Yield one result after another."""
+        yield from map(work.chunk, chunks)
+
+
+class _Ended(Exception):
+    """The study has ended; the thread stops before its next run."""
+
+
+@final
+@dataclass(frozen=True)
+class Threads(Executor):
+    """Computes chunks in threads of this process.
+
+    The engine runs without the lock of Python; building and summarising runs do not.
+
+    Parameters
+    ----------
+    n : int, optional
+        Number of threads; one for each processor by default.
+    """
+
+    n: int | None = None
+
+    def __post_init__(self) -> None:
+        check_workers("Threads: n", self.n)
+
+    def results(self, work: Work, chunks: Sequence[Chunk]) -> Generator[ChunkResult, None, None]:
+        """Yield results as threads complete them."""
+        n, ended, left = check_workers("Threads: n", self.n), threading.Event(), iter(chunks)
+
+        def before_each() -> None:
+            if ended.is_set():
+                raise _Ended
+
+        pool = ThreadPoolExecutor(n)
+        try:
+            waiting: set[Future[ChunkResult]] = set()
+            while True:
+                for chunk in left:
+                    waiting.add(pool.submit(work.chunk, chunk, before_each))
+                    if len(waiting) >= WINDOW * n:
+                        break
+                if not waiting:
+                    return
+                done, waiting = wait(waiting, return_when=FIRST_COMPLETED)
+                for one in done:
+                    yield one.result()
+        finally:
+            ended.set()
+            pool.shutdown(cancel_futures=True)

@@ -1,4 +1,4 @@
-"""Lyapunov exponents: how fast neighbours of a motion part, along orthogonal directions."""
+"""Lyapunov exponents: growth rates of perturbations of a motion, by QR on the maps of its periods."""
 
 from __future__ import annotations
 
@@ -7,18 +7,15 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from numpy.typing import NDArray
 
-from nonsmooth.checks import is_finite
 from nonsmooth.errors import InvalidInput
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.chart import Chart
 from nonsmooth.studies.derivatives.family import Family, Varied
-from nonsmooth.studies.orbits.choosing import chosen, seen
+from nonsmooth.studies.inputs import check_positive
 from nonsmooth.studies.orbits.linear import linear
-from nonsmooth.studies.orbits.sections import Strobe
-
-Floats = NDArray[np.float64]
+from nonsmooth.studies.orbits.sections import StroboscopicSection, clearest_state, state_at
+from nonsmooth.types import Array
 
 
 @final
@@ -31,15 +28,15 @@ class Lyapunov:
     exponents : array
         The largest first [1/s], shape [m].
     history : array
-        What they are after each period [1/s], shape [n, m].
+        Running estimates after each period [1/s], shape [n, m].
     left_out : int
-        Periods that a motion passed without a derivative, as events changed their order; they count for nothing.
+        Periods without a derivative, as events changed their order; they are not counted.
     state : State
-        Where the motion has come to.
+        Last state of the motion.
     """
 
-    exponents: Floats
-    history: Floats
+    exponents: Array
+    history: Array
     left_out: int
     state: State
 
@@ -52,50 +49,49 @@ def lyapunov(
     settle: float = 0.0,
     within: Sequence[str] | None = None,
 ) -> Lyapunov:
-    """Follow a motion, and what becomes of its neighbours.
+    """Return the Lyapunov exponents of a motion.
 
     Parameters
     ----------
     what : Scenario, System or Family
         The system.
     period : float
-        Time after which the directions are made orthogonal anew [s].
+        Time after which the directions are made orthogonal again [s].
     n_periods : int
-        How often.
+        Number of these periods.
     settle : float
-        Time to run before [s].
+        Time of the transient before [s].
     within : sequence of str, optional
-        Names of coordinates and velocities along which neighbours are (:func:`orbit`).
+        Names of coordinates and velocities of the perturbations (:func:`orbit`).
 
     Raises
     ------
     InvalidInput
-        If a number is not valid, or periods end with now these contacts closed, now others.
+        If a number is not valid, or other contacts are closed at the ends of periods.
     """
     for name, value in (("period", period), ("n_periods", n_periods)):
-        if not (is_finite(value) and value > 0):
-            raise InvalidInput(f"lyapunov: {name}", "must be positive and finite", value, "Give a larger one.")
+        check_positive(f"lyapunov: {name}", value, "Give a larger one.")
     model = Family.of(what).model()
-    state = chosen(model, seen(model, model.start, settle), period)
-    sums, told, left_out = None, list[Floats](), 0
+    state = clearest_state(model, state_at(model, model.start, settle), period)
+    sums, history, left_out = None, list[Array](), 0
     names, directions = Chart.at(model, state, within).names, None
     for _ in range(int(n_periods)):
-        found = linear(model, state, Strobe(period), within)
+        found = linear(model, state, StroboscopicSection(period), within)
         if found.chart.names != names:
             remedy = f"Take another one, or another settle; free were {', '.join(names)} at first."
             free = ", ".join(found.chart.names)
             raise InvalidInput("lyapunov: period", "must end with the same coordinates free each time", free, remedy)
         state = found.end.state
-        if found.corners:
+        if found.non_differentiable:
             left_out += 1
             continue
         start = np.eye(len(found.way)) if directions is None else directions
         directions, stretched = np.linalg.qr(found.matrix @ start)
-        # a direction that a period makes vanish stays the least number there is
+        # a vanishing direction counts with the smallest positive number
         lengths = np.log(np.maximum(np.abs(np.diag(stretched)), np.finfo(float).tiny))
         sums = lengths if sums is None else sums + lengths
-        told.append(sums / ((len(told) + 1) * period))
-    if not told:
+        history.append(sums / ((len(history) + 1) * period))
+    if not history:
         raise InvalidInput("lyapunov", "must find a period with a derivative", n_periods, "Take more, or a longer one.")
-    order = np.argsort(-told[-1], kind="stable")
-    return Lyapunov(told[-1][order], np.array(told)[:, order], left_out, state)
+    order = np.argsort(-history[-1], kind="stable")
+    return Lyapunov(history[-1][order], np.array(history)[:, order], left_out, state)

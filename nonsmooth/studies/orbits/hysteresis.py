@@ -1,4 +1,4 @@
-"""Bifurcation diagrams that follow a motion: each value of the parameter starts where the one before has come to."""
+"""Hysteresis: bifurcation diagrams with rising and with falling values, each run starting from the one before."""
 
 from __future__ import annotations
 
@@ -11,31 +11,26 @@ from numpy.typing import ArrayLike, NDArray
 from nonsmooth.checks import floats
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.engines.event_driven import EventDriven
-from nonsmooth.errors import InvalidInput, RunFailed
-from nonsmooth.plot.arguments import axes_of
-from nonsmooth.plot.lines import beside
-from nonsmooth.progress import Display, Pace, RunsDone
+from nonsmooth.progress import Display
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.chart import Chart
 from nonsmooth.studies.derivatives.family import Family, Varied
-from nonsmooth.studies.displays import display_of
-from nonsmooth.studies.orbits.choosing import chosen
-from nonsmooth.studies.orbits.diagram import Diagram
-from nonsmooth.studies.orbits.looks import Looks
-from nonsmooth.studies.orbits.repeating import Period, period_at
+from nonsmooth.studies.orbits.diagram import Diagram, PeriodicSampling
+from nonsmooth.studies.orbits.scan import Period, period_at, scan
+from nonsmooth.studies.orbits.sections import clearest_state
 from nonsmooth.studies.periods import alike
+from nonsmooth.studies.plotting import BLUE, GREEN, axes_of, finish
+from nonsmooth.types import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-Floats = NDArray[np.float64]
 
 
 @final
 @dataclass(frozen=True)
 class Hysteresis:
-    """What a motion comes to as a parameter rises, and as it falls again.
+    """Bifurcation diagrams of a motion as a parameter rises, and as it falls again.
 
     Attributes
     ----------
@@ -48,7 +43,7 @@ class Hysteresis:
 
     @property
     def apart(self) -> NDArray[np.bool_]:
-        """Where both ways have come to other motions, of which one repeats at least, and neither failed; shape [n]."""
+        """True if both ways lead to different motions, of which at least one repeats; shape [n]."""
         both = np.array([self.up.points, self.down.points])
         differ = np.max(np.abs(np.diff(np.sort(both, axis=2), axis=0)[0]), axis=1) > alike(both, self.up.scale)
         periodic = np.array([self.up.periods, self.down.periods]) > 0
@@ -56,25 +51,13 @@ class Hysteresis:
         return np.asarray(others & np.isfinite(both).all(axis=(0, 2)))
 
     def draw(self, ax: Axes | None = None) -> Axes:
-        """Draw both ways, told apart by marks and colours.
-
-        Parameters
-        ----------
-        ax : Axes, optional
-            Where; a new figure by default.
-
-        Returns
-        -------
-        Axes
-            The axes.
-        """
-        ax = self.up.draw(axes_of(ax), colour="#0072b2", mark="^", label=f"{self.up.name} rises")
-        self.down.draw(ax, colour="#009e73", mark="v", label=f"{self.down.name} falls")
+        """Draw both ways with their own marks and colours, on axes or in a new figure."""
+        ax = self.up.draw(axes_of(ax), colour=BLUE, mark="^", label=f"{self.up.name} rises")
+        self.down.draw(ax, colour=GREEN, mark="v", label=f"{self.down.name} falls")
         failed = self.up.failed + self.down.failed
         words = f"; {failed} runs failed (dotted)" if failed else ""
-        ax.set_title(f"{np.sum(self.apart)} of {len(self.up.values)} values have two motions{words}", fontsize=10)
-        beside(ax)
-        return ax
+        title = f"{np.sum(self.apart)} of {len(self.up.values)} values have two motions{words}"
+        return finish(ax, "", "", title, grid="")
 
 
 def hysteresis(
@@ -89,11 +72,11 @@ def hysteresis(
     keep: int = 64,
     display: Display | None = None,
 ) -> Hysteresis:
-    """Follow a motion through rising values of a parameter, and through falling ones, and look once a period.
+    """Sample a motion once a period for rising, then falling values of a parameter.
 
-    At the first value either way the system starts as it is placed.  At each other one the motion goes on from that of
-    its neighbour, where least is closed; what is closed there stays so, and what would overlap touches.  Behind a run
-    that failed the next one starts as the system is placed.
+    At the first value either way, and after a failed run, the system starts as it is placed.  At each other value the
+    motion continues from a state of its neighbour with few closed contacts.  Closed contacts stay closed, and bodies
+    that would overlap touch.
 
     Parameters
     ----------
@@ -107,48 +90,45 @@ def hysteresis(
     UnknownName
         If there is no such parameter or coordinate.
     InvalidInput
-        If a number is not valid.
+        If a number is not valid, or no value gives a system.
     """
     row = np.unique(floats("hysteresis: values", values))
+    n = len(row)
 
-    def looks(value: float) -> Looks:
-        return Looks(period_at(period, value, "hysteresis: period"), coordinate, at, settle, keep, "hysteresis")
+    def sampling(value: float) -> PeriodicSampling:
+        lasts = period_at(period, value, "hysteresis: period")
+        return PeriodicSampling(lasts, coordinate, at, settle, keep, "hysteresis")
 
     family = Family.of(what, EventDriven())
-    _ = family[name]
-    if not len(row):
-        raise InvalidInput(f"values of {name}", "must be some", [], "Give at least one.")
-    unit, scale = looks(family[name]).unit_and_scale(family.model())
-    points, failures = np.full((2, len(row), keep), np.nan), np.full((2, len(row)), "", dtype=object)
-    upwards = range(len(row))
-    with Pace(display_of(display)) as pace:
-        counted = RunsDone(pace, 2 * len(row))
-        for way, order in enumerate((upwards, reversed(upwards))):
-            before: tuple[Model, State, float] | None = None
-            for i in order:
-                try:
-                    model = family.model(**{name: float(row[i])})
-                    look = looks(float(row[i]))
-                    start = model.start if before is None else _carried(model, look.period, *before)
-                    points[way, i], end = look.settled(model, start)
-                    before = model, end, look.period
-                except (RunFailed, InvalidInput) as error:
-                    failures[way, i], before = str(error), None
-                counted.add(1, bool(failures[way, i]))
+    unit, scale = sampling(family[name]).unit_and_scale(family.model())
+    last = dict[int, tuple[Model, State, float]]()
+    """Model, last state and period of the run before, by the place of its value."""
+
+    def points_of(model: Model, value: float) -> Array:
+        i, one = int(np.searchsorted(row, value)), sampling(value)
+        neighbour = last.pop(i - 1, None) or last.pop(i + 1, None)
+        last.clear()
+        start = model.start if neighbour is None else _carried(model, one.period, *neighbour)
+        points, end = one.settled(model, start)
+        last[i] = model, end, one.period
+        return points
+
+    found, failures = scan(
+        family, name, [*row.tolist(), *row[::-1].tolist()], points_of, np.full(keep, np.nan), display
+    )
+    ways = [(found[:n], failures[:n]), (found[: n - 1 : -1], failures[: n - 1 : -1])]
     up, down = (
-        Diagram(
-            name, family.label(name), row, coordinate, unit, points[way], tuple(map(str, failures[way].tolist())), scale
-        )
-        for way in (0, 1)
+        Diagram(name, family.label(name), row, coordinate, unit, np.array(points), texts, scale)
+        for points, texts in ways
     )
     return Hysteresis(up, down)
 
 
 def _carried(model: Model, period: float, last: Model, state: State, last_period: float) -> State:
-    """Return where a motion of another model continues in a model, at the same phase of the first period."""
-    there = chosen(last, state, last_period)
+    """Return the state in which a motion of another model continues in a model, at the same phase of the drive."""
+    there = clearest_state(last, state, last_period)
     there = replace(there, time=there.time % last_period * (period / last_period))
-    # what flew so low that it is reached by what moves otherwise now is taken along
+    # a body in low flight that a faster plate would reach is placed on it
     reached = (model.contact_rates(there)[0] < 0.0) & (there.modes == Mode.OPEN)
     there = replace(there, modes=np.where(reached, Mode.SLIDE, there.modes))
     return Chart.at(model, there).held_in(model, there)

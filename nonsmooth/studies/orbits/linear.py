@@ -1,4 +1,4 @@
-"""The linear part of a map from a state to a later one: by differences about it, direction by direction."""
+"""The derivative of a map from section to section, by differences, and its eigenvalues with error bounds."""
 
 from __future__ import annotations
 
@@ -15,99 +15,106 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.chart import Chart
-from nonsmooth.studies.derivatives.extrapolation import Derivative, derivative
-from nonsmooth.studies.derivatives.passage import Passage, Signature
-from nonsmooth.studies.derivatives.slope import BACKWARD, FORWARD, OrderOfEvents, Sampled, slope, steady
+from nonsmooth.studies.derivatives.differences import (
+    BACKWARD,
+    FORWARD,
+    Derivative,
+    OrderOfEvents,
+    Sampled,
+    derivative,
+    slope,
+    steady,
+)
+from nonsmooth.studies.derivatives.flow import FlowSegment, Signature
 from nonsmooth.studies.orbits.sections import Section
+from nonsmooth.types import Array
 
-Floats = NDArray[np.float64]
-STEPS = (3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7)
-"""Steps that one-sided derivatives at a corner are tried with, in units of scales."""
+_STEPS = (3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7)
+"""Steps of one-sided derivatives at a non-differentiable point, in units of scales."""
 _FIRST = 5e-3
 """Largest step of derivatives, in units of scales: the series of a smooth motion converges within it."""
 
 
 @final
 @dataclass(frozen=True)
-class Corner:
-    """A direction in which a map has no derivative, as events change their order on either side.
+class NonDifferentiablePoint:
+    """A direction in which a map has no derivative: events have another order on either side.
 
     Attributes
     ----------
     direction : str
-        What is changed.
-    before, behind : array
-        One-sided derivatives on the side of less and of more; nan where events change there, too; shape [m].
+        The coordinate, velocity or turn.
+    before, after : array
+        One-sided derivatives for decreasing and increasing coordinates; nan if events change there, too; shape [m].
     signatures : tuple of Signature
-        The events on the side of less and of more.
+        The events on either side.
     """
 
     direction: str
-    before: Floats
-    behind: Floats
+    before: Array
+    after: Array
     signatures: tuple[Signature, Signature]
 
 
 @final
 @dataclass(frozen=True)
 class Linear:
-    """A map about a state.
+    """A map about a state, to first order.
 
     Attributes
     ----------
     chart : Chart
         The directions at the state.
-    end : Passage
-        Where the map leads.
+    end : FlowSegment
+        The run from the state to its image.
     way : array
-        How far along the directions that is, shape [m].
+        Image less state along the directions, shape [m].
     matrix : array
-        The derivatives of the end along the directions there, a column for each direction at the state; nan where there
-        is none; shape [m, m].
-    corners : tuple of Corner
-        The directions without one.
+        Derivatives of the image along the directions there, a column for each direction at the state; nan if there is
+        none; shape [m, m].
+    non_differentiable : tuple of NonDifferentiablePoint
+        The directions without a derivative.
     error : array
-        Bounds of the errors of the derivatives; infinite where there is none; shape [m, m].
+        Bounds of the errors of the derivatives; infinite if there is none; shape [m, m].
     step : float
-        The smallest step that derivatives were taken with, in units of scales.
+        The smallest step of the differences, in units of scales.
     """
 
     chart: Chart
-    end: Passage
-    way: Floats
-    matrix: Floats
-    corners: tuple[Corner, ...]
-    error: Floats
+    end: FlowSegment
+    way: Array
+    matrix: Array
+    non_differentiable: tuple[NonDifferentiablePoint, ...]
+    error: Array
     step: float
 
 
 def linear(
     model: Model, state: State, section: Section, within: Sequence[str] | None, step: float | None = None
 ) -> Linear:
-    """Return the map from a state to the next one of a section, along the coordinates that are named.
+    """Return the map from a state to its next return to a section, along the coordinates of ``within``.
 
-    With a step that is known to be good near the state the derivatives are quick differences of fourth order, whose
-    errors are not known.  They serve Newton's method.  Without one the steps are chosen at this state.
+    With ``step``, which is known to be good near the state, the derivatives are quick differences of fourth order with
+    unknown errors.  They serve Newton's method.  Without it the steps are chosen at this state.
 
     Raises
     ------
     UnknownName
         If a coordinate has no such name.
     RunFailed
-        If a run cannot go on.
+        If a run cannot continue.
     InvalidInput
-        If a motion does not come back to the section, or the law of a closed contact has inner states.
+        If a motion does not return to the section, or the law of a closed contact has inner states.
     """
-    chart, end = chart_at(model, state, section, within), section.passage(model, state)
-    there = _directions_at(end, chart, model, section, within)
-    columns, corners = list[Derivative](), list[Corner]()
-    for name, sampled in zip(chart.names, _directions(model, state, section, chart, end, there), strict=True):
+    chart, end, maps = _maps(model, state, section, within)
+    columns, points = list[Derivative](), list[NonDifferentiablePoint]()
+    for name, sampled in zip(chart.names, maps, strict=True):
         try:
             columns.append(_column(sampled, end.signature, step))
         except OrderOfEvents:
             columns.append(Derivative(np.full(len(chart.names), np.nan), np.inf, _FIRST))
-            corners.append(_corner(name, sampled))
-    return _joined(chart, state, end, columns, tuple(corners))
+            points.append(_one_sided(name, sampled))
+    return _joined(chart, state, end, columns, tuple(points))
 
 
 def smooth(
@@ -120,10 +127,32 @@ def smooth(
     OrderOfEvents
         If it lacks one.
     """
-    chart, end = chart_at(model, state, section, within), section.passage(model, state)
-    there = _directions_at(end, chart, model, section, within)
-    moves = _directions(model, state, section, chart, end, there)
-    return _joined(chart, state, end, [_column(sampled, end.signature, step) for sampled in moves], ())
+    chart, end, maps = _maps(model, state, section, within)
+    return _joined(chart, state, end, [_column(sampled, end.signature, step) for sampled in maps], ())
+
+
+def _chart_at(model: Model, state: State, section: Section, within: Sequence[str] | None) -> Chart:
+    """Return the directions about a state within a section; errors as :meth:`Chart.at`."""
+    return Chart.at(model, state, within, section.fixed(model), section.ignored(model, state))
+
+
+def _maps(
+    model: Model, state: State, section: Section, within: Sequence[str] | None
+) -> tuple[Chart, FlowSegment, list[Sampled]]:
+    """Return the directions at a state, the run to its image, and the image over a change along each direction."""
+    chart, end = _chart_at(model, state, section, within), section.flow(model, state)
+    there = _chart_at(model, end.state, section, within)
+    # away from an orbit other contacts may be closed at the end
+    there = there if there.names == chart.names else chart
+
+    def moved(way: Array) -> Sampled:
+        def sampled(change: float) -> tuple[Array, Signature]:
+            image = section.flow(model, chart.moved(model, state, change * way))
+            return there.between(end.state, image.state), image.signature
+
+        return sampled
+
+    return chart, end, [moved(way) for way in np.eye(len(chart.names))]
 
 
 def _column(sampled: Sampled, expected: Signature, step: float | None) -> Derivative:
@@ -133,53 +162,61 @@ def _column(sampled: Sampled, expected: Signature, step: float | None) -> Deriva
     return derivative(sampled, _FIRST, expected)
 
 
-def _joined(chart: Chart, state: State, end: Passage, columns: list[Derivative], corners: tuple[Corner, ...]) -> Linear:
+def _joined(
+    chart: Chart,
+    state: State,
+    end: FlowSegment,
+    columns: list[Derivative],
+    points: tuple[NonDifferentiablePoint, ...],
+) -> Linear:
     m = len(columns)
     matrix = np.array([one.value for one in columns]).reshape(m, m).T
     error = np.tile([one.error for one in columns], (m, 1)).reshape(m, m)
     step = min((one.step for one in columns), default=_FIRST)
-    return Linear(chart, end, chart.between(state, end.state), matrix, corners, error, step)
+    return Linear(chart, end, chart.between(state, end.state), matrix, points, error, step)
 
 
-def chart_at(model: Model, state: State, section: Section, within: Sequence[str] | None) -> Chart:
-    """Return the directions about a state within a section; errors as :meth:`Chart.at`."""
-    return Chart.at(model, state, within, section.without(model), section.ignored(model, state))
-
-
-def _directions_at(end: Passage, chart: Chart, model: Model, section: Section, within: Sequence[str] | None) -> Chart:
-    """Return the directions at the end, which turn with bodies; of an orbit they are those at the start."""
-    there = chart_at(model, end.state, section, within)
-    # on the way to an orbit other contacts may be closed at the end
-    return there if there.names == chart.names else chart
-
-
-def _directions(
-    model: Model, state: State, section: Section, chart: Chart, end: Passage, there: Chart
-) -> list[Sampled]:
-    """Return what comes of small changes along each direction of a chart, in those at the end."""
-    return [_moved(model, state, section, chart, way, end.state, there) for way in np.eye(len(chart.names))]
-
-
-def _moved(
-    model: Model, state: State, section: Section, chart: Chart, way: Floats, origin: State, there: Chart
-) -> Sampled:
-    def sampled(change: float) -> tuple[Floats, Signature]:
-        end = section.passage(model, chart.moved(model, state, change * way))
-        return there.between(origin, end.state), end.signature
-
-    return sampled
-
-
-def _corner(name: str, sampled: Sampled) -> Corner:
-    sides, told = list[Floats](), list[Signature]()
+def _one_sided(name: str, sampled: Sampled) -> NonDifferentiablePoint:
+    sides, signatures = list[Array](), list[Signature]()
     for sign, stencil in ((-1.0, BACKWARD), (1.0, FORWARD)):
         size = len(sampled(0.0)[0])
-        _, signature = sampled(sign * STEPS[-1])
-        told.append(signature)
+        _, signature = sampled(sign * _STEPS[-1])
+        signatures.append(signature)
+        # the differences begin a step away: the events at the point itself belong to neither side
         inner = tuple((offset + int(sign), weight) for offset, weight in stencil)
         try:
-            # next to the corner, not at it: what happens there belongs to neither side
-            sides.append(steady(partial(slope, sampled, expected=signature, stencil=inner), STEPS)[0])
+            sides.append(steady(partial(slope, sampled, expected=signature, stencil=inner), _STEPS)[0])
         except OrderOfEvents:
             sides.append(np.full(size, np.nan))
-    return Corner(name, sides[0], sides[1], (told[0], told[1]))
+    return NonDifferentiablePoint(name, sides[0], sides[1], (signatures[0], signatures[1]))
+
+
+def eigenvalues(matrix: Array, error: Array) -> tuple[NDArray[np.complex128], Array]:
+    """Return the eigenvalues, the largest first, and bounds of their errors, shape [m] each.
+
+    Gershgorin's circles of the matrix in the basis of its eigenvectors V contain the eigenvalues of every matrix within
+    the errors E; their radii are the row sums of abs(V^-1) E abs(V).  They grow beyond all bounds where two
+    eigenvalues meet.  There the bound of Elsner (1985) is smaller: (2 |M| + |E|)^(1 - 1/m) |E|^(1/m).
+
+    Parameters
+    ----------
+    matrix : array
+        The matrix, shape [m, m].
+    error : array
+        Bounds of the errors of its numbers, shape [m, m].
+    """
+    m = len(matrix)
+    if m == 0:
+        return np.zeros(0, dtype=complex), np.zeros(0)
+    found, vectors = np.linalg.eig(matrix)
+    order = np.argsort(-np.abs(found), kind="stable")
+    found, vectors = found[order].astype(complex), vectors[:, order]
+    if not np.all(np.isfinite(error)):
+        return found, np.full(m, np.inf)
+    largest = float(np.linalg.norm(error))
+    elsner = (2.0 * float(np.linalg.norm(matrix, 2)) + largest) ** (1.0 - 1.0 / m) * largest ** (1.0 / m)
+    try:
+        radii = np.sum(np.abs(np.linalg.inv(vectors)) @ error @ np.abs(vectors), axis=1)
+    except np.linalg.LinAlgError:
+        return found, np.full(m, elsner)
+    return found, np.minimum(radii, elsner)

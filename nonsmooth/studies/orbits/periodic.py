@@ -1,4 +1,4 @@
-"""Orbits that repeat after a period: Newton's method on the map from section to section, Floquet multipliers."""
+"""Periodic orbits by Newton's method on the map from section to section, and their Floquet multipliers."""
 
 from __future__ import annotations
 
@@ -12,57 +12,61 @@ from numpy.typing import NDArray
 from nonsmooth.checks import is_finite
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.errors import InvalidInput, NonsmoothError, RunFailed
-from nonsmooth.progress import Display, Pace, TimeReached
+from nonsmooth.progress import Display, TimeReached
 from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
-from nonsmooth.studies.derivatives.coordinates import coordinate_number
+from nonsmooth.studies.derivatives.coordinates import coordinate_number, values_of
 from nonsmooth.studies.derivatives.family import Family, Varied
-from nonsmooth.studies.derivatives.passage import Signature, named
-from nonsmooth.studies.displays import display_of
-from nonsmooth.studies.orbits.choosing import at_phase, chosen
-from nonsmooth.studies.orbits.eigenvalues import eigenvalues, with_error
-from nonsmooth.studies.orbits.linear import Corner, Linear, linear
-from nonsmooth.studies.orbits.modulo import Modulo
-from nonsmooth.studies.orbits.sections import Crossing, Section, Strobe
-from nonsmooth.studies.orbits.symmetries import Symmetry
+from nonsmooth.studies.derivatives.flow import Signature
+from nonsmooth.studies.derivatives.flow import named as events_in_words
+from nonsmooth.studies.inputs import check_phase, check_positive, meter
+from nonsmooth.studies.orbits.linear import Linear, NonDifferentiablePoint, eigenvalues, linear
+from nonsmooth.studies.orbits.sections import (
+    PoincareSection,
+    Section,
+    StroboscopicSection,
+    clearest_state,
+    state_at_phase,
+)
+from nonsmooth.studies.orbits.symmetries import RelativeSection, Symmetry
+from nonsmooth.types import Array
 
-Floats = NDArray[np.float64]
 _CLOSE = 1e-12
-"""What is left of an orbit that has been found, in units of scales."""
+"""Largest residual of an orbit, in units of scales."""
 _AGAIN = 1e-8
-"""What may be left of it after another period, for a map that stretches by 1."""
+"""Largest residual after another period, for a map that stretches by 1."""
 _MOST = 30
 """Steps of Newton's method."""
 _HELD = 1e-6
-"""Largest difference of what closed contacts hold after a period, in units of scales."""
+"""Largest difference of eliminated coordinates after a period, in units of scales."""
 _MODES = {Mode.OPEN: "open", Mode.STICK: "closed and sticks", Mode.SLIDE: "closed and slides"}
-_TOLD = 3
+_NAMED = 3
 """Contacts that a message names at most."""
 _NEARLY_ONE = 1e-3
 """Distance of a multiplier from 1 below which Newton's method divides by less than a thousandth."""
 
 
 class NoOrbit(NonsmoothError):
-    """No orbit was found, or none that has a derivative."""
+    """No orbit was found."""
 
 
 @final
 @dataclass(frozen=True)
 class Orbit:
-    """A motion that repeats, but for coordinates that were left out, as those along which it drifts.
+    """A motion that repeats in the coordinates of ``within``.
 
     Attributes
     ----------
     family : Family
-        What it is an orbit of, at its values; where a coordinate that passes a level ends a period, so do its runs.
+        The systems, at the values of this orbit; with a Poincare section their runs end at the section.
     state : State
-        Where it is at the section.
+        Its state at the section.
     section : Section
         Where a period ends.
     within : tuple of str or None
         The coordinates and velocities that repeat.
     residual : float
-        What is left of the difference between end and start, in units of scales.
+        Largest difference between end and start, in units of scales.
     map : Linear
         The map of one period about it; its matrix is the monodromy matrix.
     """
@@ -76,30 +80,29 @@ class Orbit:
 
     @property
     def period(self) -> float:
-        """[s]."""
+        """The period [s]."""
         return self.map.end.state.time - self.state.time
 
     @property
     def turns(self) -> dict[str, float]:
-        """By how much a period turns the motion [rad], by the name of the symmetry."""
+        """Angle by which a period turns the motion [rad], by symmetry."""
         return self.section.turns(self.family.model(), self.state)
 
     @property
     def smooth(self) -> tuple[str, ...]:
-        """The directions in which the map has a derivative."""
-        rough = {corner.direction for corner in self.map.corners}
+        """The directions along which the map has a derivative."""
+        rough = {point.direction for point in self.non_differentiable}
         return tuple(name for name in self.map.chart.names if name not in rough)
 
     @property
-    def corners(self) -> tuple[Corner, ...]:
-        """The directions in which it has none: several events at one instant, whose order a small change decides."""
-        return self.map.corners
+    def non_differentiable(self) -> tuple[NonDifferentiablePoint, ...]:
+        """The directions without a derivative: a small change decides the order of simultaneous events."""
+        return self.map.non_differentiable
 
     @property
-    def monodromy(self) -> Floats:
+    def monodromy(self) -> Array:
         """The derivatives of the map along the smooth directions, in units of scales, shape [m, m]."""
-        kept = [name in self.smooth for name in self.map.chart.names]
-        return np.asarray(self.map.matrix[np.ix_(kept, kept)])
+        return self._smooth_part(self.map.matrix)
 
     @property
     def multipliers(self) -> NDArray[np.complex128]:
@@ -107,15 +110,14 @@ class Orbit:
         return eigenvalues(self.monodromy, np.zeros_like(self.monodromy))[0]
 
     @property
-    def multiplier_errors(self) -> Floats:
-        """Bounds of the errors of the multipliers, in their order, from those of the derivatives; shape [m]."""
-        kept = [name in self.smooth for name in self.map.chart.names]
-        return eigenvalues(self.monodromy, self.map.error[np.ix_(kept, kept)])[1]
+    def multiplier_errors(self) -> Array:
+        """Bounds of the errors of the multipliers, from the errors of the derivatives; shape [m]."""
+        return eigenvalues(self.monodromy, self._smooth_part(self.map.error))[1]
 
     @property
     def stable(self) -> bool:
-        """Whether all multipliers lie within the unit circle by more than their errors, and there are no corners."""
-        return not self.corners and bool(np.all(np.abs(self.multipliers) + self.multiplier_errors < 1.0))
+        """True if all directions are smooth and all multipliers plus their errors lie within the unit circle."""
+        return not self.non_differentiable and bool(np.all(np.abs(self.multipliers) + self.multiplier_errors < 1.0))
 
     @property
     def events(self) -> Signature:
@@ -125,14 +127,16 @@ class Orbit:
     def __str__(self) -> str:
         """Return period, residual, multipliers and events."""
         model = self.family.model()
-        values = ", ".join(map(with_error, self.multipliers, self.multiplier_errors)) or "none"
-        rough = f"; no derivative along {', '.join(c.direction for c in self.corners)}" if self.corners else ""
-        passes = ", ".join(self.section.without(model))
+        pairs = zip(self.multipliers, self.multiplier_errors, strict=True)
+        values = ", ".join(f"{value:.8g} (+-{error:.0e})" for value, error in pairs) or "none"
+        without = ", ".join(point.direction for point in self.non_differentiable)
+        rough = f"; no derivative along {without}" if without else ""
+        passes = ", ".join(self.section.fixed(model))
         trivial = f" besides 1 along the motion, which the section of {passes} takes away" if passes else ""
         turned = "".join(f"; {name} by {angle:.9g} rad" for name, angle in self.turns.items())
         return (
             f"period {self.period:.9g} s, residual {self.residual:.1e}, multipliers {values}{trivial}{turned}{rough}; "
-            f"events: {named(self.events, model)}"
+            f"events: {events_in_words(self.events, model)}"
         )
 
     def value(self, coordinate: str, at: float) -> float:
@@ -144,15 +148,19 @@ class Orbit:
             If there is none of that name.
         """
         model = self.family.model()
-        there = at_phase(model, self.state, self.period, at)
-        return float(np.concatenate([there.q, there.u])[coordinate_number(model.system, coordinate)])
+        there = state_at_phase(model, self.state, self.period, at)
+        return float(values_of(there)[coordinate_number(model.system, coordinate)])
+
+    def _smooth_part(self, matrix: Array) -> Array:
+        kept = [name in self.smooth for name in self.map.chart.names]
+        return np.asarray(matrix[np.ix_(kept, kept)])
 
 
 def orbit(
     what: Varied,
     period: float | None = None,
     *,
-    section: Crossing | None = None,
+    section: PoincareSection | None = None,
     at: float | None = None,
     settle: float = 0.0,
     start: State | None = None,
@@ -160,35 +168,35 @@ def orbit(
     symmetries: Sequence[Symmetry] = (),
     display: Display | None = None,
 ) -> Orbit:
-    """Find the orbit near a start.
+    """Find the periodic orbit near a start, and its Floquet multipliers.
 
-    Of a system that has a period the section is a time in it; by default, in the period behind ``settle``, the one at
-    which the least of all gaps is largest: where no contact is closed all coordinates are free.  Where one is closed,
-    the coordinates and velocities that it holds follow the others.  A system without a period of its own needs a
-    section that its motion passes; the period is found, and the multiplier 1, along the motion, is left out.
+    A driven system has a stroboscopic section: a time in the period, by default the one after ``settle`` at which the
+    least gap is largest.  If a contact is closed there, the coordinates and velocities that it constrains follow the
+    others.  A system without a drive needs a Poincare section; its period is found, and the multiplier 1 along the
+    motion is left out.
 
     Parameters
     ----------
     what : Scenario, System or Family
         The system.
     period : float, optional
-        Period of what drives the system, or a multiple [s].
-    section : Crossing, optional
-        Where a period ends, in place of that.
+        Period of the drive, or a multiple [s].
+    section : PoincareSection, optional
+        Where a period ends, if nothing drives the system.
     at : float, optional
-        When in each period the section is [s].
+        Time of the section in each period [s]; by default far from all events.
     settle : float
-        Time to run before, from the start [s]; attracting orbits come closer in it.
+        Time of the transient before [s].
     start : State, optional
-        Where to begin; by default as the system is placed.
+        First state; by default as the system is placed.
     within : sequence of str, optional
-        Names of coordinates and velocities that repeat ("z", or "ball.z" where bodies share a name); by default all.
-        Leave out those along which the motion drifts, and all out of a plane that it stays in.
+        Names of coordinates and velocities that repeat ("z", or "ball.z" if bodies share a name); by default all.
+        Leave out coordinates that drift, and those out of a plane of motion.
     symmetries : sequence of Symmetry, optional
-        By which the motion may turn in a period, as one that circles: :class:`Turn` about the vertical, :class:`Spin`
-        of a symmetric body about its own axis.
+        Rotations of the motion that a period may add: :class:`Turn` of everything about the vertical, :class:`Spin` of
+        a symmetric body about its own axis.
     display : Display, optional
-        Where it is shown how far the time before is; on standard error by default, ``nonsmooth.progress.Quiet()`` shows
+        Where the progress of ``settle`` is shown; on standard error by default, ``nonsmooth.progress.Quiet()`` shows
         nothing.
 
     Raises
@@ -198,34 +206,34 @@ def orbit(
     UnknownName
         If a coordinate has no such name.
     NoOrbit
-        If Newton's method does not arrive.
+        If Newton's method does not converge.
     """
     if (period is None) == (section is None):
-        remedy = "Give the period of what drives the system; of a system without one a section=Crossing(...)."
+        remedy = "Give the period of the drive; of a system without one a section=PoincareSection(...)."
         rule = "must be given, or a section in its place, and not both"
         raise InvalidInput("orbit: period and section", rule, (period, section), remedy)
-    if period is not None and not (is_finite(period) and period > 0.0):
-        raise InvalidInput("orbit: period", "must be positive and finite", period, "Give it in [s].")
-    if at is not None and not (period is not None and is_finite(at) and 0.0 <= at < period):
-        raise InvalidInput("orbit: at", "must be a time within a period", at, "Give it in [s].")
+    if period is not None:
+        check_positive("orbit: period", period, "Give it in [s].")
+    if at is not None:
+        check_phase("orbit: at", at, period)
     if not (is_finite(settle) and settle >= 0.0):
         raise InvalidInput("orbit: settle", "must not be negative", settle, "Give it in [s].")
     family, names = Family.of(what), None if within is None else tuple(within)
     model = family.model()
     begin = model.start if start is None else start
     if settle > 0.0:
-        with Pace(display_of(display)) as pace:
-            begin = model.run(begin.time + settle, start=begin, progress=TimeReached(pace)).state
+        with meter(display) as shown:
+            begin = model.run(begin.time + settle, start=begin, progress=TimeReached(shown)).state
     if section is not None:
-        watched = section.watched(family)
-        return close(watched, section.entered(watched.model(), begin), _modulo(section, symmetries), names)
+        family = section.guarded(family)
+        return close(family, section.first(family.model(), begin), _modulo(section, symmetries), names)
     assert period is not None
-    state = chosen(model, begin, period) if at is None else at_phase(model, begin, period, at)
-    return close(family, state, _modulo(Strobe(period), symmetries), names)
+    state = clearest_state(model, begin, period) if at is None else state_at_phase(model, begin, period, at)
+    return close(family, state, _modulo(StroboscopicSection(period), symmetries), names)
 
 
 def _modulo(section: Section, symmetries: Sequence[Symmetry]) -> Section:
-    return Modulo(section, tuple(symmetries)) if symmetries else section
+    return RelativeSection(section, tuple(symmetries)) if symmetries else section
 
 
 def close(family: Family, state: State, section: Section, within: tuple[str, ...] | None) -> Orbit:
@@ -234,7 +242,7 @@ def close(family: Family, state: State, section: Section, within: tuple[str, ...
     Raises
     ------
     NoOrbit
-        If Newton's method does not arrive.
+        If Newton's method does not converge.
     """
     model, residual = family.model(), np.inf
     section.check(model, state)
@@ -245,7 +253,7 @@ def close(family: Family, state: State, section: Section, within: tuple[str, ...
         except (InvalidInput, RunFailed) as error:
             if i == 0:
                 raise
-            # values and remedies of the run are of a state that nobody asked for
+            # values and remedies of the run belong to a state that only Newton's method visited
             why = f"{error.thing} {error.rule}" if isinstance(error, InvalidInput) else str(error)
             raise NoOrbit(
                 f"no orbit near the start: step {i} of Newton's method leads to a state from which no run comes back "
@@ -262,7 +270,7 @@ def close(family: Family, state: State, section: Section, within: tuple[str, ...
         smooth = ~np.isnan(found.matrix[0]) if len(found.matrix) else np.zeros(0, dtype=bool)
         change = np.zeros(len(found.way))
         reduced = found.matrix[np.ix_(smooth, smooth)] - np.eye(int(np.sum(smooth)))
-        # along directions of symmetry nothing is to be changed: the least change of all
+        # the least change of all leaves directions of symmetry as they are
         change[smooth] = np.linalg.lstsq(reduced, -found.way[smooth], rcond=1e-9)[0]
         state, step = found.chart.moved(model, state, change), found.step
     raise NoOrbit(f"no orbit near the start: after {_MOST} steps {residual:.2g} is left; {_advice(found)}")
@@ -279,20 +287,20 @@ def _check_closed(model: Model, start: State, end: State) -> None:
     differ = np.flatnonzero(start.modes != end.modes).tolist()
     if not differ:
         return
-    told = [
+    named = [
         f"{model.system.names.contacts[i]!r} is {_MODES[Mode(start.modes[i])]} at the start of the period and "
         f"{_MODES[Mode(end.modes[i])]} at its end"
-        for i in differ[:_TOLD]
+        for i in differ[:_NAMED]
     ]
-    more = f" (and {len(differ) - _TOLD} more)" if len(differ) > _TOLD else ""
+    more = f" (and {len(differ) - _NAMED} more)" if len(differ) > _NAMED else ""
     raise NoOrbit(
-        f"no orbit near the start: {'; '.join(told)}{more}. Choose a section in flight. If feet take turns, let a "
-        "period last until the first one is down again: Crossing(..., times=n), or n times the period"
+        f"no orbit near the start: {'; '.join(named)}{more}. Choose a section in flight. If feet take turns, let a "
+        "period last until the first one is down again: PoincareSection(..., times=n), or n times the period"
     )
 
 
 def _check_following(found: Linear, start: State) -> None:
-    """Check that coordinates of ``within`` that closed contacts hold repeat, too.
+    """Check that coordinates of ``within`` that closed contacts constrain repeat, too.
 
     Raises
     ------
@@ -322,7 +330,7 @@ def _advice(found: Linear) -> str:
 
 
 def _check_again(model: Model, found: Linear, section: Section) -> None:
-    """Look whether the end of a period leads to itself as the start does: else the system has another period.
+    """Check that the end of a period maps to itself as the start does; else the system has another period.
 
     Raises
     ------
@@ -330,7 +338,7 @@ def _check_again(model: Model, found: Linear, section: Section) -> None:
         If it does not.
     """
     end = found.end.state
-    again = section.passage(model, end).state
+    again = section.flow(model, end).state
     off = float(np.max(np.abs(found.chart.between(end, again)), initial=0.0))
     finite = found.matrix[np.isfinite(found.matrix)]
     if off > _AGAIN * max(1.0, float(np.linalg.norm(finite))):

@@ -7,15 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nonsmooth.plot.arguments import axes_of
-from nonsmooth.plot.lines import beside
-from nonsmooth.studies.orbits.branch import Branch
+from nonsmooth.studies.orbits.continuation import Branch
 from nonsmooth.studies.orbits.periodic import Orbit
+from nonsmooth.studies.plotting import BLUE, MARKS, VERMILION, axes_of, few_ticks, finish
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-_MARKS = {"fold": "s", "period doubling": "D", "Neimark-Sacker": "^", "grazing": "v", "corner": "*", "sequence": "X"}
 
 
 def multipliers(orbit: Orbit, ax: Axes | None = None) -> Axes:
@@ -26,36 +23,25 @@ def multipliers(orbit: Orbit, ax: Axes | None = None) -> Axes:
     orbit : Orbit
         The orbit.
     ax : Axes, optional
-        Where; a new figure by default.
-
-    Returns
-    -------
-    Axes
-        The axes.
+        The axes; of a new figure by default.
     """
-    ax = axes_of(ax)
+    ax, values = axes_of(ax), orbit.multipliers
     angle = np.linspace(0.0, 2.0 * np.pi, 200)
     ax.plot(np.cos(angle), np.sin(angle), color="0.5", linewidth=0.8)
-    values = orbit.multipliers
     inside = np.abs(values) < 1.0
     for which, mark, colour, word in (
-        (inside, "o", "#0072b2", "inside: dies out"),
-        (~inside, "X", "#d55e00", "outside: grows"),
+        (inside, "o", BLUE, "inside: dies out"),
+        (~inside, "X", VERMILION, "outside: grows"),
     ):
         if np.any(which):
             ax.plot(values.real[which], values.imag[which], mark, color=colour, label=word)
     ax.set_aspect("equal")
-    ax.set_xlabel("real part [1]")
-    ax.set_ylabel("imaginary part [1]")
-    ax.set_title(f"The largest multiplier is {np.max(np.abs(values), initial=0.0):.4g}", fontsize=10)
-    ax.grid(color="0.9", linewidth=0.6)
-    ax.set_axisbelow(True)
-    beside(ax)
-    return ax
+    title = f"The largest multiplier is {np.max(np.abs(values), initial=0.0):.4g}"
+    return finish(ax, "real part [1]", "imaginary part [1]", title)
 
 
 def branch(found: Branch, shown: Callable[[Orbit], float], label: str, ax: Axes | None = None) -> Axes:
-    """Draw a number of the orbits of a branch over its parameter, what is stable in full, the rest dashed.
+    """Draw a number of the orbits of a branch over its parameter: stable orbits in full, unstable ones dashed.
 
     Parameters
     ----------
@@ -64,38 +50,23 @@ def branch(found: Branch, shown: Callable[[Orbit], float], label: str, ax: Axes 
     shown : callable
         ``shown(orbit)`` returns the number.
     label : str
-        What it is, with its unit.
+        Its name with its unit.
     ax : Axes, optional
-        Where; a new figure by default.
-
-    Returns
-    -------
-    Axes
-        The axes.
+        The axes; of a new figure by default.
     """
     ax = axes_of(ax)
     heights = np.array([shown(orbit) for orbit in found.orbits])
     stable = np.array([orbit.stable for orbit in found.orbits])
-    # a piece belongs to both of its ends: what joins a stable orbit and an unstable one is dashed
+    # a piece belongs to both of its ends: it is dashed between a stable orbit and an unstable one
     for which, style, word in ((stable, "-", "stable"), (~stable, "--", "unstable")):
         wide = which if style == "-" else which | np.roll(which, 1) | np.roll(which, -1)
         if np.any(which):
             ax.plot(found.values, np.where(wide, heights, np.nan), style, color="black", linewidth=1.3, label=word)
-    for kind, mark in _MARKS.items():
+    for kind, mark in MARKS.items():
         points = [one for one in found.special if one.kind == kind]
         if points:
-            values = [f"{one.value:.6g}" for one in points]
-            ax.plot(
-                [one.value for one in points],
-                [shown(one.orbit) for one in points],
-                mark,
-                color="#d55e00",
-                label=f"{kind} at {', '.join(values)}",
-            )
-    ax.set_xlabel(found.orbits[0].family.label(found.name))
-    ax.locator_params(axis="x", nbins=6)  # labels of eight characters fit
-    ax.set_ylabel(label)
-    ax.grid(color="0.9", linewidth=0.6)
-    ax.set_axisbelow(True)
-    beside(ax)
-    return ax
+            word = f"{kind} at {', '.join(f'{one.value:.6g}' for one in points)}"
+            places = [one.value for one in points], [shown(one.orbit) for one in points]
+            ax.plot(*places, mark, color=VERMILION, label=word)
+    few_ticks(ax)
+    return finish(ax, found.orbits[0].family.label(found.name), label)

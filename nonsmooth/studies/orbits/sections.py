@@ -1,4 +1,4 @@
-"""Sections: where a period ends, after a time or as a coordinate passes a level."""
+"""Sections: where a period ends, at a time of the drive or as a coordinate passes a level."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nonsmooth.checks import is_finite
 from nonsmooth.engine.memory.modes import Cause
@@ -16,99 +15,101 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Guard
 from nonsmooth.parameters import parameter
 from nonsmooth.runs.model import Model
+from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
-from nonsmooth.studies.derivatives.coordinates import coordinate_number, turns, whole_name
+from nonsmooth.studies.derivatives.coordinates import coordinate_number, is_in_quaternion, values_of, whole_name
 from nonsmooth.studies.derivatives.family import Family
-from nonsmooth.studies.derivatives.passage import Passage, Signature, passage
+from nonsmooth.studies.derivatives.flow import FlowSegment, Signature, flow
+from nonsmooth.studies.inputs import check_positive
 from nonsmooth.system.system import System
-from nonsmooth.types import Floats
+from nonsmooth.types import Array, Floats
+
+_CANDIDATES = 200
+"""Times of a period among which the section is chosen."""
+_CLOSED, _SLIDES = 1, 4
+"""Bits of the mode code of a contact."""
 
 
 class Section(ABC):
     """Where a period ends."""
 
     @abstractmethod
-    def passage(self, model: Model, start: State) -> Passage:
-        """Run a model from a state of the section to the next one.
+    def flow(self, model: Model, start: State) -> FlowSegment:
+        """Run a model from a state of the section to its next return.
 
         Raises
         ------
         RunFailed
-            If it cannot go on.
+            If the run cannot continue.
         InvalidInput
-            If it does not come back.
+            If the motion does not return.
         """
 
     @abstractmethod
-    def without(self, model: Model) -> tuple[str, ...]:
-        """Return the coordinate that does not change within the section, if there is one."""
+    def with_period(self, period: float) -> Section:
+        """Return the section with another period of the drive [s], if it has one."""
 
-    def ignored(self, model: Model, state: State) -> NDArray[np.float64]:
-        """Return directions in which states are taken for the same, shape [n_q + n_u, k]; none by default."""
+    def fixed(self, model: Model) -> tuple[str, ...]:
+        """Return the names of coordinates that are constant on the section; none by default."""
+        return ()
+
+    def ignored(self, model: Model, state: State) -> Array:
+        """Return directions along which states count as equal, shape [n_q + n_u, k]; none by default."""
         return np.zeros((len(state.q) + len(state.u), 0))
 
     def check(self, model: Model, start: State) -> None:
-        """Look, by a period from a state, whether the system is as the section takes it; nothing by default.
-
-        Raises
-        ------
-        InvalidInput
-            If it is not.
-        """
+        """Raise InvalidInput if a period from a state contradicts what the section assumes; nothing by default."""
         return
 
     def turns(self, model: Model, start: State) -> dict[str, float]:
-        """Return by how much a period turns a state [rad], by the name of the symmetry; nothing by default."""
+        """Return the angle by which a period turns a state [rad], by symmetry; empty by default."""
         return {}
-
-    @abstractmethod
-    def lasting(self, period: float) -> Section:
-        """Return the same with another period [s], where it is given by one."""
 
 
 @final
 @dataclass(frozen=True)
-class Strobe(Section):
-    """Once in a time that the system gives, as a plate that vibrates.
+class StroboscopicSection(Section):
+    """One state per period of a drive, such as a vibrating plate.
 
     Attributes
     ----------
     period : float
-        [s].
+        The period [s].
     """
 
     period: float
 
-    def passage(self, model: Model, start: State) -> Passage:
+    def flow(self, model: Model, start: State) -> FlowSegment:
         """Run for a period."""
-        return passage(model, start, start.time + self.period)
+        return flow(model, start, start.time + self.period)
 
-    def without(self, model: Model) -> tuple[str, ...]:
-        """Return none."""
-        return ()
-
-    def lasting(self, period: float) -> Strobe:
-        """Return that of the period."""
-        return Strobe(period)
+    def with_period(self, period: float) -> StroboscopicSection:
+        """Return the section of another period [s]."""
+        return StroboscopicSection(period)
 
 
 @final
 @dataclass(frozen=True)
-class Crossing(Section):
-    """Where a coordinate or velocity passes a level, for systems without a period of their own.
+class PoincareSection(Section):
+    """A coordinate or velocity passes a level: the section of a system without a drive.
 
     Attributes
     ----------
     coordinate : str
-        "z", or "ball.z" where bodies share a name; no number of a quaternion.
+        "z", or "ball.z" if bodies share a name; no component of a quaternion.
     level : float
-        In its unit.
+        The level, in the unit of the coordinate.
     rising : bool
-        Whether it passes upwards; else downwards.  A velocity that jumps over the level does not pass it.
+        True if it passes upwards.  A velocity that jumps over the level does not pass it.
     times : int
-        How often it passes in a period.
+        Passages in a period.
     longest : float
-        A motion that passes no more within so long has no orbit [s].
+        Longest time between passages; a motion that takes longer has no orbit [s].
+
+    Raises
+    ------
+    InvalidInput
+        If a number is not valid.
     """
 
     coordinate: str
@@ -118,21 +119,12 @@ class Crossing(Section):
     longest: float = 100.0
 
     def __post_init__(self) -> None:
-        """Look at the numbers.
-
-        Raises
-        ------
-        InvalidInput
-            If one is not valid.
-        """
         if not is_finite(self.level):
-            raise InvalidInput("Crossing.level", "must be a finite number", self.level, "Give it in its unit.")
+            raise InvalidInput("PoincareSection.level", "must be a finite number", self.level, "Give it in its unit.")
         for name in ("times", "longest"):
-            value = getattr(self, name)
-            if not (is_finite(value) and value > 0):
-                raise InvalidInput(f"Crossing.{name}", "must be positive and finite", value, "Give a larger one.")
+            check_positive(f"PoincareSection.{name}", getattr(self, name), "Give a larger one.")
 
-    def watched(self, family: Family) -> Family:
+    def guarded(self, family: Family) -> Family:
         """Return a family whose runs end at the section.
 
         Raises
@@ -150,97 +142,111 @@ class Crossing(Section):
 
         return Family(make, family.values, family.engine, family.units)
 
-    def entered(self, model: Model, start: State) -> State:
-        """Return where a motion first passes, from a state of the system without the section."""
-        spent = np.append(start.guards_spent, 0)
-        return self._next(model, replace(start, guards_spent=spent)).state
+    def first(self, model: Model, start: State) -> State:
+        """Return the first passage of a motion that begins in a state of the system without the guard."""
+        return self._next(model, replace(start, guards_spent=np.append(start.guards_spent, 0))).state
 
-    def passage(self, model: Model, start: State) -> Passage:
-        """Run until the coordinate has passed as often as asked for."""
-        state, told, when = start, list[tuple[int, int]](), list[float]()
+    def flow(self, model: Model, start: State) -> FlowSegment:
+        """Run until the coordinate has passed ``times`` times."""
+        state, signature, times = start, list[tuple[int, int]](), list[float]()
         for _ in range(int(self.times)):
-            piece = self._next(model, state)
-            state, told, when = piece.state, [*told, *piece.signature], [*when, *piece.times]
-        return Passage(state, tuple(told), tuple(when))
+            segment = self._next(model, state)
+            state = segment.state
+            signature += segment.signature
+            times += segment.times
+        return FlowSegment(state, tuple(signature), tuple(times))
 
-    def lasting(self, period: float) -> Crossing:
-        """Return this one: where it is passed says how long a period is."""
+    def with_period(self, period: float) -> PoincareSection:
+        """Return this section: its passages determine the period."""
         return self
 
-    def without(self, model: Model) -> tuple[str, ...]:
+    def fixed(self, model: Model) -> tuple[str, ...]:
         """Return the coordinate."""
         return (whole_name(model.system, coordinate_number(model.system, self.coordinate)),)
 
-    def _next(self, model: Model, start: State) -> Passage:
-        piece = passage(model, start, start.time + self.longest)
+    def _next(self, model: Model, start: State) -> FlowSegment:
+        segment = flow(model, start, start.time + self.longest)
         end: Signature = ((Cause.GUARD, len(model.system.guards) - 1),)
-        if piece.signature[-1:] != end:
+        if segment.signature[-1:] != end:
             word = "upwards" if self.rising else "downwards"
             rule = f"must pass {self.level:.9g} {word} within {self.longest:.9g} s"
             number = coordinate_number(model.system, self.coordinate)
-            before, behind = (float(np.concatenate([one.q, one.u])[number]) for one in (start, piece.state))
             remedy = (
                 "Choose a level that it passes in each period, or begin nearer to the orbit. Of a coordinate that "
                 "drifts take the velocity."
             )
-            said = f"{before:.9g} at t = {start.time:.9g} s, {behind:.9g} at t = {piece.state.time:.9g} s"
-            raise InvalidInput(f"section: {self.coordinate}", rule, said, remedy)
-        return Passage(piece.state, piece.signature[:-1], piece.times[:-1])
+            ends = (f"{values_of(one)[number]:.9g} at t = {one.time:.9g} s" for one in (start, segment.state))
+            raise InvalidInput(f"section: {self.coordinate}", rule, ", ".join(ends), remedy)
+        return FlowSegment(segment.state, segment.signature[:-1], segment.times[:-1])
 
     def _guard(self, system: System) -> Guard:
         number = coordinate_number(system, self.coordinate)
-        if turns(system, number):
+        if is_in_quaternion(system, number):
             remedy = "Take an angular velocity, or another body."
             raise InvalidInput("section", "must not be a number of a quaternion", self.coordinate, remedy)
         sign, n_q = -1.0 if self.rising else 1.0, sum(body.n_q for body in system.bodies)
-        if number < n_q:
-            return _Coordinate(float(number), self.level, sign)
-        return _Velocity(float(number - n_q), self.level, sign)
+        is_velocity = number >= n_q
+        return _Level(float(number - n_q * is_velocity), self.level, sign, float(is_velocity))
 
 
-def _coordinate(t: float, q: Floats, u: Floats, place: float, level: float, sign: float) -> float:
+def _distance(t: float, q: Floats, u: Floats, place: float, level: float, sign: float, is_velocity: float) -> float:
+    if is_velocity > 0.5:
+        return sign * (u[int(place)] - level)
     return sign * (q[int(place)] - level)
 
 
-def _velocity(t: float, q: Floats, u: Floats, place: float, level: float, sign: float) -> float:
-    return sign * (u[int(place)] - level)
-
-
 @final
 @dataclass(frozen=True)
-class _Coordinate(Guard):
-    """A coordinate passes a level."""
+class _Level(Guard):
+    """Ends a run as a coordinate or velocity passes a level."""
 
-    place: float = parameter(doc="number of the coordinate")
+    place: float = parameter(doc="number of the coordinate or velocity")
     level: float = parameter(doc="level in its unit")
     sign: float = parameter(doc="1 downwards, -1 upwards")
+    is_velocity: float = parameter(doc="1 of a velocity, 0 of a coordinate")
 
     @property
     def value(self) -> Callable[..., float]:
-        """How far it is from the level."""
-        return _coordinate
+        """Distance from the level."""
+        return _distance
 
     @property
     def ends_run(self) -> bool:
-        """Always."""
+        """True."""
         return True
 
 
-@final
-@dataclass(frozen=True)
-class _Velocity(Guard):
-    """A velocity passes a level."""
+def clearest_state(model: Model, begin: State, period: float) -> State:
+    """Return the state in the period after ``begin`` that is farthest from all events.
 
-    place: float = parameter(doc="number of the velocity")
-    level: float = parameter(doc="level in its unit")
-    sign: float = parameter(doc="1 downwards, -1 upwards")
+    If all contacts are open at some time, the state has the largest of all least gaps.  Otherwise it has the fewest
+    constraints of closed contacts, and of these states it is in the middle between events.
+    """
+    times = begin.time + period * (np.arange(_CANDIDATES) + 0.5) / _CANDIDATES
+    run = model.run(begin.time + period, start=begin, sample_interval=period)
+    which = np.searchsorted(run.events.time, times, side="right") - 1
+    codes = run.events.after[which]
+    closed = codes & _CLOSED
+    constraints = np.sum(closed * np.where(codes & _SLIDES, 1, 2), axis=1)
+    if np.any(constraints == 0):
+        gaps = run.history("gap", times=times)["gap"].reshape(_CANDIDATES, -1)
+        distance = np.where(constraints > 0, -np.inf, np.min(gaps, axis=1, initial=np.inf))
+    else:
+        distance = np.where(constraints > np.min(constraints), -np.inf, _from_events(run, times, period))
+    return state_at(model, begin, float(times[np.argmax(distance)]))
 
-    @property
-    def value(self) -> Callable[..., float]:
-        """How far it is from the level."""
-        return _velocity
 
-    @property
-    def ends_run(self) -> bool:
-        """Always."""
-        return True
+def state_at(model: Model, begin: State, time: float) -> State:
+    """Return the state of a motion at a time [s]."""
+    return flow(model, begin, time).state if time > begin.time else begin
+
+
+def state_at_phase(model: Model, begin: State, period: float, at: float) -> State:
+    """Return the first state of a motion at a time within each period [s]."""
+    return state_at(model, begin, begin.time + (at - begin.time) % period)
+
+
+def _from_events(run: Solution, times: Array, period: float) -> Array:
+    """Return the distance of times from the nearest event of a periodic motion [s]."""
+    apart = np.abs(times[:, None] - run.events.time[1:])
+    return np.asarray(np.min(np.minimum(apart, np.abs(period - apart)), axis=1, initial=np.inf))

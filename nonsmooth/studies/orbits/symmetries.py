@@ -1,31 +1,44 @@
-"""Symmetries: turns after which a system goes on as before, but for the turn."""
+"""Symmetries: rotations that commute with the motion, and sections modulo these."""
 
 from __future__ import annotations
 
 import dataclasses
+import itertools
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nonsmooth.checks import floats
-from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.errors import InvalidInput, RunFailed, UnknownName
 from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS
 from nonsmooth.rotations import rotation, turned
+from nonsmooth.runs.model import Model
 from nonsmooth.solution.state import State
+from nonsmooth.studies.derivatives.coordinates import quaternions_of, scales_of
+from nonsmooth.studies.derivatives.flow import FlowSegment
+from nonsmooth.studies.orbits.sections import Section
 from nonsmooth.system.system import System
+from nonsmooth.types import Array
 
-Floats = NDArray[np.float64]
 _PROBE = 1e-5
-_SAME = np.array([1.0, 0.0, 0.0, 0.0])
+"""Angle of the differences that give the direction of a symmetry [rad]."""
+_IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
 _AXES = "xyz"
+_TEST_ANGLE = 1.0
+"""Angle by which a state is turned to test a symmetry [rad]."""
+_SAME = 1e-6
+"""Allowed difference of a turned motion, in units of scales: round-off of runs is below it."""
+_GUESSES, _MOST = 5, 20
+"""Angles a turn that are tried first, and steps of Newton's method from the best of them."""
+_CLOSE = 1e-9
+"""Last step of Newton's method [rad]; the error along a symmetry does not change the orbit."""
 
 
 class Symmetry(ABC):
-    """Turns by any angle, of which those by small ones add up to the others."""
+    """A one-parameter group of rotations that maps motions to motions."""
 
     @abstractmethod
     def turned(self, system: System, state: State, angle: float) -> State:
@@ -34,11 +47,11 @@ class Symmetry(ABC):
         Raises
         ------
         InvalidInput
-            If the bodies are not such that can be turned.
+            If a body cannot be turned.
         """
 
-    def direction(self, system: System, state: State) -> Floats:
-        """Return how a state changes with the angle, shape [n_q + n_u]."""
+    def direction(self, system: System, state: State) -> Array:
+        """Return the derivative of a state by the angle, shape [n_q + n_u]."""
         one, two = (self.turned(system, state, angle) for angle in (-_PROBE, _PROBE))
         return np.concatenate([two.q - one.q, two.u - one.u]) / (2.0 * _PROBE)
 
@@ -46,24 +59,22 @@ class Symmetry(ABC):
 @final
 @dataclass(frozen=True)
 class Turn(Symmetry):
-    """All bodies together turn about an axis through the origin: about the vertical where the ground is level.
+    """All bodies turn together about an axis through the origin, by default the vertical.
 
     Attributes
     ----------
     axis : tuple of float
         Its direction, shape [3].
+
+    Raises
+    ------
+    InvalidInput
+        If the axis is not a direction.
     """
 
     axis: tuple[float, float, float] = (0.0, 0.0, 1.0)
 
     def __post_init__(self) -> None:
-        """Look at the axis.
-
-        Raises
-        ------
-        InvalidInput
-            If it is no direction.
-        """
         given = floats("Turn.axis", self.axis)
         if given.shape != (3,) or not np.linalg.norm(given) > 0.0:
             raise InvalidInput("Turn.axis", "must be a direction", self.axis, "For example (0, 0, 1).")
@@ -76,7 +87,7 @@ class Turn(Symmetry):
         """Return all bodies turned."""
         q, u = state.q.copy(), state.u.copy()
         way = angle * np.asarray(self.axis) / np.linalg.norm(self.axis)
-        matrix = rotation(turned(_SAME, way))
+        matrix = rotation(turned(_IDENTITY, way))
         for _, i, j in _free(system):
             q[i : i + 3], u[j : j + 3] = matrix @ q[i : i + 3], matrix @ u[j : j + 3]
             q[i + 3 : i + 7] = turned(q[i + 3 : i + 7], way)
@@ -86,7 +97,7 @@ class Turn(Symmetry):
 @final
 @dataclass(frozen=True)
 class Spin(Symmetry):
-    """A body turns about an axis of its own about which it is symmetric, in shape and inertia.
+    """A body turns about its own axis of symmetry, of shape and inertia.
 
     Attributes
     ----------
@@ -108,7 +119,7 @@ class Spin(Symmetry):
         return f"spin of {self.body} about its {self.axis}"
 
     def turned(self, system: System, state: State, angle: float) -> State:
-        """Return the body turned, with what it moves about its other axes."""
+        """Return the body turned; its angular velocity stays the same in space."""
         places = {name: (i, j) for name, i, j in _free(system)}
         if self.body not in places:
             raise UnknownName("Spin.body", self.body, places)
@@ -116,12 +127,12 @@ class Spin(Symmetry):
         own = np.eye(3)[_AXES.index(self.axis)]
         q, u = state.q.copy(), state.u.copy()
         q[i + 3 : i + 7] = turned(q[i + 3 : i + 7], angle * rotation(q[i + 3 : i + 7]) @ own)
-        u[j + 3 : j + 6] = rotation(turned(_SAME, -angle * own)) @ u[j + 3 : j + 6]
+        u[j + 3 : j + 6] = rotation(turned(_IDENTITY, -angle * own)) @ u[j + 3 : j + 6]
         return dataclasses.replace(state, q=q, u=u)
 
 
 def _free(system: System) -> Iterator[tuple[str, int, int]]:
-    """Give name, and offsets in q and u, of all bodies that move: those have to be free in space."""
+    """Yield name, and offsets in q and u, of all moving bodies; InvalidInput if one is not free in space."""
     i = j = 0
     for name, body in zip(system.names.bodies, system.bodies, strict=True):
         if body.n_u:
@@ -130,3 +141,103 @@ def _free(system: System) -> Iterator[tuple[str, int, int]]:
                 raise InvalidInput(f"symmetry: the body {name!r}", "must be free in space", body.q_labels, remedy)
             yield name, i, j
         i, j = i + body.n_q, j + body.n_u
+
+
+@final
+@dataclass(frozen=True)
+class RelativeSection(Section):
+    """A section modulo symmetries: each end of a period is turned back as near to the start as possible.
+
+    Attributes
+    ----------
+    section : Section
+        Where a period ends.
+    symmetries : tuple of Symmetry
+        By which a period may turn the motion.
+    """
+
+    section: Section
+    symmetries: tuple[Symmetry, ...]
+
+    def flow(self, model: Model, start: State) -> FlowSegment:
+        """Run to the next end of a period, and turn it back.
+
+        Raises
+        ------
+        InvalidInput
+            If a contact is closed there: its state has directions in space.
+        """
+        segment = self.section.flow(model, start)
+        if np.any(segment.state.modes):
+            remedy = "Choose another time in the period, or leave the symmetries out."
+            raise InvalidInput("section: symmetries", "need a section with all contacts open", "closed", remedy)
+        return replace(segment, state=self._back(model, segment.state, self._angles(model, start, segment.state)))
+
+    def with_period(self, period: float) -> RelativeSection:
+        """Return the section with another period [s]."""
+        return replace(self, section=self.section.with_period(period))
+
+    def fixed(self, model: Model) -> tuple[str, ...]:
+        """Return the coordinates that are constant on the section."""
+        return self.section.fixed(model)
+
+    def ignored(self, model: Model, state: State) -> Array:
+        """Return the directions of the symmetries."""
+        return np.column_stack([one.direction(model.system, state) for one in self.symmetries])
+
+    def check(self, model: Model, start: State) -> None:
+        """Check that turning before a period is the same as turning after it.
+
+        Raises
+        ------
+        InvalidInput
+            If the system lacks a symmetry.
+        """
+        end = self.section.flow(model, start).state
+        for one in self.symmetries:
+            expected, begin = (one.turned(model.system, state, _TEST_ANGLE) for state in (end, start))
+            try:
+                there = self.section.flow(model, begin).state
+                difference = np.concatenate([there.q - expected.q, there.u - expected.u]) / scales_of(model.system)
+                off = float(np.max(np.abs(difference)))
+                found = f"a period ends {off:.2g} elsewhere, in units of scales" if off > _SAME else ""
+            except (InvalidInput, RunFailed) as error:
+                found = f"there is no period ({error})"
+            if found:
+                rule = f"must be one of the system, but turned by {_TEST_ANGLE:g} rad {found}"
+                raise InvalidInput("orbit: symmetries", rule, str(one), "Leave it out.")
+
+    def turns(self, model: Model, start: State) -> dict[str, float]:
+        """Return the angle by which the next period turns a state [rad], within half a turn."""
+        angles = self._angles(model, start, self.section.flow(model, start).state)
+        return dict(zip(map(str, self.symmetries), angles.tolist(), strict=True))
+
+    def _back(self, model: Model, state: State, angles: Array) -> State:
+        for one, angle in zip(self.symmetries, angles.tolist(), strict=True):
+            state = one.turned(model.system, state, -angle)
+        return state
+
+    def _angles(self, model: Model, start: State, end: State) -> Array:
+        """Return the angles that minimise the distance of orientations and velocities from the start, by Newton."""
+        scales = np.concatenate([body.scales[1] for body in model.system.bodies])
+        rows = [slice(at, at + 4) for at in quaternions_of(model.system).values()]
+
+        def seen(state: State) -> Array:
+            # of the two quaternions of an orientation the one nearer to the start
+            turns = [state.q[at] * (1.0 if state.q[at] @ start.q[at] >= 0.0 else -1.0) for at in rows]
+            return np.concatenate([*turns, state.u / scales])
+
+        def left(angles: Array) -> Array:
+            return seen(self._back(model, end, angles)) - seen(start)
+
+        tried = np.linspace(-np.pi, np.pi, _GUESSES, endpoint=False)
+        guesses = [np.array(angles) for angles in itertools.product(tried, repeat=len(self.symmetries))]
+        angles = min(guesses, key=lambda one: float(np.linalg.norm(left(one))))
+        for _ in range(_MOST):
+            steps = 1e-6 * np.eye(len(self.symmetries))
+            slopes = np.column_stack([(left(angles + h) - left(angles - h)) / 2e-6 for h in steps])
+            change = np.linalg.lstsq(slopes, -left(angles), rcond=1e-8)[0]
+            angles = angles + change
+            if np.max(np.abs(change)) <= _CLOSE:
+                break
+        return np.asarray((angles + np.pi) % (2.0 * np.pi) - np.pi)

@@ -1,4 +1,4 @@
-"""Record: one thing that is kept of every run."""
+"""StudyRecord: a number, word or array that a study keeps of each run."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ from nonsmooth.system.labels import labels
 
 @final
 @dataclass(frozen=True, eq=False)
-class Outcome:
-    """A run that came to its end.
+class RunResult:
+    """A completed run, or the first steps of one.
 
     Attributes
     ----------
     scenario : Scenario or None
-        The scenario with the parameters of the run; None where a function built the system.
+        The scenario with the parameters of the run; None if a function built the system.
     model : Model
-        What ran.
+        The model of the run.
     solution : Solution
-        What it computed; of a first look only its beginning.
+        Its solution.
     t_end : float
-        When it was to end [s].
+        Requested end time [s].
     """
 
     scenario: Scenario | None
@@ -40,10 +40,10 @@ class Outcome:
 
     @cached_property
     def summary(self) -> Mapping[str, Any]:
-        """The numbers of the scenario, found once for all records."""
+        """The numbers of the scenario, computed once for all records."""
         return {} if self.scenario is None else dict(self.scenario.summarise(self.solution))
 
-    def along(self, axis: str) -> list[str]:
+    def labels(self, axis: str) -> list[str]:
         """Return the labels along "coordinate" or "velocity", with units."""
         known = labels(self.solution.system)
         rows = {"coordinate": known.coordinates, "velocity": known.velocities}[axis]
@@ -52,29 +52,29 @@ class Outcome:
 
 @final
 @dataclass(frozen=True)
-class Record:
-    """One thing that is kept of every run.
+class StudyRecord:
+    """A number, word or array that a study keeps of each run.
 
     Attributes
     ----------
     name : str
         Its name among the variables of the study.
     find : callable
-        Returns its value: a number, None for none, a word of ``words``, or an array.
+        Returns its value for a RunResult: a number, None for a missing one, a word of ``words``, or an array.
     attributes : mapping
         Unit and description.
     axes : mapping
-        Of each axis behind that of the runs its name and the labels along it.
+        Name of each axis after the runs, and the labels along it.
     words : tuple of str
-        Of a class all names that it can have; empty for numbers.
+        All words that a class can have; empty for numbers.
     dtype : str
-        Of the values: "int8" of a class, "int64" of a count.
+        Type of its values: "int8" of a class, "int64" of a count.
     how : str
-        What decides its values besides its name and axes, for the record.
+        Definition of its values besides name and axes, for the specification of the study.
     """
 
     name: str
-    find: Callable[[Outcome], Any]
+    find: Callable[[RunResult], Any]
     attributes: Mapping[str, Any]
     axes: Mapping[str, Sequence[Any]] = field(default_factory=dict)
     words: tuple[str, ...] = ()
@@ -83,23 +83,23 @@ class Record:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Shape of one value."""
+        """Shape of a value."""
         return tuple(map(len, self.axes.values()))
 
     @property
     def none(self) -> float:
-        """What stands where there is no value."""
+        """Value of a run that has none."""
         return np.nan if self.dtype == "float64" else -1
 
-    def of(self, outcome: Outcome) -> Any:
+    def of(self, result: RunResult) -> Any:
         """Return the value of a run: numbers of this shape, or the number of a word.
 
         Raises
         ------
         ValueError, TypeError
-            If what was found is none.
+            If the value has another shape or type.
         """
-        found = self.find(outcome)
+        found = self.find(result)
         if found is None:
             return self.none
         if self.words:
@@ -111,14 +111,19 @@ class Record:
 
 
 class Recorder(ABC):
-    """Makes a record out of a first look at a run."""
+    """Makes a record out of the first run of a study."""
 
     @abstractmethod
-    def record(self, look: Outcome) -> Record:
+    def record(self, first: RunResult) -> StudyRecord:
         """Return the record.
+
+        Parameters
+        ----------
+        first : RunResult
+            The first run, up to a short time.
 
         Raises
         ------
         InvalidInput
-            If there can be none.
+            If the run cannot have it.
         """

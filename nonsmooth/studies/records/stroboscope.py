@@ -1,4 +1,4 @@
-"""Where every run is once a period, the last times: a few numbers, by which motions are told apart."""
+"""Stroboscope: a record of the last states of a run, one a period, by which attractors are distinguished."""
 
 from __future__ import annotations
 
@@ -8,41 +8,40 @@ from dataclasses import dataclass
 from typing import Any, final
 
 import numpy as np
-from numpy.typing import NDArray
 
-from nonsmooth.checks import is_finite
 from nonsmooth.datasets import described
 from nonsmooth.errors import InvalidInput, UnknownName
-from nonsmooth.studies.derivatives.coordinates import coordinate_number
-from nonsmooth.studies.orbits.repeating import check_period
-from nonsmooth.studies.records.record import Outcome, Record, Recorder
+from nonsmooth.studies.derivatives.coordinates import coordinate_number, scales_of
+from nonsmooth.studies.inputs import check_count, check_phase, check_positive
+from nonsmooth.studies.orbits.scan import check_period
+from nonsmooth.studies.records.record import Recorder, RunResult, StudyRecord
+from nonsmooth.types import Array
 
 NAME = "stroboscopic"
 """The name of the record."""
 _REMEDY = "If a parameter that varies changes the frequency, make a study of its own for each of its values."
 _ROUND = 1e-9
-"""Part of a period by which a section may lie behind the end, for round-off."""
+"""Part of a period by which round-off may place the last section after the end."""
 
 
 @final
 @dataclass(frozen=True)
 class Stroboscope(Recorder):
-    """Some coordinates and velocities at the last sections of the stroboscopic map: once a period, at one phase.
+    """Some coordinates and velocities at the last sections of the stroboscopic map.
 
     Parameters
     ----------
     period : float
-        Of the motion that drives the system, or a multiple [s].  A run whose system has another one fails, and says so.
+        Period of the drive, or a multiple [s].  A run fails if its drive has another period.
     within : tuple of str
-        Names of coordinates and velocities, "z" or "ball.vz": those that decide what becomes of a motion, without
-        those that drift or turn.
+        Names of the coordinates and velocities that determine the motion, "z" or "ball.vz"; no coordinate that drifts.
     keep : int
-        How many sections are kept, those at the end of the run.
+        Number of sections, the last ones of the run.
     at : float
-        When in each period [s]: where no velocity jumps, or points lie on either side of it.
+        Time of the section in each period [s], at which no velocity jumps.
     phase : str, optional
-        Parameter of the scenario that is the phase of the driving motion at t = 0 [rad], where it is varied: ``at``
-        counts from phase 0 then, else from t = 0.
+        Parameter of the scenario that is the phase of the drive at t = 0 [rad], if it is varied: ``at`` then counts
+        from phase 0, else from t = 0.
 
     Raises
     ------
@@ -58,19 +57,16 @@ class Stroboscope(Recorder):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "within", tuple(self.within))
-        if not (is_finite(self.period) and self.period > 0.0):
-            raise InvalidInput("Stroboscope: period", "must be positive and finite", self.period, "Give it in [s].")
+        check_positive("Stroboscope: period", self.period, "Give it in [s].")
         if not self.within or len(set(self.within)) < len(self.within):
             remedy = 'For example ("z", "vz").'
             raise InvalidInput("Stroboscope: within", "must be names, each once", self.within, remedy)
-        if not isinstance(self.keep, int) or self.keep < 2:
-            remedy = "A period of n is seen in 2 n sections."
-            raise InvalidInput("Stroboscope: keep", "must be a whole number from 2 on", self.keep, remedy)
-        if not (is_finite(self.at) and 0.0 <= self.at < self.period):
-            raise InvalidInput("Stroboscope: at", "must be a time within a period", self.at, "Give it in [s].")
+        remedy = "A period of n is seen in 2 n sections."
+        check_count("Stroboscope: keep", self.keep, "must be a whole number from 2 on", remedy, least=2)
+        check_phase("Stroboscope: at", self.at, self.period)
 
-    def record(self, look: Outcome) -> Record:
-        """Return it for a system, with the scales of its bodies as an attribute.
+    def record(self, first: RunResult) -> StudyRecord:
+        """Return the record, with the scales of the coordinates as an attribute.
 
         Raises
         ------
@@ -79,41 +75,41 @@ class Stroboscope(Recorder):
         InvalidInput
             If the runs are too short.
         """
-        system, scenario = look.solution.system, look.scenario
+        system, scenario = first.solution.system, first.scenario
         places = [coordinate_number(system, name) for name in self.within]
-        scales = np.concatenate([one.scales[i] for i in (0, 1) for one in system.bodies])[places]
+        scales = scales_of(system)[places]
         if self.phase is not None:
             known = {} if scenario is None else scenario.values
             if self.phase not in known:
                 raise UnknownName("Stroboscope: phase", self.phase, known)
-        self._times(look.t_end, self._start(look))
-        names = [*look.along("coordinate"), *look.along("velocity")]
-        told = described("some of the state once a period") | {"scales": scales.tolist()}
+        self._times(first.t_end, self._start(first))
+        names = [*first.labels("coordinate"), *first.labels("velocity")]
+        text = described("some of the state once a period") | {"scales": scales.tolist()}
         sections: Sequence[Any] = range(1 - self.keep, 1)
         axes = {"section": sections, "within": [names[i] for i in places]}
-        return Record(NAME, self, told, axes, how=repr(self))
+        return StudyRecord(NAME, self, text, axes, how=repr(self))
 
-    def __call__(self, outcome: Outcome) -> Any:
+    def __call__(self, result: RunResult) -> Any:
         """Return the states of a run, shape [keep, n_within].
 
         Raises
         ------
         InvalidInput
-            If the run is too short, or what drives its system has another period.
+            If the run is too short, or its drive has another period.
         """
-        solution = outcome.solution
-        check_period(outcome.model, solution.state, self.period, "Stroboscope: period", _REMEDY)
-        states = solution.at(self._times(solution.t_end, self._start(outcome)))
+        solution = result.solution
+        check_period(result.model, solution.state, self.period, "Stroboscope: period", _REMEDY)
+        states = solution.at(self._times(solution.t_end, self._start(result)))
         places = [coordinate_number(solution.system, name) for name in self.within]
         return np.concatenate([states["q"], states["u"]], axis=1)[:, places]
 
-    def _start(self, outcome: Outcome) -> float:
-        """Return how far the driving motion is at t = 0 [periods]."""
-        if self.phase is None or outcome.scenario is None:
+    def _start(self, result: RunResult) -> float:
+        """Return the phase of the drive at t = 0 [periods]."""
+        if self.phase is None or result.scenario is None:
             return 0.0
-        return float(outcome.scenario.values[self.phase]) / (2.0 * math.pi)
+        return float(result.scenario.values[self.phase]) / (2.0 * math.pi)
 
-    def _times(self, t_end: float, start: float) -> NDArray[np.float64]:
+    def _times(self, t_end: float, start: float) -> Array:
         """Return the last times of a run that ends at ``t_end`` [s], shape [keep]."""
         before = start - self.at / self.period
         last = math.floor(t_end / self.period + before + _ROUND)

@@ -1,4 +1,4 @@
-"""The states of every run at some times: many numbers, kept where they are asked for."""
+"""Trajectory: a record of states at some times."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any, final
 from nonsmooth.checks import is_finite
 from nonsmooth.datasets import described
 from nonsmooth.errors import InvalidInput, UnknownName
-from nonsmooth.studies.records.record import Outcome, Record, Recorder
+from nonsmooth.studies.records.record import Recorder, RunResult, StudyRecord
 
 _AXES = {"q": "coordinate", "u": "velocity"}
 
@@ -37,21 +37,15 @@ class Trajectory(Recorder):
             rule, remedy = "must be finite numbers, none negative", "For example (0.0, 0.5, 1.0)."
             raise InvalidInput("Trajectory: times", rule, self.times, remedy)
 
-    def record(self, look: Outcome) -> Record:
-        """Return it for a system.
-
-        Raises
-        ------
-        InvalidInput
-            If the runs end before the last time.
-        """
-        if max(self.times) > look.t_end:
-            rule, remedy = f"must lie within a run of {look.t_end:g} s", "Raise t_end, or leave out what is behind it."
+    def record(self, first: RunResult) -> StudyRecord:
+        """Return the record; InvalidInput if the runs end before the last time."""
+        if max(self.times) > first.t_end:
+            rule, remedy = f"must lie within a run of {first.t_end:g} s", "Raise t_end, or leave out later times."
             raise InvalidInput("Trajectory: times", rule, max(self.times), remedy)
         axis = _AXES[self.name]
-        told = described(f"{axis} over time")
-        return Record(self.name, self, told, {"time": list(map(float, self.times)), axis: look.along(axis)})
+        text = described(f"{axis} over time")
+        return StudyRecord(self.name, self, text, {"time": list(map(float, self.times)), axis: first.labels(axis)})
 
-    def __call__(self, outcome: Outcome) -> Any:
+    def __call__(self, result: RunResult) -> Any:
         """Return the states of a run, shape [n, n_q] or [n, n_u]."""
-        return outcome.solution.history(self.name, times=list(self.times))[self.name]
+        return result.solution.history(self.name, times=list(self.times))[self.name]

@@ -10,8 +10,8 @@ import nonsmooth as ns
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.solution.state import State
 from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.derivatives.flow import flow
 from nonsmooth.studies.derivatives.least_squares import fit
-from nonsmooth.studies.derivatives.passage import passage
 from scenarios.dumbbell import DumbbellScenario
 from scenarios.sliding_rod.scenario import SlidingRod
 
@@ -29,7 +29,7 @@ def _measured(family: Family) -> Floats:
     model, rows = family.model(), list[Floats]()
     state = model.start
     for time in TIMES.tolist():
-        state = passage(model, state, time).state
+        state = flow(model, state, time).state
         rows.append(_place(state))
     return np.array(rows)
 

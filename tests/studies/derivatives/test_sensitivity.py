@@ -14,10 +14,10 @@ from bodies import Ball, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.plugins import registry
+from nonsmooth.studies.derivatives.differences import CENTRAL
 from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.derivatives.flow import flow
 from nonsmooth.studies.derivatives.forward import NotDifferentiable, sensitivity
-from nonsmooth.studies.derivatives.passage import passage
-from nonsmooth.studies.derivatives.slope import CENTRAL
 from scenarios.dumbbell import DumbbellScenario
 from scenarios.rocking_block import RockingBlock
 
@@ -127,7 +127,7 @@ def test_the_error_is_small_and_told(name: str) -> None:
         for i, weight in ((1, 4.0 / 5.0), (2, -1.0 / 5.0), (3, 4.0 / 105.0), (4, -1.0 / 280.0)):
             for sign in (-1.0, 1.0):
                 model = family.model(**{parameter: value * (1.0 + sign * i * 7e-5)})
-                total += sign * weight * passage(model, model.start, t).state.u / (7e-5 * value)
+                total += sign * weight * flow(model, model.start, t).state.u / (7e-5 * value)
         largest = np.max(np.abs(total))
         np.testing.assert_allclose(found.u_by[0, :, k], total, atol=1e-7 * largest, rtol=0.0)
         assert found.error[k] < 1e-7

@@ -18,15 +18,15 @@ from bodies import Coordinate, GeneralisedBody, PlanarBody, Plate, Point, PointF
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.studies.derivatives.family import EXACT, Family
-from nonsmooth.studies.orbits.following import continuation
+from nonsmooth.studies.orbits.continuation import continuation
 from nonsmooth.studies.orbits.linear import linear
 from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit, orbit
-from nonsmooth.studies.orbits.sections import Crossing, Strobe
+from nonsmooth.studies.orbits.sections import PoincareSection, StroboscopicSection
 from nonsmooth.types import Floats
 from scenarios.woodpecker.scenario import Woodpecker
 
 pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of runs take minutes in plain mode")
-TOP = Crossing("z rate", rising=False, longest=5.0)
+TOP = PoincareSection("z rate", rising=False, longest=5.0)
 CYCLE = ("phi_m", "phi_s", "y rate", "phi_m rate", "phi_s rate")
 
 
@@ -118,7 +118,7 @@ def test_it_is_followed() -> None:
 
 
 def _woodpecker() -> Orbit:
-    return orbit(Woodpecker(), section=Crossing("phi_m"), settle=2.0, within=CYCLE)
+    return orbit(Woodpecker(), section=PoincareSection("phi_m"), settle=2.0, within=CYCLE)
 
 
 @pytest.mark.slow
@@ -145,7 +145,7 @@ def test_the_woodpecker_pecks_its_way_down() -> None:
 
 
 def test_parameters_keep_their_units() -> None:
-    assert Crossing("phi_m").watched(Family.of(Woodpecker())).label("bird_arm") == "bird_arm [m]"
+    assert PoincareSection("phi_m").guarded(Family.of(Woodpecker())).label("bird_arm") == "bird_arm [m]"
 
 
 @pytest.mark.slow
@@ -154,7 +154,7 @@ def test_the_section_takes_the_multiplier_1_away() -> None:
     found = _woodpecker()
     model = Family.of(Woodpecker()).model()
     start = ns.State.at(model.system, found.state.time, found.state.q, found.state.u)
-    after = linear(model, start, Strobe(found.period), CYCLE)
+    after = linear(model, start, StroboscopicSection(found.period), CYCLE)
     values = np.linalg.eigvals(after.matrix)
     assert len(values) == len(found.multipliers) + 1
     large = sorted(values[np.abs(values) > 1e-3].real)
@@ -176,8 +176,8 @@ def test_edges_that_take_turns_repeat_after_a_whole_turn() -> None:
     """Each impact leaves 11/17 of the spin (International Physics Olympiad 1998)."""
     system = _rolling_prism()
     with pytest.raises(NoOrbit, match=r"\(1\)' is closed and sticks at the start .* open at its end; .*times=n"):
-        orbit(system, section=Crossing("z", 0.095), settle=3.0, within=("z", "vx", "vz", "w"))
-    turn = Crossing("z", 0.095, times=6)
+        orbit(system, section=PoincareSection("z", 0.095), settle=3.0, within=("z", "vx", "vz", "w"))
+    turn = PoincareSection("z", 0.095, times=6)
     found = orbit(system, section=turn, settle=3.0, within=("z", "vx", "vz", "w"))
     assert found.multipliers == pytest.approx([(11.0 / 17.0) ** 12], abs=1e-9)
     assert found.map.end.state.q[2] - found.state.q[2] == pytest.approx(2.0 * math.pi, abs=1e-9)
@@ -186,22 +186,22 @@ def test_edges_that_take_turns_repeat_after_a_whole_turn() -> None:
 def test_what_closed_contacts_hold_must_repeat_too() -> None:
     """Without its velocities the spin of a prism on an edge counts as held, and nothing is left that is free."""
     with pytest.raises(NoOrbit, match=r"that closed contacts hold differ by .*add those that they depend on"):
-        orbit(_rolling_prism(), section=Crossing("z", 0.095, times=6), settle=1.0, within=("angle", "w"))
+        orbit(_rolling_prism(), section=PoincareSection("z", 0.095, times=6), settle=1.0, within=("angle", "w"))
 
 
 def test_what_is_no_section() -> None:
     _, restitution, height, _ = _closed_form(1.0)
     family = Family(_hopper, {"restitution": restitution, "height": height})
     with pytest.raises(ns.InvalidInput, match=r"must pass 2 upwards within 1 s"):
-        orbit(family, section=Crossing("z", 2.0, longest=1.0))
+        orbit(family, section=PoincareSection("z", 2.0, longest=1.0))
     with pytest.raises(ns.InvalidInput, match="must be given, or a section in its place"):
         orbit(family)
     with pytest.raises(ns.InvalidInput, match="must be given, or a section in its place"):
         orbit(family, 1.0, section=TOP)
     with pytest.raises(ns.InvalidInput, match=r"'zz'\. Known: generalised\.work, generalised\.z, "):
-        orbit(family, section=Crossing("zz"))
-    with pytest.raises(ns.InvalidInput, match=r"Crossing\.times must be positive"):
-        Crossing("z", times=0)
+        orbit(family, section=PoincareSection("zz"))
+    with pytest.raises(ns.InvalidInput, match=r"PoincareSection\.times must be positive"):
+        PoincareSection("z", times=0)
     with pytest.raises(NoOrbit, match="leads to a state from which no run comes back to the section"):
         # it falls asleep on the floor
         orbit(family.at(height=0.2 * height), section=TOP)

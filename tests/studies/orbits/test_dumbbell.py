@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 import nonsmooth as ns
 from bodies import Dumbbell
 from nonsmooth.engine.native.kernel import PLAIN
-from nonsmooth.studies.orbits.following import continuation
+from nonsmooth.studies.orbits.continuation import continuation
 from nonsmooth.studies.orbits.periodic import Orbit, orbit
 from scenarios.dumbbell import DumbbellScenario
 
@@ -67,13 +67,13 @@ def test_the_level_jump_is_a_corner() -> None:
     """Both balls strike at once: a tilt decides which one is first, so there are two maps and no derivative."""
     scenario = DumbbellScenario(mode="jump")
     found = orbit(scenario, 1.0 / scenario.frequency, settle=3.0, within=PLANE)
-    assert {corner.direction for corner in found.corners} == {"dumbbell.ry", "dumbbell.wy"}
+    assert {corner.direction for corner in found.non_differentiable} == {"dumbbell.ry", "dumbbell.wy"}
     assert found.smooth == ("dumbbell.z", "dumbbell.vz")
     np.testing.assert_allclose(np.abs(found.multipliers), 0.65, atol=1e-9)
-    for corner in found.corners:
+    for corner in found.non_differentiable:
         # what a tilt does to the height is the same on either side, so it has a kink
-        np.testing.assert_allclose(corner.before[:2], -corner.behind[:2], atol=1e-5)
-        assert np.max(np.abs(corner.behind[:2])) > 1e-3
+        np.testing.assert_allclose(corner.before[:2], -corner.after[:2], atol=1e-5)
+        assert np.max(np.abs(corner.after[:2])) > 1e-3
         assert sorted(corner.signatures[0]) == sorted(corner.signatures[1])
         assert corner.signatures[0] != corner.signatures[1]
     assert not found.stable

@@ -19,7 +19,7 @@ from bodies import Ball, Harmonic, Plate, Rest, Spring
 from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.studies.derivatives.family import Family
-from nonsmooth.studies.orbits.following import continuation
+from nonsmooth.studies.orbits.continuation import continuation
 from nonsmooth.studies.orbits.periodic import Orbit, orbit
 
 pytestmark = pytest.mark.skipif(PLAIN, reason="hundreds of runs take minutes in plain mode")
@@ -86,7 +86,7 @@ def test_a_missed_contact_is_grazed() -> None:
     (special,) = branch.special
     assert special.kind == "grazing"
     assert special.value == pytest.approx(grazes, abs=1e-8 * grazes)
-    for value, left in zip(branch.values, branch.margins, strict=True):
+    for value, left in zip(branch.values, branch.grazing_distances, strict=True):
         assert left.gap == pytest.approx(CLEARANCE - value * abs(GAIN), abs=1e-12)
 
 
@@ -99,7 +99,7 @@ def test_an_impact_ends_by_grazing() -> None:
     branch = continuation(found, "amplitude", (0.999 * grazes, 1.009 * grazes))
     special = next(one for one in branch.special if one.kind == "grazing")
     assert special.value == pytest.approx(grazes, abs=1e-8 * grazes)
-    for value, left in zip(branch.values, branch.margins, strict=True):
+    for value, left in zip(branch.values, branch.grazing_distances, strict=True):
         assert value == pytest.approx(_amplitude(left.approach), rel=1e-9)
 
 
@@ -128,8 +128,8 @@ def test_two_impacts_at_once_are_a_corner() -> None:
     found = orbit(Family(_two_balls, {"restitution": 0.79}), 0.04, within=WITHIN)
     branch = continuation(found, "restitution", (0.78, 0.82))
     (special,) = branch.special
-    assert special.kind == "corner"
+    assert special.kind == "simultaneous impacts"
     assert special.value == pytest.approx(E, abs=1e-8)
-    for value, left in zip(branch.values, branch.margins, strict=True):
+    for value, left in zip(branch.values, branch.grazing_distances, strict=True):
         angles = [math.acos(math.pi * (1.0 - e) / ((1.0 + e) * 0.8)) for e in (E, value)]
-        assert left.apart == pytest.approx(abs(angles[1] - angles[0]) * 0.04 / (2.0 * math.pi), abs=1e-10)
+        assert left.between_impacts == pytest.approx(abs(angles[1] - angles[0]) * 0.04 / (2.0 * math.pi), abs=1e-10)

@@ -18,8 +18,8 @@ from bodies import FunctionLoad, LineBody, Point, Wall
 from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.studies.derivatives.family import Family
-from nonsmooth.studies.orbits.eigenvalues import eigenvalues
-from nonsmooth.studies.orbits.following import continuation
+from nonsmooth.studies.orbits.continuation import continuation
+from nonsmooth.studies.orbits.linear import eigenvalues
 from nonsmooth.studies.orbits.periodic import Orbit, orbit
 
 needs_machine_code = pytest.mark.skipif(PLAIN, reason="hundreds of runs take minutes in plain mode")

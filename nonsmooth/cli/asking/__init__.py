@@ -1,1 +1,0 @@
-"""What the words of a request mean: components, parameters, places to write to."""

@@ -1,0 +1,1 @@
+"""Report: messages, tables and the report of a run."""

@@ -1,1 +1,0 @@
-"""What commands that run something have in common: compute, judge, save; and how Ctrl-C ends it."""

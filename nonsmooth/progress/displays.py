@@ -1,0 +1,121 @@
+"""Displays of progress: a bar on a terminal, lines elsewhere, or nothing."""
+
+from __future__ import annotations
+
+import io
+import math
+import sys
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, TextIO, final
+
+if TYPE_CHECKING:
+    from rich.progress import Progress
+
+
+class Display(ABC):
+    """Shows the progress of a computation."""
+
+    patience: float
+    """Wall time before the first state is shown [s]."""
+    interval: float
+    """Wall time between two states [s]."""
+
+    @abstractmethod
+    def show(self, part: float, reached: str, details: str) -> None:
+        """Show a state.
+
+        Parameters
+        ----------
+        part : float
+            Completed part, from 0 to 1.
+        reached : str
+            Progress in words, "12 of 40 runs".
+        details : str
+            Percentage, counts and remaining time in words.
+        """
+
+    @abstractmethod
+    def close(self) -> None:
+        """Remove what should not stay on the screen."""
+
+
+@final
+class Bar(Display):
+    """A bar on a terminal; it vanishes at the end.
+
+    Parameters
+    ----------
+    stream : file
+        The terminal.
+    """
+
+    patience, interval = 1.0, 0.2
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream = stream
+        self._bar: Progress | None = None
+
+    def show(self, part: float, reached: str, details: str) -> None:
+        """Draw the bar again."""
+        self._bar = self._bar or self._started()
+        self._bar.update(self._bar.task_ids[0], completed=part, reached=reached, details=details)
+        self._bar.refresh()
+
+    def close(self) -> None:
+        """Remove the bar."""
+        if self._bar is not None:
+            self._bar.stop()
+
+    def _started(self) -> Progress:
+        # importing it takes as long as many a run
+        from rich.console import Console
+        from rich.progress import BarColumn, Progress, TextColumn
+
+        columns = TextColumn("{task.fields[reached]}"), BarColumn(20), TextColumn("{task.fields[details]}")
+        bar = Progress(*columns, console=Console(file=self._stream), auto_refresh=False, transient=True)
+        bar.add_task("", total=1.0, reached="", details="")
+        bar.start()
+        return bar
+
+
+@final
+class Lines(Display):
+    """An occasional line on a stream that is no terminal.
+
+    Parameters
+    ----------
+    stream : file
+        The stream.
+    """
+
+    patience, interval = 2.0, 10.0
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream = stream
+
+    def show(self, part: float, reached: str, details: str) -> None:
+        """Write a line."""
+        self._stream.write(f"{reached} ({details})\n")
+        self._stream.flush()
+
+    def close(self) -> None:
+        """Keep the lines."""
+
+
+@final
+class Quiet(Display):
+    """Shows nothing: ``continuation(..., display=Quiet())``."""
+
+    patience, interval = math.inf, math.inf
+
+    def show(self, part: float, reached: str, details: str) -> None:
+        """Show nothing."""
+
+    def close(self) -> None:
+        """Do nothing."""
+
+
+def on_standard_error() -> Display:
+    """Return a bar if standard error is a terminal, else lines."""
+    stream = sys.stderr or io.StringIO()  # None if it was closed from the start
+    return Bar(stream) if stream.isatty() else Lines(stream)

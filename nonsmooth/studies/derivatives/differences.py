@@ -1,0 +1,207 @@
+"""Derivatives of maps by differences, taken only if all runs pass the same events, and their errors."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from nonsmooth.errors import InvalidInput, NonsmoothError, RunFailed
+from nonsmooth.studies.derivatives.flow import Signature
+from nonsmooth.types import Array
+
+Stencil = tuple[tuple[int, float], ...]
+"""Offsets in steps, and weights, of a difference."""
+Sampled = Callable[[float], tuple[Array, Signature]]
+"""From a small change to the value of the map, and the events on the way."""
+CENTRAL: Stencil = ((-2, 1.0 / 12.0), (-1, -2.0 / 3.0), (1, 2.0 / 3.0), (2, -1.0 / 12.0))
+"""Central difference of fourth order."""
+FORWARD: Stencil = ((0, -25.0 / 12.0), (1, 4.0), (2, -3.0), (3, 4.0 / 3.0), (4, -0.25))
+"""One-sided difference of fourth order."""
+BACKWARD: Stencil = tuple((-i, -weight) for i, weight in FORWARD)
+"""The same to the other side."""
+SECOND: Stencil = ((-1, -0.5), (1, 0.5))
+"""Central difference of second order: two runs instead of four."""
+_LEAST = 2e-7
+"""Smallest step, relative to the first one: rounding of 1e-14 leaves five digits of a derivative of 1 at 1e-9."""
+_REFUSED = 0.25
+"""Factor of a step whose runs pass other events: ten such steps span six decades."""
+_WORSE = 2.0
+"""Factor by which the error grows before the search stops: one that grows less may be scatter (Ridders)."""
+_SCATTER = 3.0
+"""Factor of the error: rounding differs from step to step, so differences of two estimates underrate it by chance."""
+
+
+class OrderOfEvents(NonsmoothError):
+    """A small change reorders, adds or removes events: there is no derivative.
+
+    Attributes
+    ----------
+    one, two : Signature
+        Events without the change, and with it.
+    """
+
+    def __init__(self, one: Signature, two: Signature) -> None:
+        super().__init__("a small change reorders events")
+        self.one, self.two = one, two
+
+
+@final
+@dataclass(frozen=True)
+class Derivative:
+    """A derivative with its error.
+
+    Attributes
+    ----------
+    value : array
+        The derivative, shape [m].
+    error : float
+        Bound of the error of its largest number, in the same unit; infinite if a single step gave a value.
+    step : float
+        The smallest step that went into it.
+    """
+
+    value: Array
+    error: float
+    step: float
+
+
+def slope(sampled: Sampled, step: float, expected: Signature, stencil: Stencil = CENTRAL) -> Array:
+    """Return the derivative of a map at 0 by one difference.
+
+    Parameters
+    ----------
+    sampled : callable
+        The map.
+    step : float
+        The unit of the changes.
+    expected : Signature
+        Events without a change.
+    stencil : Stencil
+        Offsets and weights.
+
+    Raises
+    ------
+    OrderOfEvents
+        If a change passes other events.
+    """
+
+    def value(offset: int) -> Array:
+        found, signature = sampled(offset * step)
+        if signature != expected:
+            raise OrderOfEvents(expected, signature)
+        return found
+
+    (first, _), *others = stencil
+    # weights add up to 0: subtracting the first value keeps coordinates that do not change free of round-off
+    origin = value(first)
+    total = np.zeros_like(origin)
+    for offset, weight in others:
+        total = total + weight * (value(offset) - origin)
+    return np.asarray(total / step)
+
+
+def steady(found_with: Callable[[float], Array], steps: Sequence[float]) -> tuple[Array, float, float]:
+    """Return the derivative that changes least with the next smaller step, its step, and this change.
+
+    Larger steps leave the linear range, smaller ones leave round-off.  The change is relative to the largest number of
+    the derivative; nan if only one step gives any.
+
+    Raises
+    ------
+    OrderOfEvents
+        If all steps change the order of events.
+    InvalidInput
+        If no change gives a system and a start.
+    """
+    best: tuple[Array, float, float] | None = None
+    last: tuple[Array, float] | None = None
+    trouble: OrderOfEvents | InvalidInput | None = None
+    for step in steps:
+        try:
+            found = found_with(step)
+        except (OrderOfEvents, InvalidInput) as error:
+            # bodies that overlap at the start are refused: the change was too large, too
+            trouble, last = error, None
+            continue
+        if last is not None:
+            largest = max(float(np.max(np.abs(found), initial=0.0)), np.finfo(float).tiny)
+            differs = float(np.max(np.abs(found - last[0]), initial=0.0)) / largest
+            if best is not None and not differs < best[2]:
+                return best
+            best = (*last, differs)
+        last = found, step
+    if best is None and last is None:
+        assert trouble is not None
+        raise trouble
+    return best or (*last, np.nan)  # type: ignore[misc]
+
+
+def derivative(sampled: Sampled, first: float, expected: Signature, enough: float = 0.0) -> Derivative:
+    """Return the derivative of a map at 0 with its error, by the method of Ridders (1982).
+
+    The error of a central difference is a series in the square of the step.  Neville's scheme extrapolates differences
+    with halved steps to a step of 0.  Each extrapolation is compared with the two that it is made of.  The one that
+    differs least is returned; the search ends when rounding makes the differences grow.  A step is usable only if both
+    of its runs pass the expected events in the same order.
+
+    Parameters
+    ----------
+    sampled : callable
+        The map.
+    first : float
+        The largest step, in the unit of the changes.
+    expected : Signature
+        Events without a change.
+    enough : float
+        Error at which the search ends early, relative to the largest number of the derivative.
+
+    Raises
+    ------
+    OrderOfEvents
+        If all steps change the order of events.
+    InvalidInput, RunFailed
+        If the smallest step gives no system, no start or no run.
+    """
+    row, best, after, step = list[Array](), None, np.inf, first
+    trouble: OrderOfEvents | InvalidInput | RunFailed | None = None
+    while step >= _LEAST * first:
+        try:
+            difference = slope(sampled, step, expected, SECOND)
+        except (OrderOfEvents, InvalidInput, RunFailed) as error:
+            # larger steps that passed the same events tell nothing about the derivative at 0
+            trouble, row, best, step = error, [], None, _REFUSED * step
+            continue
+        before, row = row, _extrapolated(row, difference)
+        found = [Derivative(row[i], _apart(row, before, i), step) for i in range(1, len(row))]
+        least = min(found, key=lambda one: one.error, default=Derivative(difference, np.inf, step))
+        if best is None or least.error < best.error:
+            best, after = least, np.inf
+        else:
+            after = min(after, float(np.max(np.abs(least.value - best.value), initial=0.0)))
+            if least.error >= _WORSE * best.error:
+                break
+        if _SCATTER * best.error <= enough * float(np.max(np.abs(best.value), initial=0.0)):
+            break
+        step *= 0.5
+    if best is None:
+        assert trouble is not None
+        raise trouble
+    apart = best.error if np.isinf(after) else max(best.error, after)
+    return Derivative(best.value, _SCATTER * apart, best.step)
+
+
+def _extrapolated(before: list[Array], difference: Array) -> list[Array]:
+    """Return the next row of Neville's scheme for halved steps: orders 2, 4, 6, ... of a central difference."""
+    row = [difference]
+    for i, one in enumerate(before):
+        row.append(row[i] + (row[i] - one) / (4.0 ** (i + 1) - 1.0))
+    return row
+
+
+def _apart(row: list[Array], before: list[Array], i: int) -> float:
+    """Return the difference of an extrapolation from the two that it is made of."""
+    parents = np.array([row[i - 1], before[i - 1]])
+    return float(np.max(np.abs(row[i] - parents), initial=0.0))

@@ -1,0 +1,157 @@
+"""Predictor and corrector of pseudo-arclength continuation: orbits on a branch, and its tangent."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.solution.state import State
+from nonsmooth.studies.derivatives.differences import SECOND, OrderOfEvents, Sampled, derivative, slope
+from nonsmooth.studies.derivatives.family import Family
+from nonsmooth.studies.derivatives.flow import Signature
+from nonsmooth.studies.orbits.linear import smooth
+from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit
+from nonsmooth.studies.orbits.sections import Section
+from nonsmooth.types import Array
+
+_CLOSE = 1e-11
+"""Largest residual of an orbit on the branch, in units of scales."""
+_CORRECTIONS = 12
+"""Steps of Newton's method."""
+_FIRST = 1e-3
+"""Largest step of derivatives by the parameter, relative to its largest absolute value in the range."""
+_ENOUGH = 1e-4
+"""Relative error of derivatives by the parameter: they direct steps only."""
+
+
+class OutOfRange(Exception):
+    """A step leads out of the range of the parameter."""
+
+
+@final
+@dataclass(frozen=True)
+class ContinuationPoint:
+    """An orbit, and the tangent of the branch.
+
+    Attributes
+    ----------
+    orbit : Orbit
+        The orbit.
+    by : array
+        Derivative of the map by the parameter over its range, along the directions of the chart, shape [m].
+    step : float
+        Step of this derivative, in the unit of the parameter.
+    tangent : array
+        Unit tangent of the branch: directions of the chart, then the parameter over its range, shape [m + 1].
+    along : float
+        Arc length from the start of the branch.
+    """
+
+    orbit: Orbit
+    by: Array
+    step: float
+    tangent: Array
+    along: float
+
+
+@final
+@dataclass(frozen=True)
+class Path:
+    """The orbits of a family over a range of a parameter; ``section(value)`` returns the section at a value."""
+
+    family: Family
+    name: str
+    low: float
+    high: float
+    section: Callable[[float], Section]
+    within: tuple[str, ...] | None
+
+    @property
+    def range(self) -> float:
+        """Width of the range of the parameter."""
+        return self.high - self.low
+
+    def value(self, point: ContinuationPoint) -> float:
+        """Return the parameter of a point."""
+        return point.orbit.family[self.name]
+
+    def at(
+        self, state: State, value: float, along: float, before: ContinuationPoint | None, *, is_quick: bool = False
+    ) -> ContinuationPoint:
+        """Return the map about a state with its tangent, oriented as the tangent of the point before.
+
+        Quick derivatives use the steps of the point before and have no errors.  They serve Newton's method.
+
+        Raises
+        ------
+        OrderOfEvents
+            If the map lacks a derivative.
+        """
+        family = self.family.at(**{self.name: value})
+        section = self.section(value)
+        near = before if is_quick else None
+        found = smooth(family.model(), state, section, self.within, near and near.orbit.map.step)
+
+        def changed(change: float) -> tuple[Array, Signature]:
+            there = value + change
+            model = self.family.model(**{self.name: there})
+            # closed contacts stay closed as the parameter moves bodies
+            begin = found.chart.held_in(model, state)
+            end = self.section(there).flow(model, begin)
+            return found.chart.between(begin, end.state), end.signature
+
+        by, step = self._by(changed, found.end.signature, near)
+        tangent = np.linalg.svd(np.column_stack([found.matrix - np.eye(len(found.way)), by]))[2][-1]
+        if before is not None and tangent @ before.tangent < 0.0:
+            tangent = -tangent
+        residual = float(np.max(np.abs(found.way), initial=0.0))
+        return ContinuationPoint(Orbit(family, state, section, self.within, residual, found), by, step, tangent, along)
+
+    def _by(self, changed: Sampled, expected: Signature, near: ContinuationPoint | None) -> tuple[Array, float]:
+        """Return the derivative by the parameter over its range, and the step of the parameter."""
+        if near is not None:
+            with contextlib.suppress(OrderOfEvents, InvalidInput):
+                return self.range * slope(changed, near.step, expected, SECOND), near.step
+        largest = _FIRST * max(abs(self.low), abs(self.high))
+        found = derivative(changed, largest, expected, _ENOUGH)
+        return self.range * found.value, found.step
+
+    def corrected(self, point: ContinuationPoint, step: float) -> ContinuationPoint:
+        """Return the point on the branch whose projection on the tangent of a point is a step.
+
+        Raises
+        ------
+        NoOrbit
+            If Newton's method does not converge.
+        OrderOfEvents
+            If events change.
+        OutOfRange
+            If the parameter leaves its range.
+        """
+        start, chart = point.orbit.state, point.orbit.map.chart
+        value = self.value(point)
+        m, moved = len(point.tangent) - 1, step * point.tangent
+        for _ in range(_CORRECTIONS):
+            there = value + moved[m] * self.range
+            if not self.low <= there <= self.high:
+                raise OutOfRange(there)
+            state = chart.moved(self.family.model(**{self.name: there}), start, moved[:m])
+            here = self.at(state, there, point.along + step, point, is_quick=True)
+            off = float(point.tangent @ moved - step)
+            if here.orbit.residual <= _CLOSE and abs(off) <= _CLOSE:
+                return self.at(state, there, point.along + step, point)
+            matrix = np.zeros((m + 1, m + 1))
+            matrix[:m, :m], matrix[:m, m] = here.orbit.map.matrix - np.eye(m), here.by
+            matrix[m] = point.tangent
+            moved = moved + np.linalg.lstsq(matrix, -np.append(here.orbit.map.way, off), rcond=1e-12)[0]
+            if not np.max(np.abs(moved)) < 10.0:
+                break
+        raise NoOrbit(
+            f"Newton's method leaves {here.orbit.residual:.2g} of the scales near {self.name} = {there:.9g}; "
+            "call orbit(...) there to see whether there is one"
+        )

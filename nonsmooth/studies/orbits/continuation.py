@@ -1,0 +1,270 @@
+"""Branches: orbits along a parameter by pseudo-arclength continuation, and the bifurcations on the way."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import final
+
+import numpy as np
+
+from nonsmooth.checks import check_callable, is_finite
+from nonsmooth.errors import InvalidInput, RunFailed
+from nonsmooth.progress import Display, RangeCovered
+from nonsmooth.studies.derivatives.differences import OrderOfEvents
+from nonsmooth.studies.inputs import meter
+from nonsmooth.studies.orbits.arc_length import ContinuationPoint, OutOfRange, Path
+from nonsmooth.studies.orbits.grazing import GrazingDistance, PredictedChange, grazing_distance, predicted_change
+from nonsmooth.studies.orbits.periodic import NoOrbit, Orbit
+from nonsmooth.studies.orbits.scan import FREQUENCY_REMEDY, period_at
+from nonsmooth.studies.orbits.sections import Section
+from nonsmooth.types import Array
+
+_FIRST, _LARGEST, _SMALLEST = 1e-2, 5e-2, 1e-6
+"""Steps of the arc length; a step of 1 changes the parameter by its range, or a coordinate by its scale."""
+_MOST = 2000
+"""Steps at most, either way."""
+_GROWS = 1.3
+"""Factor of the step after a success."""
+_SAME = 1e-6
+"""Allowed difference of a motion from the same a period later: round-off of runs is below it."""
+_PARTS = tuple(0.5**i for i in range(11))
+"""Parts of the way to an end of the range at which the period is tested, until a motion can begin there."""
+_KNOWN = 1e-9
+"""Relative error of a predicted change of events at which the branch ends."""
+
+
+@final
+@dataclass(frozen=True)
+class Special:
+    """A special point of a branch.
+
+    Attributes
+    ----------
+    kind : str
+        "fold", "period doubling", "Neimark-Sacker"; at an end where events change "grazing", "simultaneous impacts", or
+        "sequence" for all others.
+    value : float
+        The parameter there; of a "sequence" that of the last orbit.
+    orbit : Orbit
+        The orbit there; where events change, the last one before.
+    """
+
+    kind: str
+    value: float
+    orbit: Orbit
+
+
+@final
+@dataclass(frozen=True)
+class Branch:
+    """Orbits along a parameter.
+
+    Attributes
+    ----------
+    name : str
+        The parameter.
+    values : array
+        Its values, shape [n].
+    orbits : tuple of Orbit
+        The orbits.
+    grazing_distances : tuple of GrazingDistance
+        Distance of each to grazing and to simultaneous impacts.
+    special : tuple of Special
+        Bifurcations, and changes of events at the ends.
+    ending : str
+        Reason for each end.
+    """
+
+    name: str
+    values: Array
+    orbits: tuple[Orbit, ...]
+    grazing_distances: tuple[GrazingDistance, ...]
+    special: tuple[Special, ...]
+    ending: str
+
+
+def continuation(
+    orbit: Orbit,
+    name: str,
+    span: tuple[float, float],
+    *,
+    period: Callable[[float], float] | None = None,
+    most: int = _MOST,
+    display: Display | None = None,
+) -> Branch:
+    """Follow a periodic orbit along a parameter, both ways, and locate its bifurcations.
+
+    Parameters
+    ----------
+    orbit : Orbit
+        The first orbit.
+    name : str
+        The parameter.
+    span : tuple of float
+        Its range, around the value of the orbit.
+    period : callable, optional
+        ``period(value)`` returns the period of the drive at a value of the parameter [s]; that of the orbit by default.
+    most : int
+        Steps at most, either way.
+    display : Display, optional
+        Where progress is shown; on standard error by default, ``nonsmooth.progress.Quiet()`` shows nothing.
+
+    Raises
+    ------
+    UnknownName
+        If the family has no such parameter.
+    InvalidInput
+        If the range is empty, the orbit has no derivative, or the drive has another period somewhere in the range.
+    """
+    value, (low, high) = orbit.family[name], span
+    if not (is_finite(low) and is_finite(high) and low <= value <= high and low < high):
+        remedy = f"The orbit has {name} = {value:.9g}."
+        raise InvalidInput("continuation: span", "must be a range around the value of the orbit", span, remedy)
+    if orbit.non_differentiable:
+        directions = ", ".join(point.direction for point in orbit.non_differentiable)
+        remedy = "Leave these directions out of `within`, if the motion stays in the others."
+        raise InvalidInput("continuation: orbit", "must have a derivative", directions, remedy)
+    check_callable("continuation: period", period, "period(value)")
+
+    def section(value: float) -> Section:
+        return orbit.section if period is None else orbit.section.with_period(period_at(period, value, _PERIOD))
+
+    path = Path(orbit.family, name, low, high, section, orbit.within)
+    _check_period(path, orbit)
+    first = path.at(orbit.state, value, 0.0, None)
+    up = first.tangent if first.tangent[-1] >= 0.0 else -first.tangent
+    with meter(display) as shown:
+        covered = RangeCovered(shown, name, value, span)
+        back, on = (_followed(path, replace(first, tangent=way), most, covered) for way in (-up, up))
+    orbits = (*reversed(back.orbits), first.orbit, *on.orbits)
+    values = np.array([one.family[name] for one in orbits])
+    distances = (*reversed(back.distances[1:]), *on.distances)
+    special = (*reversed(back.special), *on.special)
+    return Branch(name, values, orbits, distances, special, f"{back.ending}; {on.ending}")
+
+
+_PERIOD = "continuation: period"
+
+
+def _check_period(path: Path, orbit: Orbit) -> None:
+    """Check at both ends of the range that a motion that begins a period later is the same.
+
+    If the state of the orbit is impossible at an end, as bodies would overlap, nearer values are tested.
+
+    Raises
+    ------
+    InvalidInput
+        If it is not.
+    """
+    value = orbit.family[path.name]
+    for end in (path.low, path.high):
+        for there in (value + part * (end - value) for part in _PARTS):
+            if (off := _shifted(path, orbit, there)) is not None:
+                break
+        if off is not None and off > _SAME:
+            rule = (
+                f"must be one of the system at {path.name} = {there:.9g}, where the same motion a period later differs "
+                f"by {off:.2g} of its size"
+            )
+            raise InvalidInput(_PERIOD, rule, float(f"{orbit.period:.9g}"), FREQUENCY_REMEDY)
+
+
+def _shifted(path: Path, orbit: Orbit, value: float) -> float | None:
+    """Return the change of a motion that begins a period later, in units of scales; None if none can begin."""
+    model, section, start = path.family.model(**{path.name: value}), path.section(value), orbit.state
+    try:
+        one = section.flow(model, start).state
+        two = section.flow(model, replace(start, time=one.time)).state
+    except (InvalidInput, RunFailed):
+        return None
+    return float(np.max(np.abs(orbit.map.chart.between(one, two)), initial=0.0))
+
+
+@final
+@dataclass(frozen=True)
+class _HalfBranch:
+    """The orbits on one side of an orbit; its own distance comes first."""
+
+    orbits: list[Orbit]
+    distances: list[GrazingDistance]
+    special: list[Special]
+    ending: str
+
+
+def _followed(path: Path, point: ContinuationPoint, most: int, covered: RangeCovered) -> _HalfBranch:
+    """Return the orbits from a point on, with steps that grow after a success and are halved after a failure."""
+    found, distances, special, step = [point], [grazing_distance(point.orbit)], list[Special](), _FIRST
+    ending, bound = f"{most} steps", np.inf
+    while len(found) <= most:
+        try:
+            following = path.corrected(point, step)
+            if following.orbit.events != point.orbit.events:
+                raise OrderOfEvents(point.orbit.events, following.orbit.events)
+        except (OutOfRange, NoOrbit, OrderOfEvents, InvalidInput, RunFailed) as error:
+            change = None if isinstance(error, OutOfRange) else _predicted(path, found, distances)
+            is_known = change is not None and change.error <= _KNOWN * max(path.range, abs(change.value))
+            if step > _SMALLEST and not is_known:
+                bound, step = point.along + step, 0.5 * step
+                continue
+            if isinstance(error, OutOfRange):
+                ending = "the end of the range"
+            elif change is None and not isinstance(error, OrderOfEvents):
+                ending = f"no orbit farther on ({error})"
+            else:
+                value, kind = (path.value(point), "sequence") if change is None else (change.value, change.kind)
+                special.append(Special(kind, value, point.orbit))
+                ending = f"events change ({error})"
+            break
+        special += _between(path, point, step, following)
+        found.append(following)
+        distances.append(grazing_distance(following.orbit))
+        covered.add(path.value(following))
+        point, step = following, min(_GROWS * step, _LARGEST)
+        # half of the way to a point without an orbit is likely to lead to one
+        if bound > point.along:
+            step = min(step, max(0.5 * (bound - point.along), _SMALLEST))
+    return _HalfBranch([one.orbit for one in found[1:]], distances, special, ending)
+
+
+def _predicted(
+    path: Path, found: Sequence[ContinuationPoint], distances: Sequence[GrazingDistance]
+) -> PredictedChange | None:
+    along, values = (np.array(row) for row in zip(*((one.along, path.value(one)) for one in found), strict=True))
+    return predicted_change(along, values, distances)
+
+
+def _between(path: Path, one: ContinuationPoint, step: float, two: ContinuationPoint) -> list[Special]:
+    """Return the bifurcations between two neighbours: where a test function changes its sign."""
+    from scipy.optimize import brentq
+
+    found = []
+    for kind, test in _TESTS.items():
+        if test(one) * test(two) < 0.0:
+
+            def along(length: float, test: Callable[[ContinuationPoint], float] = test) -> float:
+                return test(path.corrected(one, length) if length > 0.0 else one)
+
+            there = path.corrected(one, brentq(along, 0.0, step, xtol=1e-13)).orbit
+            found.append(Special(kind, there.family[path.name], there))
+    return found
+
+
+def _doubling(point: ContinuationPoint) -> float:
+    matrix = point.orbit.map.matrix
+    return float(np.linalg.det(matrix + np.eye(len(matrix))))
+
+
+def _torus(point: ContinuationPoint) -> float:
+    """Return the square of the largest absolute value of the complex multipliers, less 1; -1 without any."""
+    values = point.orbit.multipliers
+    pairs = values[np.abs(values.imag) > 1e-9]
+    return float(np.max(np.abs(pairs) ** 2, initial=0.0)) - 1.0
+
+
+_TESTS: dict[str, Callable[[ContinuationPoint], float]] = {
+    "fold": lambda point: float(point.tangent[-1]),
+    "period doubling": _doubling,
+    "Neimark-Sacker": _torus,
+}
+"""Test function of each bifurcation; its sign changes there."""
