@@ -195,8 +195,7 @@ def _wanders(settled: Settled) -> bool:
 
 def _means(settled: Settled, t: Floats, path: Floats) -> tuple[Floats, Floats]:
     """Return mean velocities over one period of the motion after the other, and the times in their middles."""
-    attractor_period = settled.summary()["period"]
-    span = float(attractor_period or 1) / settled.motion.scenario.frequency
+    span = float(settled.summary()["period"] or 1) / settled.motion.scenario.frequency
     edges = t[-1] - span * np.arange(int((t[-1] - t[0]) / span + 1e-9), -1.0, -1.0)
     places = np.column_stack([np.interp(edges, t, column) for column in path.T])
     return edges[:-1] + span / 2.0, np.diff(places, axis=0) / span
