@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 _GRAVITY = 9.8
+_FRICTION: Mapping[str, Any] = {"minimum": 0.0, "usual": (0.01, 2.0), "law": "friction"}
 
 
 @final
@@ -52,12 +53,8 @@ class TwoLinkArm(Scenario):
     link_length: float = parameter(1.0, doc="length of a link", unit="m", above=0.0, usual=(1e-3, 1e2))
     height: float = parameter(5.0 / 3.0, doc="height of the pivot over the belt", unit="m", above=0.0)
     angle: float = parameter(0.7, doc="angle of the first link from the vertical at the start", unit="rad")
-    friction: float = parameter(
-        0.5, doc="kinetic friction coefficient mu", minimum=0.0, usual=(0.01, 2.0), law="friction"
-    )
-    static_friction: float = parameter(
-        0.8, doc="static friction coefficient mu_s", minimum=0.0, usual=(0.01, 2.0), law="friction"
-    )
+    friction: float = parameter(0.5, doc="kinetic friction coefficient mu", **_FRICTION)
+    static_friction: float = parameter(0.8, doc="static friction coefficient mu_s", **_FRICTION)
     restitution: float = parameter(
         0.0, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0, assumed=True, law="impact"
     )

@@ -28,6 +28,7 @@ Floats = NDArray[np.float64]
 
 _GRAVITY = 9.81
 _LAWS = {"newton": NewtonImpact, "energetic": EnergeticImpact}
+_LENGTH: Mapping[str, Any] = {"unit": "m", "above": 0.0}
 _BEAK = 0
 """Index of the beak's contact."""
 _SETTLED = 2.0
@@ -54,19 +55,13 @@ class Woodpecker(Scenario):
     coordinate_units: ClassVar[Mapping[str, str]] = {"y": "m", "phi_m": "rad", "phi_s": "rad"}
     units: ClassVar[Mapping[str, str]] = {"cycle_duration": "s", "cycle_descent": "m"}
 
-    pole_radius: float = parameter(2.5e-3, doc="radius r_O of the pole", unit="m", above=0.0, usual=(1e-4, 1.0))
-    sleeve_radius: float = parameter(
-        3.1e-3, doc="inner radius r_M of the sleeve", unit="m", above=0.0, usual=(1e-4, 1.0)
-    )
-    sleeve_height: float = parameter(5.8e-3, doc="half height h_M of the sleeve", unit="m", above=0.0)
-    sleeve_arm: float = parameter(1e-2, doc="distance l_M of the spring from the pole's axis", unit="m", above=0.0)
-    bird_arm: float = parameter(
-        1.5e-2, doc="distance l_G of the bird's mass centre from the spring", unit="m", above=0.0
-    )
-    beak_height: float = parameter(2e-2, doc="height h_S of the beak over the bird's mass centre", unit="m", above=0.0)
-    beak_arm: float = parameter(
-        2.01e-2, doc="distance l_S of the beak from the bird's mass centre", unit="m", above=0.0
-    )
+    pole_radius: float = parameter(2.5e-3, doc="radius r_O of the pole", usual=(1e-4, 1.0), **_LENGTH)
+    sleeve_radius: float = parameter(3.1e-3, doc="inner radius r_M of the sleeve", usual=(1e-4, 1.0), **_LENGTH)
+    sleeve_height: float = parameter(5.8e-3, doc="half height h_M of the sleeve", **_LENGTH)
+    sleeve_arm: float = parameter(1e-2, doc="distance l_M of the spring from the pole's axis", **_LENGTH)
+    bird_arm: float = parameter(1.5e-2, doc="distance l_G of the bird's mass centre from the spring", **_LENGTH)
+    beak_height: float = parameter(2e-2, doc="height h_S of the beak over the bird's mass centre", **_LENGTH)
+    beak_arm: float = parameter(2.01e-2, doc="distance l_S of the beak from the bird's mass centre", **_LENGTH)
     sleeve_mass: float = parameter(3e-4, doc="mass m_M of the sleeve", unit="kg", above=0.0)
     bird_mass: float = parameter(4.5e-3, doc="mass m_S of the bird", unit="kg", above=0.0)
     sleeve_inertia: float = parameter(5e-9, doc="moment of inertia J_M of the sleeve", unit="kg m^2", above=0.0)

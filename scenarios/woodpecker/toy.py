@@ -122,7 +122,7 @@ def outlines(
     beak_arm: float,
     beak_height: float,
 ) -> list[list[tuple[float, float, float]]]:
-    """Return the ends of lines for sleeve, spring and bird [m], the beak of which touches the pole at x = 0."""
+    """Return the ends of lines for sleeve, spring and bird [m]; the beak touches the pole at x = 0."""
 
     def place(x: float, z: float, angle: float, across: float, up: float) -> tuple[float, float, float]:
         return x + across - up * angle, 0.0, z + up + across * angle
@@ -137,10 +137,5 @@ def outlines(
     tip = place(bird[0], bird[2], q[2], -beak_arm, beak_height)
     tail = place(bird[0], bird[2], q[2], 0.0, -beak_height)
     sleeve = [[corners[i], corners[(i + 1) % 4]] for i in range(4)]
-    return [
-        *sleeve,
-        [place(axis, q[0], q[1], sleeve_radius, 0.0), spring],
-        [spring, bird],
-        [tail, beak_root],
-        [beak_root, tip],
-    ]
+    edge = place(axis, q[0], q[1], sleeve_radius, 0.0)
+    return [*sleeve, [edge, spring], [spring, bird], [tail, beak_root], [beak_root, tip]]
