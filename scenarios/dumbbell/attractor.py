@@ -142,7 +142,7 @@ class Settled:
         return period == 2 and abs(len(struck) - self.cycles) <= 1 and in_turn and symmetric
 
     def _drifts(self, period: int) -> bool:
-        """Return True if one ball stands most of the time and the other strikes once per period: {11,10,11}."""
+        """Return True if one ball stands, the other strikes once per plate period, and then both touch: {11,10,11}."""
         struck, touching = self._strikes
         resting = int(np.argmax(self._standing))
         other = struck[:, 1 - resting]
