@@ -7,7 +7,7 @@ from pathlib import Path
 from nonsmooth.engines.event_driven import EventDriven
 from nonsmooth.interfaces import Engine
 from nonsmooth.results.output import Output
-from nonsmooth.results.solution_folder import check_free
+from nonsmooth.results.overwriting import check_free
 from nonsmooth.runs.loop import Progress
 from nonsmooth.runs.model import Model
 from nonsmooth.runs.run_arguments import check_times

@@ -49,8 +49,7 @@ def draw_solids(
     from matplotlib.collections import PolyCollection
     from matplotlib.colors import to_rgb
 
-    ca, sa, ce, se = np.cos(azimuth), np.sin(azimuth), np.cos(elevation), np.sin(elevation)
-    across, up, towards = np.array([-sa, ca, 0.0]), np.array([-ca * se, -sa * se, ce]), np.array([ca * ce, sa * ce, se])
+    across, up, towards = directions_of_view(azimuth, elevation)
     pieces, colours, lines = [], [], []
     for i in np.argsort(poses[:, :3] @ towards):
         axes = rotation(poses[i, 3:])
@@ -71,6 +70,12 @@ def draw_solids(
     axis.add_collection(PolyCollection(pieces, facecolors=colours, edgecolors=lines, linewidths=0.6))
     axis.set_aspect("equal")
     axis.autoscale_view()
+
+
+def directions_of_view(azimuth: float, elevation: float) -> tuple[Floats, Floats, Floats]:
+    """Return the unit vectors to the right, up, and towards the eye, whose direction is given by two angles [rad]."""
+    ca, sa, ce, se = np.cos(azimuth), np.sin(azimuth), np.cos(elevation), np.sin(elevation)
+    return np.array([-sa, ca, 0.0]), np.array([-ca * se, -sa * se, ce]), np.array([ca * ce, sa * ce, se])
 
 
 def _parts(solid: Polyhedron) -> tuple[list[Floats], Floats, int]:

@@ -8,7 +8,7 @@ from typing import final
 
 import numpy as np
 
-from nonsmooth.export.film import Film, Piece
+from nonsmooth.export.film import DrawnMesh, Film
 from nonsmooth.histories.arrays import Floats
 
 VIEWS = {
@@ -64,7 +64,7 @@ class Camera:
         return cls(across, up, towards, every * (low - room), every * (high + room))
 
 
-def _bounds(film: Film, flat: Floats, pieces: Sequence[Piece]) -> tuple[Floats, Floats]:
+def _bounds(film: Film, flat: Floats, pieces: Sequence[DrawnMesh]) -> tuple[Floats, Floats]:
     """Return the corners of what pieces take up at each time, shape [n, 2] each; of sheets at the first time."""
     low, high = np.full((len(film.times), 2), np.inf), np.full((len(film.times), 2), -np.inf)
     for i in range(len(film.times)):

@@ -28,7 +28,7 @@ _CELLS, _MOST_CELLS = 10, 40
 
 @final
 @dataclass(frozen=True, eq=False)
-class Piece:
+class DrawnMesh:
     """A mesh that a track carries.
 
     Attributes
@@ -68,7 +68,7 @@ class Film:
         [s], shape [n].
     origin, axes, scale : array
         In [m], as columns, and pure numbers; shapes [n, n_tracks, 3], [n, n_tracks, 3, 3] and [n, n_tracks].
-    pieces : tuple of Piece
+    pieces : tuple of DrawnMesh
         What is drawn.
     moving : tuple of int
         Tracks of what is seen of moving bodies, and of strokes.
@@ -80,7 +80,7 @@ class Film:
     origin: Floats
     axes: Floats
     scale: Floats
-    pieces: tuple[Piece, ...]
+    pieces: tuple[DrawnMesh, ...]
     moving: tuple[int, ...]
     unit: float
 
@@ -97,29 +97,29 @@ class Film:
         origin, axes = scene.places(times, states.q, states.u)
         extent = Extent.of(scene, origin, axes)
         low, high, unit = extent.low, extent.high, extent.unit
-        pieces, names = list[Piece](), solution.system.names.bodies
+        pieces, names = list[DrawnMesh](), solution.system.names.bodies
         origins, turns = [origin], [axes]
         track = scene.n_frames
         for part in scene.parts:
             colour = _colour(scene, part.body)
             if part.look.sheet:
                 place, mesh = _sheet(part, origin[:, part.frame], axes[:, part.frame], low, high, unit)
-                pieces.append(Piece(names[part.body], part.body, track, mesh, _SHEET, sheet=True))
+                pieces.append(DrawnMesh(names[part.body], part.body, track, mesh, _SHEET, sheet=True))
                 origins.append(place[:, None])
                 turns.append(axes[:, part.frame, None])
                 track += 1
             for lined, mesh in [] if part.look.sheet else _meshes(part.look, unit):
-                pieces.append(Piece(names[part.body], part.body, part.frame, mesh, _LINK if lined else colour))
+                pieces.append(DrawnMesh(names[part.body], part.body, part.frame, mesh, _LINK if lined else colour))
         scales, straight = [np.ones((len(times), track))], bar(np.zeros(3), np.array([1.0, 0.0, 0.0]), 0.035 * unit)
         for stroke in scene.strokes:
             if stroke.kind == "joint" and stroke.frames[0] != stroke.frames[1]:
                 mark = dot(stroke.ends[1], 0.06 * unit)
-                pieces.append(Piece(stroke.name, -1, stroke.frames[1], mark, _JOINT))
+                pieces.append(DrawnMesh(stroke.name, -1, stroke.frames[1], mark, _JOINT))
             first, last = (origin[:, f] + axes[:, f] @ end for f, end in zip(stroke.frames, stroke.ends, strict=True))
             length = np.linalg.norm(last - first, axis=1)
             if np.max(length) < 1e-6 * unit:
                 continue
-            pieces.append(Piece(stroke.name, -1, track, straight, _JOINT if stroke.kind == "joint" else _LINK))
+            pieces.append(DrawnMesh(stroke.name, -1, track, straight, _JOINT if stroke.kind == "joint" else _LINK))
             origins.append(first[:, None])
             turns.append(along_axes(last - first)[:, None])
             scales.append(length[:, None])
@@ -132,7 +132,7 @@ class Film:
         moving = {piece.track for piece in pieces if piece.body < 0 or bodies[piece.body].n_u > 0}
         return cls(times, places, axes, scale, tuple(pieces), tuple(sorted(moving)), unit)
 
-    def placed(self, piece: Piece, i: int) -> Floats:
+    def placed(self, piece: DrawnMesh, i: int) -> Floats:
         """Return the vertices of a piece at the time of a number [m], shape [n, 3]."""
         stretched = piece.mesh.vertices * [self.scale[i, piece.track], 1.0, 1.0]
         return np.asarray(self.origin[i, piece.track] + stretched @ self.axes[i, piece.track].T)

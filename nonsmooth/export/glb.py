@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, final
@@ -17,6 +17,7 @@ from nonsmooth.export.meshes import arrow
 from nonsmooth.histories.arrays import Floats
 from nonsmooth.parameters import Rule, check_number
 from nonsmooth.scene.knots import knots
+from nonsmooth.storage.files import replacing
 
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
@@ -46,12 +47,14 @@ class Glb:
     def __post_init__(self) -> None:
         check_number("export: most_knots", self.most_knots, _KNOTS)
 
-    def files(self, solution: Solution, path: Path) -> Iterator[tuple[Path, bytes]]:
-        """Give the file of a run."""
+    def write(self, solution: Solution, path: Path) -> None:
+        """Write the file of a run."""
         times = knots(solution, int(self.most_knots))
         keys = (times - times[0]).astype(np.float32)
         kept = np.append(np.diff(keys) > 0.0, True)
-        yield path, _packed(Film.of(solution, times[kept]), keys[kept], arrows(solution))
+        content = _packed(Film.of(solution, times[kept]), keys[kept], arrows(solution))
+        with replacing(path) as part:
+            part.write_bytes(content)
 
 
 def _packed(film: Film, keys: NDArray[np.float32], impulses: Iterable[Arrows]) -> bytes:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import io
 import shutil
 import subprocess
-import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,6 +17,7 @@ from nonsmooth.export.film import Film
 from nonsmooth.export.marks import Marks
 from nonsmooth.export.pictures import LOOKS, Pixels, drawn, require, rgb
 from nonsmooth.parameters import Rule, check_number
+from nonsmooth.storage.files import replacing
 
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
@@ -76,8 +75,8 @@ class Movie:
                 "install ffmpeg, winget install ffmpeg), or name a file that ends in .webp or .gif."
             )
 
-    def files(self, solution: Solution, path: Path) -> Iterator[tuple[Path, bytes]]:
-        """Give the file of a run."""
+    def write(self, solution: Solution, path: Path) -> None:
+        """Write the file of a run."""
         start, step = float(solution.track.time[0]), self.speed / self.frames_per_second
         n = int((solution.t_end - start) / step + 1e-9) + 1
         if n > _MOST:
@@ -86,9 +85,10 @@ class Movie:
         times = np.minimum(start + step * np.arange(n), solution.t_end)
         film, marks = Film.of(solution, times), Marks.of(solution, times, max(_SEEN * self.speed, step))
         pictures = drawn(film, marks, Camera.of(film, self.view), int(self.size))
-        yield path, (self._mp4 if self.kind == "mp4" else self._animated)(pictures)
+        with replacing(path) as part:
+            (self._mp4 if self.kind == "mp4" else self._animated)(pictures, part)
 
-    def _animated(self, pictures: Iterator[Pixels]) -> bytes:
+    def _animated(self, pictures: Iterator[Pixels], path: Path) -> None:
         from PIL import Image
 
         shown = list(pictures)
@@ -98,25 +98,20 @@ class Movie:
         ends = np.rint(1000.0 / unit / self.frames_per_second * np.arange(len(images) + 1)).astype(int)
         durations: list[int] = (unit * np.diff(ends)).tolist()
         more: dict[str, Any] = {"quality": 85} if self.kind == "webp" else {}
-        file = io.BytesIO()
         images[0].save(
-            file, self.kind.upper(), save_all=True, append_images=images[1:], duration=durations, loop=0, **more
+            path, self.kind.upper(), save_all=True, append_images=images[1:], duration=durations, loop=0, **more
         )
-        return file.getvalue()
 
-    def _mp4(self, pictures: Iterator[Pixels]) -> bytes:
+    def _mp4(self, pictures: Iterator[Pixels], path: Path) -> None:
         first = next(pictures)
         height, width = first.shape[:2]
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "run.mp4"
-            raw = f"-f rawvideo -pix_fmt rgb24 -s {width}x{height} -r {self.frames_per_second:g}".split()
-            packed = ["-c:v", "libx264", "-pix_fmt", "yuv420p", "-movflags", "+faststart"]
-            words = ["ffmpeg", "-loglevel", "error", "-y", *raw, "-i", "-", *packed, str(path)]
-            images = b"".join(one.tobytes() for one in (first, *pictures))
-            done = subprocess.run(words, input=images, capture_output=True, check=False)
-            if done.returncode != 0:
-                raise NonsmoothError(f"ffmpeg wrote no MP4: {done.stderr.decode(errors='replace').strip()} Try .webp.")
-            return path.read_bytes()
+        raw = f"-f rawvideo -pix_fmt rgb24 -s {width}x{height} -r {self.frames_per_second:g}".split()
+        packed = ["-c:v", "libx264", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4"]
+        words = ["ffmpeg", "-loglevel", "error", "-y", *raw, "-i", "-", *packed, str(path)]
+        images = b"".join(one.tobytes() for one in (first, *pictures))
+        done = subprocess.run(words, input=images, capture_output=True, check=False)
+        if done.returncode != 0:
+            raise NonsmoothError(f"ffmpeg wrote no MP4: {done.stderr.decode(errors='replace').strip()} Try .webp.")
 
 
 def _few_colours(pictures: list[Pixels]) -> list[Any]:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from nonsmooth.errors import MissingPackagesError
 from nonsmooth.export.camera import Camera
-from nonsmooth.export.film import Film, Piece
+from nonsmooth.export.film import DrawnMesh, Film
 from nonsmooth.export.marks import WORDS, Marks
 from nonsmooth.export.meshes import face_normals
 from nonsmooth.histories.arrays import Floats
@@ -121,7 +121,7 @@ def _faces(film: Film, camera: Camera, i: int) -> tuple[Floats, Floats]:
     return np.concatenate([*corners, bodies[front]]), np.concatenate([*colours, shade[front] * light[:, None]])
 
 
-def _shades(piece: Piece) -> Floats:
+def _shades(piece: DrawnMesh) -> Floats:
     return rgb(piece.colour) * piece.mesh.shade[:, None]
 
 

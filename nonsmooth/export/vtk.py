@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, final
@@ -10,8 +9,10 @@ from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
+from nonsmooth.errors import InvalidInput
 from nonsmooth.export.film import Film
 from nonsmooth.parameters import Rule, check_number
+from nonsmooth.storage.files import replacing
 
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
@@ -38,18 +39,26 @@ class Vtk:
     def __post_init__(self) -> None:
         check_number("export: count", self.count, _COUNT)
 
-    def files(self, solution: Solution, path: Path) -> Iterator[tuple[Path, bytes]]:
-        """Give the files of a run, that which lists them last."""
+    def write(self, solution: Solution, path: Path) -> None:
+        """Write the files of a run; older ones stay until all are written."""
         times = np.linspace(float(solution.track.time[0]), solution.t_end, int(self.count))
-        film, folder = Film.of(solution, times), f"{path.stem}_vtp"
+        film, folder = Film.of(solution, times), path.with_name(f"{path.stem}_vtp")
         width = len(str(len(times) - 1))
-        names = [f"{folder}/{path.stem}_{i:0{width}}.vtp" for i in range(len(times))]
-        for i, name in enumerate(names):
-            yield path.parent / name, _surfaces(film, i)
-        pairs = zip(times.tolist(), map(quoteattr, names), strict=True)
-        listed = "".join(f'<DataSet timestep="{t!r}" file={name}/>\n' for t, name in pairs)
+        names = [f"{path.stem}_{i:0{width}}.vtp" for i in range(len(times))]
+        pairs = zip(times.tolist(), names, strict=True)
+        listed = "".join(
+            f'<DataSet timestep="{t!r}" file={quoteattr(f"{folder.name}/{name}")}/>\n' for t, name in pairs
+        )
         text = f'<VTKFile type="Collection" version="1.0"><Collection>\n{listed}</Collection></VTKFile>\n'
-        yield path, text.encode("utf-8")
+        strange = [one.name for one in folder.glob("*") if one.suffix != ".vtp"]
+        if strange:
+            rule = "must have only VTP files, as it would be replaced"
+            raise InvalidInput(f"export: {folder}", rule, strange[:3], "Choose another name.")
+        with replacing(path) as part, replacing(folder) as parts:
+            part.write_text(text, encoding="utf-8")
+            parts.mkdir()
+            for i, name in enumerate(names):
+                (parts / name).write_bytes(_surfaces(film, i))
 
 
 def _surfaces(film: Film, i: int) -> bytes:

@@ -11,7 +11,7 @@ from typing import Any
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files import formats
 from nonsmooth.files.components import Table
-from nonsmooth.solution.files import content_of
+from nonsmooth.storage.files import content_of
 
 
 def parse(path: Path) -> Table:

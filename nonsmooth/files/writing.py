@@ -11,7 +11,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.files import formats
 from nonsmooth.files.components import TYPE, Table, table_of
 from nonsmooth.interfaces import Body, Engine
-from nonsmooth.solution.files import replacing
+from nonsmooth.storage.files import replacing
 from nonsmooth.system.contact import Declaration, Tie, Watched
 from nonsmooth.system.system import System
 

@@ -12,6 +12,7 @@ read outside of an array. The field table declares the range of each.
 from __future__ import annotations
 
 import functools
+import zlib
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import IntEnum
@@ -26,7 +27,6 @@ from nonsmooth.engine.memory.memory import Memory, counts_in, view_of
 from nonsmooth.engine.memory.sizes import Counts
 from nonsmooth.engine.memory.tables import FLOAT_ARRAYS, N_SCALARS, OWNERS, SCALARS
 from nonsmooth.errors import InvalidInput
-from nonsmooth.packing import packed, unpacked
 from nonsmooth.types import Array
 
 Integers = NDArray[np.int64]
@@ -142,7 +142,7 @@ class Difference:
         """
         sizes = np.array([len(self.places), *map(len, self.places)])
         steps = [np.diff(places, prepend=0) for places in self.places]
-        return packed(np.concatenate([sizes, *steps, *self.bits]).astype("<i8"))
+        return zlib.compress(np.concatenate([sizes, *steps, *self.bits]).astype("<i8").tobytes(), level=1)
 
     @classmethod
     def unpacked(cls, content: bytes) -> Difference:
@@ -150,10 +150,10 @@ class Difference:
 
         Raises
         ------
-        ValueError, IndexError
+        zlib.error, ValueError, IndexError
             If they are damaged.
         """
-        numbers = unpacked(content, "<i8").astype(np.int64)
+        numbers = np.frombuffer(zlib.decompress(content), "<i8").astype(np.int64)
         n = int(numbers[0])
         sizes = numbers[1 : n + 1]
         # the places of all parts, then the bits of all parts

@@ -13,6 +13,7 @@ from typing import Any, final
 
 from nonsmooth.checks import check_kind, path_of
 from nonsmooth.engine.native.kernel import PLAIN
+from nonsmooth.errors import NonsmoothWarning
 
 SOLUTION = "solution.zarr"
 """The folder of arrays within that of the results."""
@@ -61,6 +62,10 @@ class Output:
     def solution(self) -> Path:
         """The folder of arrays."""
         return self.folder / SOLUTION
+
+
+class OtherVersions(NonsmoothWarning):
+    """A run or a study is continued with other versions than it began with, so that its last bits may differ."""
 
 
 @functools.cache

@@ -1,12 +1,13 @@
-"""The solution of a run on disk: it grows with the run, and tells where the run goes on if it was cut off."""
+"""SolutionFolder: the solution of a run on disk, which grows with the run, and the state from which it is resumed."""
 
 from __future__ import annotations
 
 import json
-import shutil
+import zlib
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
-from typing import Any, final
+from typing import TYPE_CHECKING, Any, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,60 +19,68 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Engine
 from nonsmooth.results.damage import naming_damage
 from nonsmooth.results.description import MESSAGE, UNFINISHED, attributes_of, energies, system_variable
-from nonsmooth.results.lock import LOCK, Lock, check_no_links, is_marked
 from nonsmooth.results.output import Output
+from nonsmooth.results.overwriting import arrays_of_run, check_ours, check_replaceable, empty
 from nonsmooth.results.state_file import state_bytes, state_from
-from nonsmooth.results.zarr_folder import ZarrFolder
 from nonsmooth.solution.events import Events
-from nonsmooth.solution.files import FileError, content_of
 from nonsmooth.solution.request import RunRequest
 from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
 from nonsmooth.solution.variable import Variable
 from nonsmooth.solution.variables import (
     GROWING,
-    events_of,
     of_events,
     of_memory,
     of_rest_of_events,
     of_rest_of_samples,
     of_samples,
     of_system,
+    stored_events,
 )
+from nonsmooth.storage.array_folder import ArrayFolder
+from nonsmooth.storage.files import content_of
+from nonsmooth.storage.lock import WRITER, check_no_links, locked
 from nonsmooth.system.system import System
 
+if TYPE_CHECKING:
+    from filelock import BaseFileLock
+
 Floats = NDArray[np.float64]
-_STATES = ("state/0.npz", "state/1.npz")
-"""By turns: the one that the last commit names is not touched."""
-_LAST = "state/end.npz"
+_STATES = (f"{WRITER}/state-0.npz", f"{WRITER}/state-1.npz")
+"""Files of the state, used in turns: the file that the last commit names is not touched."""
+_LAST = f"{WRITER}/state-end.npz"
 _OWN = "scenario_coordinates"
-"""Attribute with the names of what the scenario adds."""
+"""Attribute with the names of the arrays that the scenario adds."""
+_ROWS = ("time", "q", "u", "account", "law_state", "booked")
+"""Arrays that make the rows of the samples."""
+_LENGTHS = {"time": "time", "event": "event_time", "listing": "listed_contact"}
+"""An array over each of the dimensions that grow."""
 
 
 @final
 class SolutionFolder:
-    """The arrays of a solution in a folder, and the state from which the run goes on.
+    """The arrays of a solution in a folder, and the state from which the run is resumed.
 
     Parameters
     ----------
-    arrays : ZarrFolder
+    arrays : ArrayFolder
         The arrays.
-    n_q, n_u : int
-        Numbers of coordinates and velocities.
-    lock : Lock or None
-        What lets nobody else write there.
+    lock : BaseFileLock or None
+        The lock of the folder, if it is written to.
     """
 
-    def __init__(self, arrays: ZarrFolder, n_q: int, n_u: int, lock: Lock | None = None) -> None:
-        self._arrays, self._n_q, self._n_u, self._lock = arrays, n_q, n_u, lock
-        self._lengths = dict.fromkeys(GROWING, 0)
+    def __init__(self, arrays: ArrayFolder, lock: BaseFileLock | None = None) -> None:
+        self._arrays, self._lock = arrays, lock
         self._safe = False
+        # numbers of coordinates and velocities, and committed lengths
+        self._n_q, self._n_u = (arrays.layout(name).shape[0] for name in ("coordinate", "velocity"))
+        self._lengths = {dimension: arrays.layout(name).shape[0] for dimension, name in _LENGTHS.items()}
 
     @classmethod
     def created(
         cls, output: Output, system: System, engine: Engine, request: RunRequest, n_states: int
     ) -> SolutionFolder:
-        """Make the folder of a run that begins; what it holds counts from the first :meth:`append` on.
+        """Make the folder of a run that begins; its content counts from the first :meth:`begin` on.
 
         Raises
         ------
@@ -81,44 +90,54 @@ class SolutionFolder:
             If it cannot be written.
         """
         path = output.solution
+        # first without the lock, for which a process that has just ended would have to wait
         check_ours(path)
-        # not with the lock at first, for which whoever has just ended would have to wait
-        _check_may_be_emptied(output)
-        # from here on nobody else writes there: what another run has begun meanwhile is not removed
-        lock = Lock(path)
+        check_replaceable(output)
+        # from here on nobody else writes there: results of another run that has begun meanwhile are not removed
+        lock = locked(path)
         try:
-            check_free(output)
-            _check_may_be_emptied(output)
-            lock.mark()
-            _empty(path)
+            check_replaceable(output)
+            attributes = attributes_of(output, engine, request)
+            arrays = ArrayFolder(path, attributes)
+            arrays.mark()
+            empty(path, (*_STATES, _LAST))
+            for one in (
+                *of_system(system),
+                *of_memory(),
+                system_variable(system, output, engine, request.t_end, attributes),
+            ):
+                arrays.add(one.name, one.dimensions, one.values, one.attributes, grows=False)
+            n_q, n_u = (sum(getattr(body, name) for body in system.bodies) for name in ("n_q", "n_u"))
+            n_y = n_q + n_u + N_ACCOUNTS + n_states
+            nothing = Events.from_buffers(np.zeros(0), np.zeros(0, np.int64), len(system.contacts), n_q, n_u, n_y)
+            for one in _variables(nothing, np.zeros((0, 1 + n_y + BOOKED)), n_q, n_u):
+                arrays.add(one.name, one.dimensions, one.values, one.attributes, grows=True)
+            return cls(arrays, lock)
         except BaseException:
-            lock.close()
+            lock.release()
             raise
-        made = ZarrFolder(path, attributes_of(output, engine, request))
-        found = cls(made, sum(body.n_q for body in system.bodies), sum(body.n_u for body in system.bodies), lock)
-        for variable in (
-            *of_system(system),
-            *of_memory(),
-            system_variable(system, output, engine, request.t_end, made.attributes),
-        ):
-            made.add(variable, grows=False)
-        n_y = found._n_q + found._n_u + N_ACCOUNTS + n_states
-        sizes = len(system.contacts), found._n_q, found._n_u, n_y
-        nothing = Events.from_buffers(np.zeros(0), np.zeros(0, np.int64), *sizes)
-        for variable in found._variables(nothing, np.zeros((0, 1 + n_y + BOOKED))):
-            made.add(variable, grows=True)
-        return found
 
     @classmethod
-    def opened(cls, output: Output) -> SolutionFolder:
+    def opened(cls, output: Output, lock: BaseFileLock | None = None) -> SolutionFolder:
         """Open the folder of a run.
 
         Raises
         ------
         InvalidInput
-            If there is none.
+            If there is none, another version wrote it, or it is damaged.
         """
-        return cls._of(ZarrFolder.opened(output.solution))
+        arrays, remedy = arrays_of_run(output.solution), "Name a folder that `run` wrote."
+        for name in ("coordinate", "velocity", *_LENGTHS.values()):
+            if name not in arrays.names:
+                raise InvalidInput(str(arrays.path), "must hold a solution", f"no {name!r}", remedy)
+        found = cls(arrays, lock)
+        for dimension, length in found._lengths.items():
+            layouts = map(arrays.layout, arrays.names)
+            others = {one.shape[0] for one in layouts if one.dimensions[:1] == (dimension,)} - {length}
+            if others:
+                rule = f"must have {length} rows in all arrays over {dimension!r}"
+                raise InvalidInput(str(arrays.path), rule, sorted(others), "Results are damaged there.")
+        return found
 
     @classmethod
     def held(cls, output: Output) -> SolutionFolder:
@@ -134,48 +153,36 @@ class SolutionFolder:
         # a folder without a run gets no lock
         cls.opened(output)
         check_no_links(output.solution)
-        lock = Lock(output.solution)
+        lock = locked(output.solution)
         try:
-            # what another run has written until it gave the lock back counts
-            return cls._of(ZarrFolder.opened(output.solution), lock)
+            # the results that another run has written before it released the lock count
+            return cls.opened(output, lock)
         except BaseException:
-            lock.close()
+            lock.release()
             raise
-
-    @classmethod
-    def _of(cls, arrays: ZarrFolder, lock: Lock | None = None) -> SolutionFolder:
-        try:
-            found = cls(arrays, arrays.length("coordinate"), arrays.length("velocity"), lock)
-            found._lengths = {"time": arrays.length("time"), "event": arrays.length("event_time")}
-            found._lengths["listing"] = arrays.length("listed_contact")
-        except KeyError as error:
-            raise InvalidInput(
-                str(arrays.path), "must hold a solution", f"no {error}", "Name a folder that `run` wrote."
-            ) from error
-        return found
 
     @property
     def attributes(self) -> dict[str, Any]:
-        """What is said of the run."""
+        """Attributes of the run."""
         return self._arrays.attributes
 
     @property
     def place(self) -> Path:
-        """The folder of the results, in which that of the arrays is."""
+        """The folder of the results, in which the folder of the arrays is."""
         return self._arrays.path.parent
 
     @property
     def status(self) -> str:
-        """That of the solution, or "unfinished"."""
+        """Status of the solution, or "unfinished"."""
         return str(self.attributes.get("status"))
 
     def said(self, name: str, kind: type = dict) -> Any:
-        """Return an attribute that holds more than a number or a word: a table or, where asked for, a list.
+        """An attribute that holds more than a number or a word: a table or, if ``kind`` says so, a list.
 
         Raises
         ------
         InvalidInput
-            If it is not there, or something else.
+            If it is missing, or of another kind.
         """
         thing = f"{self._arrays.path}: {name}"
         try:
@@ -186,28 +193,34 @@ class SolutionFolder:
         return found
 
     def system_text(self) -> str:
-        """Return the system as a scenario file, "" where it could not be written."""
+        """The system as a scenario file, "" if it could not be written."""
         return str(self._arrays.read("system"))
 
     def events(self) -> Events:
-        """Return all events."""
-        with naming_damage(f"{self._arrays.path}: events"):
-            return events_of(self._arrays.read, self._arrays.length("contact"))
+        """All events that are committed; each of their columns is read when it is needed."""
+        lengths, arrays = dict(self._lengths), self._arrays
 
-    def rows(self) -> Floats:
-        """Return all samples: time, q, u, accounts, inner states of laws, what is booked, shape [n, 1 + n_y + 4]."""
-        parts = [self._arrays.read(name) for name in ("time", "q", "u", "account", "law_state", "booked")]
-        if len(lengths := {len(part) for part in parts}) > 1:
-            rule = "must have one number of samples in all of its arrays"
-            raise InvalidInput(f"{self._arrays.path}", rule, sorted(lengths), "Results are damaged there.")
+        def read(name: str, start: int, stop: int | None) -> NDArray[Any]:
+            dimension = arrays.layout(name).dimensions[0]
+            return arrays.read(name, start, lengths[dimension] if stop is None else stop)
+
+        return stored_events(read, lengths["event"], arrays.layout("contact").shape[0])
+
+    def stored(self) -> tuple[Events, Callable[[], Floats]]:
+        """Events that are committed now, and a function that reads the samples that are; later ones do not count."""
+        return self.events(), partial(self.rows, self._lengths["time"])
+
+    def rows(self, n: int | None = None) -> Floats:
+        """The first ``n`` samples, by default all that are committed.
+
+        They are time, q, u, accounts, inner states of laws, booked energies, shape [n, 1 + n_y + 4].
+        """
+        parts = [self._arrays.read(name, 0, self._lengths["time"] if n is None else n) for name in _ROWS]
         return np.column_stack(parts) if len(parts[0]) else np.zeros((0, 1 + sum(p.shape[1] for p in parts[1:])))
 
     def state(self) -> State:
-        """Return the state that belongs to the last commit."""
-        name = str(self.attributes.get("state"))
-        if name not in (*_STATES, _LAST):
-            raise InvalidInput(f"{self._arrays.path}: state", "must name a state", name, "It is damaged.")
-        return self._state(name)
+        """The state at the last commit."""
+        return self._state("state", self.said("state"), (*_STATES, _LAST))
 
     @property
     def request(self) -> RunRequest:
@@ -230,7 +243,7 @@ class SolutionFolder:
 
     @property
     def wall_seconds(self) -> float:
-        """How long the run took until its last checkpoint [s]."""
+        """Wall time of the run until its last checkpoint [s]."""
         with naming_damage(f"{self._arrays.path}: checkpoint"):
             return float(self.said("checkpoint")["wall_seconds"])
 
@@ -241,7 +254,7 @@ class SolutionFolder:
                 f"{self.place}",
                 "must hold a run that was cut off",
                 self.status,
-                "To go on behind its end, run its model from the `state` of nonsmooth.open_solution.",
+                "To continue it after its end, run its model from the `state` of nonsmooth.open_solution.",
             )
 
     def state_at_checkpoint(self) -> State:
@@ -252,35 +265,28 @@ class SolutionFolder:
         InvalidInput
             If there is none.
         """
-        return self._state(self._checkpoint_state())
+        return self._state("checkpoint", self.said("checkpoint"), _STATES)
 
     def cut_to_checkpoint(self) -> None:
-        """Remove what the run had done after its last checkpoint.
+        """Remove the results after the last checkpoint.
 
         Raises
         ------
         InvalidInput
             If there is none.
         """
-        name, checkpoint = self._checkpoint_state(), self.said("checkpoint")
+        checkpoint = self.said("checkpoint")
         for coordinate in str(self.attributes.pop(_OWN, "")).split():
             self._arrays.remove(coordinate)
         with naming_damage(f"{self._arrays.path}: checkpoint"):
-            lengths = {one: min(max(0, int(checkpoint[one])), self._lengths[one]) for one in GROWING}
-        for dimension, length in lengths.items():
-            self._lengths[dimension] = length
+            self._lengths = {one: min(max(0, int(checkpoint[one])), self._lengths[one]) for one in GROWING}
+            self.attributes["state"] = json.dumps({name: checkpoint[name] for name in ("file", "checksum")})
+        for dimension, length in self._lengths.items():
             self._arrays.cut(dimension, length)
-        self.attributes["state"], self._safe = name, True
-
-    def _checkpoint_state(self) -> str:
-        """Name of the state of the last checkpoint."""
-        name = str(self.said("checkpoint").get("state"))
-        if name not in _STATES:
-            raise InvalidInput(f"{self._arrays.path}: checkpoint", "must name a state", name, "It is damaged.")
-        return name
+        self._safe = True
 
     def append(self, events: Events, rows: Floats, state: State, wall: float) -> None:
-        """Append what a run has done since, with the state from which it goes on.
+        """Append the results since the last time, with the state from which the run is resumed.
 
         Parameters
         ----------
@@ -289,64 +295,56 @@ class SolutionFolder:
         rows : array
             Further samples, as :meth:`rows` returns them.
         state : State
-            Where the run is, after these and before any other.
+            State of the run after these and before any other.
         wall : float
-            Time that the run took [s].
+            Wall time of the run [s].
 
         Raises
         ------
         FileError
-            If that cannot be written; what was there before is.
+            If they cannot be written; the earlier results stay as they were.
         """
-        self._put_checkpoint(events, rows, state, wall)
-        self._arrays.commit_safely()
         self._safe = True
+        self.begin(events, rows, state, wall)
 
     def begin(self, events: Events, rows: Floats, state: State, wall: float) -> None:
-        """Write where a run begins or goes on, as :meth:`append` does.
+        """Write where a run begins or resumes, as :meth:`append` does.
+
+        A run that is shorter than the first commit interval does not wait for the disk.
 
         Raises
         ------
         FileError
-            If that cannot be written.
+            If it cannot be written.
         """
-        self._put_checkpoint(events, rows, state, wall)
-        self._commit()
-
-    def _put_checkpoint(self, events: Events, rows: Floats, state: State, wall: float) -> None:
         lengths = self._write(events, rows)
-        name = _STATES[self.attributes.get("state") == _STATES[0]]
-        self._arrays.file(name, state_bytes(state))
-        checkpoint = json.dumps({"state": name, "wall_seconds": wall, **lengths})
-        self.attributes.update(
-            status=UNFINISHED, message=MESSAGE, state=name, checkpoint=checkpoint, t_end=state.time, **energies(state)
-        )
+        self._put_state(_STATES[self._state_file() == _STATES[0]], state)
+        checkpoint = {**self.said("state"), "wall_seconds": wall, **lengths}
+        self.attributes.update(status=UNFINISHED, message=MESSAGE, checkpoint=json.dumps(checkpoint))
+        self._arrays.commit(safely=self._safe)
         self._lengths = lengths
 
     def finish(self, events: Events, rows: Floats, solution: Solution) -> None:
-        """Append the last events and samples, and say how the run ended.
+        """Append the last events and samples, and write how the run ended.
 
         Raises
         ------
         FileError
-            If that cannot be written; what was there before is.
+            If they cannot be written; the earlier results stay as they were.
         """
         lengths = self._write(events, rows)
-        self._arrays.file(_LAST, state_bytes(solution.state))
+        self._put_state(_LAST, solution.state)
         self.attributes.update(
             status=solution.status,
             message=solution.message,
-            state=_LAST,
-            t_end=solution.t_end,
             counters=json.dumps(vars(solution.counters) | {"limits": dict(solution.counters.limits)}),
             cause=solution.cause,
             verdict=json.dumps([{**vars(one), "value": value} for one, value in solution.end.verdict.items()]),
-            **energies(solution.state),
         )
         if solution.status in ("done", "suspect"):
             self.attributes.pop("checkpoint", None)
+        self._arrays.commit(safely=self._safe)
         self._lengths = lengths
-        self._commit()
         self._arrays.spell_out(self._arrays.names)
         if "checkpoint" not in self.attributes:
             for name in _STATES:
@@ -360,7 +358,7 @@ class SolutionFolder:
         InvalidInput
             If a name cannot be that of a folder, or is taken, or an array is not of numbers.
         FileError
-            If that is not possible.
+            If they cannot be written.
         """
         own = self.attributes.get(_OWN, "").split()
         taken = sorted(coordinates.keys() & (self._arrays.names - {*own}))
@@ -373,116 +371,57 @@ class SolutionFolder:
         self.attributes[_OWN] = " ".join(coordinates)
         for name, values in arrays.items():
             attributes = described(f"coordinate of the scenario: {name}", unit_of(name))
-            self._arrays.add(Variable(name, ("time",), values, attributes), grows=True)
-        self._arrays.commit()
+            self._arrays.add(name, ("time",), values, attributes, grows=True)
+        self._arrays.commit(safely=False)
         self._arrays.spell_out(coordinates)
 
     def close(self) -> None:
-        """Let others write there."""
+        """Release the lock of the folder."""
         if self._lock is not None:
-            self._lock.close()
-
-    def _commit(self) -> None:
-        # what a run did in less than a second can be had again
-        if self._safe:
-            self._arrays.commit_safely()
-        else:
-            self._arrays.commit()
+            self._lock.release()
 
     def _write(self, events: Events, rows: Floats) -> dict[str, int]:
+        """Put events and samples behind the committed ones; the lengths with them."""
         lengths = dict(self._lengths)
-        for variable in self._variables(events, rows):
-            first = self._lengths[variable.dimensions[0]]
-            self._arrays.write(variable.name, first, variable.values)
-            lengths[variable.dimensions[0]] = first + len(variable.values)
+        for one in _variables(events, rows, self._n_q, self._n_u):
+            dimension = one.dimensions[0]
+            self._arrays.write(one.name, self._lengths[dimension], one.values)
+            lengths[dimension] = self._lengths[dimension] + len(one.values)
         return lengths
 
-    def _variables(self, events: Events, rows: Floats) -> list[Variable]:
-        n_states = rows.shape[1] - 1 - self._n_q - self._n_u - N_ACCOUNTS - BOOKED
-        parts = np.cumsum([1, self._n_q, self._n_u, N_ACCOUNTS, n_states])
-        t, q, u, *rest = np.split(rows, parts, axis=1)
-        samples = [*of_samples(t[:, 0], q, u), *of_rest_of_samples(*rest)]
-        return [*samples, *of_events(events), *of_rest_of_events(events)]
+    def _put_state(self, name: str, state: State) -> None:
+        """Write a state to a file, and note the file and its checksum in the attributes."""
+        content = state_bytes(state)
+        self._arrays.file(name, content)
+        self.attributes["state"] = json.dumps({"file": name, "checksum": zlib.crc32(content)})
+        self.attributes.update(t_end=state.time, **energies(state))
 
-    def _state(self, name: str) -> State:
-        path = self._arrays.path / name
+    def _state_file(self) -> str:
+        """Name of the file of the last state, "" before the first one."""
+        return str(self.said("state")["file"]) if "state" in self.attributes else ""
+
+    def _state(self, attribute: str, entry: Mapping[str, Any], names: tuple[str, ...]) -> State:
+        """State in the file that an attribute names."""
+        name = entry.get("file")
+        if name not in names:
+            raise InvalidInput(f"{self._arrays.path}: {attribute}", "must name a state", name, "It is damaged.")
+        path = self._arrays.path / str(name)
         try:
-            return state_from(content_of(path), str(path))
+            content = content_of(path)
         except OSError as error:
             raise InvalidInput(str(path), "must be there", error.strerror, "It is damaged.") from error
+        if zlib.crc32(content) != entry.get("checksum"):
+            rule, remedy = (
+                f"must have the checksum in {attribute!r}",
+                "It is damaged: take it from a copy, or run again.",
+            )
+            raise InvalidInput(str(path), rule, "a file with another one", remedy)
+        return state_from(content, str(path))
 
 
-def check_free(output: Output) -> None:
-    """Look whether new results may go to a folder.
-
-    Raises
-    ------
-    InvalidInput
-        If a run that was cut off can go on there.
-    """
-    try:
-        status = SolutionFolder.opened(output).status
-    except InvalidInput:
-        return
-    if status == UNFINISHED:
-        raise InvalidInput(
-            str(output.folder),
-            "must not hold a run that goes on or was cut off",
-            UNFINISHED,
-            f"`nonsmooth resume {output.folder}` goes on with it; remove {output.solution} to give it up.",
-        )
-
-
-def check_ours(path: Path) -> None:
-    """Look whether a folder of arrays is new, empty or one that a run has made, so that it may be emptied.
-
-    Raises
-    ------
-    InvalidInput
-        If it holds anything else.
-    FileError
-        If it cannot be read.
-    """
-    if path.is_symlink() or (path.exists() and not path.is_dir()):
-        what = "a link" if path.is_symlink() else "a file"
-        raise InvalidInput(str(path), "must be a folder that a run has made", what, "Name another folder.")
-    try:
-        names = sorted(one.name for one in path.iterdir()) if path.exists() else []
-    except OSError as error:
-        raise FileError(path, error) from error
-    if names not in ([], [LOCK]) and not is_marked(path) and not _is_solution(path):
-        raise InvalidInput(
-            str(path),
-            "must be a folder that a run has made, as it would be emptied",
-            f"a folder with {', '.join(map(repr, names[:3]))}",
-            "Name another folder.",
-        )
-
-
-def _check_may_be_emptied(output: Output) -> None:
-    """Raise InvalidInput if another run has ended there that this one must not replace."""
-    if not output.overwrite and _is_solution(output.solution):
-        rule, remedy = "must be a folder that is empty or new", "Another run has ended there meanwhile: name another."
-        raise InvalidInput(str(output.folder), rule, "a folder with results", remedy)
-
-
-def _is_solution(path: Path) -> bool:
-    """Return whether a folder holds the solution of a run, also one that was copied without its lock."""
-    try:
-        return "versions" in ZarrFolder.opened(path).attributes
-    except InvalidInput:
-        return False
-
-
-def _empty(path: Path) -> None:
-    """Remove all but the lock, by which the folder is held."""
-    try:
-        for one in path.iterdir():
-            if one.name == LOCK:
-                continue
-            if one.is_dir() and not one.is_symlink():
-                shutil.rmtree(one)
-            else:
-                one.unlink()
-    except OSError as error:
-        raise FileError(path, error) from error
+def _variables(events: Events, rows: Floats, n_q: int, n_u: int) -> list[Variable]:
+    """Events and samples as arrays."""
+    n_states = rows.shape[1] - 1 - n_q - n_u - N_ACCOUNTS - BOOKED
+    t, q, u, *rest = np.split(rows, np.cumsum([1, n_q, n_u, N_ACCOUNTS, n_states]), axis=1)
+    samples = [*of_samples(t[:, 0], q, u), *of_rest_of_samples(*rest)]
+    return [*samples, *of_events(events), *of_rest_of_events(events)]

@@ -27,6 +27,8 @@ _FIRST_STEPS = 64
 """Number of steps of the first call, before the wall time of a step is known."""
 _MOST_STEPS = 2000
 """Largest number of steps per call. More gain no time."""
+_LARGEST_SIZE = 1 << 25
+"""Size of events and samples in memory [bytes], above which written ones are dropped, and unwritten ones written."""
 
 
 @final
@@ -70,17 +72,22 @@ class FolderSink(OutputSink):
     def write(self, checkpoint: Checkpoint) -> None:
         """Start a commit of the new results, if it is time and the last commit has ended; adapt the steps per call."""
         now = time.perf_counter()
+        records = self.records
         # the time of a call may be below the resolution of the clock; one fast call gives at most 4 times the steps
         wanted = self._steps * _CALL_TIME / max(now - self._last_call, 1e-6)
         self._steps = int(min(_MOST_STEPS, 4 * self._steps, max(_FEWEST_STEPS, wanted)))
-        if now >= self._next_commit and (self._commit is None or self._commit.done()):
+        is_time = now >= self._next_commit and (self._commit is None or self._commit.done())
+        # a run that records faster than the disk writes waits for it
+        if is_time or records.size(unwritten=True) > _LARGEST_SIZE:
             # raises the error of the last commit
             self._wait()
+            if records.size(unwritten=False) > _LARGEST_SIZE:
+                records.release(self.folder.stored())
             self._next_commit = now + _COMMIT_INTERVAL
             # the buffers hold results up to the checkpoint
-            self.records.drain()
+            records.drain()
             state, wall = self.state_at(checkpoint), self.wall + now - self._start
-            self._commit = self._thread.submit(self.folder.append, *self.records.take_unwritten(), state, wall)
+            self._commit = self._thread.submit(self.folder.append, *records.take_unwritten(), state, wall)
         # the time of the next call is without that of this method
         self._last_call = time.perf_counter()
 

@@ -25,7 +25,7 @@ from nonsmooth.runs.output_sink import OutputSink
 from nonsmooth.runs.records import Records
 from nonsmooth.runs.so_far import RunSoFar, Until
 from nonsmooth.runs.stall_monitor import StallMonitor
-from nonsmooth.solution.files import FileError
+from nonsmooth.storage.files import FileError
 
 _STEPS_NEAR_END = 16
 """Number of steps between checkpoints near the end time. A continued run repeats at most so many."""

@@ -41,10 +41,10 @@ from nonsmooth.runs.run_arguments import check_calls, check_steps, check_times, 
 from nonsmooth.runs.so_far import Until
 from nonsmooth.runs.start import begin, continue_run, resume_run, write_first_sample, write_request
 from nonsmooth.runs.state_checks import check_arrays, check_closed, check_numbers
-from nonsmooth.solution.files import FileError
 from nonsmooth.solution.request import RunRequest
 from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import Floats, State
+from nonsmooth.storage.files import FileError
 from nonsmooth.system.system import System
 
 _LARGEST_UNREAD = 1 << 20
@@ -301,7 +301,7 @@ class Model:
             # this removes all that is newer than the checkpoint; what is left are the results before it
             folder.cut_to_checkpoint()
             laid = self._laid
-            self._records = Records(laid, (folder.events(), folder.rows()))
+            self._records = Records(laid, folder.stored())
             resume_run(laid, self._blank, state)
             write_request(laid.memory, request)
             # the checkpoint has the time of the next sample. The energy account is that of the whole run

@@ -7,8 +7,9 @@ number of the call, so that an interrupt within :meth:`Records.drain` neither lo
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import final
+from typing import TypeAlias, final
 
 import numpy as np
 
@@ -25,6 +26,8 @@ from nonsmooth.solution.recorded import Recorded
 from nonsmooth.solution.state import Floats, Integers, State
 from nonsmooth.solution.track import row_of
 
+StoredRecords: TypeAlias = tuple[Events, Callable[[], Floats]]
+"""Events of an output folder, and a function that reads the samples there."""
 _START_PART, _END_PART = -1, -2
 """Keys of the parts before the first call and after the last one. The others have the number of their call."""
 _ROUND_OFF = 1e-9
@@ -53,16 +56,18 @@ class Records:
     ----------
     model : LaidOut
         The model that runs.
-    earlier : tuple, optional
-        Events and samples of the same run in an earlier process.
+    stored : tuple, optional
+        Events of the same run that are in its output folder and no longer in memory, and a function that reads the
+        samples there.
     """
 
     model: LaidOut
-    earlier: tuple[Events, Floats] | None = None
+    stored: StoredRecords | None = None
     # floats and integers of events, and samples
     _parts: dict[int, tuple[Floats, Integers, Floats]] = field(default_factory=dict)
     _n_drained: int = 0
     _n_taken: int = 0
+    _n_released: int = 0
 
     @property
     def _width(self) -> int:
@@ -77,8 +82,9 @@ class Records:
         So the difference of two counts is the number of events between two contents of the memory.
         """
         _, integers = self.model.memory.cells
-        earlier = 0 if self.earlier is None else len(self.earlier[0])
-        return earlier + self._n_drained + int(integers.item(_N_EVENTS) - integers.item(_N_KNOWN))
+        stored = 0 if self.stored is None else len(self.stored[0])
+        drained = self._n_drained - self._n_released
+        return stored + drained + int(integers.item(_N_EVENTS) - integers.item(_N_KNOWN))
 
     @property
     def has_buffered(self) -> bool:
@@ -168,8 +174,8 @@ class Records:
             )
         # the floats of an event begin with its time
         first = next((floats.item(0) for floats, _, _ in self._parts.values() if len(floats)), math.inf)
-        # a resumed run has its start event in the earlier process
-        if self.earlier is None and engine.records_contacts and first > start:
+        # the start event of a run whose records are stored was there
+        if self.stored is None and engine.records_contacts and first > start:
             raise InvalidInput(
                 thing,
                 "must record an event at the start, which holds the modes there",
@@ -193,16 +199,35 @@ class Records:
     def joined(self, engine: Engine) -> Recorded:
         """Events and samples of the whole run, with those of an earlier process; ``engine`` integrated it."""
         floats, integers, samples = self._joined(0)
-        if self.earlier is None:
+        if self.stored is None:
             return Recorded(samples, engine, floats, integers, self.model.sizes)
-        events, rows = self.earlier
-        return Recorded(np.concatenate([rows, samples]), engine, floats, integers, self.model.sizes, events)
+        events, read_rows = self.stored
+        return Recorded(np.concatenate([read_rows(), samples]), engine, floats, integers, self.model.sizes, events)
+
+    def events(self) -> Events:
+        """All events so far."""
+        floats, integers, _ = self._joined(0)
+        found = Events.from_buffers(floats, integers, *self.model.sizes)
+        return found if self.stored is None else Events.joined([self.stored[0], found])
 
     def take_unwritten(self) -> tuple[Events, Floats]:
         """Events and samples of the parts that no earlier call took, for the output folder; the parts are kept."""
         floats, integers, samples = self._joined(self._n_taken)
         self._n_taken = len(self._parts)
         return Events.from_buffers(floats, integers, *self.model.sizes), samples
+
+    def size(self, *, unwritten: bool) -> int:
+        """Size of all parts in memory, or of those that were not taken to be written [bytes]."""
+        parts = list(self._parts.values())[self._n_taken if unwritten else 0 :]
+        return sum(array.nbytes for part in parts for array in part)
+
+    def release(self, stored: StoredRecords) -> None:
+        """Drop the parts that were taken; ``stored`` has all events and samples until then."""
+        before = 0 if self.stored is None else len(self.stored[0])
+        for call in list(self._parts)[: self._n_taken]:
+            del self._parts[call]
+        self._n_taken, self._n_released = 0, self._n_released + len(stored[0]) - before
+        self.stored = stored
 
     def _joined(self, first: int) -> tuple[Floats, Integers, Floats]:
         """Floats and integers of events, and samples, of the parts from number ``first`` on, in their order.

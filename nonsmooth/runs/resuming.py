@@ -5,20 +5,15 @@ from __future__ import annotations
 import warnings
 from pathlib import Path
 
-from nonsmooth.errors import NonsmoothWarning
 from nonsmooth.interfaces import Engine
 from nonsmooth.results.opening import stored_engine, stored_setup
-from nonsmooth.results.output import Output, versions
+from nonsmooth.results.output import OtherVersions, Output, versions
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.runs.loop import Progress
 from nonsmooth.runs.model import Model
 from nonsmooth.runs.so_far import Until
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-
-
-class OtherVersions(NonsmoothWarning):
-    """A run is resumed with other versions than it began with, so that its last bits may differ."""
 
 
 def resume(

@@ -65,7 +65,7 @@ class RunSoFar:
     @property
     def events(self) -> Events:
         """All events so far. The time to read them grows with their number."""
-        return self._records.joined(self._engine).events
+        return self._records.events()
 
 
 Until: TypeAlias = Callable[[RunSoFar], bool]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, final
@@ -11,6 +11,7 @@ from nonsmooth.checks import check_kind
 from nonsmooth.errors import MissingPackagesError, UnknownName
 from nonsmooth.export.table import Series, table
 from nonsmooth.solution.events_table import events_table
+from nonsmooth.storage.files import replacing
 
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
@@ -50,7 +51,8 @@ class Csv:
         elif self.series not in SERIES:
             raise UnknownName("export: series", self.series, SERIES)
 
-    def files(self, solution: Solution, path: Path) -> Iterator[tuple[Path, bytes]]:
-        """Give the file of a run."""
+    def write(self, solution: Solution, path: Path) -> None:
+        """Write the file of a run."""
         text = SERIES[self.series](solution) if isinstance(self.series, str) else table(self.series)
-        yield path, text.encode("utf-8")
+        with replacing(path) as part:
+            part.write_bytes(text.encode("utf-8"))

@@ -5,23 +5,32 @@ from __future__ import annotations
 import dataclasses
 import functools
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.events.record import CODE_HEAD, EVENT_HEAD, LISTED
 from nonsmooth.engine.memory.layout import BOOKED
-from nonsmooth.engine.memory.modes import AFTER, BEFORE, CAUSES, CODE, DURING, word
+from nonsmooth.engine.memory.modes import AFTER, BEFORE, CAUSES, CODE, DURING, Cause, word
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
+ReadRows: TypeAlias = Callable[[str, int, int | None], NDArray[Any]]
+"""Reads rows from one to another of a column by its name; the stop None is the end."""
+_BLOCK = 2**14
+"""Events of a block that is read at once."""
+_LISTED = ("listed", "codes", "listed_impulse", "listed_memory")
+"""Columns with a row for each contact that is listed with an event."""
 
 
 @dataclass(frozen=True)
 class Events:
     """All events in order of time; several may share an instant.
+
+    The events of a run with an output folder may be in that folder; each column is read when it is first used.
 
     Attributes
     ----------
@@ -132,18 +141,66 @@ class Events:
         )
 
     @classmethod
+    def lazy(cls, n: int, n_contacts: int, read: ReadRows) -> Events:
+        """Events whose columns are read when they are first used; ``read`` reads rows of a column by its name."""
+        made = object.__new__(cls)
+        vars(made).update(n_contacts=n_contacts, _length=n, _read=read)
+        return made
+
+    def __getattr__(self, name: str) -> Any:
+        """Read a column of :meth:`lazy` at its first use."""
+        if name not in _COLUMNS:
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+        return vars(self).setdefault(name, self._read(name, 0, None))
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Let a copy hold all columns, because a folder need not be there any more."""
+        return {name: getattr(self, name) for name in ("n_contacts", *_COLUMNS)}
+
+    def _rows(self, name: str, start: int, stop: int | None) -> NDArray[Any]:
+        """Rows of a column, which is not kept in memory unless it is there."""
+        found = vars(self).get(name)
+        return self._read(name, start, stop) if found is None else np.asarray(found[start:stop])
+
+    def blocks(self) -> Iterator[Events]:
+        """These events in blocks, one after another, at least one: of a long run only one block is in memory."""
+        n = len(self)
+        if n <= _BLOCK:
+            yield self
+            return
+        for start in range(0, n, _BLOCK):
+            yield self._block(start, min(start + _BLOCK, n))
+
+    def _block(self, start: int, stop: int) -> Events:
+        """The events from one to another."""
+        first = self.first[start : stop + 1]
+        listed = int(first[0]), int(first[-1])
+
+        def read(name: str, low: int, high: int | None) -> NDArray[Any]:
+            if name == "first":
+                return np.asarray((first - first[0])[low:high])
+            begin, end = listed if name in _LISTED else (start, stop)
+            return self._rows(name, begin + low, end if high is None else begin + high)
+
+        return Events.lazy(stop - start, self.n_contacts, read)
+
+    @classmethod
     def joined(cls, parts: Sequence[Events]) -> Events:
-        """Return the events of several parts of one run."""
+        """Events of several parts of a run; a column is joined when it is first used."""
         if len(parts) == 1:
             return parts[0]
-        columns = {
-            name: np.concatenate([getattr(part, name) for part in parts])
-            for name in (field.name for field in dataclasses.fields(cls))
-            if name not in ("n_contacts", "first")
-        }
-        sizes = np.concatenate([np.diff(part.first) for part in parts])
-        first = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
-        return cls(n_contacts=parts[0].n_contacts, first=first, **columns)
+        starts = np.cumsum([0, *map(len, parts)]).tolist()
+
+        def read(name: str, start: int, stop: int | None) -> NDArray[Any]:
+            if name == "first":
+                sizes = np.concatenate([np.diff(part.first) for part in parts])
+                return np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)[start:stop]
+            if stop is None:
+                return np.concatenate([part._rows(name, 0, None) for part in parts])[start:]
+            spans = [(part, max(0, start - at), stop - at) for part, at in zip(parts, starts, strict=False)]
+            return np.concatenate([part._rows(name, low, max(low, min(high, len(part)))) for part, low, high in spans])
+
+        return cls.lazy(starts[-1], parts[0].n_contacts, read)
 
     def _bits(self, shift: int) -> Integers:
         """Return the bits of every contact at every event, shape [n, n_contacts]."""
@@ -186,12 +243,22 @@ class Events:
         causes = ", ".join(f"{n} {cause}" for cause, n in Counter(self.causes()).most_common())
         return f"Events({len(self)}: {causes})" if causes else "Events(0)"
 
-    def __len__(self) -> int:
+    @functools.cached_property
+    def _length(self) -> int:
+        """Number of events."""
         return len(self.time)
+
+    def __len__(self) -> int:
+        return self._length
 
     def causes(self) -> list[str]:
         """Return the causes in words."""
         return [CAUSES[code] for code in self.cause]
+
+    def triggers(self, contacts: Sequence[str], guards: Sequence[str]) -> list[str]:
+        """Return the name of the contact, or of the guard, that caused each event; "" at the start."""
+        pairs = zip(self.cause.tolist(), self.contact.tolist(), strict=True)
+        return ["" if i < 0 else (guards if cause == Cause.GUARD else contacts)[i] for cause, i in pairs]
 
     def words(self, which: str) -> list[str]:
         """Return the mode words ``before``, ``during`` or ``after`` every event."""
@@ -213,6 +280,9 @@ class Events:
     def count(self, *causes: int) -> int:
         """Return how many events have one of the causes."""
         return int(np.isin(self.cause, causes).sum())
+
+
+_COLUMNS = tuple(field.name for field in dataclasses.fields(Events) if field.name != "n_contacts")
 
 
 def words(codes: Integers) -> list[str]:

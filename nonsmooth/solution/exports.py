@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
@@ -14,20 +14,20 @@ from nonsmooth.export.glb import Glb
 from nonsmooth.export.movie import Movie
 from nonsmooth.export.vtk import Vtk
 from nonsmooth.solution.csv_format import Csv
-from nonsmooth.solution.files import prepare, replacing
+from nonsmooth.storage.files import prepare
 
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 
-class Format(Protocol):
-    """What turns a run into files."""
+class ExportFormat(Protocol):
+    """Options of a format, which write a run."""
 
-    def files(self, solution: Solution, path: Path) -> Iterator[tuple[Path, bytes]]:
-        """Give files and what is in them; the last one is that of the path."""
+    def write(self, solution: Solution, path: Path) -> None:
+        """Write the run to a path; each file is written aside and then renamed, so that an older one is not lost."""
 
 
-FORMATS: Mapping[str, Callable[..., Format]] = {
+FORMATS: Mapping[str, Callable[..., ExportFormat]] = {
     ".glb": Glb,
     ".pvd": Vtk,
     ".gif": partial(Movie, "gif"),
@@ -59,9 +59,7 @@ def exporter(path: Path | str, **options: Any) -> Callable[[Solution], Path]:
     prepare(found.parent)
 
     def write(solution: Solution) -> Path:
-        for place, content in chosen.files(solution, found):
-            with replacing(place) as part:
-                part.write_bytes(content)
+        chosen.write(solution, found)
         return found
 
     return write

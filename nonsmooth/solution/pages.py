@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from nonsmooth.checks import path_of
-from nonsmooth.solution.files import replacing
+from nonsmooth.storage.files import replacing
 from nonsmooth.viewer.page import page
 
 if TYPE_CHECKING:

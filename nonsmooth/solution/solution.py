@@ -241,9 +241,7 @@ class Solution:
 
     def triggers(self) -> list[str]:
         """Return the name of the contact, or of the guard, that caused each event; "" at the start."""
-        names = self.system.names
-        pairs = zip(self.events.cause.tolist(), self.events.contact.tolist(), strict=True)
-        return ["" if i < 0 else (names.guards if cause == Cause.GUARD else names.contacts)[i] for cause, i in pairs]
+        return self.events.triggers(self.system.names.contacts, self.system.names.guards)
 
     def transition_graph(self) -> TransitionGraph:
         """Return the modes visited, their shares of the time, and how often which cause led from one to another."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ from nonsmooth.datasets import described
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.modes import AFTER, BEFORE, CAUSES, CODE, DURING
-from nonsmooth.solution.events import Events
+from nonsmooth.solution.events import Events, ReadRows
 from nonsmooth.solution.variable import Variable
 from nonsmooth.system.labels import labels
 from nonsmooth.system.system import System
@@ -163,22 +163,38 @@ def of_events(events: Events) -> list[Variable]:
     ]
 
 
-def events_of(read: Callable[[str], NDArray[Any]], n_contacts: int) -> Events:
-    """Return the events out of their arrays, which ``read`` returns by name."""
+_FLOATS = {"time": "event_time", "q": "event_q", "u_before": "event_u_before", "u_after": "event_u_after"}
+_FLOATS |= {name: name for name in (*_ENERGIES, "listed_memory")}
+_FLOATS |= {"booked": "event_booked", "listed_impulse": "impulse"}
+_INTEGERS = {name: f"event_{name}" for name in ("cause", "contact", "phases", "truncated")}
+_INTEGERS |= {"listed": "listed_contact"}
+"""Stored arrays of the columns of events."""
 
-    def integers(name: str) -> NDArray[np.int64]:
-        return read(name).astype(np.int64)
 
-    columns = {"time": read("event_time"), "listed": integers("listed_contact"), "listed_impulse": read("impulse")}
-    columns |= {name: read(f"event_{name}") for name in ("q", "u_before", "u_after")}
-    columns |= {name: integers(f"event_{name}") for name in ("cause", "contact", "phases", "truncated")}
-    return Events(
-        n_contacts=n_contacts,
-        first=np.concatenate([[0], np.cumsum(integers("event_size"))]).astype(np.int64),
-        codes=np.sum([integers(name) << shift for name, shift in _SHIFTS.items()], axis=0),
-        **columns,
-        integrated=np.hstack([read("event_account"), read("event_law_state")]),
-        booked=read("event_booked"),
-        listed_memory=read("listed_memory"),
-        **{name: read(name) for name in _ENERGIES},
-    )
+def stored_events(read: ReadRows, n: int, n_contacts: int) -> Events:
+    """Events out of their stored arrays; each column is read when it is needed.
+
+    Parameters
+    ----------
+    read : callable
+        ``read(name, start, stop)`` reads rows of a stored array; the stop None is its end.
+    n : int
+        Number of events.
+    n_contacts : int
+        Number of contacts of the system.
+    """
+
+    def column(name: str, start: int, stop: int | None) -> NDArray[Any]:
+        if name in _FLOATS:
+            return read(_FLOATS[name], start, stop)
+        if name in _INTEGERS:
+            return read(_INTEGERS[name], start, stop).astype(np.int64)
+        if name == "integrated":
+            return np.hstack([read("event_account", start, stop), read("event_law_state", start, stop)])
+        if name == "codes":
+            bits = [read(name, start, stop).astype(np.int64) << shift for name, shift in _SHIFTS.items()]
+            return np.asarray(np.sum(bits, axis=0))
+        sizes = read("event_size", 0, None).astype(np.int64)
+        return np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)[start:stop]
+
+    return Events.lazy(n, n_contacts, column)

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import importlib.util
-from importlib.metadata import version
 
 from nonsmooth.errors import MissingPackagesError
 
 _REMEDY = 'pip install "nonsmooth[studies]"'
-_OLDEST = (3, 1, 3)
-"""The first version of zarr that renames a file when it is whole."""
 
 
 def require(what: str, *packages: str) -> None:
@@ -31,10 +28,6 @@ def require_store() -> None:
     Raises
     ------
     MissingPackagesError
-        If it is not, or too old.
+        If it is not.
     """
-    require("a study", "xarray", "zarr")
-    found = version("zarr")
-    if tuple(int(part) for part in found.split(".")[:3] if part.isdigit()) < _OLDEST:
-        oldest = ".".join(map(str, _OLDEST))
-        raise MissingPackagesError(f"a study needs zarr {oldest} or newer, not {found}: {_REMEDY}")
+    require("a study", "xarray")

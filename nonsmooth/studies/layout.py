@@ -1,54 +1,44 @@
-"""Which arrays a store has for some records over some points."""
+"""Arrays of a study's folder: its records over the runs, its parameters, and the axes of its records."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
+from nonsmooth.solution.variable import Variable
+from nonsmooth.storage.chunks import ArrayLayout
 from nonsmooth.studies.records.record import Record
 from nonsmooth.studies.sampling.points import Points
 from nonsmooth.studies.status import NOT_RUN, STATUSES, UNKNOWN, reason_attributes
-from nonsmooth.studies.store import Coordinate, Variable
 from nonsmooth.studies.target import Target
 
 
 def _classes(words: Sequence[str]) -> dict[str, Any]:
-    """Return values and names of classes, as the CF conventions have them."""
+    """Values and names of classes, as the CF conventions have them."""
     return {"flag_values": list(range(len(words))), "flag_meanings": " ".join(word.replace(" ", "_") for word in words)}
 
 
-def variables(records: Sequence[Record]) -> list[Variable]:
-    """Return the arrays of records, of the status and of the reason."""
-    found = []
+def variables(records: Sequence[Record], n_runs: int, chunk: int) -> dict[str, ArrayLayout]:
+    """Arrays of the records, of the reason and of the status, over the runs."""
+    found = {}
     for one in records:
         attributes = {**one.attributes, **(_classes(one.words) if one.words else {})}
-        axes = {name: len(labels) for name, labels in one.axes.items()}
-        found.append(Variable(one.name, one.dtype, one.none, attributes, axes))
-    found.append(Variable("reason", "int8", UNKNOWN, reason_attributes()))
-    return [*found, Variable("status", "int8", NOT_RUN, {"long_name": "how it ended", **_classes(STATUSES)})]
+        shape = (n_runs, *map(len, one.axes.values()))
+        found[one.name] = ArrayLayout(
+            ("run", *one.axes), np.dtype(one.dtype).name, shape, chunk, np.array(one.none, one.dtype).item(), attributes
+        )
+    ended = {"long_name": "how it ended", **_classes(STATUSES)}
+    found["reason"] = ArrayLayout(("run",), "int8", (n_runs,), chunk, UNKNOWN, reason_attributes())
+    return found | {"status": ArrayLayout(("run",), "int8", (n_runs,), chunk, NOT_RUN, ended)}
 
 
-def coordinates(records: Sequence[Record], points: Points, target: Target) -> dict[str, Coordinate]:
-    """Return the parameters over the runs, and the axes of records."""
-    found = {name: Coordinate(("run",), values, target.told(name)) for name, values in points.columns.items()}
+def coordinates(records: Sequence[Record], points: Points, target: Target) -> list[Variable]:
+    """The parameters over the runs, and the axes of records."""
+    found = {name: Variable(name, ("run",), values, target.told(name)) for name, values in points.columns.items()}
     for one in records:
         for axis, labels in one.axes.items():
-            told = {"units": "s", "long_name": "time"} if axis == "time" else {"long_name": axis}
-            found[axis] = Coordinate((axis,), np.asarray(labels), told)
-    return found
-
-
-def labels_of(along: Mapping[str, Coordinate]) -> dict[str, list[str]]:
-    """Return the words of those that have words, which are stored as numbers: where each stands among these."""
-    return {name: np.unique(one.values).tolist() for name, one in along.items() if one.values.dtype.kind == "U"}
-
-
-def stored(one: Coordinate) -> Coordinate:
-    """Return a coordinate as it is stored."""
-    if one.values.dtype.kind != "U":
-        return one
-    words, places = np.unique(one.values, return_inverse=True)
-    marked = [word.replace(" ", "_") for word in words.tolist()]
-    return Coordinate(one.dimensions, places.astype("int16"), {**one.attributes, **_classes(marked)})
+            attributes = {"units": "s", "long_name": "time"} if axis == "time" else {"long_name": axis}
+            found[axis] = Variable(axis, (axis,), np.asarray(labels), attributes)
+    return list(found.values())

@@ -1,16 +1,13 @@
-"""A stored study as a dataset of xarray: over its parameters where they form a grid."""
+"""A stored study as a dataset of xarray: over its parameters if they form a grid."""
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from nonsmooth.checks import path_of
 from nonsmooth.studies.extras import require_store
-from nonsmooth.studies.store import Store
+from nonsmooth.studies.study_folder import StudyFolder
 
 if TYPE_CHECKING:
     import xarray
@@ -33,23 +30,20 @@ def open_study(path: Path | str) -> xarray.Dataset:
     Raises
     ------
     InvalidInput
-        If there is none.
+        If there is none, another version wrote it, or it is damaged.
     """
     import xarray
 
     require_store()
-    store = Store(path_of("study", path))
-    with xarray.open_zarr(
-        str(store.path), chunks=None, consolidated=False, mask_and_scale=False, zarr_format=3
-    ) as opened:
-        flat = opened.load()
-    said = json.loads(str(store.attributes["layout"]))
-    flat = flat.set_coords(said["parameters"])[said["variables"]]
-    for name, labels in said["labels"].items():
-        # words are stored as numbers, which all readers of the format know
-        told = {"long_name": flat[name].attrs["long_name"]}
-        flat = flat.assign_coords({name: (flat[name].dims, np.array(labels)[flat[name].values], told)})
-    return _on_grid(flat, said["dims"]) if said["dims"] else flat
+    folder = StudyFolder(path_of("study", path))
+
+    def read(name: str) -> tuple[tuple[str, ...], Any, dict[str, Any]]:
+        layout = folder.layout(name)
+        return layout.dimensions, folder.read(name), dict(layout.attributes)
+
+    variables, coordinates = ({name: read(name) for name in names} for names in (folder.variables, folder.coordinates))
+    flat, dims = xarray.Dataset(variables, coordinates, dict(folder.attributes)), folder.parts["dims"]
+    return _on_grid(flat, dims) if dims else flat
 
 
 def _on_grid(flat: xarray.Dataset, dims: dict[str, int]) -> xarray.Dataset:

@@ -13,22 +13,23 @@ from typing import TYPE_CHECKING, Any, final
 
 from nonsmooth.checks import check_kind, path_of
 from nonsmooth.engines.event_driven import EventDriven
-from nonsmooth.errors import InvalidInput, NonsmoothWarning, UnknownName
+from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.interfaces import Engine, Scenario
 from nonsmooth.progress import Display, Pace, RunsDone
+from nonsmooth.results.output import OtherVersions
 from nonsmooth.studies.budget import Budgeted
 from nonsmooth.studies.definition import differing
 from nonsmooth.studies.displays import display_of
 from nonsmooth.studies.executors import Dask, Executor, Serial, Threads
 from nonsmooth.studies.extras import require_store
-from nonsmooth.studies.layout import coordinates, labels_of, stored, variables
+from nonsmooth.studies.layout import coordinates, variables
 from nonsmooth.studies.opening import open_study
 from nonsmooth.studies.provenance import provenance
 from nonsmooth.studies.records.asked import Asked, records
 from nonsmooth.studies.records.record import Outcome
 from nonsmooth.studies.sampling.sampling import Sampling
 from nonsmooth.studies.status import VALUED
-from nonsmooth.studies.store import Store, is_study
+from nonsmooth.studies.study_folder import StudyFolder, is_study
 from nonsmooth.studies.target import Case, target
 from nonsmooth.studies.work import Chunk, Work
 from nonsmooth.system.system import System
@@ -42,10 +43,6 @@ _CHUNKS, _LARGEST = 40, 1000
 _UNLIMITED = 1 << 62
 _LOOK = 2
 """Samples of the first look at a run, which tells what there is to record."""
-
-
-class OtherVersions(NonsmoothWarning):
-    """A study that goes on with other versions than it began with."""
 
 
 @final
@@ -186,13 +183,13 @@ class Study:
         place = path_of("study", path)
         if not is_study(place):
             self._create(place, chunk, request or {})
-        store = Store(place)
+        store = StudyFolder(place)
         self._check_same(store, chunk)
         with store.writing():
             self._run(store, does, display_of(display))
         return open_study(place)
 
-    def _run(self, store: Store, executor: Executor, display: Display) -> None:
+    def _run(self, store: StudyFolder, executor: Executor, display: Display) -> None:
         done = set(store.committed())
         left = [self._chunk(store, number) for number in range(store.n_chunks) if number not in done]
         if not left:
@@ -204,21 +201,19 @@ class Study:
                 store.write(block)
                 ends = block.arrays["status"].tolist()
                 counted.add(len(ends), sum(end not in VALUED for end in ends))
-        store.finish()
 
-    def _chunk(self, store: Store, number: int) -> Chunk:
+    def _chunk(self, store: StudyFolder, number: int) -> Chunk:
         runs = range(number * store.chunk, min(len(self), (number + 1) * store.chunk))
         return Chunk(number, runs.start, tuple(map(self._points.at, runs)))
 
     def _create(self, path: Path, chunk: int | None, request: Mapping[str, Any]) -> None:
         size = max(1, min(_LARGEST, -(-len(self) // _CHUNKS))) if chunk is None else chunk
         spec, records_of = self.spec, self._work.records
-        along, made = coordinates(records_of, self._points, self._target), variables(records_of)
+        made = variables(records_of, len(self), size)
         layout = {
             "parameters": list(self._points.columns),
             "dims": dict(self._points.dims),
-            "variables": [one.name for one in made],
-            "labels": labels_of(along),
+            "variables": list(made),
         }
         attributes = {
             "Conventions": "CF-1.11",
@@ -229,10 +224,9 @@ class Study:
             "provenance": json.dumps([dict(provenance())]),
             "request": json.dumps(dict(request)),
         }
-        kept = {name: stored(one) for name, one in along.items()}
-        Store.create(path, len(self), size, made, kept, attributes)
+        StudyFolder.create(path, made, coordinates(records_of, self._points, self._target), attributes)
 
-    def _check_same(self, store: Store, chunk: int | None) -> None:
+    def _check_same(self, store: StudyFolder, chunk: int | None) -> None:
         """Refuse the store of another study; note that it goes on elsewhere.
 
         Warns

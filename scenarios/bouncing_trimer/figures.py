@@ -2,154 +2,123 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+import dataclasses
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nonsmooth import charts
+from nonsmooth.errors import RunFailed
 from nonsmooth.interfaces import Run
 from nonsmooth.solution.solution import Solution
-from scenarios.bouncing_trimer.scenario import GRAVITY, BouncingTrimer
-from scenarios.bouncing_trimer.survey import Entry, survey
+from scenarios.bouncing_trimer.motion import GRAVITY
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from scenarios.bouncing_trimer.scenario import BouncingTrimer
+
 Floats = NDArray[np.float64]
+Ran: TypeAlias = "tuple[BouncingTrimer, Solution]"
 
-GAMMAS: tuple[float, ...] = tuple(np.round(np.arange(0.9, 6.01, 0.3), 6).tolist())
-"""Values of Gamma of the gallery."""
-FREQUENCIES: tuple[float, ...] = (25.0, 50.0, 100.0)
-"""Frequencies of the gallery [Hz]."""
-PERIODS = 150
-"""Plate periods of a run of the gallery."""
-
-_LOOKS = (("o", "tab:blue"), ("s", "black"), ("^", "tab:red"), ("D", "tab:green"))
-_BALLS = (("black", "-"), ("tab:red", "--"), ("tab:blue", "-."))
 _SHOWN = 10.0
 """Plate periods of a motion that are drawn."""
-_THRESHOLD = 1e-2
-"""Where the axes become linear."""
+_LINEAR = 1e-2
+"""Value below which the logarithmic axes are linear, in the units of the axes."""
 
 
-def gallery(owner: type[BouncingTrimer], run: Run) -> Mapping[str, Any]:
-    """Return all figures by name."""
-    entries = survey(owner(), GAMMAS, FREQUENCIES, PERIODS, run)
-    scenario = owner(gamma=3.0)
-    solution = run(scenario)
-    return {
-        "regimes": regimes(owner(), entries),
-        "path": path(scenario, solution),
-        "gaps": last_bounces(scenario, solution),
-    }
+def survey(
+    scenario: BouncingTrimer, gammas: Iterable[float], frequencies: Iterable[float], periods: float, run: Run
+) -> list[Ran]:
+    """Run a scenario over ``periods`` plate periods at every pair of frequency [Hz] and Gamma.
+
+    A run that stops early gives the solution up to there.
+    """
+    shaken = [dataclasses.replace(scenario, frequency=f, t_end=periods / f) for f in frequencies]
+    cases = [dataclasses.replace(one, gamma=gamma) for one in shaken for gamma in gammas]
+    return [(one, _finished(one, run)) for one in cases]
 
 
-def regimes(scenario: BouncingTrimer, entries: list[Entry]) -> Figure:
-    """Draw wandering and turning over Gamma, every run marked by its frequency; open where the trimer tumbles."""
-    from matplotlib.figure import Figure
+def _finished(scenario: BouncingTrimer, run: Run) -> Solution:
+    """Return the solution of a run as far as it came; one failure does not stop the survey."""
+    try:
+        return run(scenario)
+    except RunFailed as error:
+        return cast("Solution", error.solution)
 
-    figure = Figure(figsize=(7.2, 7.2), layout="constrained")
-    axes = figure.subplots(3, 1, sharex=True)
-    for (marker, colour), frequency in zip(_LOOKS, sorted({entry.frequency for entry in entries}), strict=False):
-        mine = [entry for entry in entries if entry.frequency == frequency]
-        speed = GRAVITY / frequency
-        rows = (
-            [1e3 * entry.numbers["largest_gap"] * (frequency / 50.0) ** 2 for entry in mine],
-            [entry.numbers["wandering"] / speed for entry in mine],
-            [entry.numbers["turning"] * scenario.spacing / speed for entry in mine],
-        )
-        for axis, values in zip(axes, rows, strict=True):
-            look: dict[str, Any] = {"marker": marker, "color": colour, "markersize": 4}
-            axis.plot(
-                [e.gamma for e in mine], values, linewidth=0.8, fillstyle="full", label=f"{frequency:g} Hz", **look
-            )
-            over = [i for i, entry in enumerate(mine) if entry.numbers["attractor"] == "tumbling"]
-            opened = {**look, "markersize": 9, "fillstyle": "none", "linestyle": "none"}
-            axis.plot([mine[i].gamma for i in over], [values[i] for i in over], **opened)
-    for axis, label in zip(
-        axes,
-        ("largest gap · (f / 50 Hz)² [mm]", "speed along the path\n/ (g / f)", "turning rate · spacing\n/ (g / f)"),
-        strict=True,
-    ):
-        axis.set_ylabel(label)
-        axis.set_yscale("symlog", linthresh=_THRESHOLD)
-        axis.set_ylim(0.0, 2.0 * max(_THRESHOLD, axis.dataLim.y1))
-        axis.grid(color="0.9", linewidth=0.6)
-        axis.set_axisbelow(True)
-    axes[0].plot([], [], marker="o", markersize=9, fillstyle="none", linestyle="none", color="0.4", label="turns over")
-    ended = [entry.gamma for entry in entries if entry.status != "done"]
+
+def regimes(runs: list[Ran]) -> Figure:
+    """Draw gap, speed and turning rate over Gamma, a marker for each run, in a circle if the trimer tumbles."""
+    title = "It rests, bounces level, wanders and turns, and at last tumbles, as Γ grows"
+    figure, axes = charts.panels(3, 1, title, (7.2, 7.2), sharex=True)
+    circle: dict[str, Any] = {"marker": "o", "markersize": 9, "fillstyle": "none", "linestyle": "none", "color": "0.4"}
+    for place, frequency in enumerate(sorted({one.frequency for one, _ in runs})):
+        mine = [ran for ran in runs if ran[0].frequency == frequency]
+        gammas, values = np.array([one.gamma for one, _ in mine]), np.array([_scaled(*ran) for ran in mine])
+        tumbling = np.array([one.summarise(run)["attractor"] == "tumbling" for one, run in mine])
+        style = charts.marker(place) | {"markersize": 4, "linestyle": "-", "linewidth": 0.8, "fillstyle": "full"}
+        for ax, column in zip(axes, values.T, strict=True):
+            ax.plot(gammas, column, label=f"{frequency:g} Hz", **style)
+            ax.plot(gammas[tumbling], column[tumbling], **circle)
+    axes[0].plot([], [], label="turns over", **circle)
+    ended = [one.gamma for one, run in runs if run.status != "done"]
     if ended:
-        axes[0].plot(ended, [0.0] * len(ended), linestyle="none", marker="x", color="0.4", label="run ended early")
+        axes[0].plot(ended, [0.0] * len(ended), "x", color="0.4", label="run ended early")
+    labels = "largest gap · (f / 50 Hz)² [mm]", "speed along the path\n/ (g / f)", "turning rate · spacing\n/ (g / f)"
+    for ax, label in zip(axes, labels, strict=True):
+        ax.set_ylabel(label)
+        ax.set_yscale("symlog", linthresh=_LINEAR)
+        ax.set_ylim(0.0, 2.0 * max(_LINEAR, ax.dataLim.y1))
     axes[-1].set_xlabel("peak acceleration of the plate over gravity Γ")
-    figure.suptitle("It rests, bounces level, wanders and turns, and at last tumbles, as Γ grows", fontsize=11)
-    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=4, fontsize=8, frameon=False)
+    charts.legend(figure, columns=4)
     return figure
+
+
+def _scaled(scenario: BouncingTrimer, solution: Solution) -> tuple[float, float, float]:
+    """Return largest gap [mm at 50 Hz], speed and turning rate, scaled so that the frequency does not matter."""
+    numbers, frequency = scenario.summarise(solution), scenario.frequency
+    speed, gap = GRAVITY / frequency, 1e3 * numbers["largest_gap"] * (frequency / 50.0) ** 2
+    return gap, numbers["wandering"] / speed, numbers["turning"] * scenario.spacing / speed
 
 
 def path(scenario: BouncingTrimer, solution: Solution) -> Figure:
     """Draw the path of the mass centre over the plate, and the triangle at the start and at the end."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(6.0, 6.0), layout="constrained")
-    axis = figure.subplots()
     place = 1e3 * scenario.motion(solution).place
-    axis.plot(*place.T, color="black", linewidth=0.8, label="mass centre")
-    looks: tuple[dict[str, Any], ...] = (
-        {"color": "tab:blue", "linestyle": "--"},
-        {"color": "tab:red", "linestyle": "-"},
-    )
-    for q, look, label in zip((solution.q[0], solution.q_end), looks, ("start", "end"), strict=True):
-        _triangle(axis, scenario, q, look, label)
-    axis.set_aspect("equal")
-    axis.set_xlabel("x [mm]")
-    axis.set_ylabel("y [mm]")
-    axis.grid(color="0.9", linewidth=0.6)
-    axis.set_axisbelow(True)
-    apart = float(np.hypot(*(place[-1] - place[0])))
-    way = float(np.sum(np.hypot(*np.diff(place, axis=0).T)))
+    apart, length = np.hypot(*(place[-1] - place[0])), np.sum(np.hypot(*np.diff(place, axis=0).T))
     words = f"Γ = {scenario.gamma:g}, {scenario.frequency:g} Hz"
-    axis.set_title(f"A way of {way:.0f} mm in {solution.t_end:g} s leads {apart:.0f} mm away ({words})", fontsize=11)
-    figure.legend(loc="outside lower center", ncols=3, fontsize=8, frameon=False)
+    title = f"A path of {length:.0f} mm in {solution.t_end:g} s leads {apart:.0f} mm away ({words})"
+    figure, (ax,) = charts.panels(title=title, size=(6.0, 6.0))
+    ax.plot(*place.T, color="black", linewidth=0.8, label="mass centre")
+    for i, (q, label) in enumerate(((solution.q[0], "start"), (solution.q_end, "end")), 1):
+        style = charts.line(i) | {"linewidth": 1.0}
+        _triangle(ax, 1e3 * scenario.centres(q)[:, :2], 1e3 * scenario.radius, style, label)
+    ax.set(aspect="equal", xlabel="x [mm]", ylabel="y [mm]")
+    charts.legend(figure)
     return figure
 
 
-def _triangle(axis: Axes, scenario: BouncingTrimer, q: Floats, look: Mapping[str, Any], label: str) -> None:
+def _triangle(ax: Axes, corners: Floats, radius: float, style: dict[str, Any], label: str) -> None:
+    """Draw the balls and the lines between their centres."""
     from matplotlib.patches import Circle
 
-    corners = 1e3 * scenario.centres(q)
-    closed = np.vstack([corners, corners[:1]])
-    axis.plot(closed[:, 0], closed[:, 1], linewidth=1.0, label=label, **look)
-    for x, y, _ in corners:
-        axis.add_patch(Circle((x, y), 1e3 * scenario.radius, fill=False, linewidth=1.0, **look))
-        axis.update_datalim([(x - 1e3 * scenario.radius, y), (x + 1e3 * scenario.radius, y)])
-        axis.update_datalim([(x, y - 1e3 * scenario.radius), (x, y + 1e3 * scenario.radius)])
+    ax.plot(*np.vstack([corners, corners[:1]]).T, label=label, **style)
+    for corner in corners:
+        ax.add_patch(Circle((float(corner[0]), float(corner[1])), radius, fill=False, **style))
+        ax.update_datalim([corner - radius, corner + radius])
 
 
 def last_bounces(scenario: BouncingTrimer, solution: Solution) -> Figure:
-    """Draw the three gaps over the last plate periods."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(7.2, 4.0), layout="constrained")
-    axis = figure.subplots()
-    begin = max(0.0, solution.t_end - _SHOWN / scenario.frequency)
-    events = solution.events
-    t = np.concatenate([solution.t, events.time])
-    q = np.vstack([solution.q, events.q])
+    """Draw the three gaps over the last plate periods, at samples and events."""
+    begin, events = max(0.0, solution.t_end - _SHOWN / scenario.frequency), solution.events
+    t, q = np.concatenate([solution.t, events.time]), np.vstack([solution.q, events.q])
     order = np.argsort(t, kind="stable")
-    t, q = t[order], q[order]
-    shown = t >= begin
-    gaps = scenario.gaps(t[shown], q[shown])
-    for i, (colour, line) in enumerate(_BALLS):
-        turns = (t[shown] - begin) * scenario.frequency
-        axis.plot(turns, 1e3 * gaps[:, i], color=colour, linestyle=line, linewidth=1.2, label=f"ball {i + 1}")
-    axis.set_xlabel("time [plate periods]")
-    axis.set_ylabel("gap between ball and plate [mm]")
-    axis.set_title(
-        f"The balls meet the plate one by one: Γ = {scenario.gamma:g}, {scenario.frequency:g} Hz", fontsize=11
-    )
-    axis.grid(color="0.9", linewidth=0.6)
-    axis.set_axisbelow(True)
-    figure.legend(loc="outside lower center", ncols=3, fontsize=8, frameon=False)
-    return figure
+    order = order[t[order] >= begin]
+    periods, gaps = (t[order] - begin) * scenario.frequency, 1e3 * scenario.gaps(t[order], q[order])
+    curves = {f"ball {i + 1}": (periods, gap) for i, gap in enumerate(gaps.T)}
+    attractor = scenario.summarise(solution)["attractor"]
+    claim = {"irregular": "The balls meet the plate one by one"}.get(attractor, f"Attractor: {attractor}")
+    title = f"{claim} (Γ = {scenario.gamma:g}, {scenario.frequency:g} Hz)"
+    return charts.histories({"gap between ball and plate [mm]": curves}, title, xlabel="time [plate periods]")

@@ -1,4 +1,4 @@
-"""What a trimer does in the long run: its attractor, how fast it travels and turns."""
+"""Long-term motion of a trimer: its attractor, how fast it travels and turns."""
 
 from __future__ import annotations
 
@@ -11,26 +11,28 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
+GRAVITY = 9.81
+"""Acceleration of gravity [m/s^2]."""
 _LONGEST = 12
-"""Longest repetition looked for [plate periods]."""
+"""Longest repetition that is searched for [plate periods]."""
 _CLOSED = 1e-9
-"""A largest gap below this is none [m]."""
+"""Largest gap of a trimer at rest on the plate [m]."""
 _REPEATS = 1e-3
-"""Gaps that differ by less, over the largest gap, count as the same."""
+"""Largest difference of equal gaps, over the largest gap."""
 _REST, _TUMBLING, _IRREGULAR = "rest", "tumbling", "irregular"
 _PERIODS = tuple(f"period_{k}" for k in range(1, _LONGEST + 1))
 NAMES = (_REST, *_PERIODS, _TUMBLING, _IRREGULAR)
-"""What a trimer may do."""
+"""All attractors."""
 
 
 @dataclass(frozen=True)
-class Motion:
-    """A run, in what does not depend on place and heading, and in what does.
+class TrimerMotion:
+    """Gaps, path and turning of a run.
 
     Attributes
     ----------
     t : array
-        Times [s], shape [n], the same number in every plate period.
+        Times [s], shape [n], equally many in every plate period.
     period : float
         Plate period [s].
     gaps : array
@@ -56,7 +58,7 @@ class Motion:
         return slice(len(self.t) // 2, None)
 
 
-def repetition(motion: Motion) -> int | None:
+def repetition(motion: TrimerMotion) -> int | None:
     """Return after how many plate periods the gaps of the last quarter repeat, up to 12; None if they do not."""
     last = motion.gaps[-(len(motion.t) // 4) :]
     per_period = max(1, round(motion.period / (motion.t[1] - motion.t[0])))
@@ -68,10 +70,10 @@ def repetition(motion: Motion) -> int | None:
     return None
 
 
-def summary(motion: Motion) -> Mapping[str, Any]:
+def summary(motion: TrimerMotion) -> Mapping[str, Any]:
     """Return attractor and numbers of the second half of a run.
 
-    ``attractor`` is "rest", "period_k" (k plate periods), "tumbling" where it turns over, or "irregular"; ``drift``
+    ``attractor`` is "rest", "period_k" (k plate periods), "tumbling" if it turns over, or "irregular"; ``drift``
     [m/s] is the distance between start and end over the time, ``wandering`` [m/s] the mean speed along the path seen
     once a plate period, ``rotation`` and ``turning`` [rad/s] the mean of the vertical angular velocity and of its size.
     """

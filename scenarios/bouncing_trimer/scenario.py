@@ -15,16 +15,17 @@ from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Run, Scenario
-from nonsmooth.parameters import parameter, rules
+from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.bouncing_trimer.motion import NAMES, Motion, summary
+from scenarios.bouncing_trimer import figures as draw
+from scenarios.bouncing_trimer.motion import GRAVITY, NAMES, TrimerMotion, summary
 
 Floats = NDArray[np.float64]
 
-GRAVITY = 9.81
 _SAMPLES_PER_PERIOD = 20
 _SAMPLES = 40000
+"""Samples of a run above which fewer than 20 a period are taken, so that long runs fit into memory."""
 
 
 @final
@@ -32,8 +33,8 @@ _SAMPLES = 40000
 class BouncingTrimer(Scenario):
     """Three equal balls at the corners of an equilateral triangle, dropped a little tilted on a plate A sin(2 pi f t).
 
-    The source gives centimetric steel beads and 25 to 100 Hz; sizes and coefficients here are assumed.  What holds
-    the balls together has no mass and touches nothing.
+    The source gives centimetric steel beads and 25 to 100 Hz; sizes and coefficients here are assumed.  The links
+    between the balls have no mass and no contacts.
 
     References
     ----------
@@ -43,18 +44,12 @@ class BouncingTrimer(Scenario):
 
     title: ClassVar[str] = "Bouncing trimer"
     coordinate_units: ClassVar[Mapping[str, str]] = {
-        "x": "m",
-        "y": "m",
-        "z": "m",
-        "turning": "rad",
-        "tilt": "rad",
-        "gap": "m",
+        **dict.fromkeys(("x", "y", "z", "gap"), "m"),
+        **dict.fromkeys(("turning", "tilt"), "rad"),
     }
     units: ClassVar[Mapping[str, str]] = {
-        "drift": "m/s",
-        "wandering": "m/s",
-        "rotation": "rad/s",
-        "turning": "rad/s",
+        **dict.fromkeys(("drift", "wandering"), "m/s"),
+        **dict.fromkeys(("rotation", "turning"), "rad/s"),
         "largest_gap": "m",
         "largest_tilt": "rad",
     }
@@ -70,14 +65,14 @@ class BouncingTrimer(Scenario):
     )
     radius: float = parameter(5e-3, doc="radius of the balls", unit="m", above=0.0, usual=(1e-4, 1.0), assumed=True)
     spacing: float = parameter(
-        0.02, doc="distance between their centres", unit="m", above=0.0, usual=(2e-4, 10.0), assumed=True
+        0.02, doc="distance between the centres of two balls", unit="m", above=0.0, usual=(2e-4, 10.0), assumed=True
     )
     density: float = parameter(
         7800.0, doc="density of the balls", unit="kg/m^3", above=0.0, usual=(10.0, 3e4), assumed=True
     )
     height: float = parameter(1e-3, doc="height of the lowest ball over the plate at the start", unit="m", minimum=0.0)
     tilt: float = parameter(0.02, doc="tilt of the triangle at the start", unit="rad", minimum=-1.5, maximum=1.5)
-    direction: float = parameter(0.3, doc="azimuth of the axis of that tilt", unit="rad", minimum=-7.0, maximum=7.0)
+    direction: float = parameter(0.3, doc="azimuth of the axis of the tilt", unit="rad", minimum=-7.0, maximum=7.0)
     contact_time: float = parameter(
         2e-5,
         doc="contact time T_c that ends an accumulation",
@@ -98,13 +93,9 @@ class BouncingTrimer(Scenario):
                 "Move the balls apart, or make them smaller.",
             )
 
-    def resolved(self) -> Mapping[str, Any]:
-        """Return all parameters as given."""
-        return {name: getattr(self, name) for name in rules(type(self))}
-
     @property
     def sample_interval(self) -> float:
-        """A whole fraction of the plate period [s]: 1/20, or one period in long runs."""
+        """Time between samples [s], the plate period over an integer: over 20, over 1 in long runs."""
         fraction = max(1, min(_SAMPLES_PER_PERIOD, int(_SAMPLES / max(1.0, self.t_end * self.frequency))))
         return 1.0 / (self.frequency * fraction)
 
@@ -118,8 +109,7 @@ class BouncingTrimer(Scenario):
         """The balls' centres in the axes of the body [m], shape [3, 3]."""
         angles = 2.0 * math.pi / 3.0 * np.arange(3)
         distance = self.spacing / math.sqrt(3.0)
-        places: Floats = distance * np.column_stack([np.cos(angles), np.sin(angles), np.zeros(3)])
-        return places
+        return np.asarray(distance * np.column_stack([np.cos(angles), np.sin(angles), np.zeros(3)]))
 
     def body(self) -> Compound:
         """Return the three balls as one body."""
@@ -142,28 +132,25 @@ class BouncingTrimer(Scenario):
 
     def plate(self, t: Floats) -> Floats:
         """Return the height of the plate [m] at times [s]."""
-        z: Floats = self.amplitude * np.sin(2.0 * math.pi * self.frequency * t)
-        return z
+        return np.asarray(self.amplitude * np.sin(2.0 * math.pi * self.frequency * t))
 
     def centres(self, q: Floats) -> Floats:
         """Return the balls' centres [m] in one state, shape [3, 3]."""
         a, vector = q[3], q[4:7]
         turned = self.corners + 2.0 * np.cross(vector, np.cross(vector, self.corners) + a * self.corners)
-        places: Floats = q[:3] + turned
-        return places
+        return np.asarray(q[:3] + turned)
 
     def gaps(self, t: Floats, q: Floats) -> Floats:
         """Return the three gaps [m] of states [n, 7] at times [n], shape [n, 3]."""
-        found: Floats = q[:, 2:3] + _heights(q[:, 3:], self.corners) - self.radius - self.plate(t)[:, None]
-        return found
+        return np.asarray(q[:, 2:3] + _heights(q[:, 3:], self.corners) - self.radius - self.plate(t)[:, None])
 
-    def motion(self, solution: Solution) -> Motion:
+    def motion(self, solution: Solution) -> TrimerMotion:
         """Return gaps, path, turning and tilt over the samples."""
         q = solution.q
         up = _third_row(q[:, 3:])
         turning = np.sum(up * solution.u[:, 3:], axis=1)
         tilt = np.arctan2(np.hypot(up[:, 0], up[:, 1]), up[:, 2])
-        return Motion(solution.t, 1.0 / self.frequency, self.gaps(solution.t, q), q[:, :2], turning, tilt)
+        return TrimerMotion(solution.t, 1.0 / self.frequency, self.gaps(solution.t, q), q[:, :2], turning, tilt)
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
         """Return x, y, z [m], turning [rad/s], tilt [rad] and the three gaps [m] over the samples."""
@@ -172,50 +159,39 @@ class BouncingTrimer(Scenario):
         places = {name: solution.q[:, i] for i, name in enumerate("xyz")}
         return places | {"turning": motion.turning, "tilt": motion.tilt} | gaps
 
-    def final(self, solution: Solution) -> Mapping[str, list[float]]:
-        """Return {q, u} at the end: position and quaternion, velocity and angular velocity in body axes."""
-        return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
-
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
         """Return the attractor and its numbers over the second half of the run: see :mod:`.motion`."""
         return {**summary(self.motion(solution)), "impacts": solution.counters.impacts}
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return how well the first impact is hit, and by how much an impulse leaves the cone of friction."""
+        """Return the gap at the first impact, and the largest ratio of impulses, which friction bounds."""
         events = solution.events
         impacts = np.flatnonzero(events.cause == Cause.IMPACT)
-        gap = math.nan
+        gap, ratio = math.nan, 0.0
         if len(impacts) > 0:
             t = float(events.time[impacts[0]])
             gap = self.height - 0.5 * GRAVITY * t * t - float(self.plate(np.array([t]))[0])
-        ratio = 0.0
         for i in impacts:
             normal, *across = events.impulse[i].T
             pressed = normal > 0.0
             ratio = max(ratio, float(np.max(np.hypot(*across)[pressed] / normal[pressed], initial=0.0)))
+        name, bound = "largest ratio of tangential to normal impulse", self.friction * (1.0 + 1e-6) + 1e-9
         return (
             Criterion.near("gap of the lowest ball at the first impact [m]", gap, 0.0, 1e-9, "free fall on a sine"),
-            Criterion(
-                "largest ratio of tangential to normal impulse",
-                ratio,
-                0.0,
-                self.friction * (1.0 + 1e-6) + 1e-9,
-                "Coulomb: no more than mu",
-            ),
+            Criterion(name, ratio, 0.0, bound, "Coulomb: no more than mu"),
         )
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return path and heading, and the gaps over the last plate periods."""
-        from scenarios.bouncing_trimer.figures import last_bounces, path
-
-        return {"path": path(self, solution), "gaps": last_bounces(self, solution)}
+        return {"path": draw.path(self, solution), "gaps": draw.last_bounces(self, solution)}
 
     @classmethod
     def gallery(cls, run: Run) -> Mapping[str, Any]:
-        """Return regimes and speeds over Gamma and frequency, and the path of one run."""
-        from scenarios.bouncing_trimer.figures import gallery
-
-        return gallery(cls, run)
+        """Return regimes and speeds over Gamma and frequency, and path and gaps of one run."""
+        gammas = np.round(np.arange(0.9, 6.01, 0.3), 6).tolist()
+        one = cls(gamma=3.0)
+        regimes = draw.regimes(draw.survey(cls(), gammas, (25.0, 50.0, 100.0), 150, run))
+        return {"regimes": regimes, **one.figures(run(one))}
 
 
 def _third_row(quaternions: Floats) -> Floats:
@@ -223,11 +199,9 @@ def _third_row(quaternions: Floats) -> Floats:
     a, b, c, d = quaternions.T
     scale = a * a + b * b + c * c + d * d
     row = np.column_stack([2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d])
-    vertical: Floats = row / scale[:, None]
-    return vertical
+    return np.asarray(row / scale[:, None])
 
 
 def _heights(quaternions: Floats, corners: Floats) -> Floats:
-    """Return how far the corners are above the mass centre [m], shape [n, 3]."""
-    heights: Floats = _third_row(quaternions) @ corners.T
-    return heights
+    """Return the heights of the corners above the mass centre [m], shape [n, 3]."""
+    return np.asarray(_third_row(quaternions) @ corners.T)

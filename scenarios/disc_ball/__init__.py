@@ -1,1 +1,5 @@
-"""A disc that strikes two balls at rest: Bernoulli's problem."""
+"""A disc that strikes two balls (scenario.py), the cases in closed form (closed_forms.py), figures (figures.py)."""
+
+from scenarios.disc_ball.scenario import DiscBall
+
+__all__ = ["DiscBall"]

@@ -1,4 +1,4 @@
-"""What the collision does in the cases that can be written down."""
+"""The strike in closed form, and as collisions of two bodies one after the other."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 _COLLISIONS = 1000
+"""Bound of the collisions; elastic equal bodies need a few."""
 
 
 def half_angle(radius_ratio: float) -> float:
@@ -20,8 +21,7 @@ def half_angle(radius_ratio: float) -> float:
 def symmetric(mass_ratio: float, radius_ratio: float, restitution: float) -> tuple[float, float]:
     """Return the velocity of the disc along the axis and the speed of either ball, over the disc's speed before.
 
-    Both contacts do the same by symmetry, so that one impulse P each gives all:
-    P (1/m + 2 cos^2 alpha / M) = (1 + e) v cos alpha.
+    By symmetry the impulse P is the same at both contacts: P (1/m + 2 cos^2 alpha / M) = (1 + e) v cos alpha.
     """
     c = math.cos(half_angle(radius_ratio))
     ball = (1.0 + restitution) * c / (1.0 + 2.0 * c * c / mass_ratio)
@@ -36,11 +36,11 @@ def one_after_the_other(
     Parameters
     ----------
     mass_ratio, radius_ratio, restitution : float
-        Disc over ball, disc over ball, and e.
+        Masses and radii of the disc over those of a ball, and e.
     direction : array
-        Velocity of the disc before, shape [2]; y is the axis of symmetry.
+        Unit vector of the disc's velocity before, shape [2]; y is the axis of symmetry.
     first : int
-        Which ball is hit first: 0 the left one, 1 the right one.
+        Ball that is hit first: 0 left, 1 right.
     """
     alpha = half_angle(radius_ratio)
     normals = np.array([[-math.sin(alpha), math.cos(alpha)], [math.sin(alpha), math.cos(alpha)]])

@@ -14,14 +14,15 @@ from bodies import Ball
 from laws import EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Run, Scenario
-from nonsmooth.parameters import parameter, rules
+from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
+from scenarios.disc_ball import figures as draw
 from scenarios.disc_ball.closed_forms import half_angle, symmetric
 
 Floats = NDArray[np.float64]
 
-_SAMPLES = 400
+_NAMES = ("disc", "left", "right")
 
 
 @final
@@ -30,8 +31,8 @@ class DiscBall(Scenario):
     """Bernoulli's problem: a frictionless disc flies into two equal balls at rest that touch each other, no gravity.
 
     All centres stay in the plane of x and y; y is the axis of symmetry, and the disc comes from below.  With
-    ``offset`` 0 it reaches both balls at once, whatever its direction.  Bodies that do not turn make no
-    difference between a disc and a ball, so that spheres stand for both.
+    ``offset`` 0 it reaches both balls at once, whatever its direction.  No body turns, so that a sphere moves as the
+    disc does.
 
     References
     ----------
@@ -40,9 +41,8 @@ class DiscBall(Scenario):
     """
 
     title: ClassVar[str] = "Disc into two balls"
-    coordinate_units: ClassVar[Mapping[str, str]] = {
-        f"{axis}_{name}": "m" for axis in "xy" for name in ("disc", "left", "right")
-    }
+    samples: ClassVar[int] = 400
+    coordinate_units: ClassVar[Mapping[str, str]] = {f"{axis}_{name}": "m" for axis in "xy" for name in _NAMES}
 
     mass_ratio: float = parameter(1.0, doc="mass of the disc over that of a ball", above=0.0, usual=(1e-3, 1e3))
     radius_ratio: float = parameter(1.0, doc="radius of the disc over that of a ball", above=0.0, usual=(1e-2, 1e2))
@@ -64,7 +64,7 @@ class DiscBall(Scenario):
     radius: float = parameter(0.01, doc="radius of the balls", unit="m", above=0.0, usual=(1e-4, 1.0))
     density: float = parameter(7800.0, doc="density of the balls", unit="kg/m^3", above=0.0, usual=(10.0, 3e4))
     speed: float = parameter(1.0, doc="speed of the disc", unit="m/s", above=0.0, usual=(1e-3, 1e2))
-    distance: float = parameter(0.01, doc="way to the strike", unit="m", above=0.0, usual=(1e-6, 10.0))
+    distance: float = parameter(0.01, doc="distance to the strike", unit="m", above=0.0, usual=(1e-6, 10.0))
     t_end: float = parameter(0.03, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))
 
     def _check(self) -> None:
@@ -78,18 +78,9 @@ class DiscBall(Scenario):
                 "Take a smaller angle [rad].",
             )
 
-    def resolved(self) -> Mapping[str, Any]:
-        """Return all parameters as given."""
-        return {name: getattr(self, name) for name in rules(type(self))}
-
-    @property
-    def sample_interval(self) -> float:
-        """A four-hundredth of the run [s]."""
-        return self.t_end / _SAMPLES
-
     @property
     def half_angle(self) -> float:
-        """Angle alpha between the lines of centres and the axis when the disc touches both [rad]."""
+        """Angle alpha between the axis and a line of centres, for a disc that touches both balls [rad]."""
         return half_angle(self.radius_ratio)
 
     @property
@@ -99,7 +90,7 @@ class DiscBall(Scenario):
 
     @property
     def direction(self) -> Floats:
-        """Unit vector of the disc's velocity before, shape [2]."""
+        """Unit vector of the disc's velocity before the strike, shape [2]."""
         return np.array([math.sin(self.incidence), math.cos(self.incidence)])
 
     def build(self) -> System:
@@ -123,52 +114,35 @@ class DiscBall(Scenario):
         return solution.q.reshape(len(solution.t), 3, 7)[:, :, :2]
 
     def velocities(self, solution: Solution) -> Floats:
-        """Return their velocities at the end over the speed of the disc, shape [3, 2]."""
-        relative: Floats = solution.u_end.reshape(3, 6)[:, :2] / self.speed
-        return relative
+        """Return the velocities of disc, left and right ball at the end over the disc's at the start, shape [3, 2]."""
+        return np.asarray(solution.u_end.reshape(3, 6)[:, :2] / self.speed)
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
         """Return x and y of disc, left and right ball [m] over the samples."""
         places = self.positions(solution)
-        return {
-            f"{letter}_{name}": places[:, i, j]
-            for i, name in enumerate(("disc", "left", "right"))
-            for j, letter in enumerate("xy")
-        }
+        return {f"{axis}_{name}": places[:, i, j] for i, name in enumerate(_NAMES) for j, axis in enumerate("xy")}
 
     def final(self, solution: Solution) -> Mapping[str, list[float]]:
         """Return {q, u}: centres [m] and velocities [m/s] of disc, left and right ball at the end, x before y."""
-        return {
-            "q": solution.q_end.reshape(3, 7)[:, :2].ravel().tolist(),
-            "u": solution.u_end.reshape(3, 6)[:, :2].ravel().tolist(),
-        }
+        q, u = solution.q_end.reshape(3, 7)[:, :2], solution.u_end.reshape(3, 6)[:, :2]
+        return {"q": q.ravel().tolist(), "u": u.ravel().tolist()}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return the velocities (x, y) over the speed of the disc, the share of energy kept, the number of impacts."""
-        relative = self.velocities(solution)
+        """Return the velocities (x, y) over the speed of the disc, the fraction of energy kept, and the impacts."""
         account = solution.energy
         return {
-            "disc": relative[0].tolist(),
-            "left": relative[1].tolist(),
-            "right": relative[2].tolist(),
+            **dict(zip(_NAMES, self.velocities(solution).tolist(), strict=True)),
             "energy_kept": account.kinetic_end / account.kinetic_start,
             "impacts": solution.counters.impacts,
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
         """Return the momenta, and all speeds of a symmetric strike."""
-        after = self.velocities(solution)
+        after, found = self.velocities(solution), []
         momenta = np.array([self.mass_ratio, 1.0, 1.0]) @ after
-        found = [
-            Criterion.near(
-                f"momentum along {axis} over that of a ball at the speed of the disc",
-                value,
-                self.mass_ratio * direction,
-                1e-9,
-                "balance of momentum",
-            )
-            for axis, value, direction in zip("xy", momenta, self.direction, strict=True)
-        ]
+        for axis, value, direction in zip("xy", momenta, self.direction, strict=True):
+            name = f"momentum along {axis} over that of a ball at the speed of the disc"
+            found.append(Criterion.near(name, value, self.mass_ratio * direction, 1e-9, "balance of momentum"))
         if self.offset == 0.0 and self.incidence == 0.0 and self.stiffness_ratio == 1.0:
             disc, ball = symmetric(self.mass_ratio, self.radius_ratio, self.restitution)
             source = "one impulse for both contacts: P (1/m + 2 cos^2 alpha / M) = (1 + e) v cos alpha"
@@ -180,13 +154,11 @@ class DiscBall(Scenario):
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return the bodies before and after, with their velocities."""
-        from scenarios.disc_ball.figures import strike
-
-        return {"strike": strike(self, solution)}
+        return {"strike": draw.strike(self, solution)}
 
     @classmethod
     def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return the strike, and its outcome over the ratio of stiffnesses and over the offset."""
-        from scenarios.disc_ball.figures import gallery
-
-        return gallery(cls, run)
+        one = cls()
+        over = {"stiffness": draw.over_stiffness(one, run), "offset": draw.over_offset(one, run)}
+        return {**one.figures(run(one)), **over}

@@ -45,7 +45,7 @@ class Settled:
 
     Attributes
     ----------
-    motion : Motion
+    motion : DumbbellMotion
         The motion at its samples.
     events : Events
         Events of the whole run; contacts 0 and 1 are balls 1 and 2.
@@ -53,7 +53,7 @@ class Settled:
         Number of plate periods.
     """
 
-    motion: coordinates.Motion
+    motion: coordinates.DumbbellMotion
     events: Events
     cycles: int
 

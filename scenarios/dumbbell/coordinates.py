@@ -24,7 +24,7 @@ UNITS = _UNITS | {f"{name}_rate": f"{unit}/s" for name, unit in _UNITS.items()}
 
 
 @dataclass(frozen=True)
-class Motion:
+class DumbbellMotion:
     """A motion of the scenario's dumbbell over its plate.
 
     Attributes
@@ -43,7 +43,7 @@ class Motion:
     u: Floats
 
     @classmethod
-    def of(cls, scenario: DumbbellScenario, t: Floats, q: Floats, u: Floats) -> Motion:
+    def of(cls, scenario: DumbbellScenario, t: Floats, q: Floats, u: Floats) -> DumbbellMotion:
         """Return the motion with coordinates and velocities of the free body, shapes [n, 7] and [n, 6]."""
         return cls(scenario, t, *from_state(t, q, u, scenario.centre_distance))
 

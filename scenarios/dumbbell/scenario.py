@@ -247,14 +247,14 @@ class DumbbellScenario(Scenario):
         law: ImpactLaw = owner(**{name: value for name, value in offered.items() if name in rules(owner)})
         return law
 
-    def motion(self, solution: Solution, since: float = 0.0) -> coordinates.Motion:
+    def motion(self, solution: Solution, since: float = 0.0) -> coordinates.DumbbellMotion:
         """Return the motion at the samples from a time on [s], and at the end, in the paper's coordinates."""
         t, q, u = solution.t, solution.q, solution.u
         if len(t) == 0 or solution.t_end > t[-1] + 1e-9 / self.frequency:
             t = np.append(t, solution.t_end)
             q, u = np.vstack([q, solution.q_end]), np.vstack([u, solution.u_end])
         first = int(np.searchsorted(t, since))
-        return coordinates.Motion.of(self, t[first:], q[first:], u[first:])
+        return coordinates.DumbbellMotion.of(self, t[first:], q[first:], u[first:])
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
         """Return x1 ... gamma [m, rad] and their rates (x1_rate ...) over the samples."""

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.parameters import rules
 from nonsmooth.solution.solution import Solution
-from scenarios.dumbbell.coordinates import Motion
+from scenarios.dumbbell.coordinates import DumbbellMotion
 
 if TYPE_CHECKING:
     from scenarios.dumbbell.scenario import DumbbellScenario
@@ -38,7 +38,7 @@ class Trace:
 
     Attributes
     ----------
-    motion : Motion
+    motion : DumbbellMotion
         The motion; times are repeated at events.
     touching : array
         True for balls that are on the plate from this point to the next, shape [n, 2].
@@ -46,7 +46,7 @@ class Trace:
         True for balls that take part in the impact that leads from this point to the next, shape [n, 2].
     """
 
-    motion: Motion
+    motion: DumbbellMotion
     touching: Flags
     struck: Flags
 
@@ -73,7 +73,7 @@ class Trace:
         touching = (events.after[np.maximum(last, 0)] & 1) > 0
         hit = before & (events.cause[np.maximum(event, 0)] == Cause.IMPACT)
         struck = hit[:, None] & ((events.during[np.maximum(event, 0)] & 1) > 0)
-        return cls(Motion.of(scenario, t, q[order], u[order]), touching, struck)
+        return cls(DumbbellMotion.of(scenario, t, q[order], u[order]), touching, struck)
 
     @property
     def scenario(self) -> DumbbellScenario:

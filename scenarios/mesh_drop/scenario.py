@@ -10,44 +10,46 @@ from typing import Any, ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
-from bodies import MeshBody, MeshFile, Plate
+from bodies import MeshBody, MeshFile, Plate, Triangles
 from bodies.meshes.surface import Surface
 from bodies.meshes.units import METRES
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Criterion, Scenario
-from nonsmooth.parameters import parameter, rules
+from nonsmooth.parameters import parameter
 from nonsmooth.placing.starts import at_height
 from nonsmooth.rotations import rotation
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
-from scenarios.mesh_drop.bracket import bracket
+from scenarios.mesh_drop import figures as draw
 
 Floats = NDArray[np.float64]
 
-_SAMPLES = 1000
 _GRAVITY = 9.81
 _BUILT_IN = "bracket"
+_OUTLINE = ((0.0, 0.0), (0.06, 0.0), (0.06, 0.01), (0.012, 0.01), (0.012, 0.04), (0.0, 0.04))
+"""Outline of the bracket, an L [m], counter-clockwise."""
+_CAPS = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5))
+"""Triangles of the outline."""
+_DEPTH, _TAPER = 0.03, 0.25
+"""Depth of the bracket along z [m], and by which part its far end is smaller, so that no two faces are alike."""
 
 
 @final
 @dataclass(frozen=True)
 class MeshDrop(Scenario):
-    """A part, convex or not, let go over a plane: corners of its hull strike, slide and stick, each for itself.
+    """A part, convex or not, released above a plane: each corner of its hull strikes, slides and sticks by itself.
 
-    ``mesh=part.stl`` takes a file of the user's, anything that trimesh loads, with ``unit`` for the unit of its
-    numbers.  Without one it is a bracket of 60 mm.
+    ``mesh=part.stl`` loads the user's own file, in any format that trimesh reads, with ``unit`` for the unit of its
+    numbers.  The default is a bracket of 60 mm.
     """
 
     title: ClassVar[str] = "A part dropped on the ground"
-    coordinate_units: ClassVar[Mapping[str, str]] = {"x": "m", "y": "m", "z": "m", "lowest": "m", "kinetic_energy": "J"}
-    units: ClassVar[Mapping[str, str]] = {
-        "extent": "m",
-        "mass": "kg",
-        "first_impact": "s",
-        "restitution_loss": "J",
-        "friction_loss": "J",
+    coordinate_units: ClassVar[Mapping[str, str]] = {
+        **dict.fromkeys(("x", "y", "z", "lowest"), "m"),
+        "kinetic_energy": "J",
     }
+    units: ClassVar[Mapping[str, str]] = {"extent": "m", "mass": "kg", "first_impact": "s"}
 
     mesh: str = parameter(_BUILT_IN, doc="file of the surface, or the bracket that comes with the scenario", unit="")
     unit: str = parameter("mm", doc="unit of the numbers in the file", unit="", choices=tuple(METRES))
@@ -70,12 +72,7 @@ class MeshDrop(Scenario):
     )
     friction: float = parameter(0.3, doc="friction coefficient mu", minimum=0.0, usual=(0.0, 2.0), law="friction")
     contact_time: float = parameter(
-        1e-4,
-        doc="contact time T_c of the accumulation rule (33)",
-        unit="s",
-        above=0.0,
-        usual=(1e-12, 1e-2),
-        law="impact",
+        1e-4, doc="contact time T_c that ends an accumulation", unit="s", above=0.0, usual=(1e-12, 1e-2), law="impact"
     )
     t_end: float = parameter(0.3, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))
     _body: MeshBody = field(init=False, repr=False, compare=False)
@@ -85,23 +82,14 @@ class MeshDrop(Scenario):
 
     def _surface(self) -> Surface:
         if self.mesh == _BUILT_IN:
-            return bracket()
+            return _bracket()
         words = tuple(word.strip() for word in self.repair.split(",")) if self.repair != "none" else ()
         return MeshFile(self.mesh, self.unit, self.scale, words)
 
     @property
     def body(self) -> MeshBody:
-        """A part like the one that falls."""
+        """A part equal to the one that falls."""
         return self._body
-
-    def resolved(self) -> Mapping[str, Any]:
-        """Return all parameters as given."""
-        return {name: getattr(self, name) for name in rules(type(self))}
-
-    @property
-    def sample_interval(self) -> float:
-        """A thousandth of the run [s]."""
-        return self.t_end / _SAMPLES
 
     @property
     def orientation(self) -> tuple[float, float, float, float]:
@@ -153,13 +141,9 @@ class MeshDrop(Scenario):
         position = {name: solution.q[:, i] for i, name in enumerate("xyz")}
         return {**position, "lowest": self.lowest(solution), "kinetic_energy": self.kinetic_energy(solution.u)}
 
-    def final(self, solution: Solution) -> Mapping[str, list[float]]:
-        """Return {q, u}: mass centre [m], quaternion, velocity [m/s], angular velocity in body axes [rad/s]."""
-        return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
-
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return what the part is, how often it struck, the share of energy still in motion, and the losses."""
-        mesh, account = self.body.mesh, solution.energy
+        """Return numbers of the part, kinetic energy at the end over that of the fall, impacts, and losses [J]."""
+        mesh = self.body.mesh
         kinetic = float(self.kinetic_energy(solution.u_end[None])[0])
         return {
             "triangles": len(mesh.faces),
@@ -169,10 +153,8 @@ class MeshDrop(Scenario):
             "volume_ratio": mesh.volume_ratio,
             "repairs": list(mesh.repairs),
             "first_impact": self._first_impact(solution),
-            "impacts": solution.counters.impacts,
             "kinetic_share": kinetic / (self.body.total_mass * _GRAVITY * self.height),
-            "restitution_loss": account.restitution_loss,
-            "friction_loss": account.friction_loss,
+            **super().summarise(solution),
         }
 
     def _first_impact(self, solution: Solution) -> float | None:
@@ -187,39 +169,28 @@ class MeshDrop(Scenario):
         weight = self.body.total_mass * _GRAVITY
         given = weight * float(q[2] - solution.q_end[2]) + float(kinetic[0] - kinetic[1])
         fall = math.sqrt(2.0 * self.height / _GRAVITY)
-        found = [
-            Criterion(
-                "lowest point over the largest extent",
-                float(np.min(self.lowest(solution))) / self.body.mesh.extent,
-                -1e-8,
-                math.inf,
-                "unilateral contact",
-            )
-        ]
+        depth = float(np.min(self.lowest(solution))) / self.body.mesh.extent
+        found = [Criterion("lowest point over the largest extent", depth, -1e-8, math.inf, "unilateral contact")]
         if self.spin == 0.0 and solution.t_end > fall:
-            found.append(
-                Criterion.near(
-                    "time of the first impact over that of a free fall",
-                    (self._first_impact(solution) or math.nan) / fall,
-                    1.0,
-                    1e-9,
-                    "t = sqrt(2 h / g)",
-                )
-            )
+            name, first = "time of the first impact over that of a free fall", self._first_impact(solution) or math.nan
+            found.append(Criterion.near(name, first / fall, 1.0, 1e-9, "t = sqrt(2 h / g)"))
         if solution.energy.loss > 0.0:
-            found.append(
-                Criterion.near(
-                    "losses over the energy that height and speed gave",
-                    solution.energy.loss / given,
-                    1.0,
-                    1e-6,
-                    "balance of energy",
-                )
-            )
+            name, ratio = "losses over the energy that height and speed gave", solution.energy.loss / given
+            found.append(Criterion.near(name, ratio, 1.0, 1e-6, "balance of energy"))
         return tuple(found)
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return the part at six instants, and its lowest point and energy over time."""
-        from scenarios.mesh_drop.figures import history, poses
+        return {"poses": draw.poses(self, solution), "history": draw.history(self, solution)}
 
-        return {"poses": poses(self, solution), "history": history(self, solution)}
+
+def _bracket() -> Triangles:
+    """Return a closed surface of 12 vertices and 20 triangles, an angle with a foot, 60 mm long, not convex."""
+    n = len(_OUTLINE)
+    near = [(x, y, 0.0) for x, y in _OUTLINE]
+    far = [((1.0 - _TAPER) * x, (1.0 - _TAPER) * y, _DEPTH) for x, y in _OUTLINE]
+    faces = [(a, c, b) for a, b, c in _CAPS] + [(a + n, b + n, c + n) for a, b, c in _CAPS]
+    for i in range(n):
+        j = (i + 1) % n
+        faces += [(i, j, j + n), (i, j + n, i + n)]
+    return Triangles((*near, *far), tuple(faces), _BUILT_IN)

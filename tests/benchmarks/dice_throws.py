@@ -14,7 +14,7 @@ from functools import partial
 from typing import cast
 
 import nonsmooth as ns
-from scenarios.dice_throw.scenario import DiceThrow
+from scenarios.dice_throw import DiceThrow
 
 
 def run(scenario: DiceThrow, limit: float) -> tuple[str, float, ns.Solution]:

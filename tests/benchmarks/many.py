@@ -16,7 +16,7 @@ import time
 from collections.abc import Callable
 
 from nonsmooth import simulate
-from scenarios.ball_box.scenario import BallBox
+from scenarios.ball_box import BallBox
 from scenarios.newtons_cradle import NewtonsCradle
 from tests.benchmarks.spheres import MuJoCoBox, PyBulletBox, own_depth
 
@@ -57,7 +57,7 @@ def _timed(task: Callable[[], object]) -> float:
 def boxes() -> None:
     """Print balls in a box beside the other engines."""
     for n, width, t_end in BOXES:
-        scenario = BallBox(n_balls=float(n), box_width=width, t_end=t_end)
+        scenario = BallBox(n_balls=n, box_width=width, t_end=t_end)
         began = time.perf_counter()
         system = scenario.build()
         built = time.perf_counter() - began

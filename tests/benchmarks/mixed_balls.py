@@ -25,7 +25,7 @@ import nonsmooth as ns
 from bodies import Ball, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Frictionless, MoreauImpact, NewtonImpact, PoissonImpact, Unilateral
 from nonsmooth.interfaces import Body, FrictionLaw, ImpactLaw
-from scenarios.ball_box.scenario import _TURNS
+from scenarios.ball_box import _TURNS
 from tests.benchmarks import pile
 
 RADIUS = 0.01

@@ -38,8 +38,8 @@ from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.runs.loop import EngineLoop
 from nonsmooth.runs.output_sink import OutputSink
 from nonsmooth.runs.records import Records
-from scenarios.dice_throw.scenario import DiceThrow
-from scenarios.mesh_drop.scenario import MeshDrop
+from scenarios.dice_throw import DiceThrow
+from scenarios.mesh_drop import MeshDrop
 
 REPETITIONS = 2
 _SEARCH = ENTRY_POINTS.index("list_contacts")

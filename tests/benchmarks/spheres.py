@@ -13,7 +13,7 @@ import numpy as np
 
 from bodies import Ball
 from nonsmooth.solution.solution import Solution
-from scenarios.ball_box.scenario import BallBox
+from scenarios.ball_box import BallBox
 from tests.benchmarks.engines import GRAVITY, Floats
 
 _THICK = 0.05

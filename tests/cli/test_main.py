@@ -8,7 +8,7 @@ from importlib.metadata import version
 import pytest
 
 from nonsmooth.cli.telling.messages import say
-from nonsmooth.solution.files import FileError
+from nonsmooth.storage.files import FileError
 
 Call = Callable[..., tuple[int, str, str]]
 

@@ -58,7 +58,7 @@ def test_a_disk_that_is_full_in_a_run_is_an_error_with_the_path(call: Call, tmp_
         status, output, errors = call("run", "tiny", "--json", "--out", str(folder))
     assert status == 1
     assert json.loads(output)["status"] == "failed"
-    full = folder / "solution.zarr" / ".zmetadata"
+    full = folder / "solution.zarr" / "zarr.json"
     assert f"error: {full} could not be written: File too large." in errors
     assert "Traceback" not in errors
     assert [path.name for path in folder.iterdir()] == ["solution.zarr"]

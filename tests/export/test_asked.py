@@ -82,6 +82,45 @@ def test_suffixes_may_be_large(drift: ns.Solution, tmp_path: Path) -> None:
     assert drift.export(str(tmp_path / "A.GLB")).read_bytes()[:4] == b"glTF"
 
 
+@pytest.mark.parametrize(("file", "options"), [("a.glb", {}), ("a.csv", {}), ("a.pvd", {"count": 5}), ("a.html", {})])
+def test_an_interrupted_export_leaves_the_old_files(
+    file: str, options: dict[str, Any], drift: ns.Solution, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """All of them, also those of a series, and no others."""
+    path = tmp_path / file
+
+    def export() -> None:
+        drift.to_html(path) if path.suffix == ".html" else drift.export(path, **options)
+
+    export()
+    before = {one: one.read_bytes() for one in tmp_path.rglob("*") if one.is_file()}
+    write, left = Path.write_bytes, [3 if path.suffix == ".pvd" else 0]
+
+    def interrupt(path: Path, content: bytes | str, **options: str) -> int:
+        left[0] -= 1
+        if left[0] < 0:
+            write(path, b"half")
+            raise KeyboardInterrupt
+        return write(path, content if isinstance(content, bytes) else content.encode())
+
+    for name in ("write_bytes", "write_text"):
+        monkeypatch.setattr(Path, name, interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        export()
+    monkeypatch.undo()
+    assert {one: one.read_bytes() for one in tmp_path.rglob("*") if one.is_file()} == before
+    export()
+    assert {one: one.read_bytes() for one in tmp_path.rglob("*") if one.is_file()} == before
+
+
+def test_a_series_replaces_no_files_of_another_kind(drift: ns.Solution, tmp_path: Path) -> None:
+    (tmp_path / "a_vtp").mkdir()
+    (tmp_path / "a_vtp" / "thesis.txt").write_text("all of it")
+    with pytest.raises(ns.InvalidInput, match=r"must have only VTP files, as it would be replaced.*thesis\.txt"):
+        drift.export(tmp_path / "a.pvd", count=5)
+    assert (tmp_path / "a_vtp" / "thesis.txt").read_text() == "all of it"
+
+
 @pytest.mark.slow
 def test_the_command_writes_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "new" / "run.gif"

@@ -25,7 +25,8 @@ from nonsmooth.files import yaml_text
 from nonsmooth.plugins import registry
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
-from nonsmooth.solution.variable import Variable
+from nonsmooth.studies.study_folder import StudyFolder
+from tests.storage.forging import say
 
 ROOT = Path(__file__).resolve().parents[2]
 MARK = "it_ran"
@@ -127,8 +128,8 @@ def _as_file(name: str, text: str) -> str:
 def _as_folder(text: str) -> str:
     """Put a system into a folder of results in place of the one that ran."""
     folder = SolutionFolder.opened(Output(Path("run")))
-    folder._arrays.add(Variable("system", (), np.array(text), {}), grows=False)
-    folder._arrays.commit()
+    folder._arrays.add("system", (), np.array(text), {}, grows=False)
+    folder._arrays.commit(safely=False)
     return "run"
 
 
@@ -262,8 +263,6 @@ def test_no_word_of_a_stored_request_leads_to_code(
     road: str, word: str, stranger: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Whether it is refused, or what a folder says of its system takes its place."""
-    import zarr
-
     roads = {
         "view": ("view", "run", "--html", "page.html", "--overwrite"),
         "export": ("export", "run", "out.csv", "--overwrite"),
@@ -277,12 +276,10 @@ def test_no_word_of_a_stored_request_leads_to_code(
             place = file.format(folder=stranger)
             asked[name] = value.format(place) if isinstance(value, str) else [one.format(place) for one in value]
         if road == "study resume":
-            group = zarr.open_group("study.zarr", mode="r+")
-            group.attrs["request"] = json.dumps(json.loads(str(group.attrs["request"])) | asked)
+            known = json.loads(str(StudyFolder(Path("study.zarr")).attributes["request"]))
+            say(Path("study.zarr"), request=json.dumps(known | asked))
         else:
-            folder = SolutionFolder.opened(Output(Path("run")))
-            folder.attributes["request"] = json.dumps(usual | asked)
-            folder._arrays.commit()
+            say(Path("run") / "solution.zarr", request=json.dumps(usual | asked))
         main(roads[road])
         assert "Traceback" not in capsys.readouterr().err
         assert not (stranger / MARK).exists(), file
@@ -326,11 +323,9 @@ for words in json.loads(sys.argv[1]):
 
 def _commands(text: str) -> list[list[str]]:
     """Return commands on a file, a folder and two studies that name code, the second one in its stored request."""
-    import zarr
-
     shutil.copytree("study.zarr", "words.zarr")
-    group = zarr.open_group("words.zarr", mode="r+")
-    group.attrs["request"] = json.dumps(json.loads(str(group.attrs["request"])) | {"engine": "evil.py:Engine"})
+    known = json.loads(str(StudyFolder(Path("words.zarr")).attributes["request"]))
+    say(Path("words.zarr"), request=json.dumps(known | {"engine": "evil.py:Engine"}))
     return [
         ["run", _as_file("system.toml", text)],
         ["view", _as_folder(text), "--html", "page.html", "--overwrite"],

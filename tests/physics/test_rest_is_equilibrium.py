@@ -10,7 +10,7 @@ from scipy.optimize import nnls
 import nonsmooth as ns
 from bodies import BoxBody, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
-from scenarios.dice_throw.scenario import DiceThrow
+from scenarios.dice_throw import DiceThrow
 from tests.benchmarks import pile
 
 Floats = NDArray[np.float64]

@@ -29,6 +29,15 @@ def balls(friction: FrictionLaw = _COULOMB) -> ns.System:
     return system
 
 
+def bouncing() -> ns.System:
+    """Return a ball that bounces on a vibrating plate as long as it runs, some 27 times a second."""
+    ball, plate = Ball(radius=5e-3), Plate(motion=Harmonic(amplitude=4e-4, frequency=25.0))
+    system = ns.System([ball, plate])
+    system.contact(ball, plate, normal=Unilateral(), friction=_COULOMB, impact=EnergeticImpact(restitution=0.9))
+    system.place(ball, position=(0.0, 0.0, 6e-3))
+    return system
+
+
 def on_hills() -> ns.System:
     """Return a ball on a mesh, of whose many patches a search finds those near it."""
     ground, ball = DrivenBody(carried=(TriangleMesh(Triangles(*hills(6))),)), Ball(0.05)

@@ -6,20 +6,21 @@ import json
 import os
 import shutil
 import zipfile
+import zlib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
 import nonsmooth as ns
 from nonsmooth.cli.main import main
-from nonsmooth.packing import packed, unpacked, with_checksum
-from nonsmooth.results.lock import LOCK
 from nonsmooth.results.output import SOLUTION, Output
 from nonsmooth.results.solution_folder import SolutionFolder
+from nonsmooth.solution.request import RunRequest
+from nonsmooth.storage.lock import LOCK
 from tests.results.runs import balls
+from tests.storage.forging import forge, say
 
 MINE = "all of it"
 
@@ -56,13 +57,6 @@ def _files(home: Path) -> dict[str, bytes]:
     return {str(path.relative_to(home)): path.read_bytes() for path in home.rglob("*") if path.is_file()}
 
 
-def _say(folder: Path, **attributes: Any) -> None:
-    path = folder / ".zmetadata"
-    said = json.loads(path.read_text())
-    said["metadata"][".zattrs"].update(attributes)
-    path.write_text(json.dumps(said))
-
-
 def _link(path: Path, to: Path) -> None:
     path.unlink(missing_ok=True)
     path.parent.mkdir(exist_ok=True)
@@ -76,14 +70,14 @@ def _moved(place: Path, home: Path) -> None:
 
 
 OUTWARDS: dict[str, Callable[[Path, Path], None]] = {
-    "a coordinate over the parent": lambda at, home: _say(at, scenario_coordinates="../../home/thesis"),
-    "a coordinate elsewhere": lambda at, home: _say(at, scenario_coordinates=str(home / "thesis")),
-    "a link beside the metadata": lambda at, home: _link(at / "..zmetadata.part", home / "settings"),
+    "a coordinate over the parent": lambda at, home: say(at, scenario_coordinates="../../home/thesis"),
+    "a coordinate elsewhere": lambda at, home: say(at, scenario_coordinates=str(home / "thesis")),
+    "a link beside the metadata": lambda at, home: _link(at / ".zarr.json.part", home / "settings"),
     "a link beside a file": lambda at, home: _link(at.parent / ".summary.json.part", home / "settings"),
     "a link in place of a file": lambda at, home: _link(at.parent / "events.csv", home / "settings"),
-    "a link that leads nowhere": lambda at, home: _link(at / "state" / "end.npz", home / "new"),
+    "a link that leads nowhere": lambda at, home: _link(at / "writer" / "state-end.npz", home / "new"),
     "a link in place of the lock": lambda at, home: _link(at / LOCK, home / "new"),
-    "a link in place of the states": lambda at, home: _moved(at / "state", home),
+    "a link in place of the states": lambda at, home: _moved(at / "writer", home),
     "a link in place of an array": lambda at, home: _moved(at / "body", home),
     "a link in place of all": lambda at, home: _moved(at, home),
 }
@@ -107,7 +101,7 @@ def test_nothing_outside_is_written_or_removed(by: str, way: str, theirs: Path) 
 
 
 @pytest.mark.skipif(os.name != "posix", reason="there are no pipes with names")
-@pytest.mark.parametrize("name", [".zmetadata", "system/0", "state/0.npz"])
+@pytest.mark.parametrize("name", ["zarr.json", "system/c", "writer/state-0.npz"])
 def test_a_pipe_is_not_read(name: str, theirs: Path) -> None:
     """Nobody would write to it."""
     (theirs / name).unlink()
@@ -125,11 +119,11 @@ SAID: dict[str, tuple[Any, ...]] = {
     "engine": ('"evil.py:E"', "[]", "5", "null", '{"type": 5}', "[" * 100_000),
     "counters": ("[]", "5", "{"),
     "verdict": ("5", "[5]", "[{}]"),
-    "state": ("../../home/settings", "", 5),
+    "state": ("../../home/settings", "", 5, '{"file": "../../home/settings"}', '{"file": 5}'),
 }
 RESUMED: dict[str, tuple[Any, ...]] = {
     "request": ("[]", "5", *(json.dumps(REQUEST | {name: [5]}) for name in REQUEST)),
-    "checkpoint": ("[]", "{}", '{"state": "state/0.npz"}', '{"state": "../../home/settings"}'),
+    "checkpoint": ("[]", "{}", '{"file": "writer/state-0.npz"}', '{"file": "../../home/settings"}'),
     "versions": ("[]", "5"),
 }
 
@@ -137,7 +131,7 @@ RESUMED: dict[str, tuple[Any, ...]] = {
 @pytest.mark.parametrize("name", [*SAID, *RESUMED])
 def test_what_no_run_has_said_is_refused_by_name(name: str, theirs: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for value in (SAID | RESUMED)[name]:
-        _say(theirs, **{name: value})
+        say(theirs, **{name: value})
         if name in SAID:
             with pytest.raises(ns.InvalidInput, match=name):
                 ns.open_solution(theirs.parent)
@@ -147,41 +141,33 @@ def test_what_no_run_has_said_is_refused_by_name(name: str, theirs: Path, capsys
 
 
 def test_metadata_in_one_another_without_end_are_refused(theirs: Path) -> None:
-    (theirs / ".zmetadata").write_text("[" * 200_000)
+    (theirs / "zarr.json").write_text("[" * 200_000)
     with pytest.raises(ns.InvalidInput, match="must be a folder of results"):
         ns.open_solution(theirs.parent)
 
 
 def test_arrays_that_contradict_one_another_are_refused(theirs: Path) -> None:
-    path = theirs / ".zmetadata"
-    said = json.loads(path.read_text())
-    said["metadata"]["event_law_state/.zarray"]["shape"][0] = 10**12
-    path.write_text(json.dumps(said))
-    with pytest.raises(ns.InvalidInput, match="events must be as a run has written it"):
+    def lengthen(content: dict[str, Any]) -> None:
+        content["consolidated_metadata"]["metadata"]["event_law_state"]["shape"][0] = 10**12
+
+    forge(theirs, lengthen)
+    with pytest.raises(ns.InvalidInput, match=r"must have \d+ rows in all arrays over 'event', but it is \[10+\]"):
         ns.open_solution(theirs.parent)
-
-
-def test_few_bytes_do_not_become_all_of_the_memory(theirs: Path) -> None:
-    """And no more are read than there are."""
-    content = packed(np.zeros(2**24))
-    (theirs / "body" / "0").write_bytes(with_checksum(content))
-    with pytest.raises(ns.InvalidInput, match=r"it holds \d+ bytes, and not \d+ numbers"):
-        SolutionFolder.opened(Output(theirs.parent))._arrays.read("body")
-    with pytest.raises(ValueError, match="as its head says"):
-        unpacked(content[:-1], float)
 
 
 def test_a_state_larger_than_the_memory_is_refused(theirs: Path) -> None:
     head = b"{'descr': '<f8', 'fortran_order': False, 'shape': (1000000000000,), }"
-    with zipfile.ZipFile(theirs / "state" / "0.npz", "w") as file:
+    path = theirs / "writer" / "state-0.npz"
+    with zipfile.ZipFile(path, "w") as file:
         file.writestr("time.npy", b"\x93NUMPY\x01\x00v\x00" + head.ljust(117) + b"\n")
+    say(theirs, state=json.dumps({"file": "writer/state-0.npz", "checksum": zlib.crc32(path.read_bytes())}))
     with pytest.raises(ns.InvalidInput, match="must hold a state"):
         ns.open_solution(theirs.parent)
 
 
 def test_a_terminal_obeys_no_name_of_a_folder(theirs: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """As one that would change the title of its window."""
-    _say(theirs, request=json.dumps(REQUEST | {"scenario": "\x1b]0;theirs\x07"}))
+    say(theirs, request=json.dumps(REQUEST | {"scenario": "\x1b]0;theirs\x07"}))
     assert main(["resume", str(theirs.parent)]) == 0
     said = "".join(capsys.readouterr())
     assert "\\x1b]0;theirs\\x07: done" in said
@@ -203,6 +189,7 @@ def test_a_lock_alone_makes_no_folder_ours(tmp_path: Path) -> None:
     """Programs of others have locks, too."""
     place = tmp_path / SOLUTION
     place.mkdir()
+    (place / LOCK).parent.mkdir()
     (place / LOCK).touch()
     (place / "thesis.txt").write_text(MINE)
     with pytest.raises(ns.InvalidInput, match="must be a folder that a run has made"):
@@ -211,7 +198,10 @@ def test_a_lock_alone_makes_no_folder_ours(tmp_path: Path) -> None:
     (place / "thesis.txt").unlink()
     assert ns.simulate(balls(), 0.01, output=tmp_path).status == "done"
     # of a run that was cut off before its first commit
-    (place / ".zmetadata").unlink()
+    request = RunRequest(1.0, 0.0, 0.1, has_default_samples=True, is_conditional=False)
+    SolutionFolder.created(Output(tmp_path), balls(), ns.EventDriven(), request, n_states=0).close()
+    with pytest.raises(ns.InvalidInput, match="must be a folder of results, but it is 'not there'"):
+        ns.open_solution(tmp_path)
     assert ns.simulate(balls(), 0.01, output=tmp_path).status == "done"
 
 

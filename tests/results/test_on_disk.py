@@ -64,7 +64,7 @@ def test_the_dataset_has_samples_events_labels_and_units(solution: ns.Solution, 
         assert one.attrs["long_name"]
         # columns that have units of their own have these beside them; those of inner states only their law knows
         along = f"{one.dims[-1]}_units" if one.dims else ""
-        known = one.dtype.kind == "U" or CF_UNIT.fullmatch(one.attrs.get("units", "")) or along in saved.variables
+        known = one.dtype.kind == "T" or CF_UNIT.fullmatch(one.attrs.get("units", "")) or along in saved.variables
         assert known or one.dims[-1] == "of_law_state", one
     for along in ("coordinate_units", "velocity_units", "of_memory_units"):
         assert all(CF_UNIT.fullmatch(unit) for unit in saved[along].values)
@@ -125,7 +125,7 @@ def test_the_table_has_every_event_exactly(solution: ns.Solution, tmp_path: Path
 
 @pytest.mark.slow
 def test_results_take_a_tenth_of_what_dense_ones_would(tmp_path: Path) -> None:
-    from scenarios.dice_throw.scenario import DiceThrow
+    from scenarios.dice_throw import DiceThrow
 
     dice = DiceThrow()
     solution = ns.simulate(dice.build(), dice.t_end, sample_interval=dice.sample_interval, output=tmp_path)

@@ -8,6 +8,7 @@ import json
 import subprocess
 import sys
 import time
+import zlib
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -20,18 +21,17 @@ import nonsmooth as ns
 from laws import Coulomb
 from nonsmooth.interfaces import FrictionLaw
 from nonsmooth.model.checkpoint import Difference
-from nonsmooth.results.lock import Lock
-from nonsmooth.results.output import Output
+from nonsmooth.results.output import OtherVersions, Output
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.results.state_file import state_bytes, state_from
 from nonsmooth.runs import folder_sink
 from nonsmooth.runs.identity import digest
-from nonsmooth.runs.resuming import OtherVersions
 from nonsmooth.runs.so_far import RunSoFar
 from nonsmooth.solution.state import Continuation
-from nonsmooth.solution.variable import Variable
+from nonsmooth.storage.lock import locked
 from tests.results.runs import balls
 from tests.runs.continued import differences
+from tests.storage.forging import say
 
 ROOT = Path(__file__).parents[2]
 T_END = 3.0
@@ -102,7 +102,7 @@ def test_a_run_that_was_killed_goes_on_to_the_same_bits(whole: ns.Solution, tmp_
     process = subprocess.Popen(words, cwd=ROOT, stderr=subprocess.PIPE)
     try:
         for _ in range(6000):
-            if (place / ".zmetadata").exists() and _reached(tmp_path) >= share * T_END:
+            if (place / "zarr.json").exists() and _reached(tmp_path) >= share * T_END:
                 break
             assert process.poll() is None
             time.sleep(0.005)
@@ -152,12 +152,10 @@ def test_samples_of_a_resumed_run_have_the_interval_that_was_given(tmp_path: Pat
     system = balls()
     whole = ns.simulate(system, T_END, sample_interval=0.01)
     _cut_off(tmp_path, system, 0.5, 0.01)
-    attributes = tmp_path / "solution.zarr" / ".zmetadata"
-    content = attributes.read_text(encoding="utf-8")
-    attributes.write_text(content.replace('"sample_interval"', '"interval"'), encoding="utf-8")
+    say(tmp_path / "solution.zarr", sample_interval=None)
     with pytest.raises(ns.InvalidInput, match=r"arguments of the run must be as a run has written it.*sample_interval"):
         ns.resume(tmp_path)
-    attributes.write_text(content, encoding="utf-8")
+    say(tmp_path / "solution.zarr", sample_interval=0.01)
     assert differences(whole, ns.resume(tmp_path)) == []
 
 
@@ -166,10 +164,10 @@ def test_what_cannot_go_on_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ns.InvalidInput, match="must be a folder of results"):
         ns.resume(tmp_path)
     _cut_off(tmp_path, balls(Own()), 0.5)
-    lock = Lock(tmp_path / "solution.zarr")
+    lock = locked(tmp_path / "solution.zarr")
     with pytest.raises(ns.InvalidInput, match="must have one run at a time that writes, but it is 'in use'"):
         ns.resume(tmp_path, system=balls(Own()))
-    lock.close()
+    lock.release()
     with pytest.raises(ns.InvalidInput, match=r"must not hold a run that .* was cut off.*nonsmooth resume"):
         ns.simulate(balls(), T_END, output=tmp_path)
     with pytest.raises(ns.InvalidInput, match="the system that ran must be given, but it is None") as refused:
@@ -178,10 +176,8 @@ def test_what_cannot_go_on_is_refused(tmp_path: Path) -> None:
     assert f"nonsmooth.open_solution({str(tmp_path)!r}, system=system)" in str(refused.value)
     with pytest.raises(ns.InvalidInput, match="must hold a run of this model"):
         ns.resume(tmp_path, system=balls(Coulomb(0.3)))
-    attributes = tmp_path / "solution.zarr" / ".zmetadata"
-    versions = json.loads(attributes.read_text())["metadata"][".zattrs"]["versions"]
-    engine = json.loads(versions)["engine"]
-    attributes.write_text(attributes.read_text().replace(engine, "another"))
+    versions = SolutionFolder.opened(Output(tmp_path)).said("versions")
+    say(tmp_path / "solution.zarr", versions=json.dumps(versions | {"engine": "another"}))
     with pytest.warns(OtherVersions, match="engine another, now"):
         after = ns.resume(tmp_path, system=balls(Own()))
     assert differences(ns.simulate(balls(Own()), T_END), after) == []
@@ -219,8 +215,8 @@ def test_a_foreign_folder_runs_no_file_and_no_pickle(tmp_path: Path) -> None:
     text = f'[bodies.ball]\ntype = "{tmp_path / "evil.py"}:Ball"\n'
     _cut_off(tmp_path, balls(), 0.2)
     folder = SolutionFolder.opened(Output(tmp_path))
-    folder._arrays.add(Variable("system", (), np.array(text), {}), grows=False)
-    folder._arrays.commit()
+    folder._arrays.add("system", (), np.array(text), {}, grows=False)
+    folder._arrays.commit(safely=False)
     with pytest.raises(ns.InvalidInput, match="must name what an installed package has registered"):
         ns.resume(tmp_path)
 
@@ -234,8 +230,9 @@ def test_a_state_from_a_file_leaves_functions_and_offsets_alone(tmp_path: Path) 
     folder = tmp_path / "run"
     _cut_off(folder, balls(), 0.2)
     arrays = SolutionFolder.opened(Output(folder))
-    checkpoint = arrays.said("checkpoint")["state"]
-    (folder / "solution.zarr" / checkpoint).write_bytes(state_bytes(model.start.with_continuation(foreign)))
+    checkpoint, content = arrays.said("checkpoint"), state_bytes(model.start.with_continuation(foreign))
+    (folder / "solution.zarr" / checkpoint["file"]).write_bytes(content)
+    say(folder / "solution.zarr", checkpoint=json.dumps(checkpoint | {"checksum": zlib.crc32(content)}))
     with pytest.raises(ns.InvalidInput, match=r"State\.continuation: \w+ must be from 0"):
         model.resume(folder)
     for part, before, may_change in zip(memory.kept, blank.parts, memory.changing, strict=True):

@@ -23,7 +23,7 @@ from nonsmooth.plugins import file
 from nonsmooth.studies import status
 from nonsmooth.studies.executors.dask import SchedulerLost
 from nonsmooth.studies.executors.parcel import Parcel
-from nonsmooth.studies.store import Store
+from nonsmooth.studies.study_folder import StudyFolder
 from tests.studies import ball
 
 pytest.importorskip("zarr", "3.1.3")
@@ -77,7 +77,7 @@ def test_a_worker_that_is_killed_costs_nothing(tmp_path: Path, mortal_cluster: A
     path = tmp_path / "s.zarr"
 
     def kill() -> None:
-        while len(list(path.glob("status/c/*"))) < 2:
+        while len(list(path.glob("status/c.*"))) < 2:
             time.sleep(0.02)
         os.kill(next(iter(mortal_cluster.workers.values())).pid, signal.SIGKILL)
 
@@ -100,7 +100,7 @@ def test_the_run_that_kills_its_worker_is_found(
     ends = [status.CRASHED if height == 0.05 else status.DONE for height in heights]
     assert found.status.values.tolist() == ends
     assert found.reason.values[3] == status.WORKER_DIED
-    assert "died" in Store(tmp_path / "s.zarr").texts()[3]
+    assert "died" in StudyFolder(tmp_path / "s.zarr").texts()[3]
     assert (found.impacts >= 0).sum() == 4
 
 
@@ -167,7 +167,7 @@ def test_a_scheduler_that_ends_is_told_and_the_study_goes_on(tmp_path: Path) -> 
     with distributed.LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=":0", silence_logs=50) as made:
 
         def end() -> None:
-            while not list(path.glob("status/c/*")):
+            while not list(path.glob("status/c.*")):
                 time.sleep(0.02)
             made.close()
 

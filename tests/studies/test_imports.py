@@ -17,7 +17,7 @@ _LIGHT = (
 )
 _SLOW = (
     *("scipy.optimize", "scipy.stats", "scipy.interpolate", "scipy.spatial", "distributed"),
-    *("matplotlib", "PIL", "rich", "xarray", "coal", "fcl", "trimesh", "vhacdx"),
+    *("matplotlib", "PIL", "rich", "xarray", "coal", "fcl", "trimesh", "vhacdx", "zarr", "numcodecs", "filelock"),
 )
 _PROGRAM = f"""
 import importlib, sys

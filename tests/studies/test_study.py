@@ -18,7 +18,7 @@ from nonsmooth.interfaces import Scenario
 from nonsmooth.parameters import parameter
 from nonsmooth.studies import status
 from nonsmooth.studies.records.asked import Asked
-from nonsmooth.studies.store import Store
+from nonsmooth.studies.study_folder import StudyFolder
 from scenarios.bouncing_ball import BouncingBall
 from scenarios.dumbbell import DumbbellScenario
 from tests.studies.ball import RECORD, T_END, draws, drop, shaken
@@ -106,7 +106,7 @@ def test_chunks_without_a_value_are_whole(tmp_path: Path) -> None:
     """Zarr leaves out chunks of nothing but what stands for no value; these were done."""
     study = studies.Study(drop, studies.grid(height=[-1.0, 0.01, -2.0]), RECORD, t_end=T_END)
     study.run(tmp_path / "s.zarr", executor="serial", chunk=1)
-    assert Store(tmp_path / "s.zarr").damage() == []
+    assert StudyFolder(tmp_path / "s.zarr").damage() == []
 
 
 def test_a_run_that_fails_is_a_row(tmp_path: Path) -> None:
@@ -114,7 +114,7 @@ def test_a_run_that_fails_is_a_row(tmp_path: Path) -> None:
     found = study.run(tmp_path / "s.zarr", executor="serial", chunk=2)
     assert found.status.values.tolist() == [status.FAILED] * 3
     assert found.reason.values.tolist() == [status.RAISED] * 3
-    texts = Store(tmp_path / "s.zarr").texts()
+    texts = StudyFolder(tmp_path / "s.zarr").texts()
     assert texts[1] == "ArithmeticError: no ball at -1.0"
     assert "record _raises: OverflowError: too much" in texts[0]
 
@@ -138,7 +138,7 @@ def test_a_budget_ends_a_run_by_its_steps(tmp_path: Path) -> None:
     assert (whole.steps.values.ravel() <= 60).tolist() == [True, False]
     assert found.status.values.ravel().tolist() == [status.DONE, status.BUDGET]
     assert found.q_end.values[0].tobytes() == whole.q_end.values[0].tobytes()
-    assert "its 60 steps were used up" in Store(tmp_path / "s.zarr").texts()[1]
+    assert "its 60 steps were used up" in StudyFolder(tmp_path / "s.zarr").texts()[1]
 
 
 def test_what_runs_are_made_of_is_written_beside_them(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from nonsmooth.errors import InvalidInput
-from nonsmooth.solution import files
+from nonsmooth.storage import files
 
 OVERWRITE = "--overwrite"
 _REMEDY = f"Choose another name, or add {OVERWRITE}."

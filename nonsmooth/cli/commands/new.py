@@ -17,7 +17,7 @@ from nonsmooth.cli.asking import outputs
 from nonsmooth.cli.telling.messages import say
 from nonsmooth.errors import InvalidInput
 from nonsmooth.plugins import registry
-from nonsmooth.solution.files import replacing
+from nonsmooth.storage.files import replacing
 
 _FILES = {
     "pyproject.toml": "pyproject.toml.txt",

@@ -15,7 +15,7 @@ from nonsmooth.cli.running.perform import Told, perform
 from nonsmooth.cli.telling import report
 from nonsmooth.cli.telling.messages import say
 from nonsmooth.results.output import Output
-from nonsmooth.results.solution_folder import check_free
+from nonsmooth.results.overwriting import check_free
 from nonsmooth.simulate import assemble
 from nonsmooth.solution.solution import Solution
 

@@ -16,7 +16,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.studies.drawing import draw_study
 from nonsmooth.studies.extras import require, require_store
 from nonsmooth.studies.opening import open_study
-from nonsmooth.studies.store import Store
+from nonsmooth.studies.study_folder import StudyFolder
 from nonsmooth.studies.summary import summary
 
 _TOLD = 10
@@ -42,9 +42,9 @@ def add_to(commands: Any) -> None:
     outputs.add_to(parts.choices["draw"])
 
 
-def _store(arguments: argparse.Namespace) -> Store:
+def _store(arguments: argparse.Namespace) -> StudyFolder:
     require_store()
-    return Store(arguments.study)
+    return StudyFolder(arguments.study)
 
 
 def status(arguments: argparse.Namespace) -> bool:

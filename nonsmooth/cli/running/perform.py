@@ -20,8 +20,8 @@ from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.solution.draw_graph import draw
 from nonsmooth.solution.events_table import save_events
-from nonsmooth.solution.files import FileError
 from nonsmooth.solution.solution import Solution
+from nonsmooth.storage.files import FileError
 
 Told = Callable[[float, float, int], None]
 """Takes the time reached, the end time [s] and the events so far."""

@@ -10,7 +10,7 @@ from typing import Any
 
 from nonsmooth.cli.telling.messages import complain, tell
 from nonsmooth.errors import NonsmoothError
-from nonsmooth.solution.files import replacing
+from nonsmooth.storage.files import replacing
 
 _DPI = 150
 

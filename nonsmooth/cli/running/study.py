@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from nonsmooth.cli.telling.messages import say, tell
 from nonsmooth.studies.executors.executor import Executor
-from nonsmooth.studies.store import Store
 from nonsmooth.studies.study import Study
+from nonsmooth.studies.study_folder import StudyFolder
 from nonsmooth.studies.summary import summary
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ def perform(
         tell(f"what is done stays: `nonsmooth study resume {path}` goes on")
         raise
     say(summary(found))
-    if texts := Store(path).texts():
+    if texts := StudyFolder(path).texts():
         first = min(texts)
         tell(f"{len(texts)} runs have no records; the first is run {first}: {texts[first]}")
     tell(f"the study is in {path}")

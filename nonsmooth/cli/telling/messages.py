@@ -10,7 +10,7 @@ from collections.abc import Callable
 from typing import Any
 
 from nonsmooth.errors import NonsmoothWarning
-from nonsmooth.solution.files import FileError
+from nonsmooth.storage.files import FileError
 
 _CONTROLS = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
 """Characters that a terminal obeys, apart from tabulators and line breaks."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,10 +12,9 @@ from scipy.spatial.transform import Rotation
 import nonsmooth as ns
 from nonsmooth.engine.memory.modes import Cause
 from scenarios.bouncing_ball import BouncingBall
-from scenarios.bouncing_trimer import figures
-from scenarios.bouncing_trimer.motion import Motion, repetition, summary
-from scenarios.bouncing_trimer.scenario import GRAVITY, BouncingTrimer
-from scenarios.bouncing_trimer.survey import survey
+from scenarios.bouncing_trimer import BouncingTrimer
+from scenarios.bouncing_trimer.figures import survey
+from scenarios.bouncing_trimer.motion import GRAVITY, TrimerMotion, repetition, summary
 
 
 def _run(**start: Any) -> tuple[BouncingTrimer, ns.Solution]:
@@ -127,25 +125,24 @@ def test_the_closest_tolerances_ask_for_no_more_than_they_explain(gamma: float) 
 
 def test_survey() -> None:
     """At rest below one g; above, wandering and turning, at speeds that go with g/f at the same Gamma."""
-    entries = survey(BouncingTrimer(), (3.0,), (50.0, 100.0), 400, ns.run_scenario)
-    entries += survey(BouncingTrimer(restitution=0.2), (0.9,), (50.0,), 40, ns.run_scenario)
-    assert [entry.status for entry in entries] == ["done"] * 3
-    assert all(entry.residual < 1e-7 for entry in entries)
-    slow, fast, rest = entries
-    assert rest.numbers["attractor"] == "rest"
-    assert rest.numbers["wandering"] < 1e-9
-    for entry in (slow, fast):
-        scaled = entry.numbers["wandering"] / (GRAVITY / entry.frequency)
-        assert 0.07 < scaled < 0.16
-        assert entry.numbers["drift"] < 0.5 * entry.numbers["wandering"]
-        assert abs(entry.numbers["rotation"]) < entry.numbers["turning"]
+    runs = survey(BouncingTrimer(), (3.0,), (50.0, 100.0), 400, ns.run_scenario)
+    runs += survey(BouncingTrimer(restitution=0.2), (0.9,), (50.0,), 40, ns.run_scenario)
+    assert [solution.status for _, solution in runs] == ["done"] * 3
+    assert all(solution.energy.residual < 1e-7 for _, solution in runs)
+    slow, fast, rest = (scenario.summarise(solution) for scenario, solution in runs)
+    assert rest["attractor"] == "rest"
+    assert rest["wandering"] < 1e-9
+    for numbers, frequency in ((slow, 50.0), (fast, 100.0)):
+        assert 0.07 < numbers["wandering"] / (GRAVITY / frequency) < 0.16
+        assert numbers["drift"] < 0.5 * numbers["wandering"]
+        assert abs(numbers["rotation"]) < numbers["turning"]
 
 
-def _bounce(repeats: int, drift: float = 0.0) -> Motion:
+def _bounce(repeats: int, drift: float = 0.0) -> TrimerMotion:
     t = np.arange(4000) / (50.0 * 20.0)
     gap = 1e-3 * (1.0 + np.sin(2.0 * math.pi * t * 50.0 / repeats) ** 2 + drift * t)
     place = np.column_stack([0.01 * t, np.zeros(len(t))])
-    return Motion(t, 0.02, np.column_stack([gap] * 3), place, np.full(len(t), -2.0), np.zeros(len(t)))
+    return TrimerMotion(t, 0.02, np.column_stack([gap] * 3), place, np.full(len(t), -2.0), np.zeros(len(t)))
 
 
 @pytest.mark.parametrize("repeats", [1, 3, 5])
@@ -167,18 +164,3 @@ def test_wrong_input() -> None:
         BouncingTrimer(spacing=9e-3)
     for word in ("BouncingTrimer.spacing", "diameter 0.01", "0.009"):
         assert word in str(caught.value)
-
-
-@pytest.mark.slow
-def test_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The gallery, here over fewer runs, can be drawn."""
-    pytest.importorskip("matplotlib")
-    monkeypatch.setattr(figures, "GAMMAS", (2.0, 5.0))
-    monkeypatch.setattr(figures, "FREQUENCIES", (25.0, 50.0))
-    monkeypatch.setattr(figures, "PERIODS", 60)
-    drawn = BouncingTrimer.gallery(ns.run_scenario)
-    assert sorted(drawn) == ["gaps", "path", "regimes"]
-    for name, figure in drawn.items():
-        assert all(axis.get_ylabel() for axis in figure.axes)
-        assert figure.axes[-1].get_xlabel()
-        figure.savefig(tmp_path / f"{name}.png")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,9 +11,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import nonsmooth as ns
-from scenarios.disc_ball import figures
+from scenarios.disc_ball import DiscBall
 from scenarios.disc_ball.closed_forms import one_after_the_other, symmetric
-from scenarios.disc_ball.scenario import DiscBall
 
 EXACT = ns.EventDriven(impact_tolerance=1e-11)
 
@@ -129,17 +127,3 @@ def test_wrong_input() -> None:
         DiscBall(incidence=0.9, radius_ratio=0.5)
     for word in ("DiscBall.incidence", "below 0.8411", "0.9"):
         assert word in str(caught.value)
-
-
-@pytest.mark.slow
-def test_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The gallery, here over fewer runs, can be drawn."""
-    pytest.importorskip("matplotlib")
-    monkeypatch.setattr(figures, "RATIOS", 5)
-    monkeypatch.setattr(figures, "OFFSETS", 6)
-    drawn = DiscBall.gallery(ns.run_scenario)
-    assert sorted(drawn) == ["offset", "stiffness", "strike"]
-    for name, figure in drawn.items():
-        assert all(axis.get_ylabel() for axis in figure.axes)
-        assert figure.axes[-1].get_xlabel()
-        figure.savefig(tmp_path / f"{name}.png")

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
 import nonsmooth as ns
-from scenarios.dominoes.scenario import Dominoes
+from scenarios.dominoes import Dominoes
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("spacing", "lean"), [(0.014, 0.03), (0.02, 0.05)])
 def test_the_first_strike_is_that_of_a_fall_about_the_edge(spacing: float, lean: float) -> None:
     """And the wave then runs faster and faster, from each to the next."""
-    row = Dominoes(number=5.0, spacing=spacing, lean=lean, t_end=0.38)
+    row = Dominoes(number=5, spacing=spacing, lean=lean, t_end=0.38)
     solution = ns.simulate(row.build(), row.t_end)
     strikes = row.strikes(solution)
     assert strikes[0] == pytest.approx(row.first_strike(), abs=1e-9)
@@ -27,7 +29,7 @@ def test_the_first_strike_is_that_of_a_fall_about_the_edge(spacing: float, lean:
 @pytest.mark.slow
 def test_no_two_dominoes_overlap() -> None:
     """The upper edge of each stays on this side of the next one's face."""
-    row = Dominoes(number=4.0, t_end=0.36)
+    row = Dominoes(number=4, t_end=0.36)
     solution = ns.simulate(row.build(), row.t_end, sample_interval=row.sample_interval)
     q = solution.q.reshape(len(solution.t), -1, 3)
     for i in range(3):
@@ -46,21 +48,18 @@ def test_no_two_dominoes_overlap() -> None:
 def test_the_account_of_the_impacts_closes() -> None:
     """In those of many contacts some stay at rest under load while others act: what they give back counts, too."""
     # every one strikes the next, whatever else collides
-    row = Dominoes(number=17.0, t_end=0.7)
+    row = Dominoes(number=17, t_end=0.7)
     solution = ns.simulate(row.build(), row.t_end, sample_interval=row.sample_interval)
     assert solution.status == "done"
     assert solution.counters.impacts > 20
     assert solution.energy.residual < 1e-8
 
 
+def test_parts_of_dominoes_are_refused() -> None:
+    with pytest.raises(ns.InvalidInput, match=r"Dominoes\.number must be an integer"):
+        Dominoes(**dict[str, Any](number=2.5))
+
+
 def test_too_wide_a_distance_is_refused() -> None:
     with pytest.raises(ns.InvalidInput, match=r"Dominoes\.spacing"):
         Dominoes(spacing=0.05)
-
-
-@pytest.mark.slow
-def test_figures() -> None:
-    pytest.importorskip("matplotlib")
-    row = Dominoes(number=4.0, t_end=0.3)
-    figures = row.figures(ns.simulate(row.build(), row.t_end, sample_interval=row.sample_interval))
-    assert set(figures) == {"row", "wave"}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,7 @@ from scipy.integrate import solve_ivp
 
 import nonsmooth as ns
 from nonsmooth.engine.native.kernel import PLAIN
-from scenarios.egg_on_table.scenario import GRAVITY, EggOnTable
+from scenarios.egg_on_table import GRAVITY, EggOnTable
 
 Array = NDArray[np.float64]
 pytestmark = pytest.mark.skipif(PLAIN, reason="a minute in plain mode")
@@ -31,6 +30,7 @@ def test_it_stands_up_and_pays_for_it() -> None:
     summary = scenario.summarise(solution)
     assert 1.0 < summary["upright"] < 2.5
     assert summary["flights"] == 0
+    assert "stands up within" in scenario.figures(solution)["history"].get_suptitle()
     assert solution.q_end[2] - solution.q[0, 2] > 0.9 * (scenario.semi_long - scenario.semi_across)
     assert summary["energy_lost"] > scenario.mass * GRAVITY * (solution.q_end[2] - solution.q[0, 2]) > 0.0
     assert summary["spin"] == pytest.approx(scenario.upright_spin(), rel=0.01)
@@ -101,11 +101,3 @@ def test_against_other_equations() -> None:
     np.testing.assert_allclose(n, found[:3], rtol=0, atol=1e-7)
     np.testing.assert_allclose(solution.u_end[3:], found[3:6], rtol=0, atol=1e-5)
     assert np.linalg.norm(solution.u_end[:3]) == pytest.approx(np.linalg.norm(found[6:]), abs=1e-7)
-
-
-@pytest.mark.slow
-def test_figures(tmp_path: Path) -> None:
-    scenario, solution = _run()
-    figure = scenario.figures(solution)["history"]
-    assert "stands up" in figure.get_suptitle()
-    figure.savefig(tmp_path / "history.png")

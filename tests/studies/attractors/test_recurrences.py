@@ -15,7 +15,7 @@ from nonsmooth import studies
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.studies.attractors.linkage import hausdorff, linked
 from nonsmooth.studies.status import DONE, FAILED
-from nonsmooth.studies.store import Store
+from nonsmooth.studies.study_folder import StudyFolder
 from scenarios.bouncing_ball import orbits
 from scenarios.bouncing_ball.scenario import GRAVITY, BouncingBall
 from scenarios.dumbbell import DumbbellScenario
@@ -104,7 +104,7 @@ def test_runs_whose_drive_has_another_period_fail_by_name(tmp_path: Path) -> Non
     study = studies.Study(BouncingBall(gamma=0.8, t_end=3.0), over, [_STROBE])
     found = study.run(tmp_path / "s.zarr", executor="serial")
     np.testing.assert_array_equal(found.status, np.array([[FAILED] * 2, [DONE] * 2, [DONE] * 2]))
-    for text in Store(tmp_path / "s.zarr").texts().values():
+    for text in StudyFolder(tmp_path / "s.zarr").texts().values():
         assert "Stroboscope: period must be one of the system" in text
         assert "a study of its own for each of its values" in text
 

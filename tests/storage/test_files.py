@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from nonsmooth.errors import InvalidInput
-from nonsmooth.solution import files
+from nonsmooth.storage import files
 
 
 def test_what_fails_leaves_the_old_file_and_no_other(tmp_path: Path) -> None:

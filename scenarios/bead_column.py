@@ -5,23 +5,25 @@ from __future__ import annotations
 import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, final
+from typing import TYPE_CHECKING, Any, ClassVar, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bodies import Ball, Plate, Rest
 from laws import EnergeticImpact, Frictionless, Unilateral
+from nonsmooth import charts
 from nonsmooth.engine.memory.modes import Cause
-from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Run, Scenario
-from nonsmooth.parameters import parameter, rules
+from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 Floats = NDArray[np.float64]
 
-_SAMPLES = 1000
 _GRAVITY = 9.81
 
 
@@ -37,12 +39,11 @@ class BeadColumn(Scenario):
 
     title: ClassVar[str] = "Column of beads on a wall"
     coordinate_units: ClassVar[Mapping[str, str]] = {"z": "m"}
-    units: ClassVar[Mapping[str, str]] = {"restitution_loss": "J"}
 
-    n_beads: float = parameter(10.0, doc="number of beads", minimum=1.0, maximum=100.0)
+    n_beads: int = parameter(10, doc="number of beads", minimum=1, maximum=100, integer=True)
     radius: float = parameter(5e-3, doc="radius of the beads", unit="m", above=0.0, usual=(1e-4, 1.0))
     density: float = parameter(7780.0, doc="density of the beads", unit="kg/m^3", above=0.0, usual=(10.0, 3e4))
-    height: float = parameter(0.05, doc="way of the fall", unit="m", above=0.0, usual=(1e-6, 10.0))
+    height: float = parameter(0.05, doc="height of the fall", unit="m", above=0.0, usual=(1e-6, 10.0))
     restitution: float = parameter(
         1.0, doc="energetic coefficient of restitution e", minimum=0.0, maximum=1.0, law="impact"
     )
@@ -58,21 +59,6 @@ class BeadColumn(Scenario):
     )
     t_end: float = parameter(0.3, doc="end time", unit="s", above=0.0, usual=(1e-6, 1e3))
 
-    def _check(self) -> None:
-        if self.n_beads != int(self.n_beads):
-            raise InvalidInput(
-                "BeadColumn.n_beads", "must be a whole number", self.n_beads, "Beads do not come in parts."
-            )
-
-    def resolved(self) -> Mapping[str, Any]:
-        """Return all parameters as given."""
-        return {name: getattr(self, name) for name in rules(type(self))}
-
-    @property
-    def sample_interval(self) -> float:
-        """A thousandth of the run [s]."""
-        return self.t_end / _SAMPLES
-
     @property
     def fall_speed(self) -> float:
         """Speed at the first impact [m/s]."""
@@ -81,7 +67,7 @@ class BeadColumn(Scenario):
     def build(self) -> System:
         """Return wall, beads and contacts at their start."""
         wall = Plate(Rest())
-        beads = [Ball(self.radius, self.density) for _ in range(int(self.n_beads))]
+        beads = [Ball(self.radius, self.density) for _ in range(self.n_beads)]
         system = System([wall, *beads], gravity=_GRAVITY)
         for one, two in itertools.pairwise((wall, *beads)):
             impact = EnergeticImpact(self.restitution, self.wall_stiffness if one is wall else 1.0, self.exponent)
@@ -92,14 +78,12 @@ class BeadColumn(Scenario):
 
     def heights(self, solution: Solution) -> Floats:
         """Return the beads' centres above the wall [m], shape [n_samples, n_beads]."""
-        return solution.q.reshape(len(solution.t), -1, 7)[:, :, 2]
+        return solution.q[:, 2::7]
 
     def rebound(self, solution: Solution) -> Floats:
         """Return the beads' velocities after the first impact [m/s], shape [n_beads]; zeros if there was none."""
-        events = solution.events
-        first = np.flatnonzero(events.cause == Cause.IMPACT)[:1]
-        velocities: Floats = events.u_after[first].reshape(-1, 6)[:, 2]
-        return velocities if len(first) > 0 else np.zeros(int(self.n_beads))
+        after = solution.events.u_after[solution.events.cause == Cause.IMPACT]
+        return np.asarray(after[0, 2::6]) if len(after) else np.zeros(self.n_beads)
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
         """Return z_1 ... z_n [m] over the samples."""
@@ -107,16 +91,14 @@ class BeadColumn(Scenario):
 
     def final(self, solution: Solution) -> Mapping[str, list[float]]:
         """Return {q, u}: heights [m] and velocities [m/s] at the end."""
-        u = solution.u_end.reshape(-1, 6)[:, 2]
-        return {"q": solution.q_end.reshape(-1, 7)[:, 2].tolist(), "u": u.tolist()}
+        return {"q": solution.q_end[2::7].tolist(), "u": solution.u_end[2::6].tolist()}
 
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return the velocities after the first impact over the speed of the fall, the impacts, the energy kept."""
-        account = solution.energy
+        """Return the velocities after the first impact over the speed of the fall, the impacts, the loss [J]."""
         return {
             "relative_rebound": (self.rebound(solution) / self.fall_speed).tolist(),
             "impacts": solution.counters.impacts,
-            "restitution_loss": account.restitution_loss,
+            "restitution_loss": solution.energy.restitution_loss,
         }
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
@@ -127,31 +109,32 @@ class BeadColumn(Scenario):
         found = [Criterion.near("time of the first impact [s]", first, fall, 1e-9, "free fall, sqrt(2 h / g)")]
         after = self.rebound(solution) / self.fall_speed
         if self.restitution == 1.0:
-            kept = float(np.mean(after**2))
-            name = "energy after the first impact over that before"
+            kept, name = float(np.mean(after**2)), "energy after the first impact over that before"
             found.append(Criterion.near(name, kept, 1.0, 1e-6, "nothing is lost where e = 1"))
-        if self.n_beads == 1.0:
-            source = "one contact gives back e of the speed"
-            found.append(
-                Criterion.near(
-                    "speed after the first impact over that before", after[0], self.restitution, 1e-6, source
-                )
-            )
+        if self.n_beads == 1:
+            name, source = "speed after the first impact over that before", "one contact gives back e of the speed"
+            found.append(Criterion.near(name, after[0], self.restitution, 1e-6, source))
         return tuple(found)
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return the heights of all beads over time."""
-        from scenarios.bead_column.figures import heights
-
-        return {"heights": heights(self, solution)}
+        return {"heights": _heights(self, solution)}
 
     @classmethod
     def gallery(cls, run: Run) -> Mapping[str, Any]:
         """Return the heights over time of an elastic and of a dissipative column."""
-        from scenarios.bead_column.figures import heights
+        columns = {"elastic": cls(restitution=1.0), "dissipative": cls(restitution=0.9)}
+        return {f"heights_{word}": _heights(column, run(column)) for word, column in columns.items()}
 
-        drawn = {}
-        for restitution, word in ((1.0, "elastic"), (0.9, "dissipative")):
-            scenario = cls(restitution=restitution)
-            drawn[f"heights_{word}"] = heights(scenario, run(scenario))
-        return drawn
+
+def _heights(scenario: BeadColumn, solution: Solution) -> Figure:
+    """Draw the height of every bead above its place in a column at rest, lower beads darker."""
+    title = f"The column falls as one and comes apart in its first impact (e = {scenario.restitution:g})"
+    figure, (ax,) = charts.panels(title=title, size=(7.2, 4.8))
+    n = scenario.n_beads
+    for i, z in enumerate(scenario.heights(solution).T):
+        lift, label = z - (2 * i + 1) * scenario.radius, {0: "lowest bead", n - 1: "highest bead"}.get(i)
+        ax.plot(1e3 * solution.t, 1e3 * lift, color=str(0.75 * np.sqrt(i / n)), linewidth=1.2, label=label)
+    ax.set(xlabel="time [ms]", ylabel="height above the place in a column at rest [mm]")
+    charts.legend(figure)
+    return figure

@@ -1,4 +1,4 @@
-"""The spinning egg: it stands up, though its mass centre has to rise, because it slips."""
+"""The spinning egg: it stands up because it slips, although its mass centre has to rise."""
 
 from __future__ import annotations
 
@@ -6,25 +6,29 @@ import dataclasses
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, final
+from typing import TYPE_CHECKING, Any, ClassVar, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bodies import EllipsoidBody, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
+from nonsmooth import charts
 from nonsmooth.interfaces import Criterion, Run, Scenario
-from nonsmooth.parameters import parameter, rules
+from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Floats = NDArray[np.float64]
 
 GRAVITY = 9.81
-_SAMPLES = 8000
 _RISEN = 4.0
-"""After which the egg of the default parameters stands [s]."""
+"""Time after which the egg of the default parameters is upright [s]."""
 _UPRIGHT = math.radians(10.0)
+"""Largest tilt of an upright egg [rad]."""
 
 
 @final
@@ -40,14 +44,12 @@ class EggOnTable(Scenario):
     """
 
     title: ClassVar[str] = "Egg on a table"
+    samples: ClassVar[int] = 8000
     coordinate_units: ClassVar[Mapping[str, str]] = {
-        "x": "m",
-        "y": "m",
-        "z": "m",
+        **dict.fromkeys(("x", "y", "z", "gap"), "m"),
         "tilt": "rad",
         "spin": "rad/s",
         "slip": "m/s",
-        "gap": "m",
         "jellett": "kg m^3/s",
     }
     units: ClassVar[Mapping[str, str]] = {"upright": "s", "tilt": "rad", "spin": "rad/s", "energy_lost": "J"}
@@ -64,15 +66,6 @@ class EggOnTable(Scenario):
         math.radians(85.0), doc="angle of the axis from the vertical at the start", unit="rad", minimum=0.0, maximum=3.2
     )
     t_end: float = parameter(4.0, doc="end time", unit="s", above=0.0, usual=(1e-3, 1e4))
-
-    def resolved(self) -> Mapping[str, Any]:
-        """Return all parameters as given."""
-        return {name: getattr(self, name) for name in rules(type(self))}
-
-    @property
-    def sample_interval(self) -> float:
-        """An eight-thousandth of the run [s]."""
-        return self.t_end / _SAMPLES
 
     def body(self) -> EllipsoidBody:
         """Return the egg, its long axis the third."""
@@ -94,36 +87,32 @@ class EggOnTable(Scenario):
         return system
 
     def normals(self, q: Floats) -> Floats:
-        """Return the upward normal in body axes, in states of the run, shape [n, 7] -> [n, 3]."""
+        """Return the upward normal in body axes, shape [n, 3], of coordinates of shape [n, 7]."""
         a, b, c, d = q[:, 3:].T
-        n: Floats = np.column_stack([2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d])
-        n /= np.sum(q[:, 3:] ** 2, axis=1)[:, None]
-        return n
+        n = np.column_stack([2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d])
+        return np.asarray(n / np.sum(q[:, 3:] ** 2, axis=1)[:, None])
 
     def tilts(self, q: Floats) -> Floats:
-        """Return the angle of the axis from the vertical, at most a right one, either end up [rad], shape [n]."""
+        """Return the angle between axis and vertical, from 0 to pi/2 whichever end is up [rad], shape [n]."""
         n = self.normals(q)
-        tilts: Floats = np.arctan2(np.hypot(n[:, 0], n[:, 1]), np.abs(n[:, 2]))
-        return tilts
+        return np.asarray(np.arctan2(np.hypot(n[:, 0], n[:, 1]), np.abs(n[:, 2])))
 
     def levers(self, q: Floats) -> Floats:
         """Return the vector from the lowest point to the mass centre in body axes [m], shape [n, 3]."""
         stretched = self.normals(q) * np.array([self.semi_across, self.semi_across, self.semi_long]) ** 2
-        levers: Floats = stretched / np.sqrt(np.sum(stretched * self.normals(q), axis=1))[:, None]
-        return levers
+        return np.asarray(stretched / np.sqrt(np.sum(stretched * self.normals(q), axis=1))[:, None])
 
     def jellett(self, q: Floats, u: Floats) -> Floats:
         """Return L_z h, angular momentum about the vertical times height of the mass centre [kg m^3/s], shape [n].
 
-        In the balance of a fast spin it is the A Omega h of Moffatt and Shimomura, which stays while the egg rises.
+        In the balance of a fast spin it is the A Omega h of Moffatt and Shimomura, constant while the egg rises.
         """
         n = self.normals(q)
         heights = np.sum(self.levers(q) * n, axis=1)
-        constant: Floats = np.sum(u[:, 3:] * np.array(self.body().inertia) * n, axis=1) * heights
-        return constant
+        return np.asarray(np.sum(u[:, 3:] * np.array(self.body().inertia) * n, axis=1) * heights)
 
     def upright_spin(self) -> float:
-        """Return the spin with which it stands, by A Omega h: A b / (C a) times that at the start [rad/s]."""
+        """Return the spin of the upright egg by constant A Omega h [rad/s]: A b / (C a) times the spin at the start."""
         across, _, along = self.body().inertia
         height = math.hypot(self.semi_across * math.sin(self.tilt), self.semi_long * math.cos(self.tilt))
         start = across * math.sin(self.tilt) ** 2 + along * math.cos(self.tilt) ** 2
@@ -131,8 +120,7 @@ class EggOnTable(Scenario):
 
     def gaps(self, q: Floats) -> Floats:
         """Return the gap between egg and table [m], shape [n]."""
-        gaps: Floats = q[:, 2] - np.sum(self.levers(q) * self.normals(q), axis=1)
-        return gaps
+        return np.asarray(q[:, 2] - np.sum(self.levers(q) * self.normals(q), axis=1))
 
     def slips(self, q: Floats, u: Floats) -> Floats:
         """Return the slip speed of the lowest point [m/s], shape [n]."""
@@ -140,8 +128,7 @@ class EggOnTable(Scenario):
         own = np.cross(u[:, 3:], -self.levers(q))
         scale = np.sum(q[:, 3:] ** 2, axis=1)[:, None]
         velocity = u[:, :3] + own + 2.0 * np.cross(vector, np.cross(vector, own) + a * own) / scale
-        slips: Floats = np.hypot(velocity[:, 0], velocity[:, 1])
-        return slips
+        return np.asarray(np.hypot(velocity[:, 0], velocity[:, 1]))
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
         """Return x, y, z [m], tilt [rad], vertical spin [rad/s], slip [m/s], gap [m], L_z h over the samples."""
@@ -155,14 +142,10 @@ class EggOnTable(Scenario):
             "jellett": self.jellett(q, u),
         }
 
-    def final(self, solution: Solution) -> Mapping[str, list[float]]:
-        """Return {q, u} at the end: position and quaternion, velocity and angular velocity in body axes."""
-        return {"q": solution.q_end.tolist(), "u": solution.u_end.tolist()}
-
     def summarise(self, solution: Solution) -> Mapping[str, Any]:
-        """Return when it stands [s], tilt [rad] and spin [rad/s] at the end, how often it left the table, losses [J].
+        """Return when it is upright [s], tilt [rad] and spin [rad/s] at the end, flights, and losses [J].
 
-        It stands once its axis is within 10 degrees of the vertical for the rest of the run.
+        It is upright once its axis is within 10 degrees of the vertical for the rest of the run.
         """
         tilt = self.tilts(solution.q)
         leaning = np.flatnonzero(tilt > _UPRIGHT)
@@ -177,7 +160,7 @@ class EggOnTable(Scenario):
         }
 
     def balance(self, solution: Solution) -> float:
-        """Return how far L . r changes otherwise than by L . r', r the lever, in units of its start.
+        """Return the largest difference of L . r and the integral of L . r' over L . r at the start, r the lever.
 
         A force in the contact point has no moment along r; the integral is that of a spline through the samples.
         """
@@ -192,7 +175,7 @@ class EggOnTable(Scenario):
         return float(np.max(np.abs(product - product[0] - gained)) / abs(product[0]))
 
     def acceptance(self, solution: Solution) -> tuple[Criterion, ...]:
-        """Return the balance of angular momentum and, of the default egg, that it stands, and with which spin."""
+        """Return the balance of angular momentum and, of the default egg, tilt and spin at the end."""
         source = "no moment along the line from the contact point to the mass centre"
         found = [Criterion("change of L . r that is none of r", self.balance(solution), 0.0, 1e-4, source)]
         if self.t_end >= _RISEN and dataclasses.replace(self, t_end=_RISEN) == EggOnTable(t_end=_RISEN):
@@ -206,13 +189,56 @@ class EggOnTable(Scenario):
 
     def figures(self, solution: Solution) -> Mapping[str, Any]:
         """Return tilt, spin, slip and Jellett's constant over time."""
-        from scenarios.egg_on_table.figures import history
-
-        return {"history": history(self, solution)}
+        return {"history": _history(self, solution)}
 
     @classmethod
     def gallery(cls, run: Run) -> Mapping[str, Any]:
-        """Return the history of the default egg, the rise for other spin and friction, and a fast egg's jumps."""
-        from scenarios.egg_on_table.figures import gallery
+        """Return the history of the default egg, the rise for other friction and spins, and a fast egg's jumps."""
+        frictions = {f"μ = {mu:g}": cls(friction=mu) for mu in (0.0, 0.05, 0.1, 0.2)}
+        spins = {f"{spin:g} rad/s": cls(spin=spin) for spin in (40.0, 80.0, 140.0, 250.0)}
+        fast, egg = cls(spin=250.0, t_end=2.0), cls()
+        return {
+            "history": _history(egg, run(egg)),
+            "friction": _tilts(frictions, run, "Without friction it keeps its tilt; with more of it it rises faster"),
+            "spin": _tilts(spins, run, "A slow egg stays down, a fast one rises"),
+            "jumps": _jumps(fast, run(fast)),
+        }
 
-        return gallery(cls, run)
+
+def _history(scenario: EggOnTable, solution: Solution) -> Figure:
+    """Draw tilt, spin, slip and Jellett's constant over time."""
+    numbers = scenario.coordinates(solution)
+    values = {
+        "tilt of the axis [deg]": np.degrees(numbers["tilt"]),
+        "spin about\nthe vertical [rad/s]": numbers["spin"],
+        "slip [m/s]": numbers["slip"],
+        "$L_z h$ over its start": numbers["jellett"] / numbers["jellett"][0],
+    }
+    upright = scenario.summarise(solution)["upright"]
+    title = "The egg does not stand up" if upright is None else f"The egg stands up within {upright:.1f} s"
+    figure = charts.histories({label: {"": (solution.t, value)} for label, value in values.items()}, title)
+    tilt, spin, _, constant = figure.axes
+    tilt.set(ylim=(0.0, 90.0), yticks=range(0, 91, 30))
+    spin.axhline(scenario.upright_spin(), label="upright, by constant $A\\Omega h$", **charts.line(1))
+    low, high = constant.get_ylim()
+    constant.set_ylim(min(0.95, low), max(1.05, high))
+    charts.legend(figure)
+    return figure
+
+
+def _tilts(eggs: Mapping[str, EggOnTable], run: Run, title: str) -> Figure:
+    """Draw the tilts of several eggs over time."""
+    runs = {label: run(egg) for label, egg in eggs.items()}
+    tilts = {label: (solution.t, np.degrees(eggs[label].tilts(solution.q))) for label, solution in runs.items()}
+    figure = charts.histories({"tilt of the axis [deg]": tilts}, title)
+    figure.axes[0].set(ylim=(0.0, 92.0), yticks=range(0, 91, 30))
+    return figure
+
+
+def _jumps(scenario: EggOnTable, solution: Solution) -> Figure:
+    """Draw gap and tilt over time."""
+    gaps, tilts = 1e3 * scenario.gaps(solution.q), np.degrees(scenario.tilts(solution.q))
+    flights = scenario.summarise(solution)["flights"]
+    title = f"Spun at {scenario.spin:g} rad/s the egg leaves the table {flights} times while it rises"
+    panels = {"gap [mm]": {"": (solution.t, gaps)}, "tilt of the axis [deg]": {"": (solution.t, tilts)}}
+    return charts.histories(panels, title)

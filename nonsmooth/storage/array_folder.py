@@ -1,0 +1,347 @@
+"""ArrayFolder: arrays in a folder in the Zarr 3 format, written so that a commit is there as a whole or not at all.
+
+What is committed survives the death of the process and, if the commit was a safe one, a power cut:
+
+1. New chunks and other files are written, and waited for until they are on the disk.  A chunk that replaces an earlier
+   one, as the last chunk of an array that has grown, is written beside it and then takes its name.
+2. The folders in which a file got its name are waited for.
+3. One more file is written in the same way, which makes all of that count: the metadata of the group, with the lengths
+   of all arrays, or the chunk of a study's status.
+
+So a process that dies leaves files that do not count: a whole chunk beyond the length of its array, or a part of one
+under its final name.  They are ignored by readers and written anew.  Nothing that an earlier commit needs changes: a
+new last chunk begins with the rows of the earlier one.  A commit that is not safe does not wait for the disk.
+
+Each chunk has a checksum (CRC32C), and so have the metadata (CRC-32, the attribute "checksum"), so that a bit that
+changes on the disk is noticed before anything is done with it.
+"""
+
+from __future__ import annotations
+
+import errno
+import json
+import re
+import shutil
+import zlib
+from collections.abc import Iterable, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.storage.chunks import TEXT, ArrayLayout
+from nonsmooth.storage.files import FileError, content_of, part_of, sync, writing
+from nonsmooth.storage.lock import WRITER
+
+FORMAT_VERSION = 1
+"""Version of the format of a folder.  nonsmooth 0.1 wrote none."""
+_GROUP = "zarr.json"
+_ENTRIES = 2**14
+"""Numbers of a chunk of an array that grows: its last chunk is written anew with every commit."""
+_AT_ONCE = 16
+"""Files for which the disk is waited for at once."""
+_NAME = re.compile(r"[^\s./\\][^/\\]*")
+_DAMAGED = "It is damaged: take it from a copy, or run again."
+
+
+@final
+class ArrayFolder:
+    """Arrays in a folder.
+
+    Parameters
+    ----------
+    path : Path
+        The folder.
+    attributes : dict
+        Attributes of the group, as JSON has them.  Changes become those of the folder with the next commit.
+    """
+
+    def __init__(self, path: Path, attributes: dict[str, Any]) -> None:
+        self.path, self.attributes = path, attributes
+        self._arrays: dict[str, ArrayLayout] = {}
+        self._waiting: dict[Path, bytes] = {}
+
+    @classmethod
+    def opened(cls, path: Path, rule: str, remedy: str) -> ArrayFolder:
+        """Open a folder as its last commit left it; ``rule`` and ``remedy`` are those of a folder of something else.
+
+        Raises
+        ------
+        InvalidInput
+            If there is none, another version wrote it, or it is damaged.
+        """
+        try:
+            content = json.loads(content_of(path / _GROUP))
+        except (FileNotFoundError, NotADirectoryError) as error:
+            _check_version(path, 0 if (path / ".zmetadata").exists() else FORMAT_VERSION)
+            raise InvalidInput(str(path), rule, "not there", remedy) from error
+        except (OSError, ValueError, RecursionError) as error:
+            raise InvalidInput(str(path / _GROUP), rule, f"{type(error).__name__}: {error}", remedy) from error
+        try:
+            attributes = dict(content["attributes"])
+            checksum, version = attributes.pop("checksum", None), attributes.pop("format_version", None)
+            if checksum != _checksum(content):
+                # versions before and after this one may have none, or another one
+                _check_version(path, version if isinstance(version, int) else 0)
+                raise ValueError("the checksum is not that of what was written")
+            _check_version(path, version)
+            found = cls(path, attributes)
+            for name, entry in content["consolidated_metadata"]["metadata"].items():
+                found._arrays[_checked(name)] = ArrayLayout.of(entry)
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
+            raise InvalidInput(
+                str(path / _GROUP), "must be as it was written", f"{type(error).__name__}: {error}", _DAMAGED
+            ) from error
+        return found
+
+    @property
+    def names(self) -> set[str]:
+        """Names of all arrays."""
+        return set(self._arrays)
+
+    def layout(self, name: str) -> ArrayLayout:
+        """Layout of an array.
+
+        Raises
+        ------
+        InvalidInput
+            If there is no array of that name.
+        """
+        if name not in self._arrays:
+            raise InvalidInput(f"{self.path}: {name}", "must be there", None, _DAMAGED)
+        return self._arrays[name]
+
+    def declare(self, name: str, layout: ArrayLayout) -> None:
+        """Add an array whose chunks are written later, or replace the array of that name.
+
+        Raises
+        ------
+        InvalidInput
+            If its name cannot be that of a folder.
+        """
+        self._arrays[_checked(name)] = layout
+
+    def add(
+        self, name: str, dimensions: tuple[str, ...], values: NDArray[Any], attributes: Mapping[str, Any], grows: bool
+    ) -> None:
+        """Add an array with values, or replace the array of that name.
+
+        An array that grows has chunks of a fixed number of rows; another one has a single chunk.
+
+        Raises
+        ------
+        InvalidInput
+            If its name cannot be that of a folder.
+        """
+        values = np.asarray(values)
+        is_text = values.dtype.kind == "U"
+        width = int(np.prod(values.shape[1:]))
+        chunk = max(1, _ENTRIES // max(1, width)) if grows else max(1, len(values) if values.shape else 1)
+        dtype, fill = (TEXT, "") if is_text else (values.dtype.name, False if values.dtype.kind == "b" else 0)
+        shape = (0, *values.shape[1:]) if values.shape else ()
+        self.declare(name, ArrayLayout(dimensions, dtype, shape, chunk, fill, attributes))
+        self.write(name, 0, values)
+
+    def write(self, name: str, start: int, rows: NDArray[Any]) -> None:
+        """Put rows into an array from row ``start`` on; they count with the next commit.
+
+        They are whole chunks or the last rows of the array.
+        """
+        layout = self.layout(name)
+        if not layout.shape:
+            self._waiting[self._place(name, 0)] = layout.encoded(np.array([rows.item()], layout.numbers))
+            return
+        end = start + len(rows)
+        for number in range(start // layout.chunk, -(-end // layout.chunk) if rows.size else 0):
+            first = number * layout.chunk
+            low, high = max(start, first), min(end, first + layout.chunk)
+            content = rows[low - start : high - start]
+            if len(content) < layout.chunk:
+                # an earlier commit wrote the rows of the chunk before these
+                content = self.chunk(name, number) if low > first else layout.blank()
+                content[low - first : high - first] = rows[low - start : high - start]
+            self._waiting[self._place(name, number)] = layout.encoded(content.astype(layout.numbers, copy=False))
+        self._arrays[name] = replace(layout, shape=(max(end, *layout.shape[:1]), *rows.shape[1:]))
+
+    def read(self, name: str, start: int = 0, stop: int | None = None) -> NDArray[Any]:
+        """Rows of an array that is written, all by default.
+
+        Raises
+        ------
+        InvalidInput
+            If there is no such array, or a chunk is not there or damaged.
+        """
+        layout = self.layout(name)
+        if not layout.shape:
+            return self.chunk(name, 0)
+        stop = layout.shape[0] if stop is None else stop
+        if start == stop or 0 in layout.shape[1:]:
+            return np.zeros((stop - start, *layout.shape[1:]), layout.numbers)
+        first = start // layout.chunk
+        rows = np.concatenate([self.chunk(name, number) for number in range(first, -(-stop // layout.chunk))])
+        return rows[start - first * layout.chunk : stop - first * layout.chunk]
+
+    def chunk(self, name: str, number: int) -> NDArray[Any]:
+        """A whole chunk of an array.
+
+        Raises
+        ------
+        InvalidInput
+            If it is not there or damaged.
+        """
+        layout, path = self.layout(name), self._place(name, number)
+        try:
+            chunk = layout.decoded(self._waiting[path] if path in self._waiting else content_of(path))
+            return chunk if layout.shape else chunk.reshape(())
+        except (OSError, ValueError) as error:
+            raise InvalidInput(str(path), "must be a whole chunk", f"{error}", _DAMAGED) from error
+
+    def _place(self, name: str, number: int) -> Path:
+        return self.path / name / self._arrays[name].file(number)
+
+    def cut(self, dimension: str, length: int) -> None:
+        """Keep at most ``length`` rows of all arrays over a dimension."""
+        for name, one in self._arrays.items():
+            if one.dimensions[:1] == (dimension,):
+                self._arrays[name] = replace(one, shape=(min(length, one.shape[0]), *one.shape[1:]))
+
+    def remove(self, name: str) -> None:
+        """Remove an array; its files go at once.  A name of no array removes nothing."""
+        if self._arrays.pop(name, None) is not None:
+            shutil.rmtree(self.path / name, ignore_errors=True)
+
+    def file(self, name: str, content: bytes) -> None:
+        """Put a file of another kind into the folder, with the next commit."""
+        self._waiting[self.path / name] = content
+
+    def commit(self, *, safely: bool) -> None:
+        """Make all that was written since the last commit count; ``safely`` waits for the disk.
+
+        Raises
+        ------
+        FileError
+            If that is not possible; then the last commit counts.
+        """
+        self.flush(safely)
+        self.file(_GROUP, self._group())
+        self.flush(safely, counts=True)
+
+    def mark(self) -> None:
+        """Note at once that nonsmooth has made the folder, so that it may be emptied even before the first commit.
+
+        Raises
+        ------
+        FileError
+            If that is not possible.
+        """
+        self.file(f"{WRITER}/{_GROUP}", _MARK)
+        self.flush(safely=False)
+
+    def flush(self, safely: bool, *, counts: bool = False) -> None:
+        """Write the files that were put since the last time; errors as :meth:`commit`.
+
+        If a file makes others count, or replaces one that counts, it is written beside its place first.  Any other
+        gets its name at once, because to rename a file makes the system wait for the disk.
+        """
+        files, self._waiting = self._waiting, {}
+        parts = {path: part_of(path) if counts or path.exists() else path for path in files}
+        try:
+            for path, content in files.items():
+                with writing(path):
+                    path.parent.mkdir(parents=True, exist_ok=True)
+                    parts[path].write_bytes(content)
+            if safely:
+                self._sync(parts.values())
+            for path, part in parts.items():
+                if part != path:
+                    with writing(path):
+                        part.replace(path)
+            if safely:
+                self._sync({path.parent for path in parts})
+        except FileError:
+            for part in parts.values():
+                part.unlink(missing_ok=True)
+            raise
+
+    def _sync(self, paths: Iterable[Path]) -> None:
+        """Wait until files or folders are on the disk, for several at once, which takes about as long as one."""
+        try:
+            with ThreadPoolExecutor(_AT_ONCE) as pool:
+                list(pool.map(sync, paths))
+        except RuntimeError as error:  # no thread can be started, as if memory has run out
+            raise FileError(self.path, OSError(errno.EAGAIN, f"{error}")) from error
+
+    def _group(self) -> bytes:
+        """Metadata of the group and of all arrays."""
+        entries = {name: one.metadata() for name, one in self._arrays.items()}
+        attributes = {**self.attributes, "format_version": FORMAT_VERSION}
+        content = {
+            "zarr_format": 3,
+            "node_type": "group",
+            "attributes": attributes,
+            "consolidated_metadata": {"kind": "inline", "must_understand": False, "metadata": entries},
+        }
+        return _json({**content, "attributes": {**attributes, "checksum": _checksum(content)}})
+
+    def spell_out(self, names: Iterable[str]) -> None:
+        """Write the metadata of some arrays by themselves as well, for readers that look there.
+
+        Raises
+        ------
+        FileError
+            If that is not possible.
+        """
+        for name in names:
+            self.file(f"{name}/{_GROUP}", _json(self._arrays[name].metadata()))
+        self.flush(safely=False)
+
+
+def _json(content: Mapping[str, Any]) -> bytes:
+    return json.dumps(content, allow_nan=False).encode()
+
+
+_MARK = _json({"zarr_format": 3, "node_type": "group", "attributes": {"title": "lock and states of nonsmooth"}})
+"""Metadata of the folder of the writer, by which a folder is known as one that nonsmooth has made."""
+
+
+def is_marked(path: Path) -> bool:
+    """True if nonsmooth has made a folder of arrays."""
+    try:
+        return content_of(path / WRITER / _GROUP) == _MARK
+    except OSError:
+        return False
+
+
+def _checked(name: str) -> str:
+    """Name of an array, which is that of its folder.
+
+    Raises
+    ------
+    InvalidInput
+        If it cannot be that of a folder, or is that of the writer's own folder.
+    """
+    if not _NAME.fullmatch(name) or name == WRITER:
+        rule = "must have a name that a folder can have, of letters, digits and underscores"
+        raise InvalidInput("variable", rule, name, "Rename it.")
+    return name
+
+
+def _check_version(path: Path, version: int) -> None:
+    """Raise InvalidInput if another version of nonsmooth wrote the folder; 0 is that of nonsmooth 0.1."""
+    if version == FORMAT_VERSION:
+        return
+    if version > FORMAT_VERSION:
+        written, remedy = f"version {version}, of a newer nonsmooth", "Install that one to open it."
+    else:
+        written, remedy = "none, as nonsmooth 0.1 wrote it", "Open it with that version, or run again."
+    raise InvalidInput(str(path), f"must have format version {FORMAT_VERSION}", written, remedy)
+
+
+def _checksum(content: Mapping[str, Any]) -> int:
+    """CRC-32 of the metadata of a group, in a canonical form without the checksum itself."""
+    attributes = {name: value for name, value in content["attributes"].items() if name != "checksum"}
+    return zlib.crc32(json.dumps({**content, "attributes": attributes}, sort_keys=True).encode())

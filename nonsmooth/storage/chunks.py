@@ -1,0 +1,154 @@
+"""Arrays as Zarr 3 describes them, and their chunks: Blosc with LZ4, or text, then a CRC32C checksum.
+
+zarr reads what is written here.  It does not write it, because it takes half a millisecond of asyncio for each chunk
+and each array, ten times as long as the codecs, and twice a second there are forty of them.  The codecs are those that
+zarr itself calls.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+_LEVEL, _SHUFFLE = 5, 1
+"""Level of compression and shuffling of bytes, the defaults of Blosc."""
+_CHECKSUM = 4
+"""Size of a CRC32C [bytes]."""
+_SIZE, _LENGTH = slice(4, 8), slice(12, 16)
+"""Where the header of Blosc has the sizes of a chunk unpacked and packed [bytes]."""
+TEXT = "string"
+"""Type of an array of texts of any length."""
+
+
+@final
+@dataclass(frozen=True)
+class ArrayLayout:
+    """Layout of an array in a folder.
+
+    Attributes
+    ----------
+    dimensions : tuple of str
+        Names of the axes.
+    dtype : str
+        Type of the numbers, as numpy names it, or "string".
+    shape : tuple of int
+        Lengths of the axes.
+    chunk : int
+        Rows of a chunk, which are indices of the first axis.
+    fill : float or str
+        Value of the chunks that are not there.
+    attributes : mapping
+        Unit and description.
+    """
+
+    dimensions: tuple[str, ...]
+    dtype: str
+    shape: tuple[int, ...]
+    chunk: int
+    fill: float | str
+    attributes: Mapping[str, Any]
+
+    @classmethod
+    def of(cls, metadata: Mapping[str, Any]) -> ArrayLayout:
+        """Layout that has these Zarr metadata.
+
+        Raises
+        ------
+        ValueError, KeyError, TypeError, AttributeError
+            If they are not of an array that is written here.
+        """
+        fill, chunks = metadata["fill_value"], metadata["chunk_grid"]["configuration"]["chunk_shape"]
+        found = cls(
+            tuple(metadata["dimension_names"]),
+            metadata["data_type"],
+            tuple(metadata["shape"]),
+            chunks[0] if chunks else 1,
+            math.nan if fill == "NaN" else fill,
+            metadata["attributes"],
+        )
+        is_known = found.dtype == TEXT or np.dtype(found.dtype).kind in "biuf"
+        if not is_known or min(*found.shape, found.chunk - 1, 0) < 0 or found.metadata() != metadata:
+            raise ValueError("an array has a form that is not written here")
+        return found
+
+    def metadata(self) -> dict[str, Any]:
+        """Zarr metadata of the array, as JSON has them."""
+        if self.dtype == TEXT:
+            codecs: list[dict[str, Any]] = [{"name": "vlen-utf8", "configuration": {}}]
+        else:
+            blosc = {"cname": "lz4", "clevel": _LEVEL, "shuffle": "shuffle", "blocksize": 0}
+            codecs = [
+                {"name": "bytes", "configuration": {"endian": "little"}},
+                {"name": "blosc", "configuration": {**blosc, "typesize": np.dtype(self.dtype).itemsize}},
+            ]
+        chunks = [self.chunk, *(max(1, n) for n in self.shape[1:])] if self.shape else []
+        return {
+            "zarr_format": 3,
+            "node_type": "array",
+            "shape": list(self.shape),
+            "data_type": self.dtype,
+            "chunk_grid": {"name": "regular", "configuration": {"chunk_shape": chunks}},
+            "chunk_key_encoding": {"name": "default", "configuration": {"separator": "."}},
+            # JSON has no number for NaN
+            "fill_value": "NaN" if self.fill != self.fill else self.fill,
+            "codecs": [*codecs, {"name": "crc32c"}],
+            "attributes": dict(self.attributes),
+            "dimension_names": list(self.dimensions),
+            "storage_transformers": [],
+        }
+
+    def file(self, number: int) -> str:
+        """Name of the file of a chunk."""
+        return ".".join(["c", *(str(number) for _ in self.shape[:1]), *("0" for _ in self.shape[1:])])
+
+    @property
+    def numbers(self) -> np.dtype[Any]:
+        """Type of the array in memory."""
+        return np.dtype(object if self.dtype == TEXT else self.dtype)
+
+    def blank(self) -> NDArray[Any]:
+        """A chunk of fill values."""
+        return np.full((self.chunk, *self.shape[1:]), self.fill, self.numbers)
+
+    def encoded(self, chunk: NDArray[Any]) -> bytes:
+        """Bytes of a whole chunk."""
+        # imported on use: most runs write no folder
+        import google_crc32c
+        from numcodecs.blosc import Blosc
+        from numcodecs.vlen import VLenUTF8
+
+        codec = VLenUTF8() if self.dtype == TEXT else Blosc("lz4", _LEVEL, _SHUFFLE)
+        content = bytes(codec.encode(np.ascontiguousarray(chunk)))
+        checksum: int = google_crc32c.value(content)
+        return content + checksum.to_bytes(_CHECKSUM, "little")
+
+    def decoded(self, content: bytes) -> NDArray[Any]:
+        """Chunk of which these are the bytes.
+
+        Raises
+        ------
+        ValueError
+            If they are damaged, or of another chunk.
+        """
+        import google_crc32c
+        from numcodecs.blosc import Blosc
+        from numcodecs.vlen import VLenUTF8
+
+        packed, shape = content[:-_CHECKSUM], (self.chunk, *self.shape[1:])
+        if google_crc32c.value(packed) != int.from_bytes(content[-_CHECKSUM:], "little"):
+            raise ValueError("the checksum is not that of what was written")
+        if self.dtype == TEXT:
+            return np.asarray(VLenUTF8().decode(packed)).reshape(shape)
+        # checked before it is unpacked: a few bytes may become all of the memory, and Blosc reads as many as they say
+        found = tuple(int.from_bytes(packed[part], "little") for part in (_SIZE, _LENGTH))
+        if found != (size := math.prod(shape) * self.numbers.itemsize, len(packed)):
+            raise ValueError(f"it has {found[0]} bytes packed to {found[1]}, and not {size} packed to {len(packed)}")
+        try:
+            return np.frombuffer(Blosc().decode(packed), self.numbers).reshape(shape).copy()
+        except RuntimeError as error:
+            raise ValueError(str(error)) from error

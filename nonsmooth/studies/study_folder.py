@@ -1,0 +1,222 @@
+"""StudyFolder: a study on disk. An array for each record over the runs; the status commits a chunk of runs.
+
+One process writes.  Of a chunk of runs the records and the messages of runs without records come first, the status
+last, as :mod:`nonsmooth.storage.array_folder` says: a chunk with a status is complete, any other is written anew.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import shutil
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.errors import InvalidInput
+from nonsmooth.solution.variable import Variable
+from nonsmooth.storage.array_folder import ArrayFolder
+from nonsmooth.storage.chunks import TEXT, ArrayLayout
+from nonsmooth.storage.files import writing
+from nonsmooth.storage.lock import LOCK, WRITER, check_no_links, locked
+from nonsmooth.studies.work import Block
+
+_STATUS, _FAILURE = "status", "failure"
+"""Arrays of the status, and of the messages of runs without records."""
+
+
+@final
+class StudyFolder:
+    """The folder of a study.
+
+    Parameters
+    ----------
+    path : Path
+        The folder.
+
+    Raises
+    ------
+    InvalidInput
+        If it holds no study, another version wrote it, or it is damaged.
+    """
+
+    def __init__(self, path: Path) -> None:
+        rule, remedy = "must hold a study", "Name what `sweep --out` or Study.run was given."
+        self.path, self._arrays = path, ArrayFolder.opened(path, rule, remedy)
+        if "spec" not in self.attributes:
+            raise InvalidInput(str(path), rule, "other arrays", remedy)
+        gone = [name for name in self.variables if not (path / name).is_dir()]
+        if gone:
+            remedy = "Put back what was removed, or begin anew in another folder."
+            raise InvalidInput(str(path), "must have all of its arrays", f"without {', '.join(gone)}", remedy)
+        self.n_runs, self.chunk = (int(n) for n in (self.layout(_STATUS).shape[0], self.layout(_STATUS).chunk))
+
+    @classmethod
+    def create(
+        cls,
+        path: Path,
+        variables: Mapping[str, ArrayLayout],
+        coordinates: list[Variable],
+        attributes: Mapping[str, Any],
+    ) -> None:
+        """Make the folder of a study that begins; it is one when its metadata are there, which come last.
+
+        A study that another process has made meanwhile stays as it is.
+
+        Raises
+        ------
+        InvalidInput
+            If the folder has other files.
+        FileError
+            If it cannot be written.
+        """
+        if path.exists() and (not path.is_dir() or (any(path.iterdir()) and not (path / LOCK).exists())):
+            raise InvalidInput(str(path), "must be a new or empty folder", "something else", "Choose another name.")
+        check_no_links(path)
+        with _locked(path):
+            if is_study(path):
+                return
+            _clear(path)
+            arrays = ArrayFolder(path, dict(attributes))
+            arrays.mark()
+            for name, layout in variables.items():
+                arrays.declare(name, layout)
+            status = variables[_STATUS]
+            messages = {"long_name": "why a run has no records"}
+            arrays.declare(_FAILURE, ArrayLayout(("run",), TEXT, status.shape, status.chunk, "", messages))
+            for one in coordinates:
+                arrays.add(one.name, one.dimensions, one.values, one.attributes, grows=False)
+            arrays.spell_out(arrays.names)
+            arrays.commit(safely=True)
+
+    @property
+    def attributes(self) -> Mapping[str, Any]:
+        """Attributes of the study."""
+        return self._arrays.attributes
+
+    @property
+    def parts(self) -> dict[str, Any]:
+        """Names of the parameters and of the records, and the sizes of the grid."""
+        return dict(json.loads(str(self.attributes["layout"])))
+
+    @property
+    def variables(self) -> list[str]:
+        """Names of the records, the status and the reason."""
+        return list(self.parts["variables"])
+
+    @property
+    def coordinates(self) -> set[str]:
+        """Names of the parameters, and of the axes of records."""
+        return self._arrays.names - {*self.variables, _FAILURE}
+
+    @property
+    def n_chunks(self) -> int:
+        """Number of chunks."""
+        return -(-self.n_runs // self.chunk)
+
+    def layout(self, name: str) -> ArrayLayout:
+        """Layout of an array."""
+        return self._arrays.layout(name)
+
+    @contextlib.contextmanager
+    def writing(self) -> Iterator[None]:
+        """Hold the lock.
+
+        Raises
+        ------
+        InvalidInput
+            If another process writes there, or it holds a link.
+        """
+        check_no_links(self.path)
+        with _locked(self.path):
+            yield
+
+    def note(self, attributes: Mapping[str, Any]) -> None:
+        """Add attributes.
+
+        Raises
+        ------
+        FileError
+            If they cannot be written.
+        """
+        self._arrays.attributes.update(attributes)
+        self._arrays.commit(safely=True)
+
+    def committed(self) -> list[int]:
+        """Numbers of the chunks that are done."""
+        names = (file.name.removeprefix("c.") for file in (self.path / _STATUS).glob("c.*"))
+        return sorted(int(name) for name in names if name.isdigit())
+
+    def write(self, block: Block) -> None:
+        """Commit a chunk.
+
+        Raises
+        ------
+        FileError
+            If it cannot be written; it is not committed then.
+        """
+        first, n = block.chunk.first, len(block.chunk.parameters)
+        for name, values in block.arrays.items():
+            if name != _STATUS:
+                self._arrays.write(name, first, values)
+        self._arrays.write(_FAILURE, first, np.array([block.texts.get(first + i, "") for i in range(n)], object))
+        self._arrays.flush(safely=True)
+        self._arrays.write(_STATUS, first, block.arrays[_STATUS])
+        self._arrays.flush(safely=True, counts=True)
+
+    def read(self, name: str) -> NDArray[Any]:
+        """An array; the runs that are not done have its fill value.
+
+        Raises
+        ------
+        InvalidInput
+            If a chunk is damaged.
+        """
+        layout = self.layout(name)
+        if name in self.coordinates:
+            values = self._arrays.read(name)
+            return values.astype(str) if layout.dtype == TEXT else values
+        chunks = [layout.blank()] * self.n_chunks
+        for number in self.committed():
+            chunks[number] = self._arrays.chunk(name, number)
+        return np.concatenate(chunks)[: self.n_runs]
+
+    def texts(self) -> dict[int, str]:
+        """Why runs have no records, by the number of the run."""
+        return {run: str(text) for run, text in enumerate(self.read(_FAILURE)) if text}
+
+    def damage(self) -> list[str]:
+        """Read all chunks that are committed; a message for each that is not whole."""
+        found = []
+        for number in self.committed():
+            for name in (*self.variables, _FAILURE):
+                try:
+                    self._arrays.chunk(name, number)
+                except InvalidInput as error:
+                    found.append(str(error))
+        return found
+
+
+def is_study(path: Path) -> bool:
+    """True if a folder holds a study that has begun, or other arrays; a study without its metadata has not begun."""
+    return (path / "zarr.json").exists()
+
+
+@contextlib.contextmanager
+def _locked(path: Path) -> Iterator[None]:
+    lock = locked(path)
+    try:
+        yield
+    finally:
+        lock.release()
+
+
+def _clear(path: Path) -> None:
+    """Remove what there is of a study that was cut off before it was one, but for the lock."""
+    with writing(path):
+        for entry in path.iterdir():
+            if entry.name != WRITER:
+                shutil.rmtree(entry) if entry.is_dir() else entry.unlink()

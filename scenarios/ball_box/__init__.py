@@ -1,1 +1,0 @@
-"""Balls that fall into an open box and come to rest."""

@@ -1,1 +1,0 @@
-"""A column of beads that falls on a wall."""

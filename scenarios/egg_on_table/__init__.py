@@ -1,1 +1,0 @@
-"""The spinning egg that stands up."""

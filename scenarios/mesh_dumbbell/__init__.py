@@ -1,1 +1,0 @@
-"""The dumbbell with balls out of triangles beside the one with balls."""
