@@ -81,12 +81,12 @@ from bodies.shapes.hull import ConvexHull
 from bodies.shapes.moved_shape import MovedShape
 from bodies.shapes.plane import Plane
 from bodies.shapes.point import Point
-from bodies.shapes.polyhedron import Polyhedron
+from bodies.shapes.polyhedron import Polyhedron, SweptPolytope
 from bodies.shapes.sphere import Sphere
 from bodies.shapes.superellipsoid import Superellipsoid
 from bodies.shapes.support_shape import SupportShape
-from bodies.shapes.swept import SweptPolytope
 from bodies.shapes.triangle_mesh import TriangleMesh
+from bodies.solid import Solid
 from bodies.superellipsoid_body import SuperellipsoidBody
 from bodies.support_body import SupportBody
 from bodies.wall import Wall
@@ -171,6 +171,7 @@ __all__ = [
     "Rod",
     "Slider",
     "SmoothSmooth",
+    "Solid",
     "Sphere",
     "SphereSphere",
     "Spring",

@@ -1,12 +1,57 @@
-"""Three numbers at a time, for the evaluators that write blocks (:mod:`nonsmooth.engine.memory.blocks`)."""
+"""Vectors and poses in the blocks that evaluators write (:mod:`nonsmooth.engine.memory.blocks`)."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import TypeAlias
+
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FRAME, VELOCITY
+from nonsmooth.rotations import rotation
 from nonsmooth.types import Floats
+
+Vector3: TypeAlias = tuple[float, float, float]
+"""A vector in compiled functions."""
+POSE = VELOCITY
+"""Numbers of a pose, with which the block of a frame begins: position [m] and rotation matrix, row by row."""
+
+
+def places_behind_frame(n_q: int, n_u: int) -> tuple[int, int, int, int]:
+    """Places of coordinate rates, force, inverse mass matrix and energies in the block of a body with one frame."""
+    rates = FRAME + 6 * n_u
+    return rates, rates + n_q, rates + n_q + n_u, rates + n_q + n_u + n_u * n_u
 
 
 @compiled
 def put(out: Floats, place: int, x: float, y: float, z: float) -> None:
     """Write a vector, or a row of a matrix, from a place of a block on."""
     out[place], out[place + 1], out[place + 2] = x, y, z
+
+
+@compiled
+def rotation_of(a: float, b: float, c: float, d: float) -> tuple[float, ...]:
+    """Rotation matrix of a quaternion (scalar first), row by row.
+
+    It is homogeneous in the quaternion, whose length changes a little between two normalisations.
+    """
+    xx, xy, xz = a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)
+    yx, yy, yz = 2.0 * (b * c + a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d - a * b)
+    zx, zy, zz = 2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d
+    return xx, xy, xz, yx, yy, yz, zx, zy, zz
+
+
+def pose_of(position: Sequence[float], orientation: Sequence[float]) -> tuple[float, ...]:
+    """Pose of a position [m] and a unit quaternion: the numbers that :func:`write_pose` takes."""
+    return *map(float, position), *rotation(orientation).ravel().tolist()
+
+
+@compiled
+def write_pose(out: Floats, pose: Floats) -> None:
+    """Write a pose into the block of a frame."""
+    for i in range(POSE):
+        out[i] = pose[i]
+
+
+def stand_still(t: float, q: Floats, u: Floats, out: Floats, pose: Floats) -> None:
+    """Write the block of a frame at rest."""
+    write_pose(out, pose)

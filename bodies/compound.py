@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, final
 
 import numpy as np
 
 from bodies.ball import Ball
-from bodies.free import FreeBody
-from bodies.inertia import parallel_axis, tensor_of
-from bodies.moved import moved
+from bodies.free import FreeBody, TensorBody
+from bodies.inertia import parallel_axis, tensor_of, without_round_off
+from bodies.shapes.moved_shape import moved
 from bodies.values import unit_quaternion, vector
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Shape
@@ -50,7 +51,7 @@ class Part:
 
 @final
 @dataclass(frozen=True)
-class Compound(FreeBody):
+class Compound(TensorBody):
     """A free body made of parts that are fixed to one another.
 
     Its frame has the axes in which the parts are placed, and its origin at the common mass centre.  Parts that
@@ -63,8 +64,6 @@ class Compound(FreeBody):
     """
 
     parts: tuple[Part, ...]
-    _tensor: Any = field(init=False, repr=False, compare=False)
-    _shapes: tuple[Shape, ...] = field(init=False, repr=False, compare=False)
 
     @classmethod
     def example(cls) -> Mapping[str, Any]:
@@ -79,16 +78,28 @@ class Compound(FreeBody):
             if not isinstance(part, Part):
                 raise InvalidInput("Compound.parts", "must contain parts only", part, remedy)
         object.__setattr__(self, "parts", tuple(self.parts))
-        centre = np.array(self.centre)
-        tensor = np.zeros((3, 3))
-        shapes: list[Shape] = []
+        # a shape that cannot be moved is refused when the compound is made
+        assert self.shapes is not None
+
+    @functools.cached_property
+    def _tensor(self) -> Vector:
+        """By the parallel-axis theorem."""
+        tensor, centre = np.zeros((3, 3)), np.array(self.centre)
         for part in self.parts:
-            offset, turn = np.array(part.position) - centre, rotation(part.orientation)
-            own = tensor_of(part.body.inertia, part.body.products)
-            tensor += turn @ own @ turn.T + parallel_axis(part.body.total_mass, offset)
-            shapes += [moved(shape, offset, np.array(part.orientation)) for shape in part.body.shapes]
-        object.__setattr__(self, "_tensor", _symmetric(tensor))
-        object.__setattr__(self, "_shapes", tuple(shapes))
+            turn, body = rotation(part.orientation), part.body
+            own = tensor_of(body.inertia, body.products)
+            tensor += turn @ own @ turn.T + parallel_axis(body.total_mass, np.array(part.position) - centre)
+        return without_round_off(0.5 * (tensor + tensor.T), 1e-15)
+
+    @functools.cached_property
+    def shapes(self) -> tuple[Shape, ...]:
+        """Those of all parts, in the axes of the compound."""
+        centre = np.array(self.centre)
+        return tuple(
+            moved(shape, np.array(part.position) - centre, np.array(part.orientation))
+            for part in self.parts
+            for shape in part.body.shapes
+        )
 
     @property
     def centre(self) -> tuple[float, float, float]:
@@ -103,28 +114,7 @@ class Compound(FreeBody):
         return sum(part.body.total_mass for part in self.parts)
 
     @property
-    def inertia(self) -> tuple[float, float, float]:
-        """By the parallel-axis theorem [kg m^2]."""
-        return self._tensor[0][0], self._tensor[1][1], self._tensor[2][2]
-
-    @property
-    def products(self) -> tuple[float, float, float]:
-        """The elements J_yz, J_xz, J_xy [kg m^2]."""
-        return self._tensor[1][2], self._tensor[0][2], self._tensor[0][1]
-
-    @property
-    def shapes(self) -> tuple[Shape, ...]:
-        """Those of all parts, in the axes of the compound."""
-        return self._shapes
-
-    @property
     def sketch(self) -> tuple[Look, ...]:
         """Lines from part to part and back to the first, for what holds them together."""
         places = np.array([part.position for part in self.parts]) - self.centre
         return (Look.polyline(*places, places[0]),)
-
-
-def _symmetric(tensor: Vector) -> tuple[tuple[float, ...], ...]:
-    # what is left of products that cancel is round-off; without it principal axes stay principal
-    clean = np.where(np.abs(tensor) > 1e-15 * np.max(tensor), 0.5 * (tensor + tensor.T), 0.0)
-    return tuple(tuple(row) for row in clean.tolist())

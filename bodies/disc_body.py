@@ -1,4 +1,4 @@
-"""DiscBody: a thin circular disc."""
+"""DiscBody: a disc."""
 
 from __future__ import annotations
 
@@ -7,10 +7,9 @@ from dataclasses import dataclass
 from typing import final
 
 from bodies.free import FreeBody
-from bodies.inertia import check_mass, mass_of, moments_of
+from bodies.inertia import check_mass, mass_field, moments_of
 from bodies.shapes.disc import Disc
-from bodies.shapes.feet import USUAL, check_feet
-from bodies.shapes.frustum import check_rounding
+from bodies.shapes.frustum import USUAL, check_feet, check_rounding
 from nonsmooth.interfaces import Shape
 from nonsmooth.parameters import parameter
 
@@ -20,42 +19,26 @@ from nonsmooth.parameters import parameter
 class DiscBody(FreeBody):
     """A free disc about the third body axis, without thickness unless it is rounded: a coin, a plate on its rim.
 
-    Flat on a plane it stands on three feet, so that its centre is by their height above the plane; tilted by more than
-    three times their height over the radius it touches with its rim only.
-
-    Attributes
-    ----------
-    radius : float
-        Radius [m].
-    surface_density : float, optional
-        Mass per area [kg/m^2]; 7.8, a millimetre of steel, where no mass is given.
-    mass : float, optional
-        Mass [kg], instead of the surface density.
-    foot_height : float, optional
-        Height of the three feet of either face [m]; 0 for none, a ten-thousandth of the radius where it is not given.
-    rounding : float, optional
-        Radius of its rim [m]: it is twice that thick, of even density; the radius is that of the whole, the feet are
-        those of the core.
-
-    Raises
-    ------
-    InvalidInput
-        If the radius is not positive, both mass and surface density are given, or the feet are higher than a tenth of
-        the radius.
+    Flat on a plane it stands on three feet, so that its centre is by their height above the plane. Tilted by more than
+    three times their height over the radius it touches with its rim only. A rounded disc is twice the rounding thick,
+    of even density, and its radius is that of the whole.
     """
 
     radius: float = parameter(doc="radius", unit="m", above=0.0, usual=(1e-5, 10.0))
     surface_density: float | None = parameter(
-        None, doc="mass per area; 7.8 without a mass", unit="kg/m^2", above=0.0, usual=(1e-3, 1e5)
+        None,
+        doc="mass per area; 7.8, a millimetre of steel, without a mass",
+        unit="kg/m^2",
+        above=0.0,
+        usual=(1e-3, 1e5),
     )
-    mass: float | None = parameter(None, doc="mass, instead of the surface density", unit="kg", above=0.0)
+    mass: float | None = mass_field("surface density")
     foot_height: float | None = parameter(
         None, doc="height of the three feet of either face; 1e-4 of the radius where not given", unit="m", minimum=0.0
     )
     rounding: float = parameter(0.0, doc="radius of its rim, half of its thickness", unit="m", minimum=0.0)
 
     def _check(self) -> None:
-        check_mass("DiscBody", self.mass, self.surface_density)
         check_rounding("DiscBody", self.radius, (self.radius,), self.rounding)
         check_feet("DiscBody", self.foot_height or 0.0, self.radius - self.rounding)
 
@@ -67,8 +50,9 @@ class DiscBody(FreeBody):
     @property
     def total_mass(self) -> float:
         """As given, or surface density times pi r^2 [kg]."""
+        check_mass(self, self.mass, self.surface_density)
         surface = 7.8 if self.surface_density is None else self.surface_density
-        return mass_of(self.mass, surface, math.pi * self.radius**2)
+        return surface * (math.pi * self.radius**2) if self.mass is None else self.mass
 
     @property
     def inertia(self) -> tuple[float, float, float]:

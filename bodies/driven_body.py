@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, final
 
-from bodies.carried import check_carried
-from bodies.driven import Driven
 from bodies.motions.harmonic import Harmonic
+from bodies.prescribed import Driven
 from bodies.shapes.sphere import Sphere
+from bodies.values import check_carried
 from nonsmooth.interfaces import Shape
 
 

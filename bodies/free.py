@@ -5,20 +5,20 @@ from __future__ import annotations
 import functools
 import math
 from abc import abstractmethod
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Mapping
+from typing import Any, final
 
 import numpy as np
 
-from bodies.blocks import put
-from bodies.carried import check_carried
+from bodies.blocks import places_behind_frame, put, rotation_of
 from bodies.inertia import Triple, check_inertia, tensor_of
-from bodies.values import Word, read_start
+from bodies.values import Word, check_carried, read_start
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, POSITION, ROTATION, SPIN, VELOCITY
+from nonsmooth.engine.memory.blocks import JACOBIAN, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import POSE_LABELS, TWIST_LABELS, NamesAndUnits, Vector
+from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 _WORDS: dict[str, Word] = {
@@ -27,14 +27,8 @@ _WORDS: dict[str, Word] = {
     "velocity": (3, (0.0, 0.0, 0.0), "m/s"),
     "angular_velocity": (3, (0.0, 0.0, 0.0), "rad/s"),
 }
-_RATES = FRAME + 6 * 6
-"""Where the coordinate rates stand in the output block,"""
-_FORCE = _RATES + 7
-"""the forces,"""
-_INVERSE = _FORCE + 6
-"""the inverse mass matrix,"""
-_ENERGY = _INVERSE + 36
-"""and the energies."""
+_RATES, _FORCE, _INVERSE, _ENERGY = places_behind_frame(n_q=7, n_u=6)
+"""Places of coordinate rates, force, inverse mass matrix and energies in the output block."""
 
 
 def _evaluate(
@@ -43,30 +37,18 @@ def _evaluate(
     u: Floats,
     out: Floats,
     mass: float,
-    inertia_x: float,
-    inertia_y: float,
-    inertia_z: float,
-    inertia_yz: float,
-    inertia_xz: float,
-    inertia_xy: float,
-    mobility_x: float,
-    mobility_y: float,
-    mobility_z: float,
-    mobility_yz: float,
-    mobility_xz: float,
-    mobility_xy: float,
+    inertia: Floats,
+    inverse_inertia: Floats,
     gravity_x: float,
     gravity_y: float,
     gravity_z: float,
 ) -> None:
     a, b, c, d = q[3], q[4], q[5], q[6]
     ox, oy, oz = u[3], u[4], u[5]
+    jx, jy, jz, jyz, jxz, jxy = inertia[0], inertia[1], inertia[2], inertia[3], inertia[4], inertia[5]
     put(out, POSITION, q[0], q[1], q[2])
     put(out, VELOCITY, u[0], u[1], u[2])
-    # homogeneous in the quaternion, so that its length does not matter between two normalisations
-    xx, xy, xz = a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)
-    yx, yy, yz = 2.0 * (b * c + a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d - a * b)
-    zx, zy, zz = 2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_of(a, b, c, d)
     put(out, ROTATION, xx, xy, xz)
     put(out, ROTATION + 3, yx, yy, yz)
     put(out, ROTATION + 6, zx, zy, zz)
@@ -85,25 +67,15 @@ def _evaluate(
     # force and gyroscopic moment
     put(out, _FORCE, mass * gravity_x, mass * gravity_y, mass * gravity_z)
     # -omega x (J omega), grouped so that in principal axes nothing but the differences of the moments is left
-    out[_FORCE + 3] = (inertia_y - inertia_z) * oy * oz + (
-        inertia_yz * (oz * oz - oy * oy) + ox * (inertia_xy * oz - inertia_xz * oy)
-    )
-    out[_FORCE + 4] = (inertia_z - inertia_x) * oz * ox + (
-        inertia_xz * (ox * ox - oz * oz) + oy * (inertia_yz * ox - inertia_xy * oz)
-    )
-    out[_FORCE + 5] = (inertia_x - inertia_y) * ox * oy + (
-        inertia_xy * (oy * oy - ox * ox) + oz * (inertia_xz * oy - inertia_yz * ox)
-    )
+    out[_FORCE + 3] = (jy - jz) * oy * oz + (jyz * (oz * oz - oy * oy) + ox * (jxy * oz - jxz * oy))
+    out[_FORCE + 4] = (jz - jx) * oz * ox + (jxz * (ox * ox - oz * oz) + oy * (jyz * ox - jxy * oz))
+    out[_FORCE + 5] = (jx - jy) * ox * oy + (jxy * (oy * oy - ox * ox) + oz * (jxz * oy - jyz * ox))
     out[_INVERSE] = out[_INVERSE + 7] = out[_INVERSE + 14] = 1.0 / mass
-    put(out, _INVERSE + 21, mobility_x, mobility_xy, mobility_xz)
-    put(out, _INVERSE + 27, mobility_xy, mobility_y, mobility_yz)
-    put(out, _INVERSE + 33, mobility_xz, mobility_yz, mobility_z)
+    for i in range(3):
+        put(out, _INVERSE + 21 + 6 * i, inverse_inertia[3 * i], inverse_inertia[3 * i + 1], inverse_inertia[3 * i + 2])
     out[_ENERGY] = 0.5 * (
-        mass * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2])
-        + inertia_x * ox * ox
-        + inertia_y * oy * oy
-        + inertia_z * oz * oz
-    ) + (inertia_yz * oy * oz + inertia_xz * ox * oz + inertia_xy * ox * oy)
+        mass * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) + jx * ox * ox + jy * oy * oy + jz * oz * oz
+    ) + (jyz * oy * oz + jxz * ox * oz + jxy * ox * oy)
     out[_ENERGY + 1] = -mass * (gravity_x * q[0] + gravity_y * q[1] + gravity_z * q[2])
 
 
@@ -117,18 +89,9 @@ def _turn(out: Floats, a: float, b: float, c: float, d: float, k: float, x: floa
 
 
 def _fly(
-    t: float,
-    q: Floats,
-    u: Floats,
-    out: Floats,
-    inertia_x: float,
-    inertia_y: float,
-    inertia_z: float,
-    gravity_x: float,
-    gravity_y: float,
-    gravity_z: float,
+    t: float, q: Floats, u: Floats, out: Floats, inertia: Floats, gravity_x: float, gravity_y: float, gravity_z: float
 ) -> None:
-    half = 0.5 * t
+    half, (jx, jy, jz) = 0.5 * t, (inertia[0], inertia[1], inertia[2])
     out[0] = q[0] + t * (u[0] + half * gravity_x)
     out[1] = q[1] + t * (u[1] + half * gravity_y)
     out[2] = q[2] + t * (u[2] + half * gravity_z)
@@ -139,12 +102,12 @@ def _fly(
     # the angular momentum over the moment of inertia across the axis of symmetry stays in space; what the spin about
     # that axis has more turns with the body
     ex = ey = ez = 0.0
-    if inertia_y == inertia_z:
-        ex = (1.0 - inertia_x / inertia_y) * ox
-    elif inertia_x == inertia_z:
-        ey = (1.0 - inertia_y / inertia_x) * oy
+    if jy == jz:
+        ex = (1.0 - jx / jy) * ox
+    elif jx == jz:
+        ey = (1.0 - jy / jx) * oy
     else:
-        ez = (1.0 - inertia_z / inertia_x) * oz
+        ez = (1.0 - jz / jx) * oz
     x, y, z = ox - ex, oy - ey, oz - ez
     rate = math.sqrt(x * x + y * y + z * z)
     c, s = math.cos(half * rate), math.sin(half * rate)
@@ -166,12 +129,12 @@ def _fly(
 
 
 @functools.lru_cache(maxsize=256)
-def _mobility(name: str, mass: float, moments: Triple, products: Triple) -> tuple[float, ...]:
-    """Return J^-1 in the order of moments and products, of which bodies that are alike have one; all of it checked."""
+def _inverse_inertia(name: str, mass: float, moments: Triple, products: Triple) -> tuple[float, ...]:
+    """Inverse of an inertia tensor, row by row [1/(kg m^2)]; equal bodies share it. All three are checked."""
     tensor = tensor_of(moments, products)
     check_inertia(name, mass, tensor)
-    inverse = np.linalg.inv(tensor) if any(products) else np.diag([1.0 / j for j in moments])
-    return *np.diag(inverse).tolist(), *(float(inverse[i, j]) for i, j in ((1, 2), (0, 2), (0, 1)))
+    upper = np.triu(np.linalg.inv(tensor)) if any(products) else np.diag([1.0 / j for j in moments])
+    return tuple((upper + np.triu(upper, 1).T).ravel().tolist())
 
 
 class FreeBody(Body):
@@ -208,20 +171,15 @@ class FreeBody(Body):
         """Elements J_yz, J_xz, J_xy of the inertia tensor [kg m^2], of which J_xy = -integral of x y dm; none."""
         return 0.0, 0.0, 0.0
 
-    def parameters(self) -> dict[str, float]:
-        """Return mass, inertia tensor and its inverse (the mobility), checked."""
+    def parameters(self) -> Mapping[str, Value]:
+        """Return mass, inertia (moments, then products) and its inverse, row by row, checked."""
         name = type(self).__name__
         mass, moments, products = self.total_mass, tuple(self.inertia), tuple(self.products)
         for part, values in (("inertia", moments), ("products", products)):
             if len(values) != 3:
                 raise InvalidInput(f"{name}.{part}", "must be three numbers", values, "Give them in [kg m^2].")
-        mobility = _mobility(name, mass, moments, products)
-        names = ("x", "y", "z", "yz", "xz", "xy")
-        return {
-            "mass": mass,
-            **{f"inertia_{name}": value for name, value in zip(names, (*moments, *products), strict=True)},
-            **{f"mobility_{name}": value for name, value in zip(names, mobility, strict=True)},
-        }
+        inverse = _inverse_inertia(name, mass, moments, products)
+        return {"mass": mass, "inertia": (*moments, *products), "inverse_inertia": inverse}
 
     @property
     @abstractmethod
@@ -272,20 +230,36 @@ class FreeBody(Body):
         return not any(self.products) and (x == y or y == z or x == z)
 
     @property
-    def time_scale(self) -> float:
-        """Infinite [s]: nothing is prescribed."""
-        return math.inf
-
-    @property
-    def scales(self) -> tuple[Vector, Vector]:
-        """The length of the body, at least its radius of gyration, and the speed of a fall through it."""
+    def length_scale(self) -> float:
+        """That of its shapes, at least its radius of gyration [m]."""
         gyration = math.sqrt(max(self.inertia) / self.total_mass)
-        length = max([gyration, *(shape.length for shape in self.frames[0])])
-        speed = math.sqrt(9.81 * length)
-        return np.array([length] * 3 + [1.0] * 4), np.array([speed] * 3 + [speed / length] * 3)
+        return max([gyration, *(shape.length for shape in self.frames[0])])
 
     def state(self, **start: Any) -> tuple[Vector, Vector]:
         """Return q and u from position [m], orientation (unit quaternion), velocity [m/s], angular_velocity [rad/s]."""
         values = read_start(type(self).__name__, _WORDS, start)
         q = np.concatenate([values["position"], values["orientation"]])
         return q, np.concatenate([values["velocity"], values["angular_velocity"]])
+
+
+class TensorBody(FreeBody):
+    """A free body whose frame need not be a principal one; subclasses are final and give ``_tensor``, computed once."""
+
+    @property
+    @abstractmethod
+    def _tensor(self) -> Vector:
+        """Inertia tensor about the mass centre in the axes of the frame [kg m^2], shape [3, 3]."""
+
+    @property
+    @final
+    def inertia(self) -> tuple[float, float, float]:
+        """Diagonal of the inertia tensor [kg m^2]."""
+        x, y, z = self._tensor.diagonal().tolist()
+        return x, y, z
+
+    @property
+    @final
+    def products(self) -> tuple[float, float, float]:
+        """Elements J_yz, J_xz, J_xy of the inertia tensor [kg m^2]."""
+        tensor = self._tensor
+        return float(tensor[1, 2]), float(tensor[0, 2]), float(tensor[0, 1])

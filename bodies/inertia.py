@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
 from bodies.values import vector
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import ConvexShape
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.parameters import parameter
 
 Triple = tuple[float, float, float]
 
@@ -18,6 +18,18 @@ STEEL = 7800.0
 """Density where neither mass nor density is given [kg/m^3]."""
 
 _ROUND_OFF = 1e-9
+
+
+class HasVolume(Protocol):
+    """A shape or mesh that encloses a volume: its integrals at density 1."""
+
+    @property
+    def volume(self) -> float:
+        """Volume [m^3]."""
+
+    @property
+    def inertia(self) -> Vector:
+        """Inertia tensor about the centroid [m^5], shape [3, 3]."""
 
 
 def tensor_of(moments: Triple, products: Triple) -> Vector:
@@ -81,25 +93,50 @@ def parallel_axis(mass: float, offset: Vector) -> Vector:
     return mass * (float(offset @ offset) * np.eye(3) - np.outer(offset, offset))
 
 
-def check_mass(name: str, mass: float | None, density: float | None) -> None:
-    """Raise InvalidInput if both mass and density are given: one of them would be ignored."""
+def density_field(doc: str = "density; 7800 without a mass") -> Any:
+    """Declare the density of a body as a parameter that may be left out."""
+    return parameter(None, doc=doc, unit="kg/m^3", above=0.0, usual=(10.0, 3e4))
+
+
+def mass_field(other: str = "density") -> Any:
+    """Declare the mass of a body as a parameter that may be left out."""
+    return parameter(None, doc=f"mass, instead of the {other}", unit="kg", above=0.0)
+
+
+def check_mass(body: object, mass: float | None, density: float | None) -> None:
+    """Raise InvalidInput if the user gives both mass and density: one of them would be ignored."""
     if mass is not None and density is not None:
         raise InvalidInput(
-            f"{name}.mass",
+            f"{type(body).__name__}.mass",
             "must not be given together with the density",
             mass,
             "Give one of the two; the other follows.",
         )
 
 
-def mass_of(mass: float | None, density: float | None, volume: float) -> float:
-    """Return the mass [kg]: as given, or density [kg/m^3] (steel by default) times volume [m^3]."""
+def mass_of(body: object, mass: float | None, density: float | None, volume: float) -> float:
+    """Mass of a body as given [kg], or its density, by default that of steel, times its volume [m^3]."""
+    check_mass(body, mass, density)
     if mass is not None:
         return mass
     return (STEEL if density is None else density) * volume
 
 
-def moments_of(shape: ConvexShape, mass: float) -> Triple:
-    """Return the moments about the body axes [kg m^2] of an even mass [kg] in a shape."""
+def moments_of(shape: HasVolume, mass: float) -> Triple:
+    """Moments of an even mass [kg] in a shape about its centroid and the body axes [kg m^2]."""
     x, y, z = (mass / shape.volume * np.diag(shape.inertia)).tolist()
     return x, y, z
+
+
+def tensor_in(shape: HasVolume, mass: float) -> Vector:
+    """Inertia tensor of an even mass [kg] in a shape, about the centroid [kg m^2], shape [3, 3]."""
+    return without_round_off(mass / shape.volume * shape.inertia)
+
+
+def without_round_off(tensor: Vector, part: float = 1e-14) -> Vector:
+    """Inertia tensor without the elements below a part of the largest one.
+
+    They are round-off of products that cancel. Without them principal axes stay principal, and a symmetric body is
+    known as one.
+    """
+    return np.where(np.abs(tensor) > part * np.max(tensor), tensor, 0.0)

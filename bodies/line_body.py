@@ -2,32 +2,23 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, final
 
 import numpy as np
 
-from bodies.blocks import put
-from bodies.carried import check_carried
-from bodies.motions.pose import pose_parameters
-from bodies.values import Word, read_start, unit_quaternion, unit_vector, vector
-from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, POSITION, ROTATION, VELOCITY
+from bodies.blocks import places_behind_frame, pose_of, write_pose
+from bodies.values import Word, check_carried, read_start, unit_quaternion, unit_vector, vector
+from nonsmooth.engine.memory.blocks import JACOBIAN, POSITION, VELOCITY
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import NamesAndUnits, Vector
-from nonsmooth.parameters import parameter
+from nonsmooth.parameters import Value, parameter
 from nonsmooth.types import Floats
 
 _WORDS: dict[str, Word] = {"position": (0, 0.0, "m"), "velocity": (0, 0.0, "m/s")}
-_RATES = FRAME + 6 * 1
-"""Where the coordinate rates stand in the output block,"""
-_FORCE = _RATES + 1
-"""the forces,"""
-_INVERSE = _FORCE + 1
-"""the inverse mass matrix,"""
-_ENERGY = _INVERSE + 1
-"""and the energies."""
+_RATES, _FORCE, _INVERSE, _ENERGY = places_behind_frame(n_q=1, n_u=1)
+"""Places of coordinate rates, force, inverse mass matrix and energies in the output block."""
 
 
 def _evaluate(
@@ -36,33 +27,19 @@ def _evaluate(
     u: Floats,
     out: Floats,
     mass: float,
-    direction_x: float,
-    direction_y: float,
-    direction_z: float,
-    x: float,
-    y: float,
-    z: float,
-    xx: float,
-    xy: float,
-    xz: float,
-    yx: float,
-    yy: float,
-    yz: float,
-    zx: float,
-    zy: float,
-    zz: float,
+    direction: Floats,
+    pose: Floats,
     gravity_x: float,
     gravity_y: float,
     gravity_z: float,
 ) -> None:
-    put(out, POSITION, x + direction_x * q[0], y + direction_y * q[0], z + direction_z * q[0])
-    put(out, ROTATION, xx, xy, xz)
-    put(out, ROTATION + 3, yx, yy, yz)
-    put(out, ROTATION + 6, zx, zy, zz)
-    put(out, VELOCITY, direction_x * u[0], direction_y * u[0], direction_z * u[0])
-    put(out, JACOBIAN, direction_x, direction_y, direction_z)
+    write_pose(out, pose)
+    for i in range(3):
+        out[POSITION + i] += direction[i] * q[0]
+        out[VELOCITY + i] = direction[i] * u[0]
+        out[JACOBIAN + i] = direction[i]
     out[_RATES] = u[0]
-    out[_FORCE] = mass * (gravity_x * direction_x + gravity_y * direction_y + gravity_z * direction_z)
+    out[_FORCE] = mass * (gravity_x * direction[0] + gravity_y * direction[1] + gravity_z * direction[2])
     out[_INVERSE] = 1.0 / mass
     out[_ENERGY] = 0.5 * mass * u[0] * u[0]
     out[_ENERGY + 1] = -mass * (
@@ -107,10 +84,10 @@ class LineBody(Body):
             object.__setattr__(self, name, tuple(value.tolist()))
         object.__setattr__(self, "carried", check_carried("LineBody.carried", self.carried))
 
-    def parameters(self) -> dict[str, float]:
+    def parameters(self) -> Mapping[str, Value]:
         """Return mass, direction and the pose at the origin."""
-        direction = {f"direction_{letter}": x for letter, x in zip("xyz", self.direction, strict=True)}
-        return {"mass": float(self.mass)} | direction | pose_parameters(self.origin, self.orientation)
+        pose = pose_of(self.origin, self.orientation)
+        return {"mass": float(self.mass), "direction": self.direction, "pose": pose}
 
     @property
     def frames(self) -> tuple[tuple[Shape, ...], ...]:
@@ -128,25 +105,9 @@ class LineBody(Body):
         return (("v", "m/s"),)
 
     @property
-    def quaternion(self) -> int:
-        """None."""
-        return -1
-
-    @property
     def evaluator(self) -> Callable[..., None]:
         """Newton's equation along the line."""
         return _evaluate
-
-    @property
-    def time_scale(self) -> float:
-        """Infinite [s]: nothing is prescribed."""
-        return math.inf
-
-    @property
-    def scales(self) -> tuple[Vector, Vector]:
-        """The length of the body, 1 m without shapes, and the speed of a fall through it."""
-        length = max((shape.length for shape in self.carried), default=0.0) or 1.0
-        return np.array([length]), np.array([math.sqrt(9.81 * length)])
 
     def state(self, **start: Any) -> tuple[Vector, Vector]:
         """Return q and u from position [m] and velocity [m/s], both along the line."""

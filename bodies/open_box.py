@@ -2,51 +2,29 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import final
 
-from bodies.motions.pose import pose_parameters, put_pose
+import numpy as np
+
+from bodies.blocks import POSE
 from bodies.prescribed import Prescribed
 from bodies.shapes.plane import Plane
 from bodies.values import unit_quaternion, vector
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.interfaces import Shape
-from nonsmooth.parameters import parameter
+from nonsmooth.parameters import Value, parameter
+from nonsmooth.rotations import rotation
 from nonsmooth.types import Floats
 
 _PLANES = 5
 
 
-def _evaluate(
-    t: float,
-    q: Floats,
-    u: Floats,
-    out: Floats,
-    half_x: float,
-    half_y: float,
-    x: float,
-    y: float,
-    z: float,
-    xx: float,
-    xy: float,
-    xz: float,
-    yx: float,
-    yy: float,
-    yz: float,
-    zx: float,
-    zy: float,
-    zz: float,
-) -> None:
-    a, b, c = (xx, yx, zx), (xy, yy, zy), (xz, yz, zz)
-    back_a, back_b = (-xx, -yx, -zx), (-xy, -yy, -zy)
-    put_pose(out, 0, (x, y, z), a, b, c)
-    # the third axis of each wall is the normal to the inside
-    put_pose(out, FRAME, (x - half_x * xx, y - half_x * yx, z - half_x * zx), b, c, a)
-    put_pose(out, 2 * FRAME, (x + half_x * xx, y + half_x * yx, z + half_x * zx), c, b, back_a)
-    put_pose(out, 3 * FRAME, (x - half_y * xy, y - half_y * yy, z - half_y * zy), c, a, b)
-    put_pose(out, 4 * FRAME, (x + half_y * xy, y + half_y * yy, z + half_y * zy), a, c, back_b)
+def _evaluate(t: float, q: Floats, u: Floats, out: Floats, poses: Floats) -> None:
+    for plane in range(_PLANES):
+        for i in range(POSE):
+            out[FRAME * plane + i] = poses[POSE * plane + i]
 
 
 @final
@@ -83,9 +61,17 @@ class OpenBox(Prescribed):
         turn = unit_quaternion("OpenBox.orientation", self.orientation)
         object.__setattr__(self, "orientation", tuple(turn.tolist()))
 
-    def parameters(self) -> dict[str, float]:
-        """Return the half-lengths, the position and the rotation matrix of the orientation."""
-        return self.numbers() | pose_parameters(self.position, self.orientation)
+    def parameters(self) -> Mapping[str, Value]:
+        """Return the poses of floor and walls; the third axis of a wall is the normal to the inside."""
+        place, (a, b, c) = np.array(self.position), rotation(self.orientation).T
+        planes = (
+            (place, a, b, c),
+            (place - self.half_x * a, b, c, a),
+            (place + self.half_x * a, c, b, -a),
+            (place - self.half_y * b, c, a, b),
+            (place + self.half_y * b, a, c, -b),
+        )
+        return {"poses": tuple(x for middle, *axes in planes for x in (*middle.tolist(), *np.transpose(axes).flat))}
 
     @property
     def frames(self) -> tuple[tuple[Shape, ...], ...]:
@@ -96,8 +82,3 @@ class OpenBox(Prescribed):
     def evaluator(self) -> Callable[..., None]:
         """The fixed poses of floor and walls."""
         return _evaluate
-
-    @property
-    def time_scale(self) -> float:
-        """Infinite [s]."""
-        return math.inf

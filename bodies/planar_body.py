@@ -9,10 +9,9 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.blocks import put
-from bodies.carried import check_carried
-from bodies.values import Word, read_start
-from nonsmooth.engine.memory.blocks import FRAME, JACOBIAN, POSITION, ROTATION, SPIN, VELOCITY
+from bodies.blocks import places_behind_frame, put
+from bodies.values import Word, check_carried, read_start
+from nonsmooth.engine.memory.blocks import JACOBIAN, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.body import NamesAndUnits, Vector
 from nonsmooth.parameters import parameter
@@ -24,14 +23,8 @@ _WORDS: dict[str, Word] = {
     "velocity": (2, (0.0, 0.0), "m/s"),
     "angular_velocity": (0, 0.0, "rad/s"),
 }
-_RATES = FRAME + 6 * 3
-"""Where the coordinate rates stand in the output block,"""
-_FORCE = _RATES + 3
-"""the forces,"""
-_INVERSE = _FORCE + 3
-"""the inverse mass matrix,"""
-_ENERGY = _INVERSE + 9
-"""and the energies."""
+_RATES, _FORCE, _INVERSE, _ENERGY = places_behind_frame(n_q=3, n_u=3)
+"""Places of coordinate rates, force, inverse mass matrix and energies in the output block."""
 
 
 def _evaluate(
@@ -111,26 +104,14 @@ class PlanarBody(Body):
         return ("vx", "m/s"), ("vz", "m/s"), ("w", "rad/s")
 
     @property
-    def quaternion(self) -> int:
-        """None."""
-        return -1
-
-    @property
     def evaluator(self) -> Callable[..., None]:
         """Newton-Euler equations in the plane."""
         return _evaluate
 
     @property
-    def time_scale(self) -> float:
-        """Infinite [s]: nothing is prescribed."""
-        return math.inf
-
-    @property
-    def scales(self) -> tuple[Vector, Vector]:
-        """The length of the body, at least its radius of gyration, and the speed of a fall through it."""
-        length = max([math.sqrt(self.moment / self.mass), *(shape.length for shape in self.carried)])
-        speed = math.sqrt(9.81 * length)
-        return np.array([length, length, 1.0]), np.array([speed, speed, speed / length])
+    def length_scale(self) -> float:
+        """That of its shapes, at least its radius of gyration [m]."""
+        return max([math.sqrt(self.moment / self.mass), *(shape.length for shape in self.carried)])
 
     def state(self, **start: Any) -> tuple[Vector, Vector]:
         """Return q and u from position (x, z) [m], angle [rad], velocity [m/s], angular_velocity [rad/s]."""

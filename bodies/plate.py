@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import final
 
-from bodies.driven import Driven
+from bodies.prescribed import Driven
 from bodies.shapes.plane import Plane
 from nonsmooth.interfaces import Shape
 

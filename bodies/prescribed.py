@@ -1,41 +1,24 @@
-"""Prescribed bodies: what all bodies without coordinates have in common."""
+"""Prescribed bodies: their motion does not depend on contacts."""
 
 from __future__ import annotations
 
 from abc import ABC
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
+from bodies.motions.rest import Rest
 from nonsmooth.errors import InvalidInput
-from nonsmooth.interfaces import Body
-from nonsmooth.interfaces.body import NamesAndUnits, Vector
+from nonsmooth.interfaces import Body, Motion
+from nonsmooth.interfaces.body import Vector
+from nonsmooth.parameters import Value
 
 
 @dataclass(frozen=True)
 class Prescribed(Body, ABC):
-    """A body without coordinates: where it is does not depend on what touches it."""
-
-    @property
-    def q_labels(self) -> NamesAndUnits:
-        """0: driven."""
-        return ()
-
-    @property
-    def u_labels(self) -> NamesAndUnits:
-        """0: driven."""
-        return ()
-
-    @property
-    def quaternion(self) -> int:
-        """None."""
-        return -1
-
-    @property
-    def scales(self) -> tuple[Vector, Vector]:
-        """Empty."""
-        return np.zeros(0), np.zeros(0)
+    """A body without coordinates: its motion does not depend on contacts."""
 
     def state(self, **start: Any) -> tuple[Vector, Vector]:
         """Return empty vectors; a driven body cannot be placed."""
@@ -47,3 +30,34 @@ class Prescribed(Body, ABC):
                 "Its motion, or its position, says where it is at t = 0.",
             )
         return np.zeros(0), np.zeros(0)
+
+
+@dataclass(frozen=True)
+class Driven(Prescribed, ABC):
+    """A body without coordinates whose frame moves as ``motion`` says; subclasses are final and give shapes."""
+
+    motion: Motion = field(default_factory=Rest)
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.motion, Motion):
+            raise InvalidInput(
+                f"{type(self).__name__}.motion",
+                "must be a Motion",
+                self.motion,
+                "For example Harmonic(...) or Rest().",
+            )
+        super().__post_init__()
+
+    def parameters(self) -> Mapping[str, Value]:
+        """Return the motion's parameters."""
+        return self.motion.parameters()
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The motion's."""
+        return self.motion.evaluator
+
+    @property
+    def time_scale(self) -> float:
+        """The motion's [s]."""
+        return self.motion.time_scale

@@ -6,17 +6,20 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, final
 
-from bodies.carried import check_carried
-from bodies.free import FreeBody
+import numpy as np
+
+from bodies.free import TensorBody
 from bodies.inertia import read_tensor
 from bodies.shapes.sphere import Sphere
+from bodies.values import check_carried
 from nonsmooth.interfaces import Shape
+from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 
 
 @final
 @dataclass(frozen=True)
-class RigidBody(FreeBody):
+class RigidBody(TensorBody):
     """A free body with given mass, inertia and shapes.
 
     Attributes
@@ -58,14 +61,8 @@ class RigidBody(FreeBody):
         return self.mass
 
     @property
-    def inertia(self) -> tuple[float, float, float]:
-        """The diagonal of the tensor [kg m^2]."""
-        return self.tensor[0][0], self.tensor[1][1], self.tensor[2][2]
-
-    @property
-    def products(self) -> tuple[float, float, float]:
-        """Its elements J_yz, J_xz, J_xy [kg m^2]."""
-        return self.tensor[1][2], self.tensor[0][2], self.tensor[0][1]
+    def _tensor(self) -> Vector:
+        return np.array(self.tensor)
 
     @property
     def shapes(self) -> tuple[Shape, ...]:

@@ -1,4 +1,4 @@
-"""Vectors and quaternions that a user gives: checked once, for bodies and motions alike."""
+"""Vectors, quaternions and shapes that a user gives: checked once, for bodies and motions alike."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from nonsmooth import vectors
 from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.interfaces import Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.rotations import rotation
 
@@ -103,3 +104,20 @@ def product(p: Any, q: Any) -> Vector:
             a * h + d * e + b * g - c * f,
         ]
     )
+
+
+def check_carried(thing: str, shapes: Any) -> tuple[Shape, ...]:
+    """Return the shapes as a tuple.
+
+    Raises
+    ------
+    InvalidInput
+        If it is not a sequence of Shape objects.
+    """
+    remedy = "Give shapes, for example (Sphere(0.01), Sphere(0.01, x=0.05))."
+    if isinstance(shapes, Shape) or not isinstance(shapes, (tuple, list)):
+        raise InvalidInput(thing, "must be a tuple of shapes", shapes, remedy)
+    for shape in shapes:
+        if not isinstance(shape, Shape):
+            raise InvalidInput(thing, "must contain shapes only", shape, remedy)
+    return tuple(shapes)

@@ -2,39 +2,18 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
+import itertools
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import final
 
-from bodies.motions.pose import put_pose
+from bodies.blocks import stand_still
 from bodies.prescribed import Prescribed
 from bodies.shapes.plane import Plane
 from bodies.values import unit_vector, vector
 from nonsmooth.interfaces import Shape
-from nonsmooth.types import Floats
+from nonsmooth.parameters import Value
 from nonsmooth.vectors import perpendiculars
-
-
-def _evaluate(
-    t: float,
-    q: Floats,
-    u: Floats,
-    out: Floats,
-    x: float,
-    y: float,
-    z: float,
-    xx: float,
-    xy: float,
-    xz: float,
-    yx: float,
-    yy: float,
-    yz: float,
-    zx: float,
-    zy: float,
-    zz: float,
-) -> None:
-    put_pose(out, 0, (x, y, z), (xx, yx, zx), (xy, yy, zy), (xz, yz, zz))
 
 
 @final
@@ -62,11 +41,10 @@ class Wall(Prescribed):
         object.__setattr__(self, "normal", tuple(unit_vector("Wall.normal", self.normal).tolist()))
         object.__setattr__(self, "point", tuple(vector("Wall.point", self.point, 3, "m").tolist()))
 
-    def parameters(self) -> dict[str, float]:
-        """Return the point and the rotation matrix whose third column is the normal."""
-        columns = (*perpendiculars(self.normal), self.normal)
-        turn = {row + column: columns[j][i] for i, row in enumerate("xyz") for j, column in enumerate("xyz")}
-        return dict(zip("xyz", self.point, strict=True)) | turn
+    def parameters(self) -> Mapping[str, Value]:
+        """Return the pose: the point [m], and the rotation matrix whose third column is the normal."""
+        rows = zip(*perpendiculars(self.normal), self.normal, strict=True)
+        return {"pose": (*self.point, *itertools.chain(*rows))}
 
     @property
     def frames(self) -> tuple[tuple[Shape, ...], ...]:
@@ -76,9 +54,4 @@ class Wall(Prescribed):
     @property
     def evaluator(self) -> Callable[..., None]:
         """The fixed pose."""
-        return _evaluate
-
-    @property
-    def time_scale(self) -> float:
-        """Infinite [s]."""
-        return math.inf
+        return stand_still

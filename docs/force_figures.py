@@ -22,16 +22,15 @@ def main() -> None:
     scenario = DumbbellScenario()
     solution = ns.simulate(scenario.build(), _END)
     times = np.linspace(_START, _END, _TIMES)
-    forces = solution.contact_forces(times)
+    history = solution.history("mode", "normal_force", "friction_force", times=times)
     figure, (normal, friction) = make_axes(
         "Drift of the dumbbell: where the slip turns round, friction does, and the plate presses more", 2
     )
     events = solution.events
     for number, (name, (colour, long, wide)) in enumerate(zip(solution.system.names.contacts, _LOOKS, strict=True)):
-        history = forces.history(number)
-        closed = np.where(history.mode > 0, 1.0, math.nan)
-        normal.plot(1e3 * times, 1e3 * closed * history.normal_force, color=colour, label=name)
-        friction.plot(1e3 * times, 1e3 * closed * history.friction_force[:, 1], color=colour)
+        closed = np.where(history["mode"][:, number] > 0, 1.0, math.nan)
+        normal.plot(1e3 * times, 1e3 * closed * history["normal_force"][:, number], color=colour, label=name)
+        friction.plot(1e3 * times, 1e3 * closed * history["friction_force"][:, number, 1], color=colour)
         struck = (events.time > _START) & (events.impulse[:, number, 0] > 0.0)
         hits, look = 1e3 * events.time[struck], {"color": colour, "markersize": long, "markeredgewidth": wide}
         normal.plot(hits, np.zeros(len(hits)), "|", zorder=3 - number, **look)

@@ -28,6 +28,7 @@ import nonsmooth as ns
 from bodies import Dumbbell, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.native.kernel import entry_addresses
+from nonsmooth.solution.modes import mode_shares
 from tests import tiers
 from tests.processor_time import ProcessorTimes
 
@@ -92,7 +93,7 @@ class Builders:
 
     def lived(self, solution: ns.Solution) -> list[str]:
         """Return the mode words that took time, the longest first."""
-        return [word for word, share in solution.modes.items() if share > 0.0]
+        return [word for word, share in mode_shares(solution).items() if share > 0.0]
 
     def axes(self, theta: float, beta: float, gamma: float) -> NDArray[np.float64]:
         """Return the rotation matrix of Eq. (2), body axes as columns."""

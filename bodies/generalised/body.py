@@ -14,12 +14,11 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from bodies.generalised.checks import check_equations
+from bodies.generalised.checks import GRAVITY, Sampler, check_equations, check_signatures
 from bodies.generalised.coordinate import Coordinate
-from bodies.generalised.equations import Equations, Part, evaluator, own_names
+from bodies.generalised.equations import Equations, UserFunction, evaluator, own_names
 from bodies.generalised.example import cart_pendulum
 from bodies.generalised.frames import Function, MovingFrame
-from bodies.generalised.sample import GRAVITY, Sampler, check_signatures
 from bodies.values import Word, read_start
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body, Shape
@@ -105,7 +104,9 @@ class GeneralisedBody(Body):
             )
         check_signatures("GeneralisedBody", self._equations.parts(), {**self.constants, **GRAVITY})
         if self.drawn is not None:
-            check_signatures("GeneralisedBody", [Part("drawn", "drawn", "drawn", self.drawn, 0)], self.constants)
+            check_signatures(
+                "GeneralisedBody", [UserFunction("drawn", "drawn", "drawn", self.drawn, 0)], self.constants
+            )
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the fields; a read-only view of constants cannot be pickled."""
@@ -150,11 +151,6 @@ class GeneralisedBody(Body):
     def u_labels(self) -> NamesAndUnits:
         """One velocity per coordinate."""
         return tuple((f"{one.name} rate", f"{one.unit}/s") for one in self.coordinates)
-
-    @property
-    def quaternion(self) -> int:
-        """None."""
-        return -1
 
     @property
     def evaluator(self) -> Callable[..., None]:

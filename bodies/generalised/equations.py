@@ -1,18 +1,19 @@
-"""From the functions of a body to the evaluator that the engine calls, and to a probe that looks at each of them."""
+"""From the functions of a body to the evaluator that the engine calls, and to a probe that calls each of them."""
 
 from __future__ import annotations
 
 import functools
 import inspect
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from bodies.generalised.algebra import clear, invert, multiply, quadratic
 from bodies.generalised.frames import Function, MovingFrame
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FRAME
 from nonsmooth.engine.native.kernel import at
+from nonsmooth.types import Floats
 
 LEADING = {
     "mass": ("q", "out"),
@@ -27,8 +28,8 @@ LEADING = {
 """What the functions of a body take before its constants."""
 
 
-class Part(NamedTuple):
-    """One function of a body: its variable in the text below, its name for messages, its role, and how much it says."""
+class UserFunction(NamedTuple):
+    """A function of a body: its variable in the text below, name for messages, role, and number of values."""
 
     variable: str
     name: str
@@ -48,22 +49,22 @@ class Equations:
     power: Callable[..., float] | None
     frames: tuple[MovingFrame, ...]
 
-    def parts(self) -> tuple[Part, ...]:
+    def parts(self) -> tuple[UserFunction, ...]:
         """Return all functions."""
         n = self.n
         found = [
-            Part("mass", "mass", "mass", self.mass, n * n),
-            Part("force", "force", "force", self.force, n),
-            Part("potential", "potential", "potential", self.potential, 1),
+            UserFunction("mass", "mass", "mass", self.mass, n * n),
+            UserFunction("force", "force", "force", self.force, n),
+            UserFunction("potential", "potential", "potential", self.potential, 1),
         ]
         if self.power is not None:
-            found.append(Part("power", "power", "power", self.power, 1))
+            found.append(UserFunction("power", "power", "power", self.power, 1))
         for i, frame in enumerate(self.frames):
             name = f"moving_frames[{i}]"
             found += [
-                Part(f"pose_{i}", f"{name}.pose", "pose", frame.pose, frame.n_pose),
-                Part(f"jacobian_{i}", f"{name}.jacobian", "jacobian", frame.jacobian, frame.n_rows * n),
-                Part(f"bias_{i}", f"{name}.bias", "bias", frame.bias, frame.n_rows),
+                UserFunction(f"pose_{i}", f"{name}.pose", "pose", frame.pose, frame.n_pose),
+                UserFunction(f"jacobian_{i}", f"{name}.jacobian", "jacobian", frame.jacobian, frame.n_rows * n),
+                UserFunction(f"bias_{i}", f"{name}.bias", "bias", frame.bias, frame.n_rows),
             ]
         return tuple(found)
 
@@ -72,7 +73,7 @@ GUARD = 16
 """Floats around what each function writes to the probe, in which nothing may be written."""
 
 
-def places(equations: Equations) -> tuple[tuple[Part, int], ...]:
+def places(equations: Equations) -> tuple[tuple[UserFunction, int], ...]:
     """Return every function with the offset at which it writes to the probe."""
     found, start = [], GUARD
     for part in equations.parts():
@@ -161,3 +162,64 @@ def _function(equations: Equations, name: str, lines: list[str]) -> Callable[...
 @functools.cache
 def _compiled(function: Callable[..., Any]) -> Any:
     return compiled(function)
+
+
+@compiled
+def clear(n: int, out: Floats) -> None:
+    """Write n zeros."""
+    for i in range(n):
+        out[i] = 0.0
+
+
+@compiled
+def multiply(rows: int, n: int, matrix: Floats, vector: Floats, out: Floats) -> None:
+    """Write matrix times vector; the matrix has ``rows`` rows of n."""
+    for i in range(rows):
+        total = 0.0
+        for j in range(n):
+            total += matrix[i * n + j] * vector[j]
+        out[i] = total
+
+
+@compiled
+def quadratic(n: int, matrix: Floats, vector: Floats) -> float:
+    """Return vector . matrix vector / 2."""
+    total = 0.0
+    for i in range(n):
+        for j in range(n):
+            total += matrix[i * n + j] * vector[i] * vector[j]
+    return 0.5 * total
+
+
+@compiled
+def invert(n: int, matrix: Floats) -> None:
+    """Put the inverse of a symmetric positive definite matrix in its place, by Cholesky.
+
+    Of the matrix only the lower triangle is read.  If it is not positive definite, what comes out is not finite.
+    """
+    for j in range(n):
+        pivot = matrix[j * n + j]
+        for m in range(j):
+            pivot -= matrix[j * n + m] * matrix[j * n + m]
+        matrix[j * n + j] = math.sqrt(pivot) if pivot > 0.0 else math.nan
+        for i in range(j + 1, n):
+            total = matrix[i * n + j]
+            for m in range(j):
+                total -= matrix[i * n + m] * matrix[j * n + m]
+            matrix[i * n + j] = total / matrix[j * n + j]
+    # the factor L gives way to its inverse, column by column ...
+    for j in range(n):
+        matrix[j * n + j] = 1.0 / matrix[j * n + j]
+        for i in range(j + 1, n):
+            total = 0.0
+            for m in range(j, i):
+                total -= matrix[i * n + m] * matrix[m * n + j]
+            matrix[i * n + j] = total / matrix[i * n + i]
+    # ... and that to L^-T L^-1, of which row i needs no row above
+    for i in range(n):
+        for j in range(i + 1):
+            total = 0.0
+            for m in range(i, n):
+                total += matrix[m * n + i] * matrix[m * n + j]
+            matrix[i * n + j] = total
+            matrix[j * n + i] = total

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
-from bodies.carried import check_carried
+from bodies.values import check_carried
 from nonsmooth.engine.memory.blocks import ROTATION
 from nonsmooth.interfaces import Shape
 from nonsmooth.types import Floats

@@ -19,7 +19,7 @@ MANY = 200_000
 _CHUNK = 1 << 22
 
 
-def check_number(thing: str, count: int, largest: int = LARGEST) -> None:
+def check_count(thing: str, count: int, largest: int = LARGEST) -> None:
     """Refuse or warn of a number of triangles.
 
     Raises

@@ -1,12 +1,14 @@
-"""Mesh: a checked closed surface with what it encloses."""
+"""Mesh: a checked closed surface; Surface: the component that gives it; units of length."""
 
 from __future__ import annotations
 
 import functools
 import hashlib
+import warnings
+from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import final
+from typing import Any, final
 
 import numpy as np
 
@@ -15,9 +17,9 @@ from bodies.meshes.checks import check_finite, check_indices, check_surface
 from bodies.meshes.integrals import mass_properties
 from bodies.meshes.repair import repaired
 from bodies.meshes.topology import Integers, merge_equal
-from bodies.meshes.units import warn_of_size
-from nonsmooth.errors import InvalidInput
+from nonsmooth.errors import InvalidInput, UnknownName
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.parameters import UnusualValue
 
 
 @final
@@ -132,3 +134,51 @@ def checked(name: str, vertices: Vector, faces: Integers, unit: str = "m", repai
     check_surface(thing, vertices, faces)
     vertices.flags.writeable = faces.flags.writeable = False
     return Mesh(name, vertices, faces, tuple(lines))
+
+
+METRES = {"m": 1.0, "dm": 0.1, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "inch": 0.0254, "foot": 0.3048}
+"""Length of one unit [m]."""
+
+SMALLEST, LARGEST = 1e-4, 5.0
+"""Largest extent of a body that is taken without a question [m]."""
+
+
+def metres(thing: str, unit: str) -> float:
+    """Return the length of a unit [m]; raise UnknownName if there is none of that name."""
+    if unit not in METRES:
+        raise UnknownName(f"{thing}: unit", str(unit), METRES)
+    return METRES[unit]
+
+
+def warn_of_size(thing: str, extent: float, unit: str) -> None:
+    """Warn if a body with this largest extent [m], read in this unit, suggests another one."""
+    if SMALLEST <= extent <= LARGEST:
+        return
+    others = [name for name, length in METRES.items() if SMALLEST <= extent / METRES[unit] * length <= LARGEST]
+    better = " or ".join(repr(name) for name in others if name in ("m", "mm", "inch")) or "another one"
+    warnings.warn(
+        f"{thing}: the largest extent is {extent:.4g} m, outside of the usual {SMALLEST:g} to {LARGEST:g} m, with its "
+        f"numbers read as {unit!r}. Is the unit right? With {better} the body would be of usual size.",
+        UnusualValue,
+        stacklevel=2,
+    )
+
+
+@dataclass(frozen=True)
+class Surface(ABC):
+    """A component that gives a checked mesh; subclasses are final frozen dataclasses of numbers and words.
+
+    What a body keeps is the surface, so that it is saved, compared and copied by what it was made of.
+    """
+
+    @property
+    @abstractmethod
+    def mesh(self) -> Mesh:
+        """The mesh, loaded and checked when the surface was made."""
+
+
+def check_surface_of(name: str, surface: Any) -> None:
+    """Raise InvalidInput unless a component gets a surface."""
+    if not isinstance(surface, Surface):
+        example = 'For example MeshFile("part.stl", unit="mm").'
+        raise InvalidInput(f"{name}.surface", "must be a surface", type(surface).__name__, example)

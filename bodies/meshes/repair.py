@@ -1,4 +1,4 @@
-"""Repairs of a mesh: only those asked for, in a fixed order, and each says what it changed and by how much."""
+"""Repairs of a mesh: only those that the user names, in a fixed order; each warns of its change."""
 
 from __future__ import annotations
 
@@ -8,10 +8,8 @@ from collections.abc import Callable, Iterable
 import numpy as np
 
 from bodies.meshes.checks import flat_triangles
-from bodies.meshes.holes import close_holes
-from bodies.meshes.integrals import volume_of
-from bodies.meshes.orient import orient
-from bodies.meshes.topology import Integers, merge_equal
+from bodies.meshes.integrals import areas_of, volume_of
+from bodies.meshes.topology import Integers, edge_counts, half_edges, merge_equal, neighbours, shells
 from nonsmooth.errors import InvalidInput, NonsmoothWarning, UnknownName
 from nonsmooth.interfaces.body import Vector
 
@@ -155,3 +153,99 @@ REPAIRS: dict[str, Callable[[Vector, Integers], Repaired]] = {
     "holes": _holes,
 }
 """Repairs by name, in the order in which they are made."""
+
+
+def close_holes(vertices: Vector, faces: Integers) -> tuple[Vector, Integers, str]:
+    """Return the mesh with a fan of triangles in every ring of open edges, and what was added.
+
+    A ring of three gets one triangle, another a vertex in its middle: exact where the hole is flat and star-shaped.
+    """
+    rings = _rings(faces)
+    if not rings:
+        return vertices, faces, ""
+    points, new = [vertices], []
+    n = len(vertices)
+    for ring in rings:
+        if len(ring) == 3:
+            new.append(tuple(ring))
+            continue
+        points.append(np.mean(vertices[ring], axis=0)[None])
+        new += [(ring[i], ring[(i + 1) % len(ring)], n) for i in range(len(ring))]
+        n += 1
+    whole, added = np.concatenate(points), np.array(new, dtype=np.int64)
+    area = float(np.sum(areas_of(whole, added)))
+    share = area / (area + float(np.sum(areas_of(vertices, faces))))
+    told = f"{len(rings)} holes closed by {len(added)} triangles of {area:.3g} m^2, {share:.2%} of the surface"
+    return whole, np.concatenate([faces, added]), told
+
+
+def _rings(faces: Integers) -> list[list[int]]:
+    """Return the rings of open edges, against the sense of their triangles."""
+    _, counts, which = edge_counts(faces)
+    edges = half_edges(faces)[counts[which] == 1]
+    following: dict[int, list[int]] = {}
+    for start, end in edges.tolist():
+        following.setdefault(end, []).append(start)
+    rings = []
+    while following:
+        ring = [next(iter(following))]
+        while following.get(ring[-1]):
+            after = following[ring[-1]].pop()
+            if not following[ring[-1]]:
+                del following[ring[-1]]
+            if after == ring[0]:
+                rings.append(ring)
+                break
+            ring.append(after)
+        else:
+            # a ring that does not close: wound against each other; the check of edges says so
+            following.pop(ring[-1], None)
+    return rings
+
+
+def orient(vertices: Vector, faces: Integers) -> tuple[Integers, int]:
+    """Return the triangles wound like their neighbours, every shell with a positive volume; and how many were turned.
+
+    Cavities are told by nothing but their winding, so that they would become bodies: a mesh with more than one shell
+    keeps the sense of each in which most of its triangles are wound.
+    """
+    flipped = _flips(faces)
+    number = shells(faces)
+    several = int(np.max(number)) > 0
+    for i in range(int(np.max(number)) + 1):
+        own = number == i
+        if several:
+            inverted = 2 * np.sum(flipped[own]) > np.sum(own)
+        else:
+            inverted = volume_of(vertices, _turned(faces[own], flipped[own])) < 0.0
+        if inverted:
+            flipped[own] = ~flipped[own]
+    return _turned(faces, flipped), int(np.sum(flipped))
+
+
+def _turned(faces: Integers, flipped: np.ndarray) -> Integers:
+    return np.where(flipped[:, None], faces[:, ::-1], faces)
+
+
+def _flips(faces: Integers) -> np.ndarray:
+    """Return which triangles to turn so that each is wound like the first of its shell, shape [m]."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import breadth_first_order
+
+    pairs, edges, m = neighbours(faces), half_edges(faces), len(faces)
+    one, two = pairs[:, 0] // 3, pairs[:, 1] // 3
+    # two half edges that run the same way belong to triangles wound against each other
+    against = edges[pairs[:, 0], 0] == edges[pairs[:, 1], 0]
+    relation = {}
+    for i, j, differ in zip(one.tolist(), two.tolist(), against.tolist(), strict=True):
+        relation[i, j] = relation[j, i] = differ
+    links = coo_matrix((np.ones(2 * len(one)), (np.append(one, two), np.append(two, one))), shape=(m, m)).tocsr()
+    flipped, seen = np.zeros(m, dtype=bool), np.zeros(m, dtype=bool)
+    for root in range(m):
+        if seen[root]:
+            continue
+        order, before = breadth_first_order(links, root, directed=False)
+        seen[order] = True
+        for i in order[1:].tolist():
+            flipped[i] = flipped[before[i]] ^ relation[int(before[i]), i]
+    return flipped

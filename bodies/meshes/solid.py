@@ -12,7 +12,7 @@ import numpy as np
 from bodies.meshes.integrals import areas_of, winding_number
 from bodies.meshes.topology import Integers, shells
 from nonsmooth.interfaces.body import Vector
-from nonsmooth.interfaces.solid import Piece, Solid
+from nonsmooth.interfaces.solid import Piece, SolidRegion
 
 _LOOKED_AT = 32
 """Triangles under which points inside are sought: the largest of every shell, so many of all, but one of each."""
@@ -20,7 +20,7 @@ _LOOKED_AT = 32
 
 @final
 @dataclass(frozen=True, eq=False)
-class MeshSolid(Solid):
+class MeshSolid(SolidRegion):
     """The triangles are its pieces.
 
     Attributes

@@ -7,8 +7,7 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.meshes.mesh import Mesh, checked
-from bodies.meshes.surface import Surface
+from bodies.meshes.mesh import Mesh, Surface, checked
 from nonsmooth.errors import InvalidInput
 
 

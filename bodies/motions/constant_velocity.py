@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import final
 
-from bodies.blocks import put
-from bodies.motions.pose import pose_parameters
+from bodies.blocks import pose_of, put
 from bodies.values import unit_quaternion, unit_vector, vector
 from nonsmooth.engine.memory.blocks import ACCELERATION, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.interfaces import Motion
-from nonsmooth.parameters import parameter
+from nonsmooth.parameters import Value, parameter
 from nonsmooth.types import Floats
 
 
@@ -22,57 +21,34 @@ def _evaluate(
     u: Floats,
     out: Floats,
     rate: float,
-    velocity_x: float,
-    velocity_y: float,
-    velocity_z: float,
-    axis_x: float,
-    axis_y: float,
-    axis_z: float,
-    centre_x: float,
-    centre_y: float,
-    centre_z: float,
-    x: float,
-    y: float,
-    z: float,
-    xx: float,
-    xy: float,
-    xz: float,
-    yx: float,
-    yy: float,
-    yz: float,
-    zx: float,
-    zy: float,
-    zz: float,
+    velocity: Floats,
+    axis: Floats,
+    centre: Floats,
+    pose: Floats,
 ) -> None:
-    angle = rate * t
+    angle, (x, y, z) = rate * t, (axis[0], axis[1], axis[2])
     c, s, half = math.cos(angle), math.sin(angle), math.sin(0.5 * angle)
     d = 2.0 * half * half
     # rotation by the angle about the axis, row by row
-    r00, r01, r02 = c + d * axis_x * axis_x, d * axis_x * axis_y - s * axis_z, d * axis_x * axis_z + s * axis_y
-    r10, r11, r12 = d * axis_x * axis_y + s * axis_z, c + d * axis_y * axis_y, d * axis_y * axis_z - s * axis_x
-    r20, r21, r22 = d * axis_x * axis_z - s * axis_y, d * axis_y * axis_z + s * axis_x, c + d * axis_z * axis_z
-    put(out, ROTATION, r00 * xx + r01 * yx + r02 * zx, r00 * xy + r01 * yy + r02 * zy, r00 * xz + r01 * yz + r02 * zz)
-    put(
-        out,
-        ROTATION + 3,
-        r10 * xx + r11 * yx + r12 * zx,
-        r10 * xy + r11 * yy + r12 * zy,
-        r10 * xz + r11 * yz + r12 * zz,
-    )
-    put(
-        out,
-        ROTATION + 6,
-        r20 * xx + r21 * yx + r22 * zx,
-        r20 * xy + r21 * yy + r22 * zy,
-        r20 * xz + r21 * yz + r22 * zz,
-    )
-    ax, ay, az = x - centre_x, y - centre_y, z - centre_z
+    r00, r01, r02 = c + d * x * x, d * x * y - s * z, d * x * z + s * y
+    r10, r11, r12 = d * x * y + s * z, c + d * y * y, d * y * z - s * x
+    r20, r21, r22 = d * x * z - s * y, d * y * z + s * x, c + d * z * z
+    for i in range(ROTATION, ROTATION + 3):
+        e, f, g = pose[i], pose[i + 3], pose[i + 6]
+        out[i] = r00 * e + r01 * f + r02 * g
+        out[i + 3] = r10 * e + r11 * f + r12 * g
+        out[i + 6] = r20 * e + r21 * f + r22 * g
+    ax, ay, az = pose[0] - centre[0], pose[1] - centre[1], pose[2] - centre[2]
     bx, by, bz = r00 * ax + r01 * ay + r02 * az, r10 * ax + r11 * ay + r12 * az, r20 * ax + r21 * ay + r22 * az
-    ox, oy, oz = rate * axis_x, rate * axis_y, rate * axis_z
-    # velocity omega x arm and acceleration omega x (omega x arm) about the moving centre
+    ox, oy, oz = rate * x, rate * y, rate * z
+    # velocity omega x offset and acceleration omega x (omega x offset) about the moving centre
     wx, wy, wz = oy * bz - oz * by, oz * bx - ox * bz, ox * by - oy * bx
-    put(out, POSITION, centre_x + velocity_x * t + bx, centre_y + velocity_y * t + by, centre_z + velocity_z * t + bz)
-    put(out, VELOCITY, velocity_x + wx, velocity_y + wy, velocity_z + wz)
+    put(out, POSITION, bx, by, bz)
+    put(out, VELOCITY, wx, wy, wz)
+    # the centre of the turn moves
+    for i in range(3):
+        out[POSITION + i] += centre[i] + velocity[i] * t
+        out[VELOCITY + i] += velocity[i]
     put(out, SPIN, ox, oy, oz)
     put(out, ACCELERATION, oy * wz - oz * wy, oz * wx - ox * wz, ox * wy - oy * wx)
 
@@ -122,12 +98,15 @@ class ConstantVelocity(Motion):
         for name, value in values.items():
             object.__setattr__(self, name, tuple(value.tolist()))
 
-    def parameters(self) -> dict[str, float]:
+    def parameters(self) -> Mapping[str, Value]:
         """Return rate, velocity, axis, centre, and the pose at t = 0."""
-        numbers = {"rate": float(self.rate)}
-        for name, value in (("velocity", self.velocity), ("axis", self.axis), ("centre", self.centre or self.position)):
-            numbers |= {f"{name}_{letter}": x for letter, x in zip("xyz", value, strict=True)}
-        return numbers | pose_parameters(self.position, self.orientation)
+        return {
+            "rate": float(self.rate),
+            "velocity": self.velocity,
+            "axis": self.axis,
+            "centre": self.centre or self.position,
+            "pose": pose_of(self.position, self.orientation),
+        }
 
     @property
     def evaluator(self) -> Callable[..., None]:

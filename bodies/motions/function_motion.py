@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias, final
 
-from bodies.blocks import put
+from bodies.blocks import put, rotation_of
 from bodies.motions.function_check import Function, check_linear, check_turn
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import ACCELERATION, POSITION, ROTATION, SPIN, SPIN_ACCELERATION, VELOCITY
@@ -37,9 +37,10 @@ def _turning(translation: Evaluator, orientation: Function, velocity: Function, 
     def evaluate(t: float, q: Floats, u: Floats, out: Floats) -> None:
         move(t, q, u, out)
         w, x, y, z = r(t)
-        put(out, ROTATION, w * w + x * x - y * y - z * z, 2.0 * (x * y - w * z), 2.0 * (x * z + w * y))
-        put(out, ROTATION + 3, 2.0 * (x * y + w * z), w * w - x * x + y * y - z * z, 2.0 * (y * z - w * x))
-        put(out, ROTATION + 6, 2.0 * (x * z - w * y), 2.0 * (y * z + w * x), w * w - x * x - y * y + z * z)
+        xx, xy, xz, yx, yy, yz, zx, zy, zz = rotation_of(w, x, y, z)
+        put(out, ROTATION, xx, xy, xz)
+        put(out, ROTATION + 3, yx, yy, yz)
+        put(out, ROTATION + 6, zx, zy, zz)
         out[SPIN], out[SPIN + 1], out[SPIN + 2] = v(t)
         out[SPIN_ACCELERATION], out[SPIN_ACCELERATION + 1], out[SPIN_ACCELERATION + 2] = a(t)
 

@@ -3,39 +3,28 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import final
 
-from bodies.blocks import put
 from nonsmooth.engine.memory.blocks import ACCELERATION, POSITION, ROTATION, VELOCITY
 from nonsmooth.interfaces import Motion
-from nonsmooth.parameters import parameter
+from nonsmooth.parameters import Value, parameter
 from nonsmooth.types import Floats
 from nonsmooth.vectors import UNIT_PART, unit_vector
 
 
 def _evaluate(
-    t: float,
-    q: Floats,
-    u: Floats,
-    out: Floats,
-    amplitude: float,
-    frequency: float,
-    phase: float,
-    axis_x: float,
-    axis_y: float,
-    axis_z: float,
+    t: float, q: Floats, u: Floats, out: Floats, amplitude: float, frequency: float, phase: float, axis: Floats
 ) -> None:
     omega = 2.0 * math.pi * frequency
     angle = omega * t + phase
     displacement = amplitude * math.sin(angle)
     velocity = amplitude * omega * math.cos(angle)
     acceleration = -omega * omega * displacement
-    put(out, POSITION, displacement * axis_x, displacement * axis_y, displacement * axis_z)
-    out[ROTATION] = out[ROTATION + 4] = out[ROTATION + 8] = 1.0
-    put(out, VELOCITY, velocity * axis_x, velocity * axis_y, velocity * axis_z)
-    put(out, ACCELERATION, acceleration * axis_x, acceleration * axis_y, acceleration * axis_z)
+    for i in range(3):
+        out[POSITION + i], out[ROTATION + 4 * i] = displacement * axis[i], 1.0
+        out[VELOCITY + i], out[ACCELERATION + i] = velocity * axis[i], acceleration * axis[i]
 
 
 @final
@@ -53,10 +42,10 @@ class Harmonic(Motion):
     def _check(self) -> None:
         self.parameters()
 
-    def parameters(self) -> dict[str, float]:
-        """Return the numbers, the axis to the last bit of unit length."""
+    def parameters(self) -> Mapping[str, Value]:
+        """Return amplitude, frequency, phase, and the axis to the last bit of unit length."""
         axis = unit_vector("Harmonic axis", (self.axis_x, self.axis_y, self.axis_z))
-        return {**self.numbers(), **dict(zip(("axis_x", "axis_y", "axis_z"), axis, strict=True))}
+        return {"amplitude": self.amplitude, "frequency": self.frequency, "phase": self.phase, "axis": axis}
 
     @property
     def evaluator(self) -> Callable[..., None]:

@@ -3,43 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import final
 
-from bodies.blocks import put
-from bodies.motions.pose import pose_parameters
+from bodies.blocks import pose_of, stand_still
 from bodies.values import unit_quaternion, vector
-from nonsmooth.engine.memory.blocks import POSITION, ROTATION
+from nonsmooth.engine.memory.blocks import ROTATION
 from nonsmooth.interfaces import Motion
-from nonsmooth.parameters import parameter
-from nonsmooth.types import Floats
-
-
-def _evaluate(
-    t: float,
-    q: Floats,
-    u: Floats,
-    out: Floats,
-    slope: float,
-    x: float,
-    y: float,
-    z: float,
-    xx: float,
-    xy: float,
-    xz: float,
-    yx: float,
-    yy: float,
-    yz: float,
-    zx: float,
-    zy: float,
-    zz: float,
-) -> None:
-    c, s = math.cos(slope), math.sin(slope)
-    put(out, POSITION, x, y, z)
-    put(out, ROTATION, xx * c - xz * s, xy, xx * s + xz * c)
-    put(out, ROTATION + 3, yx * c - yz * s, yy, yx * s + yz * c)
-    put(out, ROTATION + 6, zx * c - zz * s, zy, zx * s + zz * c)
+from nonsmooth.parameters import Value, parameter
 
 
 @final
@@ -72,14 +44,18 @@ class Rest(Motion):
         object.__setattr__(self, "position", tuple(position.tolist()))
         object.__setattr__(self, "orientation", tuple(orientation.tolist()))
 
-    def parameters(self) -> dict[str, float]:
-        """Return the slope, the position and the rotation matrix of the orientation."""
-        return {"slope": self.slope, **pose_parameters(self.position, self.orientation)}
+    def parameters(self) -> Mapping[str, Value]:
+        """Return the pose on the slope: position [m] and rotation matrix."""
+        c, s = math.cos(self.slope), math.sin(self.slope)
+        pose = list(pose_of(self.position, self.orientation))
+        for i in (ROTATION, ROTATION + 3, ROTATION + 6):
+            pose[i], pose[i + 2] = pose[i] * c - pose[i + 2] * s, pose[i] * s + pose[i + 2] * c
+        return {"pose": tuple(pose)}
 
     @property
     def evaluator(self) -> Callable[..., None]:
         """The fixed pose."""
-        return _evaluate
+        return stand_still
 
     @property
     def time_scale(self) -> float:

@@ -10,11 +10,10 @@ from typing import Any, final
 
 import numpy as np
 
-from bodies.blocks import put
-from bodies.motions.pose import pose_parameters
+from bodies.blocks import pose_of, write_pose
 from bodies.values import unit_quaternion
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import ACCELERATION, ROTATION, VELOCITY
+from nonsmooth.engine.memory.blocks import ACCELERATION, VELOCITY
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Motion
 from nonsmooth.interfaces.body import Vector
@@ -49,52 +48,18 @@ def _write(out: Floats, times: Floats, coefficients: Floats, count: float, t: fl
 
 
 def _evaluate(
-    t: float,
-    q: Floats,
-    u: Floats,
-    out: Floats,
-    count: float,
-    times: Floats,
-    coefficients: Floats,
-    xx: float,
-    xy: float,
-    xz: float,
-    yx: float,
-    yy: float,
-    yz: float,
-    zx: float,
-    zy: float,
-    zz: float,
+    t: float, q: Floats, u: Floats, out: Floats, count: float, times: Floats, coefficients: Floats, pose: Floats
 ) -> None:
-    put(out, ROTATION, xx, xy, xz)
-    put(out, ROTATION + 3, yx, yy, yz)
-    put(out, ROTATION + 6, zx, zy, zz)
+    write_pose(out, pose)
     _write(out, times, coefficients, count, t)
 
 
 def _evaluate_periodic(
-    t: float,
-    q: Floats,
-    u: Floats,
-    out: Floats,
-    count: float,
-    times: Floats,
-    coefficients: Floats,
-    xx: float,
-    xy: float,
-    xz: float,
-    yx: float,
-    yy: float,
-    yz: float,
-    zx: float,
-    zy: float,
-    zz: float,
+    t: float, q: Floats, u: Floats, out: Floats, count: float, times: Floats, coefficients: Floats, pose: Floats
 ) -> None:
-    put(out, ROTATION, xx, xy, xz)
-    put(out, ROTATION + 3, yx, yy, yz)
-    put(out, ROTATION + 6, zx, zy, zz)
     first = times[0]
     period = times[int(count) - 1] - first
+    write_pose(out, pose)
     _write(out, times, coefficients, count, t - period * math.floor((t - first) / period))
 
 
@@ -155,12 +120,12 @@ class Table(Motion):
         object.__setattr__(self, "_time_scale", _time_scale(times, positions, spline.c))
 
     def parameters(self) -> Mapping[str, Value]:
-        """Return times, coefficients of the spline and rotation matrix."""
+        """Return times, coefficients of the spline and a pose with the rotation matrix."""
         return {
             "count": float(len(self.times)),
             "times": tuple(self.times),
             "coefficients": self._coefficients,
-            **pose_parameters((0.0, 0.0, 0.0), self.orientation),
+            "pose": pose_of((0.0, 0.0, 0.0), self.orientation),
         }
 
     @property

@@ -65,8 +65,8 @@ class Made:
         return self.shape.solid.bounds
 
 
-class Geometries(DistanceBackend):
-    """A library as far as it makes geometries; lengths in [m], each in its own axes, about its middle."""
+class GeometryMaker(DistanceBackend):
+    """Base of libraries: how they make geometries, each in its own axes about its middle [m]."""
 
     @abstractmethod
     def ball(self, radius: float) -> Any:
@@ -108,47 +108,47 @@ def _about(shape: Shape, geometry: Any, middle: Vector, axes: Vector, sweep: flo
     return Made(shape, geometry, middle, axes, sweep, middle)
 
 
-def _sphere(library: Geometries, shape: Sphere) -> Made:
+def _sphere(library: GeometryMaker, shape: Sphere) -> Made:
     return _about(shape, library.ball(shape.radius), _centre(shape), np.eye(3))
 
 
-def _box(library: Geometries, shape: Box) -> Made:
+def _box(library: GeometryMaker, shape: Box) -> Made:
     x, y, z = shape.core_sizes
     return _about(shape, library.box((2.0 * x, 2.0 * y, 2.0 * z)), _centre(shape), _turn(shape), shape.rounding)
 
 
-def _capsule(library: Geometries, shape: Capsule) -> Made:
+def _capsule(library: GeometryMaker, shape: Capsule) -> Made:
     geometry = library.capsule(shape.radius, 2.0 * shape.half_length)
     return _about(shape, geometry, _centre(shape), _along(shape))
 
 
-def _cylinder(library: Geometries, shape: Cylinder) -> Made:
+def _cylinder(library: GeometryMaker, shape: Cylinder) -> Made:
     radius, half = shape.core_sizes
     return _about(shape, library.cylinder(radius, 2.0 * half), _centre(shape), _along(shape), shape.rounding)
 
 
-def _cone(library: Geometries, shape: Cone) -> Made:
+def _cone(library: GeometryMaker, shape: Cone) -> Made:
     (radius, height), axes = shape.core_sizes, _along(shape)
     middle = _centre(shape) + (shape.rounding + 0.5 * height) * axes[:, 2]
     return _about(shape, library.cone(radius, height), middle, axes, shape.rounding)
 
 
-def _ellipsoid(library: Geometries, shape: Ellipsoid) -> Made:
+def _ellipsoid(library: GeometryMaker, shape: Ellipsoid) -> Made:
     geometry = library.ellipsoid((shape.semi_x, shape.semi_y, shape.semi_z))
     return _about(shape, geometry, _centre(shape), _turn(shape))
 
 
-def _hull(library: Geometries, shape: ConvexHull) -> Made:
+def _hull(library: GeometryMaker, shape: ConvexHull) -> Made:
     vertices, faces = _checked(library, np.array(shape.core.vertices), np.array(shape.core.triangles))
     return Made(shape, library.hull(vertices, faces), *_HERE, shape.rounding, vertices[0])
 
 
-def _mesh(library: Geometries, shape: TriangleMesh) -> Made:
+def _mesh(library: GeometryMaker, shape: TriangleMesh) -> Made:
     vertices, faces = _checked(library, *shape.drawing())
     return Made(shape, library.mesh(vertices, faces), *_HERE, 0.0, vertices[0])
 
 
-MAKERS: Mapping[type[Shape], Callable[[Geometries, Any], Made]] = {
+MAKERS: Mapping[type[Shape], Callable[[GeometryMaker, Any], Made]] = {
     Sphere: _sphere,
     Box: _box,
     Capsule: _capsule,
@@ -165,7 +165,7 @@ be replaced by polyhedra.
 """
 
 
-def _checked(library: Geometries, vertices: Vector, faces: Integers) -> tuple[Vector, Integers]:
+def _checked(library: GeometryMaker, vertices: Vector, faces: Integers) -> tuple[Vector, Integers]:
     """Return vertices and triangles; InvalidInput if a library would read out of bounds, or build a tree of nothing."""
     name = type(library).__name__
     if len(faces) == 0 or not np.all(np.isfinite(vertices)) or np.any((faces < 0) | (faces >= len(vertices))):

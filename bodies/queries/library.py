@@ -1,4 +1,4 @@
-"""Library: how any library is asked, and what becomes of its answer."""
+"""Library: how distance libraries are called, and how their answers are read."""
 
 from __future__ import annotations
 
@@ -9,8 +9,7 @@ from typing import final
 import numpy as np
 
 from bodies.meshes.integrals import winding_number
-from bodies.queries.aligned import aligned_boxes
-from bodies.queries.geometries import MAKERS, Geometries, Made
+from bodies.queries.geometries import MAKERS, GeometryMaker, Made
 from bodies.shapes.box import Box
 from bodies.shapes.hull import ConvexHull
 from bodies.shapes.sphere import Sphere
@@ -30,7 +29,7 @@ _LEAST = 1e-12
 """Distance [m] at which a library does not tell any more whether bodies overlap."""
 
 
-class Library(Geometries):
+class Library(GeometryMaker):
     """A library that is asked for unsigned distances only; subclasses are final, one for each.
 
     Errors of the distance of centimetres are mostly below 1e-11 m.  What is stated is, of convex solids, how far the
@@ -160,3 +159,34 @@ def _inside(solid: Made, place: Place, point: Vector) -> bool:
 def _some(solid: Made, place: Place) -> Vector:
     """Return a point of a solid in the world."""
     return np.asarray(place[0] + place[1] @ solid.point)
+
+
+_ALIGNED = 1e-9
+
+
+def aligned_boxes(one: Place, half: Vector, two: Place, other: Vector) -> tuple[float, Vector, Vector] | None:
+    """Return distance [m] and nearest points of two boxes whose edges are parallel to 1e-9 rad; else None.
+
+    Parameters
+    ----------
+    one, two : tuple
+        Centre [m], shape [3], and axes as columns, shape [3, 3].
+    half, other : Vector
+        Half-lengths along their axes [m], shape [3].
+    """
+    (place, axes), (second_place, second_axes) = one, two
+    relative = axes.T @ second_axes
+    signs = np.round(relative)
+    if np.max(np.abs(relative - signs)) > _ALIGNED:
+        return None
+    reach = np.abs(signs) @ other
+    way = axes.T @ (second_place - place)
+    # along every axis the nearest interval of either box, in the frame of the first
+    low, high = np.maximum(-half, way - reach), np.minimum(half, way + reach)
+    middle = 0.5 * (low + high)
+    # where the intervals do not meet, low is above high: the ends that face each other
+    apart = low > high
+    first = np.where(apart, np.where(way > 0.0, half, -half), middle)
+    second = np.where(apart, np.where(way > 0.0, way - reach, way + reach), middle)
+    distance = float(np.linalg.norm(second - first))
+    return distance, place + axes @ first, place + axes @ second

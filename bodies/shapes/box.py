@@ -12,8 +12,7 @@ import numpy as np
 from bodies.shapes.placement import turned, with_axes
 from bodies.shapes.polyhedron import Polyhedron
 from bodies.shapes.polytope import Polytope, polytope_of
-from bodies.shapes.swept_drawing import draw_swept
-from bodies.shapes.swept_solid import swept_solid
+from bodies.shapes.swept_solid import draw_swept, swept_solid
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ConvexPart
 from nonsmooth.interfaces.body import Vector

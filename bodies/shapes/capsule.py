@@ -10,8 +10,8 @@ import numpy as np
 
 from bodies.shapes.drawing import arc, revolved
 from bodies.shapes.placement import about_axis
+from bodies.shapes.polyhedron import SweptPolytope
 from bodies.shapes.polytope import Polytope
-from bodies.shapes.swept import SweptPolytope
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector
@@ -64,8 +64,8 @@ class Capsule(SweptPolytope):
 
     @property
     def volume(self) -> float:
-        """2 pi r^2 c + 4 pi r^3 / 3 [m^3]."""
-        return 2.0 * math.pi * self.radius**2 * self.half_length + 4.0 / 3.0 * math.pi * self.radius**3
+        """Cylinder and ball, pi r^2 (2 c + 4 r / 3) [m^3]."""
+        return math.pi * self.radius**2 * (2.0 * self.half_length + 4.0 / 3.0 * self.radius)
 
     @property
     def centroid(self) -> Vector:

@@ -9,8 +9,17 @@ from typing import final
 import numpy as np
 
 from bodies.shapes.drawing import revolved
-from bodies.shapes.feet import FEET, check_feet, feet_on
-from bodies.shapes.frustum import Frustum, Point, check_rounding, frustum_numbers, on_axis, rims_over_faces
+from bodies.shapes.frustum import (
+    FEET_OF_FACE,
+    Frustum,
+    Point,
+    check_feet,
+    check_rounding,
+    feet_on,
+    frustum_numbers,
+    on_axis,
+    rims_over_faces,
+)
 from bodies.shapes.placement import about_axis, across_axis, farthest_on_circle
 from bodies.shapes.revolution import draw_swept_frustum, swept_frustum
 from nonsmooth.interfaces.body import Vector
@@ -97,7 +106,7 @@ class Cone(Frustum):
         """Tips of the feet of the base in the body frame [m]; none without a height."""
         if self.foot_height == 0.0:
             return ()
-        return feet_on(self._base, self._axis, self.core_sizes[0], 0.0)[:FEET]
+        return feet_on(self._base, self._axis, self.core_sizes[0], 0.0)[:FEET_OF_FACE]
 
     @property
     def length(self) -> float:

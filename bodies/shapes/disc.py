@@ -9,8 +9,7 @@ from typing import final
 import numpy as np
 
 from bodies.shapes.drawing import revolved
-from bodies.shapes.feet import check_feet, feet_on
-from bodies.shapes.frustum import Frustum, Point, check_rounding, frustum_numbers
+from bodies.shapes.frustum import Frustum, Point, check_feet, check_rounding, feet_on, frustum_numbers
 from bodies.shapes.placement import across_axis, farthest_on_circle
 from bodies.shapes.revolution import draw_swept_frustum, swept_frustum
 from nonsmooth.interfaces.body import Vector

@@ -10,8 +10,7 @@ import numpy as np
 
 from bodies.shapes.drawing import arc, revolved
 from bodies.shapes.placement import turned, with_axes
-from bodies.shapes.smooth import core_numbers
-from bodies.shapes.smooth_shape import SmoothShape
+from bodies.shapes.smooth import SmoothShape, core_numbers
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector

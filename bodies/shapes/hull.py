@@ -12,8 +12,7 @@ from bodies.shapes.drawing import solid_of
 from bodies.shapes.placement import with_axes
 from bodies.shapes.polyhedron import Polyhedron
 from bodies.shapes.polytope import Polytope, polytope_of, read_points
-from bodies.shapes.swept_drawing import draw_swept
-from bodies.shapes.swept_solid import swept_solid
+from bodies.shapes.swept_solid import draw_swept, swept_solid
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 from nonsmooth.vectors import UNIT_PART, unit_vector

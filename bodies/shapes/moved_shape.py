@@ -1,7 +1,8 @@
-"""MovedShape: a shape that a user gives by its farthest points, somewhere else in its body."""
+"""MovedShape: a shape that a user gives by its farthest points, elsewhere in its body; :func:`moved` for all shapes."""
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, final
@@ -10,11 +11,14 @@ import numpy as np
 
 from bodies.shapes.egg import Egg
 from bodies.shapes.placement import with_axes
-from bodies.shapes.smooth_shape import SmoothShape
+from bodies.shapes.smooth import SmoothShape
 from bodies.shapes.support_shape import SupportShape
+from bodies.values import product
 from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
+from nonsmooth.rotations import rotation
 from nonsmooth.vectors import UNIT_PART, unit_vector
 
 
@@ -95,3 +99,41 @@ class MovedShape(SmoothShape):
         """Return that of the shape, moved."""
         points, triangles = self.shape.drawing(fineness)
         return np.array([self._placed(point) for point in points]), triangles
+
+
+def moved(shape: Shape, position: Vector, orientation: Vector) -> Shape:
+    """Return the shape turned by a unit quaternion about the origin of its frame, then shifted.
+
+    The place of a shape is its parameters x, y, z [m] and, unless it is a sphere, a unit axis (axis_x, ...) or a unit
+    quaternion (orientation_w, ...) in the axes of its body. A SupportShape has none: it becomes a MovedShape.
+
+    Raises
+    ------
+    InvalidInput
+        If the shape has no x, y, z, as an unbounded plane.
+    """
+    if isinstance(shape, SupportShape):
+        return MovedShape(shape, *position.tolist(), *orientation.tolist())
+    numbers = shape.parameters()
+    if not {"x", "y", "z"} <= set(numbers):
+        raise InvalidInput(
+            "shape of a part",
+            "must have a centre with parameters x, y, z",
+            type(shape).__name__,
+            "An unbounded shape cannot be moved within a body.",
+        )
+    turn = rotation(orientation)
+    changed = _vector(numbers, "", turn, position)
+    if "axis_x" in numbers:
+        changed |= _vector(numbers, "axis_", turn, np.zeros(3))
+    if "orientation_w" in numbers:
+        own = np.array([numbers[f"orientation_{letter}"] for letter in "wxyz"])
+        whole = product(orientation, own)
+        whole /= np.linalg.norm(whole)
+        changed |= {f"orientation_{letter}": x for letter, x in zip("wxyz", whole.tolist(), strict=True)}
+    return dataclasses.replace(shape, **changed)  # type: ignore[type-var]
+
+
+def _vector(numbers: dict[str, float], prefix: str, turn: Vector, shift: Vector) -> dict[str, float]:
+    before = np.array([numbers[prefix + letter] for letter in "xyz"])
+    return {prefix + letter: x for letter, x in zip("xyz", (turn @ before + shift).tolist(), strict=True)}

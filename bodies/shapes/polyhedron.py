@@ -1,16 +1,36 @@
-"""Polyhedron: what all shapes with flat faces have in common, sharp or rounded."""
+"""SweptPolytope and Polyhedron: shapes with flat faces, sharp or rounded, and segments with a radius."""
 
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from typing import final
 
 import numpy as np
 
 from bodies.shapes.polytope import Polytope
-from bodies.shapes.swept import SweptPolytope
 from nonsmooth.errors import InvalidInput
+from nonsmooth.interfaces import ConvexPart, ConvexShape
 from nonsmooth.interfaces.body import Vector
+
+
+class SweptPolytope(ConvexShape):
+    """All points within a radius of a polyhedron or a segment, the core; with radius 0 the core itself."""
+
+    @property
+    @abstractmethod
+    def core(self) -> Polytope:
+        """Vertices, faces and edges of what is swept, in the body frame; a segment has no faces."""
+
+    @property
+    @abstractmethod
+    def sweep(self) -> float:
+        """Radius of the sphere that sweeps the core [m]."""
+
+    @property
+    def parts(self) -> tuple[ConvexPart, ...]:
+        """The hull of the vertices, swept."""
+        return (ConvexPart.of_points(np.array(self.core.vertices), self.sweep),)
 
 
 class Polyhedron(SweptPolytope):

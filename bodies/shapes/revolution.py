@@ -10,14 +10,14 @@ import numpy as np
 from bodies.shapes.drawing import arc, revolved
 from bodies.shapes.frustum import AXIS, CENTER, COS, HIGH, LOW, SIDE, SIN, SWEEP
 from bodies.shapes.placement import about_axis
-from bodies.shapes.swept_solid import Solid
+from bodies.shapes.swept_solid import Integrals
 from nonsmooth.interfaces.body import Vector
 
 _NODES = 24
 """Of Gauss' rule on every piece; the integrands are polynomials of at most the sixth order in sine and cosine."""
 
 
-def swept_frustum(numbers: Sequence[float]) -> Solid:
+def swept_frustum(numbers: Sequence[float]) -> Integrals:
     """Return volume [m^3], centroid [m] and inertia at density 1 about it [m^5].
 
     Slice by slice across the axis: pi R^2, and R^2 / 4 of a slice's area across the axis.

@@ -9,8 +9,7 @@ from typing import final
 import numpy as np
 
 from bodies.shapes.drawing import arc, revolved
-from bodies.shapes.smooth import core_numbers
-from bodies.shapes.smooth_shape import SmoothShape
+from bodies.shapes.smooth import SmoothShape, core_numbers
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter
 

@@ -11,7 +11,7 @@ from typing import Any, final
 import numpy as np
 
 from bodies.shapes import smooth
-from bodies.shapes.smooth_shape import SmoothShape
+from bodies.shapes.smooth import SmoothShape
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import parameter

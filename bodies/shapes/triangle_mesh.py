@@ -10,13 +10,12 @@ from typing import Any, final
 import numpy as np
 
 from bodies.meshes.features import Features, features_of
+from bodies.meshes.mesh import Surface, check_surface_of
 from bodies.meshes.solid import MeshSolid
-from bodies.meshes.surface import Surface
 from bodies.meshes.topology import Integers
 from bodies.meshes.triangles import Triangles
 from bodies.shapes.placement import with_axes
 from bodies.shapes.polytope import MOST_VERTICES
-from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ConvexPart, Shape
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.interfaces.look import Look
@@ -51,13 +50,7 @@ class TriangleMesh(Shape):
         return {"surface": Triangles(corners, ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)), "of the example")}
 
     def _check(self) -> None:
-        if not isinstance(self.surface, Surface):
-            raise InvalidInput(
-                "TriangleMesh.surface",
-                "must be a surface",
-                type(self.surface).__name__,
-                'For example MeshFile("part.stl", unit="mm").',
-            )
+        check_surface_of("TriangleMesh", self.surface)
         orientation = self.orientation_w, self.orientation_x, self.orientation_y, self.orientation_z
         unit_vector("TriangleMesh orientation", orientation, 4)
 

@@ -34,7 +34,7 @@ def main() -> None:
     matplotlib.use("Agg")
     seed = int(sys.argv[2]) if len(sys.argv) > 2 else 1
     family = Family.of(DumbbellScenario(mode="drift"))
-    exact = family.at(**TRUE).model().run(TIMES[-1]).at(TIMES).q[:, 1:3]
+    exact = family.at(**TRUE).model().run(TIMES[-1]).at(TIMES)["q"][:, 1:3]
     measured = exact + NOISE * np.random.default_rng(seed).standard_normal(exact.shape)
     begin = family.at(restitution=0.55, friction=0.25)
     found = fit(begin, BOUNDS, at=TIMES, measured=measured, observe=place)

@@ -94,7 +94,7 @@ class Film:
             If nothing of the system can be seen.
         """
         scene, states = Scene.of(solution.system), solution.at(times)
-        origin, axes = scene.places(times, states.q, states.u)
+        origin, axes = scene.places(times, states["q"], states["u"])
         extent = Extent.of(scene, origin, axes)
         low, high, unit = extent.low, extent.high, extent.unit
         pieces, names = list[DrawnMesh](), solution.system.names.bodies

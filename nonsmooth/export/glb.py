@@ -16,7 +16,7 @@ from nonsmooth.export.impulses import Arrows, arrows
 from nonsmooth.export.meshes import arrow
 from nonsmooth.histories.arrays import Floats
 from nonsmooth.parameters import Rule, check_number
-from nonsmooth.scene.knots import knots
+from nonsmooth.scene.scene import knots
 from nonsmooth.storage.files import replacing
 
 if TYPE_CHECKING:

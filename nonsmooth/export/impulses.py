@@ -10,8 +10,9 @@ import numpy as np
 
 from nonsmooth.export.meshes import along_axes
 from nonsmooth.histories.arrays import Floats
-from nonsmooth.histories.contact_impulses import ContactImpulses
-from nonsmooth.scene.sides import sides
+from nonsmooth.histories.impulses import Impulses
+from nonsmooth.histories.request import Request
+from nonsmooth.scene.scene import sides
 
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
@@ -49,14 +50,14 @@ class Arrows:
 def arrows(solution: Solution) -> Iterator[Arrows]:
     """Give the arrows of each contact that takes part in an impact; they show what bodies that move get."""
     # also of an engine that records no contacts, and so no events
-    found, events = ContactImpulses.of(solution), solution.events
-    side = sides(solution.system)[found.contact][:, None]
-    push = side * (found.normal_impulse[:, None] * found.normal + found.friction_impulse)
+    found = Impulses.recorded(Request(solution, np.zeros(0)))
+    side = sides(solution.system)[found.impulse_contact][:, None]
+    push = side * (found.normal_impulse[:, None] * found.impulse_normal + found.friction_impulse)
     size = np.linalg.norm(push, axis=1)
     hits = np.flatnonzero((found.normal_impulse > 0.0) & np.isfinite(size))
-    for contact in np.unique(found.contact[hits]).tolist():
-        own = hits[found.contact[hits] == contact]
-        begin = events.time[found.event[own]]
+    for contact in np.unique(found.impulse_contact[hits]).tolist():
+        own = hits[found.impulse_contact[hits] == contact]
+        begin = found.time[own]
         # an arrow begins at its time and ends some time after, but not past the beginning of the next one
         until = np.minimum(begin + _SEEN, np.append(begin[1:], np.inf))
         times = np.concatenate([solution.track.time[:1], np.column_stack([begin, until]).ravel()])
@@ -66,7 +67,7 @@ def arrows(solution: Solution) -> Iterator[Arrows]:
         yield Arrows(
             solution.system.contacts[contact].name,
             times[last],
-            found.points[rows].mean(axis=1)[last],
+            found.impulse_point[rows].mean(axis=1)[last],
             along_axes(push[rows])[last],
             np.concatenate([[0.0], strength.ravel()])[last],
         )

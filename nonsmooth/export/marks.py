@@ -9,7 +9,10 @@ import numpy as np
 
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.histories.arrays import Floats
-from nonsmooth.histories.visitor import visitor
+from nonsmooth.histories.contacts import ClosedContacts
+from nonsmooth.histories.impulses import Impulses
+from nonsmooth.histories.replay import replay_of
+from nonsmooth.histories.request import Request
 
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
@@ -37,12 +40,13 @@ class Marks:
 
         There are none where the engine cannot be asked for forces.
         """
-        if not visitor(solution).solves:
+        if not replay_of(solution).is_flow:
             return cls(len(times) * (len(WORDS) * (np.zeros((0, 3)),),))
-        forces, impulses = solution.contact_forces(times), solution.contact_impulses()
-        points = forces.points.mean(axis=1)
-        struck = (impulses.normal_impulse > 0.0) & np.all(np.isfinite(impulses.points), axis=(1, 2))
-        instants, hit = solution.events.time[impulses.event[struck]], impulses.points[struck].mean(axis=1)
+        request = Request(solution, times)
+        forces, impulses = ClosedContacts.of(request), Impulses.of(request)
+        points = forces.contact_point.mean(axis=1)
+        struck = (impulses.normal_impulse > 0.0) & np.all(np.isfinite(impulses.impulse_point), axis=(1, 2))
+        instants, hit = impulses.time[struck], impulses.impulse_point[struck].mean(axis=1)
         found = list[tuple[Floats, ...]]()
         for i, t in enumerate(times.tolist()):
             here = slice(forces.first[i], forces.first[i + 1])

@@ -33,7 +33,7 @@ def table(series: Series) -> str:
     data = series.to_xarray()
     if "time" not in data.coords or "event" in data.sizes:
         rule = "must be over time, with one row for each"
-        raise InvalidInput("export: series", rule, series, 'For example solution.energies(), or "states".')
+        raise InvalidInput("export: series", rule, series, 'For example solution.history("gap"), or "states".')
     if "time" not in data.dims:
         data = data.expand_dims("time")
     heads, columns = ["time [s]"], [data["time"].to_numpy()]

@@ -1,4 +1,4 @@
-"""Which forces or impulses of contacts lie outside of their friction cones."""
+"""Forces or impulses of contacts outside of their friction cones."""
 
 from __future__ import annotations
 
@@ -14,37 +14,36 @@ from nonsmooth.interfaces.friction_law import StatefulFrictionLaw
 from nonsmooth.system.contact import Contact
 
 _SPEEDS = np.concatenate([[0.0], np.logspace(-6.0, 3.0, 91)])
-"""Slip speeds [m/s] of which the largest coefficient counts: ten per decade, over all that bodies slide at."""
+"""Slip speeds at which the largest coefficient is sought [m/s]: ten per decade of the speeds of sliding bodies."""
 _ROUND_OFF = 1e-6
-"""Part of the bound, and of the largest normal force of an instant, by which friction may pass it: what solvers leave.
-"""
+"""Excess of friction that solvers leave, relative to the bound and to the largest normal force of the instant."""
 
 
 def beyond_cones(
     contacts: Sequence[Contact], number: Integers, first: Integers, normal: Floats, friction: Floats, speed: Floats
 ) -> NDArray[np.bool_]:
-    """Return which entries pull, or have more friction than their law allows.
+    """True for entries that pull, or have more friction than their law allows; shape [m].
 
     Parameters
     ----------
     contacts : sequence of Contact
-        Those of the system.
+        Contacts of the system.
     number : array
         Contact of each entry, shape [m].
     first : array
-        Where the entries of each instant begin, shape [n + 1].
+        First entry of each instant, then the number of entries, shape [n + 1].
     normal : array
         Normal forces [N] or impulses [N s], shape [m].
     friction : array
         Friction, in the same unit, shape [m, 3], or along two tangents, shape [m, 2].
     speed : array
-        Slip speed at which the coefficient is taken [m/s], shape [m]; where it is nan, the largest coefficient counts.
+        Slip speed of the coefficient [m/s], shape [m]; NaN for the largest coefficient of all speeds.
 
     Returns
     -------
     array
-        True where it is so, shape [m].  Where the coefficient depends on direction the largest counts.  Friction of
-        laws with an inner state and of traction is not judged, nor is what pulls by a law that may.
+        Booleans.  If the coefficient depends on direction, the largest counts.  Laws with inner states, traction laws,
+        and the pull of adhesive laws are not checked.
     """
     bound, may_pull = np.full(len(number), np.inf), np.zeros(len(number), dtype=bool)
     for i in np.unique(number).tolist():
@@ -62,7 +61,7 @@ def beyond_cones(
 
 
 def _largest_of_instants(normal: Floats, first: Integers) -> Floats:
-    """Return the largest size of the normal forces at the instant of each entry, shape [m]; ``first`` as above."""
+    """Largest magnitude of the normal forces at the instant of each entry, shape [m]; ``first`` as above."""
     counts = np.diff(first)
     starts = first[:-1][counts > 0]
     most = np.maximum.reduceat(np.abs(normal), starts) if len(starts) else np.zeros(0)

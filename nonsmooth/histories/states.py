@@ -1,97 +1,201 @@
-"""States: coordinates, velocities, modes and inner states of laws over time."""
+"""States, modes, motion of frames, and energies: the readings of a run that need no contact forces."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, final
+from dataclasses import dataclass
+from typing import Any, final
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import NDArray
 
-from nonsmooth.datasets import Told, dataset
+from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.blocks import FRAME, POSITION, ROTATION, SPIN, VELOCITY
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
+from nonsmooth.engine.native.kernel import call_entry
 from nonsmooth.histories.arrays import Floats, Integers
-from nonsmooth.histories.recorded import check_recorded
-from nonsmooth.histories.times import of_one, read_times, spoken
-from nonsmooth.histories.visitor import visitor
-from nonsmooth.interfaces import Engine
-from nonsmooth.system.labels import labels
-from nonsmooth.system.system import System
-
-if TYPE_CHECKING:
-    import xarray
-
-    from nonsmooth.solution.solution import Solution
-
-_TOLD: Told = {
-    "q": (("coordinate",), "", "coordinates, see coordinate_units"),
-    "u": (("velocity",), "", "velocities, see velocity_units"),
-    "modes": (("contact",), "1", "0 open, 1 stick, 2 slide"),
-    "law_states": (("law_state",), "", "inner states of friction and traction laws, in SI units of each law"),
-}
+from nonsmooth.histories.replay import check_recorded
+from nonsmooth.histories.request import Request
+from nonsmooth.model.laid_out import energies
+from nonsmooth.queries.places import BodyFrames
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class States:
-    """States at times; of a single time the arrays lack the axis n.
+    """Coordinates, velocities and inner states of laws.
 
     Attributes
     ----------
-    time : array
-        [s], shape [n].
     q, u : array
-        Coordinates and velocities of all bodies, shapes [n, n_q] and [n, n_u].
-    law_states : array
-        Inner states of friction and traction laws, contact by contact, shape [n, n_states]; those of open contacts
-        are what is left of them.
-    system : System
-        What ran.
-    engine : Engine
-        What integrated it.
-    found_modes : array
-        What :attr:`modes` returns where the engine records modes.
+        Coordinates and velocities of the bodies, shapes [n, n_q] and [n, n_u].
+    law_state : array
+        Inner states of friction and traction laws, contact by contact, shape [n, n_states]; the states of an open
+        contact are left over from its last closing.
     """
 
-    time: Floats
     q: Floats
     u: Floats
-    law_states: Floats
-    system: System = field(repr=False)
-    engine: Engine = field(repr=False)
-    found_modes: Integers = field(repr=False)
+    law_state: Floats
 
-    @property
-    def modes(self) -> Integers:
-        """0 open, 1 stick, 2 slide, shape [n, n_contacts].
+    @classmethod
+    def of(cls, request: Request) -> States:
+        """Read the states at the times of a request."""
+        solution = request.solution
+        sizes = np.cumsum([solution.q.shape[1], solution.u.shape[1], N_ACCOUNTS])
+        q, u, _, law_state = np.split(request.y, sizes, axis=1)
+        return cls(q[:, request.columns("n_q")], u[:, request.columns("n_u")], law_state)
+
+
+@final
+@dataclass(frozen=True)
+class Modes:
+    """Modes of contacts after the last event of each time.
+
+    Attributes
+    ----------
+    request : Request
+        Run, times and contacts.
+    """
+
+    request: Request
+
+    @classmethod
+    def of(cls, request: Request) -> Modes:
+        """Modes at the times of a request.
 
         Raises
         ------
         InvalidInput
-            If the engine records no modes.
+            The engine of the run records no modes.
         """
-        check_recorded("Solution.at", "modes", self.system, self.engine)
-        return self.found_modes
+        check_recorded("Solution.history", "modes", request.solution.system, request.solution.recorded.engine)
+        return cls(request)
 
-    def __repr__(self) -> str:
-        """Return of which times it is, and how much there is of it."""
-        return f"States({spoken(self.time)}; {self.q.shape[-1]} coordinates, {self.found_modes.shape[-1]} contacts)"
+    @property
+    def mode(self) -> Integers:
+        """Modes of the contacts, 0 open, 1 stick, 2 slide; shape [n, n_contacts]."""
+        return self.request.replay.modes(self.request.times)[:, self.request.contacts]
 
-    def to_xarray(self) -> xarray.Dataset:
-        """Return them as a dataset with names and units; those of coordinates and velocities lie along these."""
-        known, contacts = labels(self.system), self.system.names.contacts
-        columns = {"coordinate": known.coordinates, "velocity": known.velocities}
-        names = {axis: [name for _, name, _ in rows] for axis, rows in columns.items()}
-        made = dataset(self, self.time, _TOLD, {**names, "contact": contacts})
-        return made.assign_coords({f"{axis}_units": (axis, [unit for *_, unit in columns[axis]]) for axis in columns})
+    @property
+    def mode_word(self) -> NDArray[Any]:
+        """Mode word of all contacts, shape [n]."""
+        codes = self.request.replay.codes(self.request.times)
+        return np.array(self.request.solution.events.spelled(codes), dtype=str)
+
+
+@final
+@dataclass(frozen=True)
+class Frames:
+    """Motion of the frames of bodies, body by body, in world axes.
+
+    Attributes
+    ----------
+    motion : array
+        Numbers of each frame, in the order of :mod:`nonsmooth.engine.memory.blocks`, shape [n, n_frames, 24].
+    """
+
+    motion: Floats
 
     @classmethod
-    def of(cls, solution: Solution, times: ArrayLike | None = None) -> States:
-        """Return the states of a run (:meth:`nonsmooth.Solution.at`)."""
-        given = read_times("Solution.at", solution, times)
-        row, known = np.atleast_1d(given), visitor(solution)
-        n_q, n_u = solution.q.shape[1], solution.u.shape[1]
-        q, u, _, law_states = np.split(known.states(row), np.cumsum([n_q, n_u, N_ACCOUNTS]), axis=1)
-        system, engine = solution.system, solution.recorded.engine
-        found = cls(row, q, u, law_states, system, engine, known.modes(row))
-        return found if given.ndim else of_one(found)
+    def of(cls, request: Request) -> Frames:
+        """Evaluate the bodies of a request at its times."""
+        solution, bodies = request.solution, request.bodies
+        n_q = solution.q.shape[1]
+        q, u = request.y[:, request.columns("n_q")], request.y[:, n_q + request.columns("n_u")]
+        parts, i_q, i_u = [np.zeros((len(request.times), 0, FRAME))], 0, 0
+        for body in bodies:
+            frames = BodyFrames(body, solution.system.gravity)
+            own = q[:, i_q : i_q + body.n_q], u[:, i_u : i_u + body.n_u]
+            rows = [frames.motion(t, *row) for t, *row in zip(request.times.tolist(), *own, strict=True)]
+            parts.append(np.array(rows).reshape(len(rows), len(body.frames), -1))
+            i_q, i_u = i_q + body.n_q, i_u + body.n_u
+        return cls(np.concatenate(parts, axis=1))
+
+    def part(self, first: int) -> Floats:
+        """Three numbers of each frame, shape [n, n_frames, 3]."""
+        return self.motion[:, :, first : first + 3]
+
+    @property
+    def position(self) -> Floats:
+        """Origins [m]."""
+        return self.part(POSITION)
+
+    @property
+    def rotation(self) -> Floats:
+        """Axes as columns, shape [n, n_frames, 3, 3]."""
+        return self.motion[:, :, ROTATION : ROTATION + 9].reshape(*self.motion.shape[:2], 3, 3)
+
+    @property
+    def velocity(self) -> Floats:
+        """Velocities of the origins [m/s]."""
+        return self.part(VELOCITY)
+
+    @property
+    def angular_velocity(self) -> Floats:
+        """Angular velocities [rad/s]."""
+        return self.part(SPIN)
+
+
+@final
+@dataclass(frozen=True)
+class Energies:
+    """Energies of the free bodies, works and losses since the start of the account [J], and rates of coordinates.
+
+    Attributes
+    ----------
+    kinetic_energy, potential_energy, driven_work, load_work, restitution_loss, friction_loss, closing_loss : array
+        As of :class:`nonsmooth.solution.energy.EnergyAccount` [J], shape [n].
+    start : float
+        Kinetic and potential energy at the start of the account [J].
+    coordinate_rate : array
+        dq/dt of the bodies, shape [n, n_q].
+    """
+
+    kinetic_energy: Floats
+    potential_energy: Floats
+    driven_work: Floats
+    load_work: Floats
+    restitution_loss: Floats
+    friction_loss: Floats
+    closing_loss: Floats
+    start: float
+    coordinate_rate: Floats
+
+    @classmethod
+    def of(cls, request: Request) -> Energies:
+        """Evaluate the bodies at the times of a request, in one pass."""
+        laid, account = request.replay.laid, request.solution.energy
+        memory, bodies, first = laid.memory, laid.system.bodies, laid.n_q + laid.n_u
+        y, tails, totals = memory[owners.Island.y], memory[owners.Body.tail][: len(bodies)], owners.Totals
+        table, rates = np.zeros((7, len(request.times))), np.zeros((len(request.times), laid.n_q))
+        # dq/dt is the first part behind the blocks of the frames of a body
+        places = np.concatenate(
+            [np.zeros(0, np.int64), *(tail + np.arange(body.n_q) for tail, body in zip(tails, bodies, strict=True))]
+        )
+
+        def keep(i: int) -> None:
+            driven, dissipated, _, loads = y[first : first + N_ACCOUNTS]
+            call_entry("evaluate_free_bodies", memory, memory[owners.Island.time], memory.start(owners.Island.y), 1)
+            table[:2, i] = energies(bodies, tails, memory.floats)
+            table[2:4, i] = memory[totals.driven_work] + driven, loads
+            losses = memory[totals.restitution_loss], memory[totals.friction_loss] + dissipated
+            table[4:, i] = *losses, memory[totals.closing_loss]
+            rates[i] = memory.floats[places]
+
+        request.replay.visit(request.times, keep, forces=False)
+        start = account.kinetic_start + account.potential_start
+        kinetic, potential, driven, loads, *losses = table
+        restitution, friction, closing = losses
+        rates = rates[:, request.columns("n_q")]
+        return cls(kinetic, potential, driven, loads, restitution, friction, closing, start, rates)
+
+    @property
+    def loss(self) -> Floats:
+        """All losses [J], shape [n]."""
+        return self.restitution_loss + self.friction_loss + self.closing_loss
+
+    @property
+    def unexplained_energy(self) -> Floats:
+        """Change of kinetic and potential energy that no work and no loss explains [J], shape [n]."""
+        change = self.kinetic_energy + self.potential_energy - self.start
+        return change - self.driven_work - self.load_work + self.loss

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import Any, TypeAlias
@@ -59,14 +60,14 @@ class Body(Component, ABC):
         return np.zeros((0, 2, 3))
 
     @property
-    @abstractmethod
     def q_labels(self) -> NamesAndUnits:
-        """Name and unit of every coordinate; a quaternion is of pure numbers."""
+        """Name and unit of every coordinate, by default of none: a driven body. A quaternion is of pure numbers."""
+        return ()
 
     @property
-    @abstractmethod
     def u_labels(self) -> NamesAndUnits:
-        """Name and unit of every velocity."""
+        """Name and unit of every velocity, by default of none."""
+        return ()
 
     @property
     def n_q(self) -> int:
@@ -79,9 +80,9 @@ class Body(Component, ABC):
         return len(self.u_labels)
 
     @property
-    @abstractmethod
     def quaternion(self) -> int:
-        """Offset of a unit quaternion in q, -1 without one."""
+        """Offset of a unit quaternion in q, -1, by default, without one."""
+        return -1
 
     @property
     def spin(self) -> int:
@@ -103,14 +104,29 @@ class Body(Component, ABC):
         return None
 
     @property
-    @abstractmethod
-    def scales(self) -> tuple[Vector, Vector]:
-        """Sizes of q and u below which errors count as absolute, shapes [n_q] and [n_u]."""
+    def length_scale(self) -> float:
+        """Size of the body [m], by default the distance of the farthest point of its shapes; 1 m without shapes."""
+        return max((shape.length for frame in self.frames for shape in frame), default=0.0) or 1.0
 
     @property
-    @abstractmethod
+    def scales(self) -> tuple[Vector, Vector]:
+        """Sizes of q and u below which errors count as absolute, shapes [n_q] and [n_u].
+
+        By default they follow from the units: the length of the body, the speed of a fall through it, and 1 for the
+        rest, angles and pure numbers.
+        """
+        length = self.length_scale
+        speed = math.sqrt(9.81 * length)
+        q, u = {"m": length}, {"m/s": speed, "rad/s": speed / length}
+        return (
+            np.array([q.get(unit, 1.0) for _, unit in self.q_labels]),
+            np.array([u.get(unit, 1.0) for _, unit in self.u_labels]),
+        )
+
+    @property
     def time_scale(self) -> float:
-        """Shortest time over which prescribed motion changes [s]; infinite without any."""
+        """Shortest time over which prescribed motion changes [s]; infinite, by default, without any."""
+        return math.inf
 
     @abstractmethod
     def state(self, **start: Any) -> tuple[Vector, Vector]:

@@ -9,12 +9,12 @@ from typing import final
 
 import numpy as np
 
-from nonsmooth.interfaces.solid import Piece, Solid, Vector
+from nonsmooth.interfaces.solid import Piece, SolidRegion, Vector
 
 
 @final
 @dataclass(frozen=True)
-class ConvexSolid(Solid):
+class ConvexSolid(SolidRegion):
     """A single piece, which fills the solid.
 
     Attributes

@@ -62,7 +62,7 @@ class Engine(Component, ABC):
 
     @property
     def verdict(self) -> tuple[Measure, ...]:
-        """Numbers by which it judges a run, for ``Solution.verdict``."""
+        """Numbers by which it judges a run, for ``Solution.end.verdict``."""
         return ()
 
     @property

@@ -9,7 +9,7 @@ from typing import final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from nonsmooth.interfaces.solid import Solid, Vector
+from nonsmooth.interfaces.solid import SolidRegion, Vector
 
 Integers = NDArray[np.int64]
 _DIRECTIONS = 300
@@ -86,7 +86,7 @@ class Look:
         return cls.solid(given, np.where(inside[:, None], found.simplices[:, ::-1], found.simplices))
 
     @classmethod
-    def spanned(cls, solid: Solid) -> Look:
+    def spanned(cls, solid: SolidRegion) -> Look:
         """Return that of the points of a solid that lie farthest along directions all round."""
         number = np.arange(_DIRECTIONS) + 0.5
         up, turn = 1.0 - 2.0 * number / _DIRECTIONS, np.pi * (1.0 + 5.0**0.5) * number

@@ -7,7 +7,7 @@ from abc import ABC, abstractmethod
 
 from nonsmooth.interfaces.convex_part import ConvexPart
 from nonsmooth.interfaces.look import Look
-from nonsmooth.interfaces.solid import Solid
+from nonsmooth.interfaces.solid import SolidRegion
 from nonsmooth.parameters import Component
 
 
@@ -70,7 +70,7 @@ class Shape(Component, ABC):
         return ""
 
     @property
-    def solid(self) -> Solid | None:
+    def solid(self) -> SolidRegion | None:
         """What it encloses; None, if it is not bounded or not known, by default."""
         return None
 

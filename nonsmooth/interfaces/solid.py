@@ -1,4 +1,4 @@
-"""Solid: what a shape encloses, for what is asked once: whether bodies overlap, and where one meets another."""
+"""SolidRegion: what a shape encloses, for what is asked once: whether bodies overlap, and where one meets another."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Piece:
     normals: tuple[Vector, ...] = ()
 
 
-class Solid(ABC):
+class SolidRegion(ABC):
     """The points that a shape encloses, in the frame of its body; gaps of contacts tell only of features that face.
 
     The contract:

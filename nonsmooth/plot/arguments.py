@@ -11,8 +11,7 @@ from numpy.typing import ArrayLike
 
 from nonsmooth.errors import InvalidInput, MissingPackagesError
 from nonsmooth.histories.arrays import Floats
-from nonsmooth.histories.times import read_times
-from nonsmooth.system.asked import contact_number
+from nonsmooth.histories.request import numbers_of, read_times
 from nonsmooth.system.contact import Contact
 
 if TYPE_CHECKING:
@@ -88,8 +87,7 @@ def contacts_of(where: str, solution: Solution, contacts: Contacts | None, most:
         events = np.bincount(solution.events.listed, minlength=len(declared))
         found = sorted(np.argsort(-events, kind="stable")[:most].tolist())
     else:
-        several = [contacts] if isinstance(contacts, (Contact, str, int, np.integer)) else contacts
-        found = [contact_number(where, one, declared) for one in several]
+        found = [*numbers_of(where, solution.system, ["contact"], contacts)["contact"]]
     if not found:
         raise InvalidInput(f"{where}: contacts", "must be some", found, "Take a system and a run that have contacts.")
     return found

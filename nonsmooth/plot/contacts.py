@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from nonsmooth.charts import marker
-from nonsmooth.histories.arrays import Floats
 from nonsmooth.plot.arguments import Contacts, axes_of, contacts_of, part_of, times_of
 from nonsmooth.plot.lines import beside, draw_lines, over_time, title_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from nonsmooth.histories.contact_history import ContactHistory
     from nonsmooth.solution.solution import Solution
 
 _SEEN = 1e-6
@@ -54,7 +50,7 @@ def gaps(
     where, declared = "nonsmooth.plot.gaps", solution.system.contacts
     numbers, row = contacts_of(where, solution, contacts), times_of(where, solution, times)
     ax = axes_of(ax)
-    draw_lines(ax, solution, numbers, row, solution.contact_motion(row, numbers).gap)
+    draw_lines(ax, solution, numbers, row, solution.history("gap", times=row, of=numbers)["gap"])
     ax.axhline(0.0, color="0.4", linewidth=0.8)
     least, (low, high) = _SEEN * min(declared[number].size for number in numbers), ax.get_ylim()
     ax.set_ylim(min(low, -least), max(high, least))
@@ -92,8 +88,8 @@ def velocities(
     where = "nonsmooth.plot.velocities"
     which = part_of(where, part, ("normal", "slip"))
     numbers, row = contacts_of(where, solution, contacts), times_of(where, solution, times)
-    motion, ax = solution.contact_motion(row, numbers), axes_of(ax)
-    draw_lines(ax, solution, numbers, row, (motion.normal_velocity, motion.slip_speed)[which])
+    name, ax = ("normal_velocity", "slip_speed")[which], axes_of(ax)
+    draw_lines(ax, solution, numbers, row, solution.history(name, times=row, of=numbers)[name])
     ax.axhline(0.0, color="0.4", linewidth=0.8)
     ax.set_ylabel(("normal velocity [m/s]", "slip speed [m/s]")[which])
     return ax
@@ -129,31 +125,17 @@ def forces(
         As for :func:`nonsmooth.plot.gaps`, or if there is no such part.
     """
     where = "nonsmooth.plot.forces"
-    part_of(where, part, tuple(_FORCES))
+    which = part_of(where, part, ("normal", "friction"))
     numbers = contacts_of(where, solution, contacts)
     # before the event that ends a mode, forces that are not unique may be out of their bounds
     row = times_of(where, solution, times, before=False)
-    found, ax = solution.contact_forces(row), axes_of(ax)
-    force, label = _FORCES[part]
-    histories = [found.history(number) for number in numbers]
-    values = np.column_stack([np.where(one.mode > 0, force(one), np.nan) for one in histories])
-    draw_lines(ax, solution, numbers, row, values)
+    name = ("normal_force", "friction_force")[which]
+    history, ax = solution.history("mode", name, times=row, of=numbers), axes_of(ax)
+    size = np.linalg.norm(history[name], axis=2) if which else history[name]
+    draw_lines(ax, solution, numbers, row, np.where(history["mode"] > 0, size, np.nan))
     ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
-    ax.set_ylabel(label)
+    ax.set_ylabel(("normal force [N]", "friction [N]")[which])
     return ax
-
-
-def _normal(history: ContactHistory) -> Floats:
-    return history.normal_force
-
-
-def _friction(history: ContactHistory) -> Floats:
-    return np.asarray(np.linalg.norm(history.friction_force, axis=1))
-
-
-_FORCES: MappingProxyType[str, tuple[Callable[[ContactHistory], Floats], str]] = MappingProxyType(
-    {"normal": (_normal, "normal force [N]"), "friction": (_friction, "friction [N]")}
-)
 
 
 def impulses(

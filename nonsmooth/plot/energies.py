@@ -16,13 +16,13 @@ if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
 _LAYERS = (
-    ("potential", "potential, over its least", "#56b4e9", ""),
-    ("kinetic", "kinetic", "#0072b2", ""),
+    ("potential_energy", "potential, over its least", "#56b4e9", ""),
+    ("kinetic_energy", "kinetic", "#0072b2", ""),
     ("friction_loss", "lost to friction", "#e69f00", "////"),
     ("restitution_loss", "lost to restitution", "#d55e00", "...."),
     ("closing_loss", "lost in closings", "#7f7f7f", "xxxx"),
 )
-"""Field of Energies, words, colour and hatch, from below."""
+"""Variable, words, colour and hatch, from below."""
 _SEEN = 1e-3
 """Part of the largest sum that a layer must have once to be seen, and named."""
 
@@ -48,20 +48,21 @@ def energies(solution: Solution, ax: Axes | None = None, *, times: ArrayLike | N
     InvalidInput
         If a time is not within the run.
     """
-    told = solution.energies(times_of("nonsmooth.plot.energies", solution, times))
-    least = float(np.min(told.potential))
-    total = told.start - least + told.driven_work + told.load_work
-    parts = {name: getattr(told, name) for name, *_ in _LAYERS} | {"potential": told.potential - least}
+    row, account = times_of("nonsmooth.plot.energies", solution, times), solution.energy
+    told = solution.history(*(name for name, *_ in _LAYERS), "driven_work", "load_work", times=row)
+    least = float(np.min(told["potential_energy"]))
+    total = account.kinetic_start + account.potential_start - least + told["driven_work"] + told["load_work"]
+    parts = {**told, "potential_energy": told["potential_energy"] - least}
     ax, below = axes_of(ax), np.zeros_like(total)
     some = _SEEN * float(np.max(np.abs(total)))
     for name, label, colour, hatch in _LAYERS:
         above, seen = below + parts[name], np.max(np.abs(parts[name])) > some
         ax.fill_between(
-            told.time, below, above, label=label if seen else None, facecolor=colour, hatch=hatch, edgecolor="white",
+            row, below, above, label=label if seen else None, facecolor=colour, hatch=hatch, edgecolor="white",
             linewidth=0.0,
         )  # fmt: skip
         below = above
-    ax.plot(told.time, total, color="black", linewidth=1.4, linestyle="--", label="at the start, and work since")
+    ax.plot(row, total, color="black", linewidth=1.4, linestyle="--", label="at the start, and work since")
     over_time(ax, solution)
     ax.set_ylabel("energy [J]")
     beside(ax)

@@ -43,7 +43,7 @@ def _panels(solution: Solution) -> list[tuple[str, Panel]]:
     events, found = solution.events, list[tuple[str, Panel]]()
     if solution.system.contacts:
         numbers = contacts_of("Solution.plot", solution, None)
-        if solution.knows_modes:
+        if solution.recorded.engine.records_contacts:
             found.append(("Modes of the contacts", lambda ax: modes(solution, numbers, ax)))
         found.append(("Gaps", lambda ax: gaps(solution, ax=ax)))
     if np.any(events.codes >> 6 & 1):
@@ -69,7 +69,7 @@ def _farthest(solution: Solution) -> tuple[Body, str] | None:
     if len(times) == 0:  # a run that was cut off at once
         return None
     free = [body for body in solution.system.bodies if body.n_u > 0][:_BODIES]
-    ways = [np.ptp(solution.poses(body, times).origin[:, 0], axis=0) for body in free]
+    ways = [np.ptp(solution.history("position", times=times, of=body)["position"][:, 0], axis=0) for body in free]
     if not ways or np.max(ways) == 0.0:
         return None
     first = int(np.argmax(np.max(ways, axis=1)))

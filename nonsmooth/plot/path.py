@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 from numpy.typing import ArrayLike
 
 from nonsmooth.errors import InvalidInput
+from nonsmooth.histories.request import numbers_of
 from nonsmooth.interfaces import Body
 from nonsmooth.plot.arguments import axes_of, times_of
 from nonsmooth.plot.lines import beside
-from nonsmooth.system.asked import body_number
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -53,13 +53,15 @@ def path(
     InvalidInput, UnknownName
         If the system has no such body, the body no such frame, there is no such plane, or a time is not within the run.
     """
-    one = solution.system.bodies[body_number(_WHERE, body, solution.system)]
+    (number,) = numbers_of(_WHERE, solution.system, ["body"], [body])["body"]
+    one = solution.system.bodies[number]
     if len(plane) != 2 or len({*plane} & {*_AXES}) != 2:
         raise InvalidInput(f"{_WHERE}: plane", "must be two of the axes x, y and z", plane, 'For example "xz".')
     if frame not in range(len(one.frames)):
         rule = f"must be below {len(one.frames)}, the number of frames"
         raise InvalidInput(f"{_WHERE}: frame", rule, frame, "Count from 0.")
-    origin = solution.poses(one, times_of(_WHERE, solution, times)).origin[:, frame]
+    row = times_of(_WHERE, solution, times)
+    origin = solution.history("position", times=row, of=one)["position"][:, frame]
     across, up = (origin[:, _AXES.index(letter)] for letter in plane)
     name, ax = solution.system.name_of(one), axes_of(ax)
     ax.plot(across, up, color="black", linewidth=1.2, label=name if frame == 0 else f"{name}, frame {frame}")

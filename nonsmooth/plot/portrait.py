@@ -9,7 +9,6 @@ from numpy.typing import ArrayLike
 
 from nonsmooth.errors import UnknownName
 from nonsmooth.histories.arrays import Floats, Integers
-from nonsmooth.histories.coordinate_rates import coordinate_rates
 from nonsmooth.plot.arguments import axes_of, times_of
 from nonsmooth.plot.lines import beside
 from nonsmooth.system.labels import labels
@@ -32,7 +31,7 @@ def phase_portrait(
     solution, ax, times
         As for :func:`nonsmooth.plot.gaps`.
     coordinate : str
-        Its name with that of the body, as ``solution.at().to_xarray()["coordinate"]`` lists them: "ball z".
+        Its name with that of the body, as ``solution.history("q").labels["coordinate"]`` lists them: "ball z".
 
     Returns
     -------
@@ -49,7 +48,8 @@ def phase_portrait(
         raise UnknownName(f"{_WHERE}: coordinate", coordinate, known)
     number, unit = known[coordinate]
     row = times_of(_WHERE, solution, times)
-    x, y, ax = solution.at(row).q[:, number], coordinate_rates(solution, row)[:, number], axes_of(ax)
+    x, y = (history[:, number] for history in solution.history("q", "coordinate_rate", times=row).values())
+    ax = axes_of(ax)
     jumps = np.flatnonzero(np.isin(row[1:], solution.events.time) & (row[:-1] == np.nextafter(row[1:], -np.inf)))
     ax.plot(np.insert(x, jumps + 1, np.nan), np.insert(y, jumps + 1, np.nan), color="black", linewidth=1.2)
     if len(jumps) > 0:

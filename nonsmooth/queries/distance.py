@@ -1,51 +1,143 @@
-"""The distance of two bodies or shapes."""
+"""The distance of two bodies or shapes, and all pairs of the shapes of two bodies, prepared once."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from typing import Any
+from dataclasses import replace
+from typing import Any, final
 
 import numpy as np
 
-from nonsmooth.errors import InvalidInput
+from nonsmooth.checks import check_kind
+from nonsmooth.errors import InvalidInput, NoDistance
 from nonsmooth.interfaces import Body, Shape
 from nonsmooth.interfaces.distance_backend import Place
-from nonsmooth.queries.bodies import BodyPair, Carried
+from nonsmooth.queries.pair import ShapePair, shape_pair
 from nonsmooth.queries.places import HERE, BodyFrames, read_place
-from nonsmooth.queries.result import DistanceResult
+from nonsmooth.queries.result import EXACT, DistanceResult
+
+Carried = Sequence[Sequence[Shape]]
+"""The shapes of every frame of a body."""
+
+
+@final
+class BodyPair:
+    """All pairs of the shapes of two bodies, prepared once.
+
+    Parameters
+    ----------
+    first, second : sequence of sequences of Shape
+        Shapes of the frames of each body.
+    by : str, optional
+        Method (:class:`nonsmooth.queries.pair.ShapePair`).
+    quick : bool
+        True to use the solids of the shapes, if both have one, and not their contacts.
+
+    Raises
+    ------
+    InvalidInput
+        A body has no shape, or the method does not know a pair of shapes.
+    MissingPackagesError
+        The library is not installed.
+    """
+
+    def __init__(self, first: Carried, second: Carried, by: str | None = None, quick: bool = False) -> None:
+        sides = [
+            [(frame, shape) for frame, shapes in enumerate(carried) for shape in shapes] for carried in (first, second)
+        ]
+        if not all(sides):
+            raise InvalidInput("distance", "needs bodies that carry shapes", None, "Without a shape nothing is near.")
+        if by is not None:
+            check_kind("distance: by", by, str, 'For example "exact", or leave it out.')
+        self._by, self._quick = by, quick
+        numbered = [
+            ((i, j), frame, other, one, two)
+            for i, (frame, one) in enumerate(sides[0])
+            for j, (other, two) in enumerate(sides[1])
+        ]
+        if len(numbered) > 1:
+            # two planes have no nearest points: they count only, as an error, if the bodies have no other shapes
+            bounded = [pair for pair in numbered if math.isfinite(min(pair[3].extent, pair[4].extent))]
+            numbered = bounded or numbered[:1]
+        self._numbered = numbered
+        # a single pair that no method knows is an error at once; other pairs are prepared when they are near
+        self._pairs: dict[tuple[int, int], ShapePair] = {}
+        if len(self._numbered) == 1:
+            self._pair(*self._numbered[0][0], *self._numbered[0][3:])
+
+    def _pair(self, i: int, j: int, one: Shape, two: Shape) -> ShapePair:
+        if (i, j) not in self._pairs:
+            self._pairs[i, j] = shape_pair(one, two, self._by, self._quick)
+        return self._pairs[i, j]
+
+    def at(self, first: Sequence[Place], second: Sequence[Place]) -> DistanceResult:
+        """Least gap of all pairs of shapes, with the frames at given places.
+
+        Raises
+        ------
+        NoDistance
+            No method gives a distance there.
+        """
+        # lower bound of the gap of each pair: the gap of the bounding spheres about the origins of their frames
+        least = [0.0]
+        if len(self._numbered) > 1:
+            least = [
+                float(np.linalg.norm(first[frame][0] - second[other][0])) - one.extent - two.extent
+                for _, frame, other, one, two in self._numbered
+            ]
+        best: DistanceResult | None = None
+        missing: NoDistance | None = None
+        for number in sorted(range(len(least)), key=least.__getitem__):
+            if best is not None and least[number] > best.gap:
+                break
+            shapes, frame, other, one, two = self._numbered[number]
+            try:
+                found = self._pair(*shapes, one, two).at(first[frame], second[other])
+            except NoDistance as error:
+                # by contacts alone, a pair without features that face each other has no distance
+                if self._by != EXACT:
+                    raise
+                missing = error
+                continue
+            if best is None or found.gap < best.gap:
+                best = replace(found, shapes=shapes)
+        if best is None:
+            assert missing is not None
+            raise missing
+        return best
 
 
 def distance(
     first: Body | Shape, second: Body | Shape, *, at: Sequence[Any] = (None, None), by: str | None = None
 ) -> DistanceResult:
-    """Return how far two bodies, or two shapes, are from each other: one call for every pair that can be built.
+    """Distance of two bodies or two shapes: gap with bounds [m], nearest points [m], normal, and the method.
 
     Parameters
     ----------
     first, second : Body or Shape
-        Of a body all shapes count.
+        Bodies or shapes; all shapes of a body count.
     at : sequence of two
-        Where either stands: a position [m], shape (3), or a position and a unit quaternion (scalar first), of the frame
-        of the body, or of that in which a shape's own numbers are.  By default, None, it is in no way moved or turned;
-        a driven body or a mechanism then stands where it does at t = 0.
+        Pose of each: a position [m], shape [3], or a position and a unit quaternion (scalar first), of the frame of the
+        body or of the shape.  By default, None, it is neither moved nor turned; a driven body or a mechanism is where
+        it is at t = 0.
     by : str, optional
-        One way to find it, for a look from outside: "exact", "planes" or the name of a library ("fcl", "coal").  By
-        default the best that is known answers, and says what it is in ``how``.
+        Method: "exact", "planes" or the name of a library ("fcl", "coal"), as an independent check.  By default the
+        best method that knows the shapes; ``how`` names it.
 
     Returns
     -------
     DistanceResult
-        With ``gap`` (negative where they overlap), the bounds ``lower`` and ``upper``, points, normal, and ``how``.
+        Its ``gap`` is negative if they overlap.
 
     Raises
     ------
     InvalidInput
-        If something is neither a body nor a shape, a pose is wrong, nothing is known of two shapes, or the way asked
-        for does not know them.
+        An argument is neither a body nor a shape, a pose is wrong, or no method, or not the one asked for, knows them.
     NoDistance
-        If the way asked for tells nothing at these places.
+        The method asked for gives no distance at these poses.
     MissingPackagesError
-        If the library asked for is not installed.
+        The library asked for is not installed.
     """
     if not isinstance(at, (tuple, list)) or len(at) != 2:
         raise InvalidInput(
@@ -74,6 +166,6 @@ def _stand(thing: str, side: Any, pose: Any) -> tuple[Carried, list[Place]]:
             thing,
             f"must be None for a {type(side).__name__}, which has {len(side.frames)} frames",
             pose,
-            "Its coordinates say where they are: ask solution.distances, or nonsmooth.proximity of a system.",
+            "Its coordinates say where they are: use distances of a solution, or nonsmooth.proximity of a system.",
         )
     return side.frames, [read_place(thing, pose)]

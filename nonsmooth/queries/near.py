@@ -1,9 +1,10 @@
-"""Which bodies of a system may be near each other: boxes round where they stand, swept along an axis."""
+"""Pairs of bodies that may be near each other, by sweep and prune of boxes, and pairs that a system declares."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import Any
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, final
 
 import numpy as np
 
@@ -13,27 +14,28 @@ from nonsmooth.interfaces.solid import Vector
 from nonsmooth.queries.places import BodyFrames
 from nonsmooth.system.system import System
 
+Pairs = frozenset[tuple[int, int]]
+"""Pairs of numbers of bodies, the lower one first."""
+
 
 def places_at_start(system: System) -> list[list[Place]]:
-    """Return the places of the frames of all bodies at t = 0."""
+    """Places of the frames of all bodies at t = 0."""
     return [BodyFrames(body, system.gravity).at(0.0, *system.start(body)) for body in system.bodies]
 
 
 def near_bodies(
     bodies: Sequence[Body], places: Sequence[Sequence[Place]], margins: Vector
 ) -> Iterator[tuple[int, int]]:
-    """Yield the pairs of bodies whose boxes meet, each enlarged by a margin of its own, the lower number first.
-
-    Pairs of driven bodies and bodies without shapes are left out.
+    """Pairs of bodies whose boxes overlap, the lower number first; without pairs of driven bodies.
 
     Parameters
     ----------
     bodies : sequence of Body
-        The bodies.
+        The bodies; those without shapes have no box.
     places : sequence
-        Where the frames of each stand.
+        Places of the frames of each body.
     margins : Vector
-        Those of all bodies [m], shape [n].
+        Margin by which the box of each body is enlarged [m], shape [n].
     """
     low, high = (np.array(corners) for corners in zip(*map(_box, bodies, places), strict=True))
     low, high = low - margins[:, None], high + margins[:, None]
@@ -49,13 +51,13 @@ def near_bodies(
 
 
 def size_of(body: Body) -> float:
-    """Return the largest finite extent of the shapes of a body [m]; infinite if it has none."""
+    """Largest finite extent of the shapes of a body [m], infinite without any."""
     extents = [shape.extent for shapes in body.frames for shape in shapes if np.isfinite(shape.extent)]
     return max(extents, default=np.inf)
 
 
 def _box(body: Body, frames: Sequence[Place]) -> tuple[Vector, Vector]:
-    """Return corners of a box round all shapes [m], shape [3] each; turned inside out without any."""
+    """Lower and upper corner of the box of all shapes [m], shape [3] each; infinite and reversed without shapes."""
     balls = [(place, shape.extent) for (place, _), shapes in zip(frames, body.frames, strict=True) for shape in shapes]
     if not balls:
         return np.full(3, np.inf), np.full(3, -np.inf)
@@ -66,5 +68,56 @@ def _box(body: Body, frames: Sequence[Place]) -> tuple[Vector, Vector]:
 
 
 def touching(size: Any) -> Any:
-    """Return by how much bodies may be apart or overlap that touch [m]: what the start of a run allows."""
+    """Largest gap or overlap of bodies that touch [m], the same as at the start of a run."""
     return np.maximum(1e-9, 1e-6 * size)
+
+
+@final
+@dataclass(frozen=True)
+class Ties:
+    """Pairs of bodies that a system declares, joins or excludes.
+
+    Attributes
+    ----------
+    declared, joined, excluded : Pairs
+        Pairs with contacts, with a joint, and pairs that the user excluded.
+    mechanisms : tuple of frozenset of int
+        Bodies that joints tie together, directly or through others; a driven body is in each of its mechanisms.
+    """
+
+    declared: Pairs
+    joined: Pairs
+    excluded: Pairs
+    mechanisms: tuple[frozenset[int], ...]
+
+    @classmethod
+    def of(cls, system: System) -> Ties:
+        """Pairs of a system."""
+        number = {id(body): i for i, body in enumerate(system.bodies)}
+
+        def pairs(bodies: Iterable[tuple[Body, Body]]) -> Pairs:
+            numbers = [(number[id(one)], number[id(two)]) for one, two in bodies]
+            return frozenset([(i, j) if i < j else (j, i) for i, j in numbers])
+
+        joined = pairs((tie.first, tie.second) for tie in system.joints)
+        return cls(
+            pairs((said.first, said.second) for said in system.declarations),
+            joined,
+            pairs(system.excluded),
+            _mechanisms(system, joined),
+        )
+
+    def same_mechanism(self, i: int, j: int) -> bool:
+        """True if joints tie two bodies together, directly or through others."""
+        return any(i in group and j in group for group in self.mechanisms)
+
+
+def _mechanisms(system: System, joined: Pairs) -> tuple[frozenset[int], ...]:
+    groups: list[set[int]] = []
+    for pair in joined:
+        movable = {i for i in pair if system.bodies[i].n_u > 0}
+        # a driven body, such as the ground, ties no bodies to each other
+        met = [group for group in groups if group & movable]
+        groups = [group for group in groups if not group & movable]
+        groups.append(set().union(pair, *met))
+    return tuple(map(frozenset, groups))

@@ -1,4 +1,4 @@
-"""Where the frames of bodies are: as a user says, or as their motion and coordinates put them."""
+"""Places of the frames of bodies: from a pose that a user gives, or from their motion and coordinates."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ HERE: Place = (np.zeros(3), np.eye(3))
 
 
 def read_place(thing: str, pose: Any) -> Place:
-    """Return a place from a position [m], or a position and a unit quaternion (scalar first).
+    """Place from a position [m], or from a position and a unit quaternion (scalar first).
 
     Raises
     ------
     InvalidInput
-        If it is neither, a number is not finite, or the quaternion not of unit length.
+        The pose is neither of them, a number is not finite, or the quaternion has no unit length.
     """
     try:
         parts = tuple(pose)
@@ -46,14 +46,14 @@ def read_place(thing: str, pose: Any) -> Place:
 
 @final
 class BodyFrames:
-    """The frames of a body, wherever its coordinates put them.
+    """The frames of a body as functions of its coordinates.
 
     Parameters
     ----------
     body : Body
         The body.
     gravity : sequence of float
-        Gravity vector of its system [m/s^2], which a body may ask for.
+        Gravity vector of its system [m/s^2], which a body may use.
     """
 
     def __init__(self, body: Body, gravity: Sequence[float] = (0.0, 0.0, -9.81)) -> None:
@@ -62,10 +62,16 @@ class BodyFrames:
         self._n, self._width = len(body.frames), FRAME + 6 * body.n_u
         self._out = np.zeros(self._n * self._width + body.n_q + body.n_u + body.n_u**2 + 2)
 
-    def at(self, t: float, q: Vector, u: Vector) -> list[Place]:
-        """Return the places of all frames at a time [s], for coordinates and velocities."""
+    def motion(self, t: float, q: Vector, u: Vector) -> Vector:
+        """Motion of all frames at a time [s], for coordinates and velocities, shape [n_frames, FRAME].
+
+        The order of the numbers is that of :mod:`nonsmooth.engine.memory.blocks`.
+        """
         self._out[:] = 0.0
-        # a driven body has none, and an empty array no address of its own
+        # a driven body has no coordinates, and an empty array has no address of its own
         self._call(t, np.append(q, 0.0), np.append(u, 0.0), self._out)
-        blocks = self._out[: self._n * self._width].reshape(self._n, self._width)
-        return [(block[:3].copy(), block[3:12].reshape(3, 3).copy()) for block in blocks]
+        return self._out[: self._n * self._width].reshape(self._n, self._width)[:, :FRAME].copy()
+
+    def at(self, t: float, q: Vector, u: Vector) -> list[Place]:
+        """Places of all frames at a time [s], for coordinates and velocities."""
+        return [(frame[:3], frame[3:12].reshape(3, 3)) for frame in self.motion(t, q, u)]

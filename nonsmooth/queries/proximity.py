@@ -11,10 +11,9 @@ import numpy as np
 from nonsmooth.checks import check_kind, is_finite
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Body
-from nonsmooth.queries.bodies import BodyPair
-from nonsmooth.queries.near import near_bodies, places_at_start, size_of, touching
+from nonsmooth.queries.distance import BodyPair
+from nonsmooth.queries.near import Ties, near_bodies, places_at_start, size_of, touching
 from nonsmooth.queries.result import DistanceResult
-from nonsmooth.queries.ties import Ties
 from nonsmooth.system.system import System
 
 NEAR, TOUCHING, OVERLAPPING = "near", "touching", "overlapping"

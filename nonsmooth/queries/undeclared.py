@@ -15,9 +15,8 @@ import numpy as np
 from nonsmooth.errors import InvalidInput, NoDistance, NonsmoothWarning
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.distance_backend import Place
-from nonsmooth.queries.bodies import BodyPair
-from nonsmooth.queries.near import near_bodies, size_of, touching
-from nonsmooth.queries.ties import Ties
+from nonsmooth.queries.distance import BodyPair
+from nonsmooth.queries.near import Ties, near_bodies, size_of, touching
 from nonsmooth.solids.placed import Placed, overlap
 from nonsmooth.system.contact import Contact, Tie
 from nonsmooth.system.system import System

@@ -11,11 +11,11 @@ import numpy as np
 from nonsmooth.errors import InvalidInput
 from nonsmooth.files.components import TYPE, Table, table_of
 from nonsmooth.files.writing import text_of_system
+from nonsmooth.histories.history import LabelledArray
 from nonsmooth.interfaces import Engine
 from nonsmooth.results.output import Output, versions
 from nonsmooth.solution.request import RunRequest
 from nonsmooth.solution.state import State
-from nonsmooth.solution.variable import Variable
 from nonsmooth.system.system import System
 
 UNFINISHED = "unfinished"
@@ -62,7 +62,7 @@ def named_elsewhere(table: Table) -> bool:
 
 def system_variable(
     system: System, output: Output, engine: Engine, t_end: float, attributes: dict[str, Any]
-) -> Variable:
+) -> LabelledArray:
     """Return the system as a scenario file; where it cannot be one, an attribute says why.
 
     An engine that no file can name costs its own table only: an attribute has what it was.
@@ -72,7 +72,7 @@ def system_variable(
         text = text_of_system(system, t_end=t_end, engine=named, title=output.title)
     except InvalidInput as error:
         text, attributes["system_missing"] = "", f"{error.thing} {error.rule}; it is {error.value!r}"
-    return Variable("system", (), np.array(text), {"long_name": "the system as a scenario file, TOML"})
+    return LabelledArray("system", (), np.array(text), {"long_name": "the system as a scenario file, TOML"})
 
 
 def energies(state: State) -> dict[str, float]:

@@ -70,7 +70,7 @@ def open_solution(
     end = End(folder.state(), Counters(**counters), folder.status, message, cause, verdict)
     made = system or stored_setup(where, folder, trust).system
     recorded = Recorded.of(folder.events(), folder.rows(), engine or _engine_or_its_name(where, folder, trust))
-    return Solution.known(made, recorded, end)
+    return Solution(made, recorded, end)
 
 
 def stored_setup(output: Output, folder: SolutionFolder, trust: bool) -> Setup:

@@ -16,6 +16,7 @@ from nonsmooth.checks import check_kind
 from nonsmooth.datasets import described
 from nonsmooth.engine.memory.layout import BOOKED, N_ACCOUNTS
 from nonsmooth.errors import InvalidInput
+from nonsmooth.histories.history import LabelledArray
 from nonsmooth.interfaces import Engine
 from nonsmooth.results.damage import naming_damage
 from nonsmooth.results.description import MESSAGE, UNFINISHED, attributes_of, energies, system_variable
@@ -26,7 +27,6 @@ from nonsmooth.solution.events import Events
 from nonsmooth.solution.request import RunRequest
 from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
-from nonsmooth.solution.variable import Variable
 from nonsmooth.solution.variables import (
     GROWING,
     of_events,
@@ -338,7 +338,7 @@ class SolutionFolder:
             status=solution.status,
             message=solution.message,
             counters=json.dumps(vars(solution.counters) | {"limits": dict(solution.counters.limits)}),
-            cause=solution.cause,
+            cause=solution.end.cause,
             verdict=json.dumps([{**vars(one), "value": value} for one, value in solution.end.verdict.items()]),
         )
         if solution.status in ("done", "suspect"):
@@ -419,7 +419,7 @@ class SolutionFolder:
         return state_from(content, str(path))
 
 
-def _variables(events: Events, rows: Floats, n_q: int, n_u: int) -> list[Variable]:
+def _variables(events: Events, rows: Floats, n_q: int, n_u: int) -> list[LabelledArray]:
     """Events and samples as arrays."""
     n_states = rows.shape[1] - 1 - n_q - n_u - N_ACCOUNTS - BOOKED
     t, q, u, *rest = np.split(rows, np.cumsum([1, n_q, n_u, N_ACCOUNTS, n_states]), axis=1)

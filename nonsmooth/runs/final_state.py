@@ -1,7 +1,7 @@
 """FinalState: the memory of a model after a run, from which state and end of the run are read when they are needed.
 
-Many runs of a study need the samples only. To read the state takes longer than a short run, so it is read at the first
-use of ``Solution.end``.
+Many runs of a study need the samples only. To read the state takes longer than a short run, so a solution reads it at
+the first use of ``Solution.end``.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from nonsmooth.model.laid_out import energies
 from nonsmooth.queries.near import size_of
 from nonsmooth.runs.imbalance import imbalance_span
 from nonsmooth.runs.outcome import Outcome, cause_of
+from nonsmooth.solution.checks import friction_gain
 from nonsmooth.solution.end import Counters, End
 from nonsmooth.solution.energy import EnergyAccount
 from nonsmooth.solution.recorded import Recorded
@@ -176,13 +177,13 @@ class FinalState(NamedTuple):
         ``end`` is the end of the run without their result.
         """
         now, run = self.now, owners.Run
-        solution = Solution.known(self.system, recorded, end)
+        solution = Solution(self.system, recorded, end)
         return suspicions(
             self.engine,
             worst_event=(now[run.worst_energy_time], now[run.worst_energy], now[run.worst_energy_ratio]),
             jump=(now[run.jump_time], now[run.jumped_energy]),
             # energy that friction brought in [J]; not counted if a law stores energy, which it may return
-            rubbed=0.0 if self._friction_stores_energy() else solution.friction_gain,
+            rubbed=0.0 if self._friction_stores_energy() else friction_gain(solution),
             energy=end.state.energy,
             bodies=dict(zip(self.system.names.bodies, self.system.bodies, strict=True)),
             # times and coordinates
@@ -244,3 +245,31 @@ class FinalState(NamedTuple):
             exchanged_in_flow=exchanged,
             load_work=loads,
         )
+
+
+class UnreadEnd(NamedTuple):
+    """The end of a run before it is read: a source of ``Solution.end``.
+
+    Attributes
+    ----------
+    final : FinalState
+        Memory of the model after the run.
+    outcome : Outcome
+        Status and message, before the checks of the energy account.
+    code : int
+        Last status of the engine.
+    wall : float
+        Wall time of the run [s].
+    recorded : Recorded
+        Events and samples of the run.
+    """
+
+    final: FinalState
+    outcome: Outcome
+    code: int
+    wall: float
+    recorded: Recorded
+
+    def read(self) -> End:
+        """Read the end, and check the energy account and the quaternions of the run."""
+        return self.final.end(self.outcome, self.code, self.wall, self.recorded)

@@ -11,7 +11,6 @@ import numpy as np
 
 from nonsmooth.engine.memory.modes import Mode
 from nonsmooth.errors import InvalidInput
-from nonsmooth.histories.energies import Energies
 from nonsmooth.solution.events import Events
 from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import Floats, Integers
@@ -32,7 +31,7 @@ def imbalance_span(solution: Solution) -> str:
     events = solution.events
     times = np.unique(np.concatenate([solution.t, events.time, [solution.t_end]]))
     try:
-        imbalance = Energies.of(solution, times).unexplained
+        imbalance = solution.history("unexplained_energy", times=times)["unexplained_energy"]
     except InvalidInput:
         # contacts were declared since the run
         return ""

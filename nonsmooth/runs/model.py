@@ -29,7 +29,7 @@ from nonsmooth.model.other_laws import lay_laws
 from nonsmooth.queries.undeclared import Undeclared
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
-from nonsmooth.runs.final_state import FinalState, FixedPlaces
+from nonsmooth.runs.final_state import FinalState, FixedPlaces, UnreadEnd
 from nonsmooth.runs.folder_sink import FolderSink
 from nonsmooth.runs.identity import digest
 from nonsmooth.runs.interpenetration import interpenetration
@@ -48,7 +48,7 @@ from nonsmooth.storage.files import FileError
 from nonsmooth.system.system import System
 
 _LARGEST_UNREAD = 1 << 20
-"""Largest memory of a solution whose end is not read yet [bytes]. Many solutions of a study are held at once."""
+"""Largest memory of checkpoints that a solution holds [bytes]. Many solutions of a study are held at once."""
 
 
 @final
@@ -454,10 +454,10 @@ class Model:
             recorded = records.joined(self._engine)
             if found.status == "done" and (overlap := interpenetration(laid, recorded.rows)):
                 found = Outcome("failed", overlap)
-            solution = Solution(laid.system, recorded, partial(final.end, found, ending.status, wall, recorded))
-            # a solution holds two checkpoints until its end is read; then it releases them
-            if 2 * self._blank.size > _LARGEST_UNREAD:
-                _ = solution.end
+            unread = UnreadEnd(final, found, ending.status, wall, recorded)
+            # an unread end holds two checkpoints; if they are large, the solution gets the end itself
+            is_large = 2 * self._blank.size > _LARGEST_UNREAD
+            solution = Solution(laid.system, recorded, unread.read() if is_large else unread)
             has_failed = found.status == "failed"
             # results that cannot be written are in memory, so the error gets the solution; after a failed write the
             # sink gets nothing more
@@ -467,7 +467,7 @@ class Model:
             except FileError as error:
                 has_failed = True
                 end = replace(solution.end, status="failed", message=str(error))
-                solution = Solution.known(laid.system, recorded, end)
+                solution = Solution(laid.system, recorded, end)
         except MemoryError as error:
             raise self._out_of_memory(error) from error
         finally:

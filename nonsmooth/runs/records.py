@@ -22,9 +22,8 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Engine
 from nonsmooth.model.laid_out import LaidOut
 from nonsmooth.solution.events import Events
-from nonsmooth.solution.recorded import Recorded
+from nonsmooth.solution.recorded import Recorded, row_of
 from nonsmooth.solution.state import Floats, Integers, State
-from nonsmooth.solution.track import row_of
 
 StoredRecords: TypeAlias = tuple[Events, Callable[[], Floats]]
 """Events of an output folder, and a function that reads the samples there."""

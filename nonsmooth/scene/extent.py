@@ -1,7 +1,8 @@
-"""Extent: how much room a run takes."""
+"""Extent: the box of a run, and the part of each unbounded plane, a sheet, that is drawn."""
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 from typing import final
 
@@ -10,18 +11,23 @@ import numpy as np
 from nonsmooth.histories.arrays import Floats
 from nonsmooth.scene.scene import Part, Scene
 
+_ROUND = 1.0
+"""Margin of a sheet around the moving bodies, relative to their size, so that they are seen to stand on it."""
+_STILL = 1e-9
+"""Change of a pose relative to the extent, below which it is round-off."""
+
 
 @final
 @dataclass(frozen=True, eq=False)
 class Extent:
-    """The box of all that is seen at any time, of sheets the point that is nearest to the rest.
+    """Box of all visible parts over a run; a sheet, which is unbounded, counts by its point nearest to the others.
 
     Attributes
     ----------
     low, high : array
-        Its corners [m], shape [3].
+        Corners of the box [m], shape [3].
     reach : float
-        How far what moves goes from the origin of its frame [m].
+        Largest radius of a moving body about the origin of its frame [m].
     """
 
     low: Floats
@@ -30,7 +36,7 @@ class Extent:
 
     @classmethod
     def of(cls, scene: Scene, origin: Floats, axes: Floats) -> Extent:
-        """Return that of frames, whose origins and axes are those of :meth:`Scene.places`."""
+        """Extent of a scene, with origins and axes of its frames as :meth:`Scene.places` returns them."""
         bodies = scene.system.bodies
         sheets = [part for part in scene.parts if part.look.sheet]
         solids = [part for part in scene.parts if not part.look.sheet]
@@ -42,7 +48,7 @@ class Extent:
         for part in solids:
             vertices, here = part.look.vertices, origin[:, part.frame]
             own = float(np.max(np.linalg.norm(vertices, axis=1), initial=0.0))
-            # it is within a ball about the origin and within its own box as that is turned
+            # bounded by the sphere about the origin of the frame and by the box of the vertices, rotated
             edges = vertices.min(axis=0, initial=0.0), vertices.max(axis=0, initial=0.0)
             centre = here + axes[:, part.frame] @ (0.5 * (edges[0] + edges[1]))
             half = np.abs(axes[:, part.frame]) @ (0.5 * (edges[1] - edges[0]))
@@ -58,12 +64,84 @@ class Extent:
 
     @property
     def unit(self) -> float:
-        """The length that lines and arrows are measured by [m]."""
+        """Unit of length of lines and arrows [m]."""
         return min(self.reach, 0.5 * float(np.linalg.norm(self.high - self.low)))
 
 
 def nearest(part: Part, origin: Floats, axes: Floats, place: Floats) -> Floats:
-    """Return the point of a sheet at each time that is nearest to a place [m], shape [n, 3]."""
+    """Point of a sheet nearest to a place at each time [m], shape [n, 3]."""
     normal = axes[:, part.frame, :, 2]
     height = np.einsum("ij,ij->i", place - origin[:, part.frame], normal) - part.look.vertices[0, 2]
     return np.asarray(place - height[:, None] * normal)
+
+
+def outlines(scene: Scene, origin: Floats, axes: Floats, extent: Extent) -> list[Floats]:
+    """Corners of the drawn part of each sheet, in order, in the axes of its frame [m], shape [n, 2].
+
+    It contains the run at all times, with a margin.  It ends at another sheet that does not move relative to it and
+    has all moving bodies in front of it: walls meet at their edges.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    origin, axes : array
+        Origins and axes of the frames, from :meth:`Scene.places`.
+    extent : Extent
+        Extent of the scene.
+    """
+    sheets = [part for part in scene.parts if part.look.sheet]
+    moving = {part.frame for part in scene.parts if scene.system.bodies[part.body].n_u > 0 and not part.look.sheet}
+    held = [_holds(part, origin, axes, sorted(moving)) for part in sheets]
+    places, radii = _taken(scene, origin, axes, extent)
+    found = [_rectangle(part, origin, axes, places, radii + _ROUND * extent.unit) for part in sheets]
+    span = float(np.linalg.norm(extent.high - extent.low))
+    for i, j in itertools.permutations(range(len(sheets)), 2):
+        one, other = sheets[i].frame, sheets[j].frame
+        apart = np.einsum("nij,ni->nj", axes[:, one], origin[:, other] - origin[:, one])
+        turned = np.einsum("nij,nik->njk", axes[:, one], axes[:, other])
+        if not held[j] or np.max(np.ptp(apart, axis=0)) > _STILL * span or np.max(np.ptp(turned, axis=0)) > _STILL:
+            continue
+        normal = turned[0, :, 2]
+        through = apart[0] + sheets[j].look.vertices[0, 2] * normal
+        level = normal[2] * sheets[i].look.vertices[0, 2] - through @ normal
+        found[i] = _cut(found[i], normal[:2], float(level))
+    return found
+
+
+def _holds(part: Part, origin: Floats, axes: Floats, moving: list[int]) -> bool:
+    """True if the origins of the frames stay in front of a sheet."""
+    normal = axes[:, part.frame, :, 2]
+    height = np.einsum("nfi,ni->nf", origin[:, moving] - origin[:, part.frame, None], normal)
+    return bool(np.all(height >= part.look.vertices[0, 2]))
+
+
+def _taken(scene: Scene, origin: Floats, axes: Floats, extent: Extent) -> tuple[Floats, Floats]:
+    """Centres [m] and radii [m] of spheres that contain all visible parts, shapes [n, m, 3] and [m]."""
+    middle = 0.5 * (extent.low + extent.high)
+    places, radii = list[Floats](), list[float]()
+    for part in scene.parts:
+        sheet, vertices = part.look.sheet, part.look.vertices
+        places.append(nearest(part, origin, axes, middle) if sheet else origin[:, part.frame])
+        radii.append(0.0 if sheet else float(np.max(np.linalg.norm(vertices, axis=1), initial=0.0)))
+    ends = sorted({frame for stroke in scene.strokes if stroke.kind == "link" for frame in stroke.frames})
+    return np.stack([*places, *(origin[:, frame] for frame in ends)], axis=1), np.array(radii + [0.0] * len(ends))
+
+
+def _rectangle(part: Part, origin: Floats, axes: Floats, places: Floats, radii: Floats) -> Floats:
+    """Corners of the rectangle in a sheet that contains the projections of spheres at all times [m], shape [4, 2]."""
+    flat = (places - origin[:, part.frame, None]) @ axes[:, part.frame, :, :2]
+    (a, b), (c, d) = (flat - radii[:, None]).min(axis=(0, 1)), (flat + radii[:, None]).max(axis=(0, 1))
+    return np.array([(a, b), (c, b), (c, d), (a, d)])
+
+
+def _cut(corners: Floats, normal: Floats, level: float) -> Floats:
+    """Part of a convex polygon with positive ``corners @ normal + level``; the whole polygon if there is none."""
+    heights = corners @ normal + level
+    kept = list[Floats]()
+    for a, b, p, q in zip(corners, np.roll(corners, -1, axis=0), heights, np.roll(heights, -1), strict=True):
+        if p >= 0.0:
+            kept.append(a)
+        if p * q < 0.0:
+            kept.append(a + p / (p - q) * (b - a))
+    return np.array(kept) if len(kept) > 2 else corners

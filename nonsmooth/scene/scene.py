@@ -1,28 +1,34 @@
-"""Scene: what is seen of a system."""
+"""Scene: the visible parts of a system, their places over time, and the times at which a run is drawn."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import final
+from typing import TYPE_CHECKING, final
 
 import numpy as np
 
 from nonsmooth.histories.arrays import Floats
+from nonsmooth.histories.replay import replay_of
 from nonsmooth.interfaces import Body
 from nonsmooth.interfaces.look import Look
 from nonsmooth.queries.places import BodyFrames
 from nonsmooth.system.contact import Tie
 from nonsmooth.system.system import System
 
+if TYPE_CHECKING:
+    from nonsmooth.solution.solution import Solution
+
+_FEWEST = 600
+"""A run with fewer times is also drawn between its samples, so that ballistic motion is seen as a curve."""
 _SPECK = 1e-2
-"""Part of its distance from the origin of the frame below which the size of a shape, or of a gap, is not seen."""
+"""Smallest visible size of a shape or a gap, relative to its distance from the origin of the frame."""
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class Part:
-    """A look that a frame carries.
+    """A visible shape on a frame.
 
     Attributes
     ----------
@@ -31,7 +37,7 @@ class Part:
     body : int
         Number of the body.
     look : Look
-        What is seen.
+        The visible shape.
     """
 
     frame: int
@@ -65,9 +71,9 @@ class Stroke:
 @final
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """What is seen of a system: parts that frames carry, and lines between frames.
+    """The visible parts of a system on their frames, and lines between frames.
 
-    Frames are counted body by body; behind them stand the ends of links, whose axes are those of the world.
+    Frames are numbered body by body.  The ends of links follow them, with the axes of the world.
 
     Attributes
     ----------
@@ -88,7 +94,7 @@ class Scene:
 
     @classmethod
     def of(cls, system: System) -> Scene:
-        """Return the scene of a system."""
+        """Scene of a system."""
         parts = list[Part]()
         first, frame = dict[int, int](), 0
         for number, body in enumerate(system.bodies):
@@ -106,7 +112,7 @@ class Scene:
         return cls(system, tuple(parts), tuple(strokes), frame)
 
     def places(self, times: Floats, q: Floats, u: Floats) -> tuple[Floats, Floats]:
-        """Return origins [m] and axes of all frames, shapes [n, n_frames, 3] and [n, n_frames, 3, 3].
+        """Origins [m] and axes of all frames, shapes [n, n_frames, 3] and [n, n_frames, 3, 3].
 
         Parameters
         ----------
@@ -135,7 +141,7 @@ class Scene:
 
 
 def _looks(body: Body) -> Iterator[tuple[int, Look]]:
-    """Give frame and look of all that the frames of a body carry; what its marks and specks span is one."""
+    """Frame and look of each visible shape of a body; small marks on a frame count as one hull."""
     for frame, shapes in enumerate(body.frames):
         looks = [shape.look for shape in shapes]
         reach = max((float(np.max(np.abs(look.vertices))) for look in looks if not look.sheet), default=0.0)
@@ -147,7 +153,7 @@ def _looks(body: Body) -> Iterator[tuple[int, Look]]:
 
 
 def _tied(kind: str, tie: Tie, first: dict[int, int], parts: Sequence[Part]) -> Iterator[Stroke]:
-    """Give the line between the ends of a load or joint, and for joints those to them from bodies that end before."""
+    """Line between the ends of a load or joint; for a joint also lines to its ends from bodies that are too short."""
     bodies = tie.first, tie.second
     frames = [first[id(body)] + offset for body, offset in zip(bodies, tie.frames, strict=True)]
     yield Stroke(kind, tie.name, (frames[0], frames[1]), tie.component.ends)
@@ -158,8 +164,27 @@ def _tied(kind: str, tie: Tie, first: dict[int, int], parts: Sequence[Part]) -> 
 
 
 def _spans(looks: Sequence[Look], point: Floats) -> bool:
-    """Tell whether the box of the origin and of what a frame carries holds a point of it."""
+    """True if the box of the shapes on a frame and of its origin contains a point of the frame."""
     seen = np.concatenate([np.zeros((1, 3)), *(look.vertices for look in looks if not look.sheet)])
     low, high = seen.min(axis=0), seen.max(axis=0)
     room = _SPECK * np.max(high - low)
     return bool(np.all((point >= low - room) & (point <= high + room)))
+
+
+def knots(solution: Solution, most: int) -> Floats:
+    """Times between which a run is drawn along straight lines [s], shape [n].
+
+    These are all instants of events and at most ``most`` others, if possible samples.
+    """
+    samples = solution.t
+    chosen = samples[:: max(1, -(-len(samples) // most))] if len(samples) > 0 else samples
+    instants = np.unique(solution.events.time)
+    found = np.unique(np.concatenate([chosen, samples[-1:], instants, [solution.t_end]]))
+    if len(found) < min(_FEWEST, most) and replay_of(solution).is_flow:
+        found = np.union1d(found, np.linspace(found[0], found[-1], min(_FEWEST, most)))
+    return np.asarray(found)
+
+
+def sides(system: System) -> Floats:
+    """1 for each contact, or -1 if only its first body moves: arrows show forces on bodies that move; shape [n]."""
+    return np.array([-1.0 if c.second.n_u == 0 < c.first.n_u else 1.0 for c in system.contacts])

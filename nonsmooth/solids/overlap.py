@@ -16,6 +16,7 @@ from typing import final
 import numpy as np
 
 from nonsmooth.interfaces.solid import Piece, Vector
+from nonsmooth.solids.separation import Point, as_point, cross, dot, minus
 
 _EXACT, _CLOSE = 0.1, 1e-3
 """A depth is told as exactly as this, relative to it: a bound, and where the shortest way out is asked for."""
@@ -23,8 +24,7 @@ _ROUND_OFF = 1e-14
 _MOST = 400
 """Steps, after which the bound is taken as it is."""
 
-_Point = tuple[float, float, float]
-_Face = tuple[float, _Point, int, int, int]
+_Face = tuple[float, Point, int, int, int]
 """Height over the origin, outward normal, corners counter-clockwise seen from outside."""
 
 
@@ -90,15 +90,15 @@ def penetration(one: Piece, two: Piece, tolerance: float) -> Penetration | None:
     tolerance : float
         By how much sets that touch may overlap [m].
     """
-    points: dict[_Point, tuple[Vector, Vector]] = {}
-    best: list[tuple[float, _Point]] = []
+    points: dict[Point, tuple[Vector, Vector]] = {}
+    best: list[tuple[float, Point]] = []
 
     def farthest(direction: Vector) -> Vector:
         size = float(np.linalg.norm(direction))
         first, second = one.support(direction), two.support(-direction)
         found = first - second
-        points[_point(found)] = first, second
-        best.append((float(direction @ found) / size, _point(direction / size)))
+        points[as_point(found)] = first, second
+        best.append((float(direction @ found) / size, as_point(direction / size)))
         return found
 
     corners = _tetrahedron(farthest, tolerance)
@@ -119,7 +119,7 @@ def penetration(one: Piece, two: Piece, tolerance: float) -> Penetration | None:
     return Penetration(min(lower, upper), upper, np.array(normal), first, second)
 
 
-def _tetrahedron(farthest: Callable[[Vector], Vector], tolerance: float) -> list[_Point]:
+def _tetrahedron(farthest: Callable[[Vector], Vector], tolerance: float) -> list[Point]:
     """Return four points that span a volume, counter-clockwise round the first; none if the sets part on the way."""
     points: list[Vector] = []
     while len(points) < 4:
@@ -139,7 +139,7 @@ def _tetrahedron(farthest: Callable[[Vector], Vector], tolerance: float) -> list
     a, b, c, d = points
     if float(np.cross(b - a, c - a) @ (d - a)) > 0.0:
         b, c = c, b
-    return [_point(x) for x in (a, b, c, d)]
+    return [as_point(x) for x in (a, b, c, d)]
 
 
 def _across(points: list[Vector]) -> Iterable[Vector]:
@@ -158,16 +158,16 @@ def _across(points: list[Vector]) -> Iterable[Vector]:
 
 
 def _expanded(
-    corners: list[_Point], farthest: Callable[[Vector], Vector], tolerance: float, exact: float
-) -> tuple[float, list[_Point], _Point]:
+    corners: list[Point], farthest: Callable[[Vector], Vector], tolerance: float, exact: float
+) -> tuple[float, list[Point], Point]:
     """Return the depth, or 0, and corners and normal of the face that it is that of."""
     points = list(corners)
     faces = [_face(points, *trio) for trio in ((0, 1, 2), (0, 2, 3), (0, 3, 1), (1, 3, 2))]
     size = max(math.hypot(*point) for point in points)
     for _ in range(_MOST):
         height, normal, *_ = min(faces)
-        found = _point(farthest(np.array(normal)))
-        reach = _dot(normal, found)
+        found = as_point(farthest(np.array(normal)))
+        reach = dot(normal, found)
         if reach <= tolerance:
             return 0.0, [], normal
         if reach - height <= max(exact * reach if height > tolerance else 0.0, _ROUND_OFF * size):
@@ -179,13 +179,13 @@ def _expanded(
     return (height if height > tolerance else 0.0), [points[i] for i in trio], normal
 
 
-def _pushed_out(points: list[_Point], faces: list[_Face], least: float) -> list[_Face]:
+def _pushed_out(points: list[Point], faces: list[_Face], least: float) -> list[_Face]:
     """Return the faces of the hull of a polytope and the last of the points, which lies over one of its faces."""
     top = points[-1]
     kept: list[_Face] = []
     rims: set[tuple[int, int]] = set()
     for face in faces:
-        if _dot(face[1], top) - face[0] <= least:
+        if dot(face[1], top) - face[0] <= least:
             kept.append(face)
             continue
         _, _, i, j, k = face
@@ -197,21 +197,10 @@ def _pushed_out(points: list[_Point], faces: list[_Face], least: float) -> list[
     return kept + [_face(points, i, j, len(points) - 1) for i, j in rims]
 
 
-def _face(points: list[_Point], i: int, j: int, k: int) -> _Face:
-    (ax, ay, az), (bx, by, bz), (cx, cy, cz) = points[i], points[j], points[k]
-    ux, uy, uz, vx, vy, vz = bx - ax, by - ay, bz - az, cx - ax, cy - ay, cz - az
-    nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
-    size = math.sqrt(nx * nx + ny * ny + nz * nz)
+def _face(points: list[Point], i: int, j: int, k: int) -> _Face:
+    nx, ny, nz = normal = cross(minus(points[j], points[i]), minus(points[k], points[i]))
+    size = math.sqrt(dot(normal, normal))
     if size == 0.0:
         return math.inf, (0.0, 0.0, 0.0), i, j, k
     normal = nx / size, ny / size, nz / size
-    return _dot(normal, points[i]), normal, i, j, k
-
-
-def _dot(one: _Point, two: _Point) -> float:
-    return one[0] * two[0] + one[1] * two[1] + one[2] * two[2]
-
-
-def _point(vector: Vector) -> _Point:
-    x, y, z = vector.tolist()
-    return x, y, z
+    return dot(normal, points[i]), normal, i, j, k

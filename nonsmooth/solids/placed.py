@@ -9,7 +9,7 @@ from typing import final
 
 import numpy as np
 
-from nonsmooth.interfaces.solid import Piece, Solid, Vector
+from nonsmooth.interfaces.solid import Piece, SolidRegion, Vector
 from nonsmooth.solids.overlap import depth
 
 
@@ -20,7 +20,7 @@ class Placed:
 
     Attributes
     ----------
-    solid : Solid
+    solid : SolidRegion
         The solid.
     position : Vector
         Origin of its frame [m], shape [3].
@@ -28,7 +28,7 @@ class Placed:
         Axes of its frame as columns, shape [3, 3].
     """
 
-    solid: Solid
+    solid: SolidRegion
     position: Vector
     rotation: Vector
 

@@ -15,8 +15,9 @@ import numpy as np
 from nonsmooth.interfaces.solid import Piece, Vector
 
 _MOST = 200
-_Point = tuple[float, float, float]
-_Nearest = tuple[float, _Point, tuple[_Point, ...]]
+Point = tuple[float, float, float]
+"""A point or a vector; three floats are faster than an array here."""
+_Nearest = tuple[float, Point, tuple[Point, ...]]
 """Squared distance from the origin, the nearest point of a simplex, the corners that it lies between."""
 
 
@@ -92,17 +93,17 @@ class _Found:
 
     bound: float
     normal: Vector
-    point: _Point
-    corners: tuple[_Point, ...]
+    point: Point
+    corners: tuple[Point, ...]
     points: list[tuple[Vector, Vector]]
 
 
 def _search(one: Piece, two: Piece, way: Vector, margin: float, enough: float, part: float) -> _Found:
-    nearest = _tuple(two.place - one.place - way)
-    simplex: tuple[_Point, ...] = ()
-    origins: dict[_Point, tuple[Vector, Vector]] = {}
+    nearest = as_point(two.place - one.place - way)
+    simplex: tuple[Point, ...] = ()
+    origins: dict[Point, tuple[Vector, Vector]] = {}
     best, normal = -math.inf, np.array([0.0, 0.0, 1.0])
-    square, size = _dot(nearest, nearest), 0.0
+    square, size = dot(nearest, nearest), 0.0
 
     def ended(bound: float) -> _Found:
         return _Found(bound, normal, nearest, simplex, [origins[corner] for corner in simplex])
@@ -113,8 +114,8 @@ def _search(one: Piece, two: Piece, way: Vector, margin: float, enough: float, p
             break
         unit = np.array(nearest) / distance
         first, second = one.support(unit), two.support(-unit)
-        found = _tuple(second - first - way)
-        bound = _dot(_tuple(unit), found)
+        found = as_point(second - first - way)
+        bound = dot(as_point(unit), found)
         if bound > best:
             best, normal = bound, unit
         if simplex and (distance - best <= max(part * (best - margin), enough) or found in simplex):
@@ -132,9 +133,9 @@ def _search(one: Piece, two: Piece, way: Vector, margin: float, enough: float, p
     return ended(best if best > -math.inf else 0.0)
 
 
-def _nearest(simplex: tuple[_Point, ...]) -> _Nearest:
+def _nearest(simplex: tuple[Point, ...]) -> _Nearest:
     if len(simplex) == 1:
-        return _dot(simplex[0], simplex[0]), simplex[0], simplex
+        return dot(simplex[0], simplex[0]), simplex[0], simplex
     if len(simplex) == 2:
         return _of_segment(*simplex)
     if len(simplex) == 3:
@@ -142,53 +143,49 @@ def _nearest(simplex: tuple[_Point, ...]) -> _Nearest:
     return _of_tetrahedron(*simplex)
 
 
-def _of_segment(a: _Point, b: _Point) -> _Nearest:
-    ab = _minus(b, a)
-    square = _dot(ab, ab)
-    part = -_dot(a, ab) / square if square > 0.0 else 0.0
+def _of_segment(a: Point, b: Point) -> _Nearest:
+    ab = minus(b, a)
+    square = dot(ab, ab)
+    part = -dot(a, ab) / square if square > 0.0 else 0.0
     if part <= 0.0:
-        return _dot(a, a), a, (a,)
+        return dot(a, a), a, (a,)
     if part >= 1.0:
-        return _dot(b, b), b, (b,)
+        return dot(b, b), b, (b,)
     point = a[0] + part * ab[0], a[1] + part * ab[1], a[2] + part * ab[2]
-    return _dot(point, point), point, (a, b)
+    return dot(point, point), point, (a, b)
 
 
-def _of_triangle(a: _Point, b: _Point, c: _Point) -> _Nearest:
+def _of_triangle(a: Point, b: Point, c: Point) -> _Nearest:
     normal = _normal(a, b, c)
-    square = _dot(normal, normal)
+    square = dot(normal, normal)
     if square > 0.0:
         # the origin is over the inside where it is on the inner side of all three
-        inside = (
-            _dot(_cross(a, b), normal) >= 0.0
-            and _dot(_cross(b, c), normal) >= 0.0
-            and _dot(_cross(c, a), normal) >= 0.0
-        )
+        inside = dot(cross(a, b), normal) >= 0.0 and dot(cross(b, c), normal) >= 0.0 and dot(cross(c, a), normal) >= 0.0
         if inside:
             # of the corner next to the origin, which leaves the least round-off
-            height = _dot(min((a, b, c), key=lambda p: _dot(p, p)), normal) / square
+            height = dot(min((a, b, c), key=lambda p: dot(p, p)), normal) / square
             point = height * normal[0], height * normal[1], height * normal[2]
-            return _dot(point, point), point, (a, b, c)
+            return dot(point, point), point, (a, b, c)
     return min(_of_segment(a, b), _of_segment(b, c), _of_segment(c, a))
 
 
-def _normal(a: _Point, b: _Point, c: _Point) -> _Point:
+def _normal(a: Point, b: Point, c: Point) -> Point:
     """Return the normal of a triangle, as long as twice its area, of its two shorter edges.
 
     Of two long edges that are nearly parallel it would be off by as much as moves the height of a sliver.
     """
-    edges = _minus(b, a), _minus(c, b), _minus(a, c)
-    longest = max(range(3), key=lambda i: _dot(edges[i], edges[i]))
-    return _cross(edges[(longest + 1) % 3], edges[(longest + 2) % 3])
+    edges = minus(b, a), minus(c, b), minus(a, c)
+    longest = max(range(3), key=lambda i: dot(edges[i], edges[i]))
+    return cross(edges[(longest + 1) % 3], edges[(longest + 2) % 3])
 
 
-def _of_tetrahedron(a: _Point, b: _Point, c: _Point, d: _Point) -> _Nearest:
-    volume = _dot(_cross(_minus(b, a), _minus(c, a)), _minus(d, a))
+def _of_tetrahedron(a: Point, b: Point, c: Point, d: Point) -> _Nearest:
+    volume = dot(cross(minus(b, a), minus(c, a)), minus(d, a))
     best: _Nearest | None = None
     outside = volume == 0.0
     for p, q, r, opposite in ((a, b, c, d), (a, c, d, b), (a, d, b, c), (b, d, c, a)):
         normal = _normal(p, q, r)
-        if volume == 0.0 or _dot(p, normal) * _dot(_minus(p, opposite), normal) < 0.0:
+        if volume == 0.0 or dot(p, normal) * dot(minus(p, opposite), normal) < 0.0:
             outside = True
             here = _of_triangle(p, q, r)
             best = here if best is None else min(best, here)
@@ -197,20 +194,24 @@ def _of_tetrahedron(a: _Point, b: _Point, c: _Point, d: _Point) -> _Nearest:
     return best
 
 
-def _tuple(vector: Vector) -> _Point:
+def as_point(vector: Vector) -> Point:
+    """Three floats from an array."""
     x, y, z = vector.tolist()
     return x, y, z
 
 
-def _minus(one: _Point, two: _Point) -> _Point:
+def minus(one: Point, two: Point) -> Point:
+    """Difference of two vectors."""
     return one[0] - two[0], one[1] - two[1], one[2] - two[2]
 
 
-def _dot(one: _Point, two: _Point) -> float:
+def dot(one: Point, two: Point) -> float:
+    """Scalar product."""
     return one[0] * two[0] + one[1] * two[1] + one[2] * two[2]
 
 
-def _cross(one: _Point, two: _Point) -> _Point:
+def cross(one: Point, two: Point) -> Point:
+    """Vector product."""
     return (
         one[1] * two[2] - one[2] * two[1],
         one[2] * two[0] - one[0] * two[2],

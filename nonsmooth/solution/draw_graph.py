@@ -1,4 +1,4 @@
-"""A drawing of the graph of modes; matplotlib comes with ``nonsmooth[full]``."""
+"""Drawing of the graph of modes; needs matplotlib (``nonsmooth[full]``)."""
 
 from __future__ import annotations
 
@@ -6,9 +6,8 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from nonsmooth.engine.memory.modes import CAUSES
-from nonsmooth.solution.graph import Mode, TransitionGraph
-from nonsmooth.solution.graph_groups import grouped
 from nonsmooth.solution.graph_layout import Point, places_of
+from nonsmooth.solution.modes import ContactModes, TransitionGraph, grouped
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -16,46 +15,33 @@ if TYPE_CHECKING:
 
 _MOST_MODES = 14
 _LONGEST_WORD, _FEW = 16, 8
-"""Characters of a word that fits into its node, and how many modes may show it; else they are numbered and listed."""
+"""Longest mode word in a node, and largest number of nodes with words; other nodes are numbered and listed."""
 _MOST_CONTACTS = 14
-"""Contacts of which a mode word can be read; modes of more are grouped."""
+"""Largest number of contacts with readable mode words; modes of more contacts are grouped."""
 _LONGEST_LINE = 110
 _FOOT = 0.62
 """Height of the caption [inches]."""
 _COLOURS = (
-    "#000000",
-    "#d55e00",
-    "#0072b2",
-    "#009e73",
-    "#e69f00",
-    "#aa3377",
-    "#56b4e9",
-    "#999999",
-    "#6b4c1e",
-    "#f0e442",
-    "#99cc00",
-    "#882255",
-    "#44aa99",
-    "#332288",
-    "#ddcc77",
-)
-"""One for each cause, with letters besides, as nobody tells so many apart."""
+    "#000000", "#d55e00", "#0072b2", "#009e73", "#e69f00", "#aa3377", "#56b4e9", "#999999", "#6b4c1e", "#f0e442",
+    "#99cc00", "#882255", "#44aa99", "#332288", "#ddcc77",
+)  # fmt: skip
+"""Colour of each cause; letters tell similar colours apart."""
 _LETTERS = "abcdefghijklmno"
 _BEND = 0.16
 
 
 def draw(graph: TransitionGraph, most: int = _MOST_MODES) -> Figure:
-    """Return a figure of the modes visited most and the transitions between them.
+    """Figure of the modes visited most and the transitions between them.
 
-    Modes that last stand inside, impacts around them; the wider an arrow, the more often its transition.  Modes of more
-    contacts than a word can be read of are grouped (:func:`nonsmooth.solution.graph_groups.grouped`).
+    Modes with a duration are inside, impacts around them.  A wider arrow is a more frequent transition.  Modes of many
+    contacts are grouped (:func:`nonsmooth.solution.modes.grouped`).
 
     Parameters
     ----------
     graph : TransitionGraph
         The graph.
     most : int
-        How many modes, or groups of them, to show; the title tells how many are left out.
+        Largest number of modes, or groups, that are drawn; the title has the number of the others.
     """
     from matplotlib.figure import Figure
 
@@ -109,11 +95,9 @@ def _caption(graph: TransitionGraph, many: bool) -> str:
 
 
 def _title(graph: TransitionGraph, whole: TransitionGraph, shown: TransitionGraph) -> str:
-    modes, changes = (
-        len(graph.shares),
-        sum(graph.counts.values()) - sum(n for (one, _, _), n in graph.counts.items() if one in graph.passing),
-    )
-    title = f"Modes of the run: {modes} visited, {changes} transition{'s' * (changes != 1)}"
+    # an impact has two transitions, into it and out of it
+    changes = sum(n for (one, _, _), n in graph.counts.items() if one not in graph.passing)
+    title = f"Modes of the run: {len(graph.shares)} visited, {changes} transition{'s' * (changes != 1)}"
     what = "modes"
     if whole is not graph:
         what, title = "groups", f"{title}; in {len(whole.shares)} groups"
@@ -124,12 +108,12 @@ def _title(graph: TransitionGraph, whole: TransitionGraph, shown: TransitionGrap
 def _draw_nodes(
     axis: Axes,
     graph: TransitionGraph,
-    places: dict[Mode, Point],
-    words: dict[Mode, str],
+    places: dict[ContactModes, Point],
+    words: dict[ContactModes, str],
     numbered: bool,
     inch: float,
-) -> dict[Mode, Any]:
-    """Draw the nodes; an inch is so many units of the places."""
+) -> dict[ContactModes, Any]:
+    """Draw the nodes; ``inch`` is the number of units of the places in an inch."""
     from matplotlib.patches import Ellipse
 
     nodes = {}
@@ -138,15 +122,10 @@ def _draw_nodes(
         label = str(number) if numbered else words[mode]
         width = 0.36 if numbered else 0.42 + 0.074 * len(label)
         node = Ellipse(
-            (x, y),
-            width * inch,
-            (0.3 if numbered else 0.46) * inch,
-            facecolor="white" if passes else str(0.97 - 0.22 * share),
-            edgecolor="black",
+            (x, y), width * inch, (0.3 if numbered else 0.46) * inch, edgecolor="black", zorder=3,
+            facecolor="white" if passes else str(0.97 - 0.22 * share), linestyle="--" if passes else "-",
             linewidth=2.2 if mode == graph.start else 1.0,
-            linestyle="--" if passes else "-",
-            zorder=3,
-        )
+        )  # fmt: skip
         nodes[mode] = axis.add_patch(node)
         text = label if passes or numbered else f"{label}\n{_percent(share)}"
         axis.text(x, y, text, ha="center", va="center", fontsize=8.5, zorder=4, linespacing=1.2)
@@ -157,14 +136,16 @@ def _percent(share: float) -> str:
     return f"{100.0 * share:.1f} %" if share >= 5e-4 or share == 0.0 else "< 0.1 %"
 
 
-def _draw_edges(axis: Axes, graph: TransitionGraph, places: dict[Mode, Point], nodes: dict[Mode, Any]) -> None:
+def _draw_edges(
+    axis: Axes, graph: TransitionGraph, places: dict[ContactModes, Point], nodes: dict[ContactModes, Any]
+) -> None:
     from matplotlib.lines import Line2D
     from matplotlib.patches import FancyArrowPatch
 
     most = max(graph.counts.values(), default=1)
     seen = [cause for cause in CAUSES if any(edge[2] == cause for edge in graph.counts)]
     letters = dict(zip(seen, _LETTERS, strict=False)) if len(seen) > 1 else {}
-    parallel: dict[tuple[Mode, Mode], int] = {}
+    parallel: dict[tuple[ContactModes, ContactModes], int] = {}
     for (one, other, cause), n in sorted(graph.counts.items(), key=lambda item: -item[1]):
         bend = _BEND * (1 + parallel.get((one, other), 0))
         parallel[one, other] = parallel.get((one, other), 0) + 1
@@ -175,19 +156,11 @@ def _draw_edges(axis: Axes, graph: TransitionGraph, places: dict[Mode, Point], n
             x, y = start
             start, end, style = (x - 0.07, y + 0.06), (x + 0.07, y + 0.06), f"arc3,rad={-1.6 - 6.0 * (bend - _BEND)}"
         arrow = FancyArrowPatch(
-            start,
-            end,
-            connectionstyle=style,
-            arrowstyle="-|>,head_length=0.5,head_width=0.28",
-            mutation_scale=9.0 + 1.6 * width,
-            patchA=None if one == other else nodes[one],
-            patchB=None if one == other else nodes[other],
-            shrinkA=1.0,
-            shrinkB=2.0,
-            color=colour,
-            linewidth=width,
+            start, end, connectionstyle=style, arrowstyle="-|>,head_length=0.5,head_width=0.28",
+            mutation_scale=9.0 + 1.6 * width, patchA=None if one == other else nodes[one],
+            patchB=None if one == other else nodes[other], shrinkA=1.0, shrinkB=2.0, color=colour, linewidth=width,
             zorder=2,
-        )
+        )  # fmt: skip
         axis.add_patch(arrow)
         # the vertex of the arc: half the bend beside the middle of the chord
         x, y = 0.5 * (start[0] + end[0]), 0.5 * (start[1] + end[1])
@@ -195,33 +168,21 @@ def _draw_edges(axis: Axes, graph: TransitionGraph, places: dict[Mode, Point], n
         if one == other:
             x, y = places[one][0], places[one][1] + 0.06 + 0.07 * (1.6 + 6.0 * (bend - _BEND))
         box = {"boxstyle": "round,pad=0.12", "facecolor": "white", "edgecolor": "none", "alpha": 0.85}
-        axis.text(
-            x,
-            y,
-            f"{n} {letters.get(cause, '')}".strip(),
-            fontsize=7.5,
-            color=colour,
-            ha="center",
-            va="center",
-            zorder=5,
-            bbox=box,
-        )
+        label = f"{n} {letters.get(cause, '')}".strip()
+        axis.text(x, y, label, fontsize=7.5, color=colour, ha="center", va="center", zorder=5, bbox=box)
+    labels = {cause: f"{letters.get(cause, '')} {cause}".strip() for cause in seen}
     lines = [
-        Line2D(
-            [],
-            [],
-            color=_COLOURS[CAUSES.index(cause)],
-            linewidth=2.5,
-            label=f"{letters.get(cause, '')} {cause}".strip(),
-        )
-        for cause in seen
+        Line2D([], [], color=_COLOURS[CAUSES.index(cause)], linewidth=2.5, label=label)
+        for cause, label in labels.items()
     ]
     if lines:
         axis.figure.legend(handles=lines, loc="outside lower center", ncols=4, fontsize=8, frameon=False)
 
 
-def _list_words(panel: Axes, graph: TransitionGraph, words: dict[Mode, str], visits: dict[Mode, int]) -> None:
-    """Write out what the numbers in the nodes stand for, and how often the run came there."""
+def _list_words(
+    panel: Axes, graph: TransitionGraph, words: dict[ContactModes, str], visits: dict[ContactModes, int]
+) -> None:
+    """List number, visits, share and word of each node."""
     rows = []
     for number, (mode, n) in enumerate(visits.items(), 1):
         share = "impact" if mode in graph.passing else _percent(graph.shares[mode])

@@ -1,18 +1,34 @@
-"""How a run ended: the state, what it cost, the status, and the numbers by which the engine judges it."""
+"""End of a run: state, counters, status, and the numbers by which the engine judges it."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import final
+from enum import StrEnum
+from typing import Protocol, final
 
 from nonsmooth.interfaces import Measure
 from nonsmooth.solution.state import State
 
 
+class RunStatus(StrEnum):
+    """How a run ended. A member equals its word: ``solution.status == "done"``."""
+
+    DONE = "done"
+    """The end time, a condition or a guard ended the run."""
+    SUSPECT = "suspect"
+    """The run reached its end, but a check failed, such as the energy account; ``message`` says which."""
+    INTERRUPTED = "interrupted"
+    """The user interrupted the run."""
+    FAILED = "failed"
+    """The run could not continue."""
+    UNFINISHED = "unfinished"
+    """The run in a folder of results is under way, or was cut off."""
+
+
 @dataclass(frozen=True)
 class Counters:
-    """What the run cost.
+    """Numbers of steps and impacts of a run, and its wall time.
 
     Attributes
     ----------
@@ -40,23 +56,30 @@ class Counters:
     wall_seconds: float
 
 
+class Ending(Protocol):
+    """Source of the end of a run: the end itself, or the memory of the model after the run."""
+
+    def read(self) -> End:
+        """Read the end."""
+
+
 @final
 @dataclass(frozen=True)
 class End:
-    """How a run ended.
+    """End of a run.
 
     Attributes
     ----------
     state : State
-        Where it ended.
+        State at the end.
     counters : Counters
-        What it cost.
+        Numbers of steps and impacts, and wall time.
     status, message : str
-        Why it stopped, in a word and in a sentence.
+        Why the run ended, as a word of :class:`RunStatus` and as a sentence.
     cause : str
-        Name of the cause of the engine's own for which it ended, "" if there is none.
+        Name of the cause that the engine itself declares, "" without one.
     verdict : mapping of Measure to float
-        The numbers by which the engine judges it.
+        The numbers by which the engine judges the run.
     """
 
     state: State
@@ -65,3 +88,12 @@ class End:
     message: str
     cause: str = ""
     verdict: Mapping[Measure, float] = field(default_factory=dict)
+
+    def read(self) -> End:
+        """The end itself."""
+        return self
+
+    @property
+    def measured(self) -> dict[str, float]:
+        """The verdict by the names of its measures."""
+        return {measure.name: value for measure, value in self.verdict.items()}

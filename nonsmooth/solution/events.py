@@ -263,7 +263,7 @@ class Events:
     def words(self, which: str) -> list[str]:
         """Return the mode words ``before``, ``during`` or ``after`` every event."""
         codes: Integers = {"before": self.before, "during": self.during, "after": self.after}[which]
-        return words(codes)
+        return self.spelled(codes)
 
     def intervals(self) -> dict[str, int]:
         """Return how many events followed the one before after which time, by the decade that it begins with [s].
@@ -281,12 +281,12 @@ class Events:
         """Return how many events have one of the causes."""
         return int(np.isin(self.cause, causes).sum())
 
+    @staticmethod
+    def spelled(codes: Integers) -> list[str]:
+        """Mode word of every row of codes, shape [n, n_contacts]."""
+        unique, inverse = np.unique(codes, axis=0, return_inverse=True)
+        found = [word(list(row & 1), list(row >> 1 & 1), list(row >> 2 & 1)) for row in unique]
+        return [found[i] for i in np.ravel(inverse)]
+
 
 _COLUMNS = tuple(field.name for field in dataclasses.fields(Events) if field.name != "n_contacts")
-
-
-def words(codes: Integers) -> list[str]:
-    """Return the mode word of every row of bits."""
-    unique, inverse = np.unique(codes, axis=0, return_inverse=True)
-    spelled = [word(list(row & 1), list(row >> 1 & 1), list(row >> 2 & 1)) for row in unique]
-    return [spelled[i] for i in np.ravel(inverse)]

@@ -13,7 +13,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.export.glb import Glb
 from nonsmooth.export.movie import Movie
 from nonsmooth.export.vtk import Vtk
-from nonsmooth.solution.csv_format import Csv
+from nonsmooth.solution.csv_tables import Csv
 from nonsmooth.storage.files import prepare
 
 if TYPE_CHECKING:

@@ -1,4 +1,4 @@
-"""Where the modes of a graph stand on paper."""
+"""Layout of the graph of modes on paper."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.solution.graph import Mode, TransitionGraph
+from nonsmooth.solution.modes import ContactModes, TransitionGraph
 
 Array: TypeAlias = NDArray[np.float64]
 Point: TypeAlias = tuple[float, float]
 
 _WIDE = 1.25
-"""Stretch along the page, where the words need room."""
+"""Stretch of the layout along the page, along which the words are written."""
 _STARTS, _ROUNDS = 16, 300
 
 
-def places_of(graph: TransitionGraph) -> dict[Mode, Point]:
-    """Place the modes so that distances on paper are as near as can be to numbers of transitions between them.
+def places_of(graph: TransitionGraph) -> dict[ContactModes, Point]:
+    """Places of the modes whose distances approximate the numbers of transitions between them.
 
-    The weighted squares of the differences are minimised by majorisation (de Leeuw), from several circles; of the
-    results the one whose lines cross least is taken.
+    The weighted squares of the differences are minimised by majorisation (de Leeuw), from modes on a circle in several
+    orders.  The result with the fewest crossing lines is taken.
     """
     visits = graph.visits
     modes = sorted(graph.shares, key=lambda m: (m in graph.passing, m != graph.start, -graph.shares[m], -visits[m]))
@@ -59,7 +59,7 @@ def _stress(points: Array, steps: Array) -> float:
 
 
 def _crossings(points: Array, lines: Sequence[tuple[int, int]]) -> int:
-    """Return how many pairs of straight lines between the points cross."""
+    """Number of pairs of lines that cross."""
 
     def side(a: int, b: int, c: int) -> bool:
         (x, y), (u, v) = points[b] - points[a], points[c] - points[a]
@@ -71,8 +71,8 @@ def _crossings(points: Array, lines: Sequence[tuple[int, int]]) -> int:
     )
 
 
-def _steps_between(modes: Sequence[Mode], graph: TransitionGraph) -> Array:
-    """Return how many transitions apart the modes are, either way, shape [n, n]; unconnected ones one more than any."""
+def _steps_between(modes: Sequence[ContactModes], graph: TransitionGraph) -> Array:
+    """Least number of transitions between modes, in either direction, shape [n, n]; unconnected: one more than any."""
     n = len(modes)
     steps = np.full((n, n), np.inf)
     np.fill_diagonal(steps, 0.0)

@@ -1,4 +1,4 @@
-"""Recorded: events and samples of a run as the engine left them, read when they are asked for."""
+"""Recorded: samples and events of a run as the engine left them. Track: its stored states."""
 
 from __future__ import annotations
 
@@ -8,9 +8,10 @@ from typing import final
 
 import numpy as np
 
+from nonsmooth.engine.memory.layout import BOOKED
 from nonsmooth.interfaces import Engine
 from nonsmooth.solution.events import Events
-from nonsmooth.solution.state import Floats, Integers
+from nonsmooth.solution.state import Floats, Integers, State
 
 _NOTHING = np.zeros(0), np.zeros(0, np.int64), (0, 0, 0, 0)
 
@@ -18,20 +19,21 @@ _NOTHING = np.zeros(0), np.zeros(0, np.int64), (0, 0, 0, 0)
 @final
 @dataclass(frozen=True, eq=False)
 class Recorded:
-    """What a run recorded.
+    """Samples and events of a run; the events are read from the buffers of the engine at the first use.
 
     Attributes
     ----------
     rows : array
-        Samples: time [s], all that is integrated, and the energies booked until then [J], shape [n, 1 + n_y + 4].
+        Samples: time [s], all that is integrated, and the energies accounted at events so far [J]; shape
+        [n, 1 + n_y + 4].
     engine : Engine
-        What integrated the run.
+        The engine that integrated the run.
     floats, integers : array
         Events in the engine's buffers.
     sizes : tuple of int
         Numbers of contacts, coordinates, velocities, and of all that is integrated.
     earlier : Events or None
-        Events of the run before those.
+        Events of an earlier part of the run.
     """
 
     rows: Floats
@@ -42,12 +44,12 @@ class Recorded:
     earlier: Events | None = None
 
     def __repr__(self) -> str:
-        """Return how much there is of it."""
+        """Numbers of samples and events."""
         return f"Recorded({len(self.rows)} samples, {len(self.events)} events)"
 
     @classmethod
     def of(cls, events: Events, rows: Floats, engine: Engine) -> Recorded:
-        """Return the record that has these events and samples."""
+        """Record of given events and samples."""
         return cls(rows, engine, *_NOTHING, events)
 
     @functools.cached_property
@@ -57,3 +59,45 @@ class Recorded:
             return self.earlier
         found = Events.from_buffers(self.floats, self.integers, *self.sizes)
         return found if self.earlier is None else Events.joined([self.earlier, found])
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Track:
+    """Stored states at the samples and at the end of a run; the states at events are in :class:`Events`.
+
+    Attributes
+    ----------
+    time : array
+        Times [s], shape [n].
+    y : array
+        All that is integrated: coordinates, velocities, energies, inner states of laws; shape [n, n_y].
+    booked : array
+        Energies accounted at events so far [J]: work of driven bodies, losses by restitution, friction and closing;
+        shape [n, 4].
+    engine : Engine
+        The engine that integrated the run.
+    """
+
+    time: Floats
+    y: Floats
+    booked: Floats
+    engine: Engine
+
+    def __repr__(self) -> str:
+        """Number of states, times, and length of a state."""
+        return f"Track({len(self.time)} states, {self.time[0]:.9g} to {self.time[-1]:.9g} s; {self.y.shape[1]} numbers)"
+
+    @classmethod
+    def of(cls, rows: Floats, state: State, engine: Engine) -> Track:
+        """Track of the samples and the final state of a run."""
+        time, y, booked = np.split(np.vstack([rows, row_of(state)]), [1, rows.shape[1] - BOOKED], axis=1)
+        return cls(time[:, 0], y, booked, engine)
+
+
+def row_of(state: State) -> Floats:
+    """A state as a sample; all of its energies count as accounted at events, except those that are only integrated."""
+    account = state.energy
+    integrated = 0.0, 0.0, account.exchanged_in_flow, account.load_work
+    booked = account.driven_work, account.restitution_loss, account.friction_loss, account.closing_loss
+    return np.concatenate([[state.time], state.q, state.u, integrated, state.law_states, booked])

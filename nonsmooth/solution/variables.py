@@ -1,21 +1,29 @@
-"""The arrays of a solution with their axes and units: one table for what is in memory and what is on disk."""
+"""Arrays of a solution with their axes and units, the same in memory and on disk."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nonsmooth.datasets import described
 from nonsmooth.engine.memory.blocks import CANDIDATE
 from nonsmooth.engine.memory.layout import N_ACCOUNTS
 from nonsmooth.engine.memory.modes import AFTER, BEFORE, CAUSES, CODE, DURING
+from nonsmooth.histories import history
+from nonsmooth.histories.history import LabelledArray
 from nonsmooth.solution.events import Events, ReadRows
-from nonsmooth.solution.variable import Variable
 from nonsmooth.system.labels import labels
 from nonsmooth.system.system import System
+
+if TYPE_CHECKING:
+    import xarray
+
+    from nonsmooth.solution.solution import Solution
+
+if TYPE_CHECKING:
+    pass
 
 Floats = NDArray[np.float64]
 GROWING = ("time", "event", "listing")
@@ -47,7 +55,7 @@ _MODE: dict[str, Any] = {"flag_masks": [1, 2, 4], "flag_meanings": "closed appro
 _SHIFTS = {"mode_before": BEFORE, "mode_during": DURING, "mode_after": AFTER}
 
 
-def of_system(system: System) -> list[Variable]:
+def of_system(system: System) -> list[LabelledArray]:
     """Return the labels of bodies, coordinates and contacts, and the laws of the latter."""
     names, rows_of, contacts = system.names, labels(system), system.contacts
     known = dict(zip(map(id, system.bodies), names.bodies, strict=True))
@@ -77,7 +85,7 @@ def of_system(system: System) -> list[Variable]:
     return [*found, _words("direction", "direction", directions, "direction at a contact")]
 
 
-def of_memory() -> list[Variable]:
+def of_memory() -> list[LabelledArray]:
     """Return names and units of what a contact goes on with."""
     names, units = zip(*_REMEMBERED, strict=True)
     return [
@@ -86,51 +94,51 @@ def of_memory() -> list[Variable]:
     ]
 
 
-def _words(name: str, dimension: str, words: Sequence[str], what: str) -> Variable:
-    return Variable(name, (dimension,), np.array(words, dtype=str), {"long_name": what})
+def _words(name: str, dimension: str, words: Sequence[str], what: str) -> LabelledArray:
+    return LabelledArray.of(name, (dimension,), np.array(words, dtype=str), what)
 
 
-def of_samples(t: Floats, q: Floats, u: Floats) -> list[Variable]:
+def of_samples(t: Floats, q: Floats, u: Floats) -> list[LabelledArray]:
     """Return samples."""
     return [
-        Variable("time", ("time",), t, {"units": "s", "standard_name": "time", "axis": "T", "long_name": "time"}),
+        LabelledArray("time", ("time",), t, {"units": "s", "standard_name": "time", "axis": "T", "long_name": "time"}),
         _over("q", ("time", "coordinate"), q, "coordinates of all bodies"),
         _over("u", ("time", "velocity"), u, "velocities of all bodies"),
     ]
 
 
-def _over(name: str, dimensions: tuple[str, str], values: Floats, what: str) -> Variable:
-    return Variable(name, dimensions, values, described(f"{what}, see {dimensions[1]}_units"))
+def _over(name: str, dimensions: tuple[str, str], values: Floats, what: str) -> LabelledArray:
+    return LabelledArray.of(name, dimensions, values, f"{what}, see {dimensions[1]}_units")
 
 
-def of_rest_of_samples(accounts: Floats, law_states: Floats, booked: Floats) -> list[Variable]:
+def of_rest_of_samples(accounts: Floats, law_states: Floats, booked: Floats) -> list[LabelledArray]:
     """Return what a run has besides coordinates and velocities: energies and inner states of laws."""
     return [
-        Variable("account", ("time", "of_account"), accounts, _ACCOUNT),
-        Variable("law_state", ("time", "of_law_state"), law_states, _INNER),
-        Variable("booked", ("time", "of_booked"), booked, _BOOKED),
+        LabelledArray("account", ("time", "of_account"), accounts, _ACCOUNT),
+        LabelledArray("law_state", ("time", "of_law_state"), law_states, _INNER),
+        LabelledArray("booked", ("time", "of_booked"), booked, _BOOKED),
     ]
 
 
-def of_rest_of_events(events: Events) -> list[Variable]:
+def of_rest_of_events(events: Events) -> list[LabelledArray]:
     """Return the same at events, and what the contacts listed with them go on with."""
     accounts, law_states = np.split(events.integrated, [N_ACCOUNTS], axis=1)
     return [
-        Variable("event_account", ("event", "of_account"), accounts, _ACCOUNT),
-        Variable("event_law_state", ("event", "of_law_state"), law_states, _INNER),
-        Variable("event_booked", ("event", "of_booked"), events.booked, _BOOKED),
-        Variable("listed_memory", ("listing", "of_memory"), events.listed_memory, _MEMORY),
+        LabelledArray("event_account", ("event", "of_account"), accounts, _ACCOUNT),
+        LabelledArray("event_law_state", ("event", "of_law_state"), law_states, _INNER),
+        LabelledArray("event_booked", ("event", "of_booked"), events.booked, _BOOKED),
+        LabelledArray("listed_memory", ("listing", "of_memory"), events.listed_memory, _MEMORY),
     ]
 
 
-def of_events(events: Events) -> list[Variable]:
+def of_events(events: Events) -> list[LabelledArray]:
     """Return events, and the contacts listed with them as a contiguous ragged array: ``event_size`` of each event."""
 
-    def over(name: str, values: NDArray[Any], what: str, units: str = "1", **more: Any) -> Variable:
-        return Variable(name, ("event",), values, {"units": units, "long_name": what, **more})
+    def over(name: str, values: NDArray[Any], what: str, units: str = "1", **more: Any) -> LabelledArray:
+        return LabelledArray.of(name, ("event",), values, what, units, **more)
 
-    def listed(name: str, values: NDArray[Any], what: str, **more: Any) -> Variable:
-        return Variable(name, ("listing",), values, {"units": "1", "long_name": what, **more})
+    def listed(name: str, values: NDArray[Any], what: str, **more: Any) -> LabelledArray:
+        return LabelledArray.of(name, ("listing",), values, what, "1", **more)
 
     causes: dict[str, Any] = {
         "flag_values": list(range(len(CAUSES))),
@@ -154,11 +162,12 @@ def of_events(events: Events) -> list[Variable]:
         over("event_size", np.diff(events.first).astype(np.int32), "contacts listed", sample_dimension="listing"),
         listed("listed_contact", events.listed.astype(np.int32), "index in `contact`, from 0"),
         *(listed(name, bits[name], f"mode of the contact {name[5:]} the event", **_MODE) for name in _SHIFTS),
-        Variable(
+        LabelledArray.of(
             "impulse",
             ("listing", "direction"),
             events.listed_impulse,
-            {"units": "N s", "long_name": "impulse of the contact in the event"},
+            "impulse of the contact in the event",
+            "N s",
         ),
     ]
 
@@ -198,3 +207,16 @@ def stored_events(read: ReadRows, n: int, n_contacts: int) -> Events:
         return np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)[start:stop]
 
     return Events.lazy(n, n_contacts, column)
+
+
+def to_dataset(solution: Solution) -> xarray.Dataset:
+    """Samples and events of a solution as one dataset (:meth:`nonsmooth.Solution.to_xarray`)."""
+    samples = of_samples(solution.t, solution.q, solution.u)
+    attributes = vars(solution.energy) | {
+        "Conventions": "CF-1.11",
+        "status": str(solution.status),
+        "message": solution.message,
+        "t_end": solution.t_end,
+        "energy_residual": solution.energy.residual,
+    }
+    return history.to_dataset([*of_system(solution.system), *samples, *of_events(solution.events)], (), attributes)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from nonsmooth.solution.variable import Variable
+from nonsmooth.histories.history import LabelledArray
 from nonsmooth.storage.chunks import ArrayLayout
 from nonsmooth.studies.records.record import Record
 from nonsmooth.studies.sampling.points import Points
@@ -34,11 +34,11 @@ def variables(records: Sequence[Record], n_runs: int, chunk: int) -> dict[str, A
     return found | {"status": ArrayLayout(("run",), "int8", (n_runs,), chunk, NOT_RUN, ended)}
 
 
-def coordinates(records: Sequence[Record], points: Points, target: Target) -> list[Variable]:
+def coordinates(records: Sequence[Record], points: Points, target: Target) -> list[LabelledArray]:
     """The parameters over the runs, and the axes of records."""
-    found = {name: Variable(name, ("run",), values, target.told(name)) for name, values in points.columns.items()}
+    found = {name: LabelledArray(name, ("run",), values, target.told(name)) for name, values in points.columns.items()}
     for one in records:
         for axis, labels in one.axes.items():
             attributes = {"units": "s", "long_name": "time"} if axis == "time" else {"long_name": axis}
-            found[axis] = Variable(axis, (axis,), np.asarray(labels), attributes)
+            found[axis] = LabelledArray(axis, (axis,), np.asarray(labels), attributes)
     return list(found.values())

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.errors import InvalidInput
-from nonsmooth.solution.variable import Variable
+from nonsmooth.histories.history import LabelledArray
 from nonsmooth.storage.array_folder import ArrayFolder
 from nonsmooth.storage.chunks import TEXT, ArrayLayout
 from nonsmooth.storage.files import writing
@@ -59,7 +59,7 @@ class StudyFolder:
         cls,
         path: Path,
         variables: Mapping[str, ArrayLayout],
-        coordinates: list[Variable],
+        coordinates: list[LabelledArray],
         attributes: Mapping[str, Any],
     ) -> None:
         """Make the folder of a study that begins; it is one when its metadata are there, which come last.

@@ -123,11 +123,11 @@ class _Look:
         """Let one body lie on a slab, and another one land there."""
         if not self._engine.records_contacts:
             raise NotChecked("the engine records no contacts")
-        lying = self._run(_slab(0.0), _END, _SAMPLES).at().modes[1:]
+        lying = self._run(_slab(0.0), _END, _SAMPLES).history("mode")["mode"][1:]
         if not np.all(lying):
             raise Broken("must be 1 (stick) or 2 (slide) at all samples after the first", "modes", lying.ravel())
         landed = self._run(_slab(0.5 * scenes.GRAVITY * (0.5 * _END) ** 2), _END, _SAMPLES)
-        if not np.any(landed.contact_impulses().normal_impulse > 0.0):
+        if not np.any(landed.history("normal_impulse")["normal_impulse"] > 0.0):
             raise Broken("one must be positive after a landing", "impulses", landed.events.listed_impulse[:, 0])
 
     def tumbles(self) -> None:

@@ -50,7 +50,7 @@ def momentum(solution: Solution) -> NDArray[np.float64]:
     box: Any = solution.system.bodies[1]
     # its angular velocity is along its own axes
     own = solution.of(box)[1][:, 3:] * box.inertia
-    return np.asarray(np.einsum("nij,nj->ni", solution.poses(box).rotation[:, 0], own))
+    return np.asarray(np.einsum("nij,nj->ni", solution.history("rotation", of=box)["rotation"][:, 0], own))
 
 
 def thrown() -> System:
@@ -100,5 +100,5 @@ def overlap(solution: Solution) -> float:
 
 def energies(solution: Solution) -> NDArray[np.float64]:
     """Return kinetic and potential energy at the samples [J], shape [n]."""
-    found = solution.energies()
-    return found.kinetic + found.potential
+    kinetic, potential = solution.history("kinetic_energy", "potential_energy").values()
+    return np.asarray(kinetic + potential)

@@ -22,7 +22,7 @@ from nonsmooth.parameters import rules
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
 from nonsmooth.simulate import simulate
-from nonsmooth.solution.events_table import save_events
+from nonsmooth.solution.csv_tables import save_events
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from nonsmooth.testing.budget import where

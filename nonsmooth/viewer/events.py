@@ -1,4 +1,4 @@
-"""What the player shows of events."""
+"""Events of a run for the player: mode words, and arrays."""
 
 from __future__ import annotations
 
@@ -8,24 +8,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.memory.modes import AFTER, BEFORE, CODE, DURING
-from nonsmooth.histories.contact_impulses import ContactImpulses
+from nonsmooth.histories.impulses import Impulses
+from nonsmooth.histories.request import Request
 
 if TYPE_CHECKING:
     from nonsmooth.solution.events import Events
     from nonsmooth.solution.solution import Solution
 
 _MOST_LETTERS = 12
-"""Contacts up to which a mode word is shown as it is."""
+"""Largest number of contacts with a mode word; modes of more contacts are listed by contact."""
 _MOST_NUMBERS = 6
-"""Contacts up to which each is named by its number."""
+"""Largest number of contacts that are listed by their numbers."""
 _STICKS, _SLIDES, _HITS = 1, 5, 2
-"""Bits of Eq. (29) of a contact that is closed, and that which is set while it takes part in an impact."""
+"""Codes of Eq. (29) of a sticking and a sliding contact, and the bit of a contact that takes part in an impact."""
 
 
 def event_words(events: Events) -> tuple[list[str], NDArray[np.int64]]:
-    """Return words and which of them hold before, during and after each event, shape [n, 3].
+    """Words for modes, and the index of the word before, during and after each event, shape [n, 3].
 
-    Of many contacts only those are spoken of that are closed.
+    With many contacts, a word lists the closed contacts only.
     """
     rows = [_words(events, which, shift) for which, shift in (("before", BEFORE), ("during", DURING), ("after", AFTER))]
     spelled, numbers = np.unique([word for row in rows for word in row], return_inverse=True)
@@ -49,7 +50,7 @@ def _spoken(contacts: NDArray[np.int64], bits: NDArray[np.int64]) -> str:
 
 
 def _counted(group: NDArray[np.int64]) -> str:
-    """Return the numbers of contacts, from 1, in full where they are few."""
+    """Numbers of contacts, from 1; the first ones if there are many."""
     said = " ".join(str(i + 1) for i in sorted(group.tolist())[:_MOST_NUMBERS])
     return said if len(group) <= _MOST_NUMBERS else f"{said} and {len(group) - _MOST_NUMBERS} more"
 
@@ -57,11 +58,11 @@ def _counted(group: NDArray[np.int64]) -> str:
 def event_arrays(
     solution: Solution, times: NDArray[np.float64], side: NDArray[np.float64]
 ) -> dict[str, tuple[str, NDArray[Any]]]:
-    """Return the arrays of events; ``times`` are the knots, which hold all instants [s]."""
-    # also of an engine that records no contacts, and so no events
-    events, impulses = solution.events, ContactImpulses.of(solution)
-    sign = side[impulses.contact][:, None]
-    push, rub = sign * impulses.normal_impulse[:, None] * impulses.normal, sign * impulses.friction_impulse
+    """Arrays of events; ``times`` are the knots [s], which contain all instants of events."""
+    # an engine that records no contacts has no events, and no impulses
+    events, impulses = solution.events, Impulses.recorded(Request(solution, times))
+    sign = side[impulses.impulse_contact][:, None]
+    push, rub = sign * impulses.normal_impulse[:, None] * impulses.impulse_normal, sign * impulses.friction_impulse
     return {
         "event_time": ("f8", events.time),
         "event_knot": ("i4", np.searchsorted(times, events.time)),
@@ -70,7 +71,7 @@ def event_arrays(
         "event_first": ("i4", events.first),
         "event_contact": ("i4", events.listed),
         "event_codes": ("i2", events.codes),
-        "event_point": ("f4", np.nan_to_num(impulses.points.mean(axis=1))),
+        "event_point": ("f4", np.nan_to_num(impulses.impulse_point.mean(axis=1))),
         "event_push": ("f4", np.nan_to_num(push)),
         "event_rub": ("f4", np.nan_to_num(rub)),
     }

@@ -1,25 +1,31 @@
-"""The page: one HTML file with the player and a run in it."""
+"""The page: one HTML file with the player and a run, whose arrays are packed as text."""
 
 from __future__ import annotations
 
+import base64
+import gzip
 import html
 import json
 import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib.resources import files
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from nonsmooth.parameters import Rule, check_number
-from nonsmooth.viewer.pack import pack
 from nonsmooth.viewer.record import record
 
 if TYPE_CHECKING:
     from nonsmooth.solution.solution import Solution
 
+TYPES = {"f8": "<f8", "f4": "<f4", "i4": "<i4", "i2": "<i2", "u1": "|u1"}
+"""Types of numbers by their names in the player."""
 _KNOTS = Rule("most times that are drawn, besides the instants of events", "1", minimum=2.0, maximum=1e6)
 _MOST_KINDS = 4
-"""Kinds of bodies that a title names."""
+"""Largest number of kinds of bodies in a title."""
 _POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:"
 _PAGE = """<!DOCTYPE html>
 <html lang="en">
@@ -42,7 +48,7 @@ _PAGE = """<!DOCTYPE html>
 
 
 def page(solution: Solution, title: str, most_knots: int) -> str:
-    """Return the page of a run."""
+    """Page of a run as HTML."""
     check_number("to_html: most_knots", most_knots, _KNOTS)
     told, arrays = record(solution, title or _named(solution.system.names.bodies), int(most_knots))
     told["directory"], text = pack(arrays)
@@ -59,7 +65,23 @@ def page(solution: Solution, title: str, most_knots: int) -> str:
 
 
 def _named(bodies: Sequence[str]) -> str:
-    """Return a title made of the names of bodies; those that differ by their number alone are counted."""
+    """Title from the names of bodies; bodies whose names differ by a number only are counted."""
     kinds = Counter(re.sub(r" \d+$", "", name) for name in bodies)
     words = [kind if count == 1 else f"{count}\u00a0\u00d7\u00a0{kind}" for kind, count in kinds.items()]
     return ", ".join(words[:_MOST_KINDS] + ["…"] * (len(words) > _MOST_KINDS))
+
+
+def pack(arrays: Mapping[str, tuple[str, NDArray[Any]]]) -> tuple[list[dict[str, Any]], str]:
+    """Directory of arrays and the text with their numbers; the arrays have names and types.
+
+    An array of n numbers of b bytes is stored as b rows of n bytes.  The rows of high bytes change little, so that gzip
+    packs them well.  Equal arrays give equal text.
+    """
+    directory, blocks, at = [], list[bytes](), 0
+    for name, (kind, array) in arrays.items():
+        block = np.ascontiguousarray(array, dtype=TYPES[kind])
+        shuffled = block.reshape(-1).view(np.uint8).reshape(-1, block.itemsize).T.tobytes()
+        directory.append({"name": name, "type": kind, "shape": list(block.shape), "at": at, "bytes": len(shuffled)})
+        blocks.append(shuffled)
+        at += len(shuffled)
+    return directory, base64.b64encode(gzip.compress(b"".join(blocks), 9, mtime=0)).decode("ascii")

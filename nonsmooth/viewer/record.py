@@ -1,4 +1,4 @@
-"""Everything of a run that the player shows, as words and arrays."""
+"""Record of a run for the player: words and arrays."""
 
 from __future__ import annotations
 
@@ -9,12 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.memory.modes import CAUSES
-from nonsmooth.histories.visitor import visitor
-from nonsmooth.scene.extent import Extent
-from nonsmooth.scene.knots import knots
-from nonsmooth.scene.scene import Scene
-from nonsmooth.scene.sheets import outlines
-from nonsmooth.scene.sides import sides
+from nonsmooth.histories.contacts import ClosedContacts
+from nonsmooth.histories.replay import replay_of
+from nonsmooth.histories.request import Request
+from nonsmooth.scene.extent import Extent, outlines
+from nonsmooth.scene.scene import Scene, knots, sides
 from nonsmooth.viewer.events import event_arrays, event_words
 
 if TYPE_CHECKING:
@@ -25,17 +24,17 @@ Arrays = dict[str, tuple[str, NDArray[Any]]]
 
 FORMAT = "nonsmooth-view/1"
 _WHOLE = 32767
-"""What stands for 1 in the components of a quaternion."""
+"""Integer that represents the component 1 of a quaternion."""
 _ROOM = 250_000
-"""Poses at most; with more bodies there are fewer knots between events."""
+"""Largest number of poses; more bodies have fewer knots between events."""
 
 
 def record(solution: Solution, title: str, most_knots: int) -> tuple[dict[str, Any], Arrays]:
-    """Return the words and the arrays of a run."""
+    """Words and arrays of a run."""
     system, scene = solution.system, Scene.of(solution.system)
     times = knots(solution, max(2, min(most_knots, _ROOM // max(1, scene.n_frames))))
     states = solution.at(times)
-    origin, axes = scene.places(times, states.q, states.u)
+    origin, axes = scene.places(times, states["q"], states["u"])
     extent = Extent.of(scene, origin, axes)
     geometry, parts = _geometry(scene, outlines(scene, origin, axes, extent))
     words, numbers = event_words(solution.events)
@@ -54,7 +53,7 @@ def record(solution: Solution, title: str, most_knots: int) -> tuple[dict[str, A
         "format": FORMAT,
         "version": version("nonsmooth"),
         "title": title,
-        "status": solution.status,
+        "status": str(solution.status),
         "message": solution.message,
         "bodies": [
             {"name": name, "moves": body.n_u > 0} for name, body in zip(names.bodies, system.bodies, strict=True)
@@ -76,7 +75,7 @@ def record(solution: Solution, title: str, most_knots: int) -> tuple[dict[str, A
 
 
 def _turns(axes: Floats) -> Floats:
-    """Return unit quaternions, scalar last, shape [n, n_frames, 4]."""
+    """Unit quaternions, scalar last, shape [n, n_frames, 4]."""
     from scipy.spatial.transform import Rotation
 
     n, n_frames = axes.shape[:2]
@@ -84,7 +83,7 @@ def _turns(axes: Floats) -> Floats:
 
 
 def _geometry(scene: Scene, sheets: list[Floats]) -> tuple[Arrays, list[dict[str, Any]]]:
-    """Return the arrays of all looks, and where in them each part stands; ``sheets`` are outlines."""
+    """Arrays of all looks, and the ranges of each part in them; ``sheets`` are outlines."""
     looks = [part.look for part in scene.parts]
     firsts = np.cumsum([0, *(len(look.vertices) for look in looks)])
     parts = list[dict[str, Any]]()
@@ -107,17 +106,12 @@ def _geometry(scene: Scene, sheets: list[Floats]) -> tuple[Arrays, list[dict[str
 
 
 def _energies(solution: Solution, times: Floats) -> Arrays:
-    """Return the account at the knots, and what it was before the events of each instant."""
-    found, events = solution.energies(times), solution.events
-    after = np.column_stack(
-        [
-            found.kinetic,
-            found.potential,
-            found.restitution_loss,
-            found.friction_loss + found.closing_loss,
-            found.driven_work + found.load_work,
-        ]
-    )
+    """Energy account at the knots, and before the events of each instant."""
+    losses, works = ("restitution_loss", "friction_loss", "closing_loss"), ("driven_work", "load_work")
+    found = solution.history("kinetic_energy", "potential_energy", *losses, *works, times=times)
+    kinetic, potential, restitution, friction, closing, driven, loads = found.values()
+    after = np.column_stack([kinetic, potential, restitution, friction + closing, driven + loads])
+    events = solution.events
     instants, number = np.unique(events.time, return_inverse=True)
     lost = events.restitution_loss, events.friction_loss + events.closing_loss, events.driven_work
     restitution, friction, work = (np.bincount(number, one, len(instants)) for one in lost)
@@ -127,8 +121,8 @@ def _energies(solution: Solution, times: Floats) -> Arrays:
 
 
 def _forces(solution: Solution, times: Floats) -> Arrays:
-    """Return the forces of closed contacts at the knots, none where the engine cannot be asked for them."""
-    if not visitor(solution).solves:
+    """Forces of closed contacts at the knots; empty arrays if the engine gives no forces."""
+    if not replay_of(solution).is_flow:
         none, nowhere = np.zeros(0), np.zeros((0, 3))
         return {
             "force_first": ("i4", np.zeros(2)),
@@ -138,13 +132,13 @@ def _forces(solution: Solution, times: Floats) -> Arrays:
             "force_push": ("f4", nowhere),
             "force_rub": ("f4", nowhere),
         }
-    found = solution.contact_forces(times)
+    found = ClosedContacts.of(Request(solution, times))
     side = sides(solution.system)[found.contact]
     return {
         "force_first": ("i4", found.first),
         "force_contact": ("i4", found.contact),
         "force_mode": ("u1", found.mode),
-        "force_point": ("f4", found.points.mean(axis=1)),
-        "force_push": ("f4", (side * found.normal_force)[:, None] * found.normal),
+        "force_point": ("f4", found.contact_point.mean(axis=1)),
+        "force_push": ("f4", (side * found.normal_force)[:, None] * found.contact_normal),
         "force_rub": ("f4", side[:, None] * found.friction_force),
     }

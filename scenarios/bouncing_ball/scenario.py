@@ -16,6 +16,7 @@ from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, Run, Scenario
 from nonsmooth.parameters import parameter
+from nonsmooth.solution.modes import mode_shares
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.bouncing_ball import figures as draw
@@ -175,7 +176,7 @@ class BouncingBall(Scenario):
         """
         flights = self.flights(solution)
         closings = solution.events.time[solution.events.cause == Cause.CLOSING]
-        resting = sum(share for word, share in solution.modes.items() if word == "{1,0,0}")
+        resting = sum(share for word, share in mode_shares(solution).items() if word == "{1,0,0}")
         return {
             "impacts": solution.counters.impacts,
             "last_flight": float(flights[-1]) if len(flights) > 0 else None,

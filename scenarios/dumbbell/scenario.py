@@ -19,6 +19,7 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import Criterion, ImpactLaw, Run, Scenario
 from nonsmooth.parameters import UnusualValue, parameter, rules
 from nonsmooth.plugins.file import find
+from nonsmooth.solution.modes import mode_shares
 from nonsmooth.solution.solution import Solution
 from nonsmooth.system.system import System
 from scenarios.dumbbell import attractor, coordinates, figures
@@ -279,7 +280,10 @@ class DumbbellScenario(Scenario):
         name = f"plate periods after which the {self.mode} repeats"
         found = [Criterion.near(name, period, _PERIODS[self.mode], 0.0, paper)]
         if self.mode == "drift":
-            part, source = float(solution.modes.get(_REST_OF_BALL_1, 0.0)), f"{paper}: ball 1 rests most of the cycle"
+            part, source = (
+                float(mode_shares(solution).get(_REST_OF_BALL_1, 0.0)),
+                f"{paper}: ball 1 rests most of the cycle",
+            )
             found.append(Criterion(f"share of time in {_REST_OF_BALL_1}", part, 0.5, 1.0, source))
         if self.mode == "jump":
             orbit, source = self._orbit_gap(), "both balls on the orbit of a bouncing ball, n = 1"

@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bodies import MeshBody, MeshFile, Plate, Triangles
-from bodies.meshes.surface import Surface
-from bodies.meshes.units import METRES
+from bodies.meshes.mesh import METRES, Surface
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.interfaces import Criterion, Scenario

@@ -65,7 +65,7 @@ def _lowest(disc: RollingDisc, run: Solution) -> tuple[Floats, str]:
     rates = disc.precession(run)
     turns = float(np.sum(np.diff(run.t) * (rates[1:] + rates[:-1]))) / (4.0 * np.pi)
     if turns <= _MOST_TURNS or rates[-1] <= 0.0:
-        return disc.contact_points(run), ""
+        return disc.contact_points(run.q, run.u), ""
     start = max(float(run.t[0]), run.t_end - _TURNS * 2.0 * np.pi / float(rates[-1]))
     states = run.at(np.linspace(start, run.t_end, _POINTS))
-    return disc.contact_points(states), f", last {_TURNS:g} turns"
+    return disc.contact_points(states["q"], states["u"]), f", last {_TURNS:g} turns"

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from bodies import DiscBody, Plate, Rest
 from laws import Coulomb, EnergeticImpact, Frictionless, Unilateral
 from nonsmooth.errors import InvalidInput
-from nonsmooth.histories.states import States
 from nonsmooth.interfaces import Criterion, Run, Scenario
 from nonsmooth.parameters import parameter
 from nonsmooth.solution.solution import Solution
@@ -99,9 +98,9 @@ class RollingDisc(Scenario):
         )
         return system
 
-    def axis(self, solution: Solution | States) -> tuple[Floats, Floats]:
-        """Return the disc's axis and its rate [1/s] in world axes over the samples, shapes [n_samples, 3]."""
-        return _axis(solution.q, solution.u)
+    def axis(self, q: Floats, u: Floats) -> tuple[Floats, Floats]:
+        """Return the disc's axis and its rate [1/s] in world axes, shapes [n, 3]."""
+        return _axis(q, u)
 
     def tilts(self, solution: Solution) -> Floats:
         """Return the angle between disc and table over the samples [rad]."""
@@ -111,11 +110,11 @@ class RollingDisc(Scenario):
         """Return the rate at which the lowest point runs round over the samples [rad/s]."""
         return _tilt_and_precession(solution.q, solution.u)[1]
 
-    def contact_points(self, solution: Solution | States) -> Floats:
-        """Return the lowest point over the samples [m], shape [n_samples, 2]."""
-        axis, _ = self.axis(solution)
+    def contact_points(self, q: Floats, u: Floats) -> Floats:
+        """Return the lowest point of the rim [m], shape [n, 2]."""
+        axis, _ = self.axis(q, u)
         flat = axis[:, :2] / np.hypot(axis[:, 0], axis[:, 1])[:, None]
-        return solution.q[:, :2] + self.radius * axis[:, 2, None] * flat
+        return q[:, :2] + self.radius * axis[:, 2, None] * flat
 
     def coordinates(self, solution: Solution) -> Mapping[str, Any]:
         """Return the centre x, y, z [m], the tilt [rad] and the precession rate [rad/s] over the samples."""

@@ -26,7 +26,7 @@ from bodies import (
     Sphere,
     Superellipsoid,
 )
-from bodies.contacts.features.tangents import tangent_of
+from bodies.contacts.features.frames import tangent_of
 from nonsmooth.engine.native.kernel import PLAIN
 from nonsmooth.interfaces import Shape
 from tests.bodies.carriers import Rig

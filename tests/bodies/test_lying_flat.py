@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 import nonsmooth as ns
 from bodies import Ball, ConeBody, CylinderBody, Disc, DiscBody, Plane, Plate, Rest
-from bodies.shapes.feet import USUAL
+from bodies.shapes.frustum import USUAL
 from laws import EnergeticImpact, Frictionless, LinearCompliant, NewtonImpact, Unilateral
 from nonsmooth.engine.memory.blocks import GAP
 from scenarios.rolling_disc import steady

@@ -37,7 +37,7 @@ from bodies import (
 )
 from bodies.meshes.triangles import Triangles
 from bodies.shapes.drawing import solid_of
-from bodies.shapes.support_integrals import spiral
+from bodies.shapes.support_shape import spiral
 from laws import EnergeticImpact, Frictionless, HertzCompliant, Unilateral
 from nonsmooth.engine.memory.modes import Cause
 from nonsmooth.engine.native.kernel import PLAIN

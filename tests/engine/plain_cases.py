@@ -70,13 +70,13 @@ def _numbers(system: ns.System, t_end: float, **options: Any) -> Numbers:
         if not isinstance(failure.solution, ns.Solution):
             raise
         s = failure.solution
-    forces, borne = s.contact_forces(s.t[1::7]), s.joint_forces(s.t[1::7])
+    forces = s.history("mode", "normal_force", "friction_force", "joint_force", times=s.t[1::7])
     return {
-        "state": s.at(0.37 * s.t_end).q,
-        "contact": forces.contact,
-        "normal force": forces.normal_force,
-        "friction": forces.friction_force,
-        "joint force": borne.force,
+        "state": s.at(0.37 * s.t_end)["q"],
+        "contact": forces["mode"] > 0,
+        "normal force": forces["normal_force"],
+        "friction": forces["friction_force"],
+        "joint force": forces["joint_force"],
         "status": [s.status],
         "cause": s.events.cause,
         "after": s.events.after,

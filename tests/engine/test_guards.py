@@ -11,6 +11,7 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, BoxBody, Dumbbell, Harmonic, Plate, Rest
 from nonsmooth.engine.memory.modes import Cause, word
+from nonsmooth.solution.modes import mode_shares
 
 G = 9.81
 
@@ -123,7 +124,7 @@ def test_mode_word_puts_contact_1_rightmost(build: Any, tilt: float, expected: s
     system.place(body, **build.paper_start(body, (0, 0, z1, 0, tilt, 0), np.zeros(6)))
     solution = ns.simulate(system, 0.01)
     assert solution.events.words("after")[0].startswith(expected)
-    assert solution.modes[build.lived(solution)[0]] == pytest.approx(1.0)
+    assert mode_shares(solution)[build.lived(solution)[0]] == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize(

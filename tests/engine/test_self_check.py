@@ -305,18 +305,8 @@ def test_an_event_whose_energy_account_is_open_makes_the_run_suspect() -> None:
     assert _dropped(0.0).status == "done"
 
 
-def parting(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    first: Floats,
-    second: Floats,
-    x_axis: Floats,
-    y_axis: Floats,
-    z_axis: Floats,
-    jump: float,
-) -> None:
-    _point(a, b, out, first, second, x_axis, y_axis, z_axis)
+def parting(a: Floats, b: Floats, out: Floats, n_rows: float, rows: Floats, jump: float) -> None:
+    _point(a, b, out, n_rows, rows)
     if b[2] < -0.05:
         out[0] = out[0] + jump
 

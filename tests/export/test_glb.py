@@ -24,6 +24,9 @@ const data = new Uint8Array(require("fs").readFileSync(process.argv[1]));
 validateBytes(data).then((found) => console.log(JSON.stringify(found.issues)));
 """
 
+_POSE = ("position", "rotation")
+_IMPULSES = ("impulse_contact", "normal_impulse", "friction_impulse", "impulse_point")
+
 
 def _read(run: ns.Solution, tmp_path: Path, **options: int) -> Read:
     return Read(run.export(tmp_path / "run.glb", **options).read_bytes())
@@ -34,11 +37,11 @@ def test_tracks_are_the_poses_of_the_run(drift: ns.Solution, tmp_path: Path) -> 
     times, places = found.track("dumbbell", "translation")
     assert np.all(np.diff(times) > 0.0)
     assert np.all(np.isin(drift.events.time.astype(np.float32), times))
-    poses = drift.poses("dumbbell", np.minimum(times.astype(float), drift.t_end))
+    poses = drift.history(*_POSE, times=np.minimum(times.astype(float), drift.t_end), of="dumbbell")
     # keys of 32 bits are 1e-8 s off
-    np.testing.assert_allclose(places, poses.origin[:, 0], rtol=0.0, atol=1e-7)
+    np.testing.assert_allclose(places, poses["position"][:, 0], rtol=0.0, atol=1e-7)
     turned = Rotation.from_quat(found.track("dumbbell", "rotation")[1]).inv() * Rotation.from_matrix(
-        poses.rotation[:, 0]
+        poses["rotation"][:, 0]
     )
     assert np.max(turned.magnitude()) < 1e-5
 
@@ -63,8 +66,8 @@ def test_a_spring_is_as_long_as_it_is(tmp_path: Path) -> None:
     found = _read(run, tmp_path)
     name = system.loads[0].name
     times, scales = found.track(name, "scale")
-    poses = run.poses(box, np.minimum(times.astype(float), run.t_end))
-    ends = poses.origin[:, 0] + poses.rotation[:, 0] @ [0.0, 0.0, 0.1]
+    poses = run.history(*_POSE, times=np.minimum(times.astype(float), run.t_end), of=box)
+    ends = poses["position"][:, 0] + poses["rotation"][:, 0] @ [0.0, 0.0, 0.1]
     lengths = np.linalg.norm(ends - [0.0, 0.0, 2.0], axis=1)
     np.testing.assert_allclose(scales[:, 0], lengths, rtol=1e-6)
     np.testing.assert_array_equal(scales[:, 1:], 1.0)
@@ -97,7 +100,8 @@ def test_nearest_instants_become_one_key(drift: ns.Solution, tmp_path: Path, mon
     monkeypatch.setattr("nonsmooth.export.glb.knots", lambda *_: instants)
     times, places = _read(drift, tmp_path).track("dumbbell", "translation")
     np.testing.assert_array_equal(times, instants[[0, 3, 4]].astype(np.float32))
-    np.testing.assert_array_equal(places[1], drift.poses("dumbbell", instants[3]).origin[0].astype(np.float32))
+    (there,) = drift.history("position", times=instants[3], of="dumbbell")["position"]
+    np.testing.assert_array_equal(places[1], there.astype(np.float32))
 
 
 def test_fewer_knots_make_a_smaller_file(drift: ns.Solution, tmp_path: Path) -> None:
@@ -124,17 +128,18 @@ def test_normals_are_units_outwards_and_colours_whole(cradle: ns.Solution, tmp_p
 
 def test_arrows_are_the_impulses_while_they_last(drift: ns.Solution, tmp_path: Path) -> None:
     """Just behind each impact as long as its impulse, beginning where it acts; before the first one there is none."""
-    found, impulses = _read(drift, tmp_path), drift.contact_impulses()
+    found, impulses = _read(drift, tmp_path), drift.history(*_IMPULSES)
+    contact, normal, friction, points = impulses.values()
     name = drift.system.contacts[0].name
     times, sizes = found.track(f"impulse {name}", "scale")
     _, places = found.track(f"impulse {name}", "translation")
-    own = np.flatnonzero((impulses.contact == 0) & (impulses.normal_impulse > 0.0))
+    own = np.flatnonzero((contact == 0) & (normal > 0.0))
     # the last of those that share an instant
-    own = own[np.append(np.diff(drift.events.time[impulses.event[own]]) > 0.0, True)]
-    keys = np.searchsorted(times, drift.events.time[impulses.event[own]].astype(np.float32))
-    true = np.hypot(impulses.normal_impulse, np.linalg.norm(impulses.friction_impulse, axis=1))
+    own = own[np.append(np.diff(impulses.time[own]) > 0.0, True)]
+    keys = np.searchsorted(times, impulses.time[own].astype(np.float32))
+    true = np.hypot(normal, np.linalg.norm(friction, axis=1))
     np.testing.assert_allclose(sizes[keys, 0] / sizes[keys[0], 0], true[own] / true[own[0]], rtol=1e-5)
-    np.testing.assert_allclose(places[keys], impulses.points[own].mean(axis=1), atol=1e-7)
+    np.testing.assert_allclose(places[keys], points[own].mean(axis=1), atol=1e-7)
     if keys[0] > 0:
         assert np.all(sizes[0] == 0.0)
 
@@ -142,7 +147,7 @@ def test_arrows_are_the_impulses_while_they_last(drift: ns.Solution, tmp_path: P
 def test_others_read_it(drift: ns.Solution, tmp_path: Path) -> None:
     """The place of the bodies at the beginning, with y upwards, by trimesh."""
     scene = trimesh.load(drift.export(tmp_path / "run.glb"))
-    first = drift.poses("dumbbell", 0.0).origin[0]
+    first = drift.history("position", times=0.0, of="dumbbell")["position"][0]
     nodes = [scene.graph.get(name) for name in scene.graph.nodes_geometry]
     places = np.array([matrix[:3, 3] for matrix, _ in nodes])
     assert np.min(np.linalg.norm(places - [first[0], first[2], -first[1]], axis=1)) < 1e-6

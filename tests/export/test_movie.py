@@ -53,7 +53,7 @@ def test_nothing_is_cut_off(cradle: ns.Solution, tmp_path: Path, view: str) -> N
 
 def test_marks_are_the_contacts_that_stick_and_slip(drift: ns.Solution) -> None:
     times = np.linspace(0.0, 0.3, 200)
-    marks, modes = Marks.of(drift, times, 0.01), drift.at(times).modes
+    marks, modes = Marks.of(drift, times, 0.01), drift.at(times)["mode"]
     for k, mode in enumerate((1, 2)):
         assert [len(one[k]) for one in marks.places] == np.count_nonzero(modes == mode, axis=1).tolist()
     assert sum(len(one[2]) for one in marks.places) > 0

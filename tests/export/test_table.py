@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 import nonsmooth as ns
-from nonsmooth.solution.csv_format import SERIES
-from nonsmooth.solution.events_table import save_events
+from nonsmooth.solution.csv_tables import SERIES, save_events
 
 
 def _rows(path: Path) -> tuple[list[str], list[list[str]]]:
@@ -25,27 +24,32 @@ def test_states_are_those_of_the_samples(drift: ns.Solution, tmp_path: Path) -> 
     numbers = np.array(rows, dtype=float)
     np.testing.assert_array_equal(numbers[:, 0], drift.t)
     states, n_q = drift.at(), drift.q.shape[1]
-    np.testing.assert_array_equal(numbers[:, 1 : 1 + n_q], states.q)
-    np.testing.assert_array_equal(numbers[:, 1 + n_q : 1 + n_q + drift.u.shape[1]], states.u)
+    np.testing.assert_array_equal(numbers[:, 1 : 1 + n_q], states["q"])
+    np.testing.assert_array_equal(numbers[:, 1 + n_q : 1 + n_q + drift.u.shape[1]], states["u"])
     assert "q dumbbell x [m]" in head
     assert "u dumbbell wx [rad/s]" in head
 
 
 def test_energies_have_their_names_and_units(drift: ns.Solution, tmp_path: Path) -> None:
     head, rows = _rows(drift.export(tmp_path / "run.csv", series="energies"))
-    column = head.index("kinetic [J]")
-    np.testing.assert_array_equal([float(row[column]) for row in rows], drift.energies().kinetic)
+    column = head.index("kinetic_energy [J]")
+    np.testing.assert_array_equal(
+        [float(row[column]) for row in rows], drift.history("kinetic_energy")["kinetic_energy"]
+    )
 
 
 def test_a_history_of_ones_own(drift: ns.Solution, tmp_path: Path) -> None:
     """One body at one time, and one contact at some."""
-    poses = drift.poses("dumbbell", 0.1)
+    poses = drift.history("position", times=0.1, of="dumbbell")
     head, (row,) = _rows(drift.export(tmp_path / "pose.csv", series=poses))
-    assert [float(row[head.index(f"origin frame 0 {axis} [m]")]) for axis in "xyz"] == poses.origin[0].tolist()
+    assert [float(row[head.index(f"position dumbbell {axis} [m]")]) for axis in "xyz"] == poses["position"][0].tolist()
     times = np.linspace(0.0, 0.3, 31)
-    contact = drift.contact_forces(times).history(0)
+    contact = drift.history("normal_force", times=times, of=0)
     head, rows = _rows(drift.export(tmp_path / "contact.csv", series=contact))
-    np.testing.assert_array_equal([float(row[head.index("normal_force [N]")]) for row in rows], contact.normal_force)
+    np.testing.assert_array_equal(
+        [float(row[head.index(f"normal_force {contact.labels['contact'][0]} [N]")]) for row in rows],
+        contact["normal_force"][:, 0],
+    )
 
 
 @pytest.mark.parametrize("series", SERIES)

@@ -39,7 +39,7 @@ def test_points_are_where_the_scene_puts_them(drift: ns.Solution, tmp_path: Path
     times = np.array([time for time, _ in series])
     np.testing.assert_allclose(times, np.linspace(0.0, drift.t_end, 7), rtol=1e-15)
     scene, states = Scene.of(drift.system), drift.at(times)
-    origin, axes = scene.places(times, states.q, states.u)
+    origin, axes = scene.places(times, states["q"], states["u"])
     solid = next(part for part in scene.parts if len(part.look.triangles))
     body = drift.system.names.bodies.index("dumbbell")
     for i, (_, file) in enumerate(series):
@@ -64,6 +64,7 @@ def test_pyvista_opens_it(drift: ns.Solution, tmp_path: Path) -> None:
     reader.set_active_time_point(4)
     (block,) = reader.read()
     low, high = np.reshape(block.bounds, (3, 2)).T
-    assert np.all(low <= drift.poses("dumbbell", drift.t_end).origin[0])
-    assert np.all(high >= drift.poses("dumbbell", drift.t_end).origin[0])
+    (end,) = drift.history("position", times=drift.t_end, of="dumbbell")["position"]
+    assert np.all(low <= end)
+    assert np.all(high >= end)
     assert set(block.cell_data["body"]) == {0, 1}

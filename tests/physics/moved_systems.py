@@ -143,8 +143,7 @@ class Cast:
         parts = []
         for body, (_, start) in zip(bodies, self.bodies, strict=True):
             if start is not None:
-                i, j = solution.offsets(body)
-                q, u = solution.q_end[i : i + 7], solution.u_end[j : j + 6]
+                q, u = solution.history("q", "u", times=solution.t_end, of=body).values()
                 matrix = Rotation.from_quat(np.roll(q[3:], -1)).as_matrix()
                 x, matrix, v = move.back(q[:3], matrix, u[:3])
                 spin = np.asarray(move.spin(u[3:].tolist()))

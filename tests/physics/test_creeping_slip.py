@@ -133,11 +133,11 @@ def test_a_creeping_run_is_cut_looked_into_and_turned() -> None:
         before = model.run(t, sample_interval=0.05)
         assert lost_by_stopping(whole, before, model.run(0.8, start=before.state, sample_interval=0.05)) == []
     fine = model.run(0.3, sample_interval=0.013)
-    np.testing.assert_allclose(whole.at(fine.t).u[:, :2], fine.u[:, :2], rtol=0.0, atol=1e-6)
+    np.testing.assert_allclose(whole.at(fine.t)["u"][:, :2], fine.u[:, :2], rtol=0.0, atol=1e-6)
     # the run's end divides a step as a sample does
     ends = np.array([model.run(t).u_end[:2] for t in fine.t[1:]])
     np.testing.assert_allclose(ends, fine.u[1:, :2], rtol=0.0, atol=5e-8)
-    friction = whole.contact_forces(np.array([0.123, 0.3, 0.7])).friction_force
+    friction = whole.history("friction_force", times=[0.123, 0.3, 0.7])["friction_force"][:, 0]
     np.testing.assert_allclose(np.hypot(*friction.T[:2]), MU * ball.total_mass * GRAVITY, rtol=1e-9)
     turned = _model(1e-8, PART, SLIP, ahead=1.0)[0].run(0.8, sample_interval=0.05)
     np.testing.assert_allclose(turned.events.time, whole.events.time, rtol=0.0, atol=6e-4)

@@ -12,6 +12,7 @@ from bodies import Ball
 from laws import Coulomb
 from nonsmooth.engine.memory.modes import Cause
 from tests.benchmarks import mixed_balls, pile
+from tests.histories.closed import closed_contacts
 
 VARIANT, SEED, T_END = "70mm-8", 3, 0.6
 MU, RADIUS = 0.8, mixed_balls.RADIUS
@@ -42,7 +43,7 @@ def test_averaged_forces_press_and_stay_within_their_cones(jammed: ns.Solution) 
     """Looked at from the outside, at instants in between, where they are found again."""
     events = jammed.events
     begun = events.time[np.flatnonzero(events.cause == Cause.AVERAGING)]
-    forces = jammed.contact_forces(begun[begun < T_END - 1e-5][:50] + 5e-6)
+    forces = closed_contacts(jammed, begun[begun < T_END - 1e-5][:50] + 5e-6)
     assert len(forces.contact) > 50
     scale = float(np.max(forces.normal_force))
     laws = [cast(Coulomb, contact.friction).friction for contact in jammed.system.contacts]

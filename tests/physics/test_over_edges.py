@@ -60,9 +60,9 @@ def test_from_face_to_edge_to_vertex(rough: bool, size: float, speed: float, hea
     np.testing.assert_array_equal(events.after[found], events.before[found])
     moment = 1e-7 * time
     times = np.array([t + side * moment for t in events.time[found] for side in (-1.0, 1.0)])
-    before, on, last, after = np.sum(solution.contact_forces(times).normal_force.reshape(4, -1), axis=1)
+    before, on, last, after = np.sum(solution.history("normal_force", times=times)["normal_force"], axis=1)
     weight = ball.total_mass * GRAVITY
-    w = solution.at(events.time[found[1]]).u[1]
+    w = solution.at(events.time[found[1]])["u"][1]
     assert before == pytest.approx(weight, rel=1e-9)
     assert before - on == pytest.approx(ball.total_mass * across**2 / radius, abs=1e-6 * weight)
     assert last - after == pytest.approx(ball.total_mass * w**2 / radius, abs=1e-6 * weight)

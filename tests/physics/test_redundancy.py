@@ -233,8 +233,8 @@ def test_order_and_place_of_the_feet_change_no_force(build: Any, count: int) -> 
     found = []
     for order in (range(count), np.random.default_rng(count).permutation(count)):
         solution = _run(build, [FEET[count][i] for i in order], 0.01, angle=slope, start=start, friction=0.8)
-        forces = solution.contact_forces(np.array([0.005]))
-        lines = np.column_stack([forces.normal_force.ravel(), forces.friction_force.reshape(-1, 3)])
+        forces = solution.history("normal_force", "friction_force", times=0.005)
+        lines = np.column_stack([forces["normal_force"], forces["friction_force"]])
         found.append(lines[np.argsort(order)])
         assert np.all(np.linalg.norm(lines[:, 1:], axis=1) < 0.8 * lines[:, 0])
     np.testing.assert_allclose(found[1], found[0], rtol=0, atol=1e-10 * G)

@@ -12,6 +12,7 @@ from bodies import BoxBody, Plate
 from laws import Coulomb, EnergeticImpact, Unilateral
 from scenarios.dice_throw import DiceThrow
 from tests.benchmarks import pile
+from tests.histories.closed import closed_contacts
 
 Floats = NDArray[np.float64]
 MU = 0.4
@@ -52,7 +53,7 @@ def test_what_rests_is_in_equilibrium(system: ns.System, t_end: float, friction:
     """The wrenches about the mass centres vanish with the forces of the run, and some in cones by scipy do it, too."""
     solution = ns.simulate(system, t_end)
     assert np.max(np.abs(solution.u_end)) < 1e-9
-    found = solution.contact_forces(solution.t_end)
+    found = closed_contacts(solution, solution.t_end)
     free = [body for body in system.bodies if body.n_u == 6]
     masses = np.array([body.parameters()["mass"] for body in free])
     centres = np.array([solution.of(body)[0][-1, :3] for body in free])
@@ -64,12 +65,14 @@ def test_what_rests_is_in_equilibrium(system: ns.System, t_end: float, friction:
         for side, body, sign in ((0, contact.first, -1.0), (1, contact.second, 1.0)):
             for i, other in enumerate(free):
                 if other is body:
-                    made[i] += sign * np.array([*force, *np.cross(found.points[entry, side] - centres[i], force) / arm])
+                    made[i] += sign * np.array(
+                        [*force, *np.cross(found.contact_point[entry, side] - centres[i], force) / arm]
+                    )
         return np.asarray(made.ravel() / weight, float)
 
     needed = np.zeros((len(free), 6))
     needed[:, 2] = 9.81 * masses / weight
-    forces = found.normal_force[:, None] * found.normal + found.friction_force
+    forces = found.normal_force[:, None] * found.contact_normal + found.friction_force
     borne = sum(wrench(i, force) for i, force in enumerate(forces))
     assert np.max(np.abs(borne - needed.ravel())) < 1e-9
     assert np.min(found.normal_force) >= -1e-9 * weight
@@ -78,7 +81,7 @@ def test_what_rests_is_in_equilibrium(system: ns.System, t_end: float, friction:
     )
 
     columns = []
-    for i, normal in enumerate(found.normal):
+    for i, normal in enumerate(found.contact_normal):
         axes = pile.frame(normal)
         for angle in np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False):
             edge = axes[0] + friction * (np.cos(angle) * axes[1] + np.sin(angle) * axes[2])

@@ -11,6 +11,7 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, Dumbbell, Harmonic, Rest
 from nonsmooth.engine.memory.modes import Cause
+from nonsmooth.solution.modes import mode_shares
 
 G = 9.81
 TIGHT = ns.EventDriven(tolerance=1e-12)
@@ -49,7 +50,7 @@ def test_sliding_ball_starts_to_roll(build: Any, heading: float) -> None:
     distance = v0 * stick - 0.5 * mu * G * stick**2 + 5.0 * v0 / 7.0 * (0.2 - stick)
     np.testing.assert_allclose(solution.q_end[:3], distance * along + (0, 0, 0.01), rtol=0, atol=1e-10)
     assert build.lived(solution) == ["{1,0,0}", "{1,0,1}"]
-    assert solution.modes["{1,0,1}"] == pytest.approx(stick / 0.2, abs=1e-8)
+    assert mode_shares(solution)["{1,0,1}"] == pytest.approx(stick / 0.2, abs=1e-8)
     assert solution.energy.residual <= 1e-9
     assert solution.energy.friction_loss == pytest.approx(ball.total_mass * v0**2 / 7.0, rel=1e-9)
 

@@ -147,7 +147,7 @@ def test_lanes_follow_the_modes(drift: ns.Solution) -> None:
     """At times drawn at random the lane of each contact has the bar of its mode, or none where it is open."""
     ax = plot.modes(drift)
     times = np.random.default_rng(5).uniform(0.0, 0.3, 200)
-    modes = drift.at(times).modes
+    modes = drift.at(times)["mode"]
     assert {*modes.ravel().tolist()} == {0, 2}
     names = [label.get_text() for label in ax.get_yticklabels()]
     assert names == [contact.name for contact in drift.system.contacts]

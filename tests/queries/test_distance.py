@@ -40,6 +40,7 @@ from bodies import (
 from bodies.queries.coal import Coal
 from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth.errors import MissingPackagesError
+from nonsmooth.histories.distances import distances
 from nonsmooth.interfaces import ConvexShape
 from nonsmooth.plugins import registry
 from tests.bodies.given_shapes import EllipsoidSum, RoundedLens
@@ -170,10 +171,10 @@ def test_a_cylinder_on_its_feet_touches_a_surface(build: Any) -> None:
     system = ns.System([ground, cylinder])
     system.contact(ground, cylinder, **build.laws(0.2, 0.5))
     system.place(cylinder, position=(0.1, 0.1, 0.1))
-    history = ns.simulate(system, 0.5, sample_interval=0.01).distances(ground, cylinder)
-    assert np.count_nonzero(history.gap < 1e-9) > 5
-    assert np.min(history.gap) > -1e-9
-    assert set(history.how) == {"exact"}
+    history = distances(ns.simulate(system, 0.5, sample_interval=0.01), ground, cylinder)
+    assert np.count_nonzero(history["gap"] < 1e-9) > 5
+    assert np.min(history["gap"]) > -1e-9
+    assert set(history["how"].tolist()) == {"exact"}
 
 
 def test_what_faces_is_no_distance_where_corners_are_nearer() -> None:
@@ -319,6 +320,7 @@ def test_concentric_bodies(one: Any) -> None:
 _CODE = """
 import numpy as np
 import nonsmooth as ns
+from nonsmooth.histories.distances import distances
 from tests.queries.shapes import SHAPES, UNBOUNDED, pose
 from tests.benchmarks.random_queries import ask
 
@@ -341,7 +343,7 @@ def test_a_ball_at_rest_in_a_bowl_of_single_precision_touches_it() -> None:
     system.contact(base, ball, normal=Unilateral(), friction=Coulomb(0.0), impact=EnergeticImpact(0.3))
     system.place(ball, position=(0.05, 0.01, 0.03))
     solution = ns.simulate(system, 5.0)
-    gaps = solution.distances(base, ball, np.linspace(0.0, 5.0, 41)).gap
+    gaps = distances(solution, base, ball, np.linspace(0.0, 5.0, 41))["gap"]
     assert np.min(gaps) > -1e-9
 
 

@@ -12,6 +12,7 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, BallJoint, BoxBody, DrivenBody, HalfSpace, MeshBody, Plate, Rest, Sphere, Triangles
 from laws import Coulomb, EnergeticImpact, Unilateral
+from nonsmooth.histories.distances import distances
 from nonsmooth.queries.near import places_at_start
 from nonsmooth.queries.undeclared import Undeclared, UndeclaredOverlap
 from tests.bodies.meshes.parts import bracket
@@ -235,16 +236,16 @@ def test_a_history_is_what_single_questions_say() -> None:
     system.exclude(plate, two)
     system.exclude(one, two)
     solution = ns.simulate(system, 0.1, sample_interval=0.01)
-    found = solution.distances(plate, one)
-    assert set(found.how) == {"exact"}
+    found = distances(solution, plate, one)
+    assert set(found["how"].tolist()) == {"exact"}
     z = solution.of(one)[0][:, 2]
-    np.testing.assert_allclose(found.gap, z - 0.01, atol=1e-15)
-    np.testing.assert_allclose(found.second - found.first, found.gap[:, None] * found.normal, atol=1e-15)
-    between = solution.distances(one, two)
-    for i, gap in enumerate(between.gap):
+    np.testing.assert_allclose(found["gap"], z - 0.01, atol=1e-15)
+    np.testing.assert_allclose(found["second"] - found["first"], found["gap"][:, None] * found["normal"], atol=1e-15)
+    between = distances(solution, one, two)
+    for i, gap in enumerate(between["gap"]):
         places = [solution.of(body)[0][i] for body in (one, two)]
         assert gap == ns.distance(one, two, at=[(q[:3], q[3:]) for q in places]).gap
-    assert found.t.shape == found.gap.shape == found.lower.shape
+    assert found.time.shape == found["gap"].shape == found["lower"].shape
     for bodies, says in (((one, one), "two different"), ((one, Ball(0.01)), "a body of this system")):
         with pytest.raises(ns.InvalidInput, match=says):
-            solution.distances(*bodies)
+            distances(solution, *bodies)

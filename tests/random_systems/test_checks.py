@@ -127,7 +127,7 @@ def _spoilt(solution: ns.Solution, q: Any = None, u: Any = None, **at_end: Any) 
     names = {"u_end": "u", "energy": "energy"}
     state = dataclasses.replace(solution.state, **{names[name]: value for name, value in at_end.items()})
     end = dataclasses.replace(solution.end, state=state)
-    return ns.Solution.known(solution.system, dataclasses.replace(solution.recorded, rows=rows), end)
+    return ns.Solution(solution.system, dataclasses.replace(solution.recorded, rows=rows), end)
 
 
 def test_a_run_that_is_right_passes_and_one_that_is_spoilt_does_not() -> None:

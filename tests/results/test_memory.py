@@ -13,7 +13,8 @@ import nonsmooth as ns
 from nonsmooth.runs import folder_sink
 from nonsmooth.runs.so_far import RunSoFar
 from nonsmooth.solution import events
-from nonsmooth.solution.events_table import events_table
+from nonsmooth.solution.checks import friction_gain
+from nonsmooth.solution.csv_tables import events_table
 from tests.results.runs import balls
 from tests.runs.continued import differences
 
@@ -72,7 +73,7 @@ def test_a_run_whose_events_were_dropped_is_the_same(tmp_path: Path) -> None:
     assert differences(whole, run) == []
     assert repr(run) == repr(whole)
     assert events_table(run) == events_table(whole)
-    assert run.friction_gain == pytest.approx(whole.friction_gain, abs=1e-18)
+    assert friction_gain(run) == pytest.approx(friction_gain(whole), abs=1e-18)
     np.testing.assert_array_equal(run.events.first, whole.events.first)
     ns.simulate(balls(), 0.1, output=tmp_path / "until", until=until)
     assert seen == sorted(seen)

@@ -11,7 +11,7 @@ import pytest
 
 import nonsmooth as ns
 from nonsmooth.plugins import registry
-from nonsmooth.solution.events_table import save_events
+from nonsmooth.solution.csv_tables import save_events
 from tests.results.runs import balls
 from tests.runs.continued import differences
 
@@ -89,11 +89,10 @@ def test_the_file_holds_the_system_and_is_a_solution_again(solution: ns.Solution
     assert differences(solution, opened) == []
     assert (opened.status, opened.message, opened.counters) == (solution.status, solution.message, solution.counters)
     times = np.linspace(0.0, 0.2, 23)
-    for what in ("at", "contact_forces", "energies"):
-        told, again = (getattr(run, what)(times) for run in (solution, opened))
-        for name, value in vars(told).items():
-            if isinstance(value, np.ndarray):
-                np.testing.assert_allclose(getattr(again, name), value, rtol=1e-12, atol=1e-15, err_msg=name)
+    names = ("q", "u", "mode", "normal_force", "friction_force", "contact_point", "kinetic_energy", "friction_loss")
+    told, again = (run.history(*names, times=times) for run in (solution, opened))
+    for name in names:
+        np.testing.assert_allclose(again[name], told[name], rtol=1e-12, atol=1e-15, err_msg=name)
     # the state goes on, behind the end of the run
     one, other = (ns.assemble(balls()).run(0.3, start=run.state) for run in (solution, opened))
     assert differences(one, other) == []

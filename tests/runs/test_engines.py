@@ -39,11 +39,11 @@ def test_engines_agree_on_a_body_that_tumbles() -> None:
         assert (run.status, run.t_end, run.counters.steps) == ("done", 0.5, round(0.5 / step))
         errors.append(float(np.abs(run.u_end - exact.u_end).max()))
         # what it has stored is told, what lies between is asked of the event-driven engine only
-        np.testing.assert_array_equal(run.at().u, run.u)
+        np.testing.assert_array_equal(run.at()["u"], run.u)
         with pytest.raises(ns.InvalidInput, match="is known between its samples only where"):
             run.at(0.05)
         with pytest.raises(ns.InvalidInput, match="is known between its samples only where"):
-            run.energies(0.05)
+            run.history("kinetic_energy", times=0.05)
     assert errors[1] <= 1e-5
     assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.05)
 
@@ -52,13 +52,14 @@ def test_what_an_engine_stored_is_known() -> None:
     """States, poses, energies and, where no contact is closed, contact forces at the samples; modes at all times."""
     system, box = _tumbling()
     run, exact = (ns.simulate(system, 0.5, sample_interval=0.1, engine=e) for e in (Midpoint(), ns.EventDriven()))
-    energies = run.energies()
-    np.testing.assert_allclose(energies.kinetic, exact.energies().kinetic, rtol=1e-5)
-    np.testing.assert_allclose(energies.potential, exact.energies().potential, rtol=1e-5)
-    assert np.ptp(energies.kinetic) > 1.0
-    np.testing.assert_array_equal(run.poses(box).origin[:, 0], run.q[:, :3])
-    assert len(run.contact_forces().contact) == 0
-    assert run.mode_words(np.array([0.05])) == ["{,,}"]
+    names = ("kinetic_energy", "potential_energy")
+    energies, expected = run.history(*names), exact.history(*names)
+    for name in names:
+        np.testing.assert_allclose(energies[name], expected[name], rtol=1e-5)
+    assert np.ptp(energies["kinetic_energy"]) > 1.0
+    np.testing.assert_array_equal(run.history("position", of=box)["position"][:, 0], run.q[:, :3])
+    assert run.history("normal_force")["normal_force"].shape == (6, 0)
+    assert run.history("mode_word", times=0.05)["mode_word"] == "{,,}"
 
 
 def _plate_and_ball() -> ns.System:

@@ -16,6 +16,7 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, Fixed, Harmonic, Plate, Spring
 from laws import Coulomb, EnergeticImpact, Unilateral
+from nonsmooth.histories.distances import distances
 
 Given = Callable[[Any], object]
 LAWS: Any = {"normal": Unilateral(), "friction": Coulomb(0.3), "impact": EnergeticImpact(0.5)}
@@ -99,11 +100,10 @@ DOORS: dict[str, Given] = {
     "ContactLaws": lambda x: ns.ContactLaws(x, x, x),
     "Solution.at": SOLUTION.at,
     "Solution.of": SOLUTION.of,
-    "Solution.offsets": SOLUTION.offsets,
-    "Solution.poses": SOLUTION.poses,
-    "Solution.distances": lambda x: SOLUTION.distances(x, BALL),
-    "Solution.mode_words": SOLUTION.mode_words,
-    "ContactForces.history": SOLUTION.contact_forces().history,
+    "Solution.history": SOLUTION.history,
+    "Solution.history: times": lambda x: SOLUTION.history("mode_word", times=x),
+    "Solution.history: of": lambda x: SOLUTION.history("position", of=x),
+    "distances": lambda x: distances(SOLUTION, x, BALL),
     **{f"solve_contact: {name}": _changed(ns.solve_contact, AT_REST, name) for name in AT_REST},
     "solve_contact: solver": lambda x: ns.solve_contact(**AT_REST, solver=x),
     **{f"solve_impact: {name}": _changed(ns.solve_impact, MEETING, name) for name in MEETING},
@@ -141,11 +141,10 @@ def test_what_is_of_no_kind_is_refused_by_name(door: str, tmp_path: Path, monkey
         ("run: sample_interval", "a"),
         ("Output", 3),
         ("Solution.of", Ball(0.02)),
-        ("Solution.poses", "ball 3"),
-        ("Solution.mode_words", [-1.0, 5.0]),
-        ("ContactForces.history", "plate - ball 2"),
-        ("ContactForces.history", 1),
-        ("ContactForces.history", -1),
+        ("Solution.history: of", "ball 3"),
+        ("Solution.history: of", 3),
+        ("Solution.history: of", -1),
+        ("Solution.history: times", [-1.0, 5.0]),
     ],
 )
 def test_what_looks_right_and_is_not_is_refused(
@@ -173,17 +172,16 @@ def test_a_folder_without_results_is_told_as_one(door: Given, tmp_path: Path) ->
 def test_parts_are_found_by_name_and_as_objects() -> None:
     """The same ones, everywhere."""
     times = [0.1, 0.15]
-    forces = SOLUTION.contact_forces(times)
     for name, body in zip(SYSTEM.names.bodies, SYSTEM.bodies, strict=True):
-        assert SOLUTION.offsets(name) == SOLUTION.offsets(body)
         assert [one.tolist() for one in SOLUTION.of(name)] == [one.tolist() for one in SOLUTION.of(body)]
-        assert SOLUTION.poses(name, times).origin.tolist() == SOLUTION.poses(body, times).origin.tolist()
+        places = [SOLUTION.history("position", times=times, of=one)["position"].tolist() for one in (name, body)]
+        assert places[0] == places[1]
     falls = [0.08 - 0.5 * 9.81 * t**2 for t in times]
-    assert SOLUTION.distances("plate", "ball 2", times).gap == pytest.approx(falls, rel=1e-12)
+    assert distances(SOLUTION, "plate", "ball 2", times)["gap"] == pytest.approx(falls, rel=1e-12)
     (contact,) = SYSTEM.contacts
     others: tuple[Any, ...] = (contact, contact.name, 0, np.int64(0))
     for asked in others:
-        assert forces.history(asked).contact == "plate - ball 1"
+        assert SOLUTION.history("gap", times=times, of=asked).labels["contact"] == ("plate - ball 1",)
 
 
 @pytest.mark.filterwarnings("ignore::nonsmooth.parameters.UnusualValue")

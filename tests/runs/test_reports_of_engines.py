@@ -16,6 +16,7 @@ from laws import Coulomb, EnergeticImpact, Unilateral
 from nonsmooth import plot
 from nonsmooth.cli.telling import report
 from nonsmooth.interfaces import Cause, Engine, Measure
+from nonsmooth.solution import modes
 from tests.runs.faulty_engines import Blind
 from tests.runs.reporting_engines import IMPULSE, Judged, Resting
 
@@ -39,24 +40,24 @@ def test_modes_and_impulses_are_those_that_the_engine_recorded() -> None:
     """At all samples, and in the words of modes and the graph."""
     run = ns.simulate(_lying(), 0.1, sample_interval=0.02, engine=Resting())
     assert run.status == "done"
-    np.testing.assert_array_equal(run.at().modes, np.ones((6, 1)))
-    assert run.mode_words(run.t) == 6 * ["{1,0,0}"]
-    assert run.modes == {"{1,0,0}": 1.0}
+    np.testing.assert_array_equal(run.at()["mode"], np.ones((6, 1)))
+    assert run.history("mode_word")["mode_word"].tolist() == 6 * ["{1,0,0}"]
+    assert modes.mode_shares(run) == {"{1,0,0}": 1.0}
     assert run.events.causes() == ["start", *(5 * ["step of the engine"])]
-    impulses = run.contact_impulses()
-    assert impulses.normal_impulse.tolist() == 6 * [IMPULSE]
-    np.testing.assert_allclose(impulses.normal, np.tile([0.0, 0.0, 1.0], (6, 1)), atol=1e-15)
+    impulses = run.history("normal_impulse", "impulse_normal")
+    assert impulses["normal_impulse"].tolist() == 6 * [IMPULSE]
+    np.testing.assert_allclose(impulses["impulse_normal"], np.tile([0.0, 0.0, 1.0], (6, 1)), atol=1e-15)
     with pytest.raises(ns.InvalidInput, match=r"with its forces only where .* uses the flow .* but it is Resting"):
-        run.contact_forces()
+        run.history("normal_force")
 
 
 ASKED: dict[str, Callable[[ns.Solution], Any]] = {
-    "Solution.modes": lambda run: run.modes,
-    "Solution.mode_words": lambda run: run.mode_words(0.05),
-    "Solution.at": lambda run: run.at().modes,
-    "Solution.transitions": lambda run: run.transitions(),
-    "Solution.transition_graph": lambda run: run.transition_graph(),
-    "Solution.contact_impulses": lambda run: run.contact_impulses(),
+    "Solution.history": lambda run: run.history("mode"),
+    "Solution.history(?#words)": lambda run: run.history("mode_word", times=0.05),
+    "Solution.history(?#impulses)": lambda run: run.history("normal_impulse"),
+    "nonsmooth.solution.modes.mode_shares": modes.mode_shares,
+    "nonsmooth.solution.modes.transitions": modes.transitions,
+    "nonsmooth.solution.modes.transition_graph": modes.transition_graph,
     "nonsmooth.plot.modes": lambda run: plot.modes(run),
 }
 
@@ -74,8 +75,8 @@ def test_what_no_engine_recorded_is_refused(unrecorded: ns.Solution, name: str) 
 
 
 def test_what_does_not_need_modes_is_there(unrecorded: ns.Solution, tmp_path: Path) -> None:
-    np.testing.assert_array_equal(unrecorded.at().q, unrecorded.q)
-    assert unrecorded.contact_motion().gap[0] == pytest.approx(0.1)
+    np.testing.assert_array_equal(unrecorded.at()["q"], unrecorded.q)
+    assert unrecorded.history("gap")["gap"][0] == pytest.approx(0.1)
     assert unrecorded.to_html(tmp_path / "run.html").stat().st_size > 0
     assert unrecorded.export(tmp_path / "run.glb").stat().st_size > 0
     said = report.as_text({"scenario": "it", "status": "done", "summary": {}, "units": {}, **_told(unrecorded)})
@@ -96,23 +97,23 @@ def _told(run: ns.Solution) -> dict[str, Any]:
 
 def test_the_verdict_is_in_the_solution_the_report_and_the_folder(tmp_path: Path) -> None:
     run = ns.simulate(_falling(), 0.1, engine=Judged(), output=tmp_path)
-    assert run.verdict == {"fastest_fall": pytest.approx(1.0)}
+    assert run.end.measured == {"fastest_fall": pytest.approx(1.0)}
     told = {"scenario": "it", "status": "done", "summary": {}, "units": {}, **_told(run)}
     said = json.loads(report.as_json(told))
     meaning = "largest speed downwards at the end of a step"
-    value = run.verdict["fastest_fall"]
+    value = run.end.measured["fastest_fall"]
     assert said["verdict"] == {"fastest_fall": {"value": value, "unit": "m/s", "meaning": meaning}}
     assert said["cause"] == ""
     assert f"fastest fall      1 m/s, {meaning}" in report.as_text(told)
     found = ns.open_solution(tmp_path)
-    assert (found.verdict, found.end.verdict) == (run.verdict, run.end.verdict)
-    assert ns.simulate(_falling(), 0.1).verdict == {}
+    assert found.end.verdict == run.end.verdict
+    assert ns.simulate(_falling(), 0.1).end.measured == {}
 
 
 def test_the_verdict_goes_on_with_the_run_and_not_with_the_model() -> None:
     model = ns.assemble(_falling(), Judged())
     half, fresh = model.run(0.05), model.run(0.02)
-    speeds = [run.verdict["fastest_fall"] for run in (half, fresh, model.run(0.1, start=half.state))]
+    speeds = [run.end.measured["fastest_fall"] for run in (half, fresh, model.run(0.1, start=half.state))]
     assert speeds == pytest.approx([0.5, 0.2, 1.0])
 
 
@@ -123,9 +124,9 @@ def test_a_folder_knows_whether_contacts_were_recorded(tmp_path: Path, height: f
     found = ns.open_solution(tmp_path)
     if height:
         with pytest.raises(ns.InvalidInput, match=r"known only .*Blind"):
-            _ = found.at().modes
+            found.history("mode")
     else:
-        np.testing.assert_array_equal(found.at().modes, np.ones((6, 1)))
+        np.testing.assert_array_equal(found.at()["mode"], np.ones((6, 1)))
 
 
 def test_a_cause_of_the_engine_fails_a_run_by_name(tmp_path: Path) -> None:
@@ -133,9 +134,9 @@ def test_a_cause_of_the_engine_fails_a_run_by_name(tmp_path: Path) -> None:
         ns.simulate(_falling(), 0.1, engine=Judged(most=0.505), output=tmp_path)
     run = failed.value.solution
     assert isinstance(run, ns.Solution)
-    assert (run.status, run.cause) == ("failed", "too_fast")
-    assert run.verdict["fastest_fall"] == pytest.approx(0.51)
-    assert ns.open_solution(tmp_path).cause == "too_fast"
+    assert (run.status, run.end.cause) == ("failed", "too_fast")
+    assert run.end.measured["fastest_fall"] == pytest.approx(0.51)
+    assert ns.open_solution(tmp_path).end.cause == "too_fast"
     told = {"scenario": "it", "status": run.status, "summary": {}, "units": {}, **_told(run)}
     assert report.as_text(told).startswith("it: failed (too_fast) at t = 0.051 s")
     assert json.loads(report.as_json(told))["cause"] == "too_fast"
@@ -144,7 +145,7 @@ def test_a_cause_of_the_engine_fails_a_run_by_name(tmp_path: Path) -> None:
 def test_a_cause_of_the_engine_may_end_a_run_well() -> None:
     model = ns.assemble(_falling(), Judged(enough=0.505))
     run = model.run(0.1)
-    assert (run.status, run.cause) == ("done", "fast_enough")
+    assert (run.status, run.end.cause) == ("done", "fast_enough")
     assert run.t_end == pytest.approx(0.051)
     assert "the body falls fast enough" in run.message
 

@@ -83,4 +83,6 @@ def test_the_end_is_a_sample_where_the_interval_does_not_lead_to_it(model: ns.Mo
     np.testing.assert_allclose(run.t, [0.0, 0.03, 0.06, 0.09, 0.1], rtol=1e-15)
     np.testing.assert_array_equal(ns.open_solution(tmp_path).q, run.q)
     np.testing.assert_array_equal(run.q[-1], run.q_end)
-    assert run.energies(run.t[-1:]).kinetic[0] == pytest.approx(run.energy.kinetic_end, rel=1e-12)
+    assert run.history("kinetic_energy", times=run.t[-1])["kinetic_energy"] == pytest.approx(
+        run.energy.kinetic_end, rel=1e-12
+    )

@@ -13,8 +13,7 @@ import nonsmooth as ns
 from bodies import Ball, DrivenBody, Dumbbell, Hinge, HullBody, PlanarBody, Plate, Point, RigidBody, Rod, Sphere, Spring
 from nonsmooth.interfaces.look import Look
 from nonsmooth.plugins import registry
-from nonsmooth.scene.knots import knots
-from nonsmooth.scene.scene import Scene
+from nonsmooth.scene.scene import Scene, knots
 
 
 def _volume(look: Look) -> float:
@@ -81,7 +80,7 @@ def test_springs_and_joints_are_lines_between_what_they_tie() -> None:
     system.place(other, position=(0.15, 0.0, 0.5), velocity=(0.0, 0.0, 0.0))
     run = ns.simulate(system, 0.1)
     scene, states = Scene.of(system), run.at()
-    origin, axes = scene.places(states.time, states.q, states.u)
+    origin, axes = scene.places(states.time, states["q"], states["u"])
 
     def ends(stroke: object) -> np.ndarray:
         frames, points = stroke.frames, stroke.ends  # type: ignore[attr-defined]
@@ -112,7 +111,7 @@ def test_links_of_a_mechanism_end_where_its_frames_are() -> None:
     system = scenario.build()
     run = ns.simulate(system, scenario.t_end)
     scene, states = Scene.of(system), run.at()
-    origin, _ = scene.places(states.time, states.q, states.u)
+    origin, _ = scene.places(states.time, states["q"], states["u"])
     _, links = (stroke for stroke in scene.strokes if stroke.kind == "link")
     np.testing.assert_allclose(origin[:, links.frames[1]], origin[:, 0], atol=1e-12)
 
@@ -125,10 +124,10 @@ def test_frames_are_where_poses_say() -> None:
     system.place(box, position=(0.0, 0.0, 3.0), angular_velocity=(1.0, 2.0, 3.0))
     run = ns.simulate(system, 0.2)
     scene, states = Scene.of(system), run.at()
-    origin, axes = scene.places(states.time, states.q, states.u)
-    poses = run.poses(box)
-    np.testing.assert_array_equal(origin[:, 1], poses.origin[:, 0])
-    np.testing.assert_array_equal(axes[:, 1], poses.rotation[:, 0])
+    origin, axes = scene.places(states.time, states["q"], states["u"])
+    poses = run.history("position", "rotation", of=box)
+    np.testing.assert_array_equal(origin[:, 1], poses["position"][:, 0])
+    np.testing.assert_array_equal(axes[:, 1], poses["rotation"][:, 0])
 
 
 def test_a_run_of_few_samples_is_followed_between_them() -> None:
@@ -139,7 +138,7 @@ def test_a_run_of_few_samples_is_followed_between_them() -> None:
     run = ns.simulate(system, 0.4, sample_interval=0.2)
     times = knots(run, 4000)
     assert len(times) >= 600
-    z = run.at(times).q[:, 2]
+    z = run.at(times)["q"][:, 2]
     np.testing.assert_allclose(z, 1.0 - 0.5 * 9.81 * times**2, atol=1e-12)
 
 

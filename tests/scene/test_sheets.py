@@ -8,16 +8,15 @@ import pytest
 import nonsmooth as ns
 from bodies import Ball, DrivenBody, Harmonic, OpenBox, Plate, Rest, Rod, Wall
 from nonsmooth.histories.arrays import Floats
-from nonsmooth.scene.extent import Extent
+from nonsmooth.scene.extent import Extent, outlines
 from nonsmooth.scene.scene import Scene
-from nonsmooth.scene.sheets import outlines
 
 
 def _drawn(run: ns.Solution) -> tuple[Extent, list[Floats]]:
     """Return the extent of a run and the corners of its sheets in the world at its start."""
     states = run.at(np.linspace(0.0, run.t_end, 50))
     scene = Scene.of(run.system)
-    origin, axes = scene.places(states.time, states.q, states.u)
+    origin, axes = scene.places(states.time, states["q"], states["u"])
     extent = Extent.of(scene, origin, axes)
     sheets = [part.frame for part in scene.parts if part.look.sheet]
     found = outlines(scene, origin, axes, extent)

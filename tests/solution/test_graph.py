@@ -13,9 +13,8 @@ from bodies import Ball, Dumbbell, Harmonic, Plate, Rest
 from nonsmooth.engine.memory.modes import CAUSES
 from nonsmooth.interfaces import Guard
 from nonsmooth.solution.draw_graph import draw
-from nonsmooth.solution.graph import Mode, TransitionGraph
-from nonsmooth.solution.graph_groups import grouped
 from nonsmooth.solution.graph_layout import places_of
+from nonsmooth.solution.modes import ContactModes, TransitionGraph, grouped, mode_shares, transition_graph, transitions
 
 
 @pytest.fixture(scope="module")
@@ -39,13 +38,13 @@ def driven(build: Any) -> ns.Solution:
 
 
 def _check(solution: ns.Solution) -> TransitionGraph:
-    graph = solution.transition_graph()
-    assert graph.nodes == pytest.approx(solution.modes)
+    graph = transition_graph(solution)
+    assert graph.nodes == pytest.approx(mode_shares(solution))
     assert sum(graph.shares.values()) == pytest.approx(1.0)
     passed = {graph.word(mode) for mode in graph.passing}
     assert passed == set(solution.events.words("during")) - set(solution.events.words("after"))
     expected: Counter[tuple[str, str, str]] = Counter()
-    for _, cause, before, during, after in solution.transitions()[1:]:
+    for _, cause, before, during, after in transitions(solution)[1:]:
         for step in [(before, after)] if during in (before, after) else [(before, during), (during, after)]:
             expected[(*step, cause)] += 1
     assert graph.edges == expected
@@ -72,7 +71,7 @@ def test_a_ball_that_bounces(build: Any) -> None:
     ball = Ball(0.01)
     system = build.over(ball, restitution=1.0, friction=0.0)
     system.place(ball, position=(0.0, 0.0, 0.11))
-    graph = ns.simulate(system, 6.5 * (0.2 / 9.81) ** 0.5).transition_graph()
+    graph = transition_graph(ns.simulate(system, 6.5 * (0.2 / 9.81) ** 0.5))
     assert graph.nodes == {"{0,0,0}": 1.0, "{1,1,0}": 0.0}
     assert graph.edges == {("{0,0,0}", "{1,1,0}", "impact"): 3, ("{1,1,0}", "{0,0,0}", "impact"): 3}
     assert list(graph.visits.values()) == [3, 4]
@@ -104,7 +103,7 @@ def test_a_guard_leads_to_the_same_mode() -> None:
     system = ns.System([ball])
     system.guard(Height())
     system.place(ball, position=(0.0, 0.0, 1.0))
-    graph = ns.simulate(system, 0.5).transition_graph()
+    graph = transition_graph(ns.simulate(system, 0.5))
     assert graph.nodes == {"{,,}": 1.0}
     assert graph.edges == {("{,,}", "{,,}", "guard of the scenario"): 1}
     assert len(_labels(graph)) == 3  # the node, the number at the loop, the axis label of the figure
@@ -112,7 +111,7 @@ def test_a_guard_leads_to_the_same_mode() -> None:
 
 def test_the_most_visited_part(driven: ns.Solution) -> None:
     """The start stays, the rest by visits; transitions to what is left out go."""
-    whole = driven.transition_graph()
+    whole = transition_graph(driven)
     part = whole.most_visited(5)
     assert len(part.shares) == 5
     assert part.start in part.shares
@@ -139,7 +138,7 @@ def _legend(graph: TransitionGraph) -> list[str]:
 @pytest.mark.slow
 def test_the_drawing_names_modes_and_numbers(sliding: ns.Solution, driven: ns.Solution) -> None:
     """Each mode is written where it stands, or in the list beside; the title says how many are missing."""
-    graph = sliding.transition_graph()
+    graph = transition_graph(sliding)
     labels = "\n".join(_labels(graph))
     for node in graph.nodes:
         assert node in labels
@@ -147,7 +146,7 @@ def test_the_drawing_names_modes_and_numbers(sliding: ns.Solution, driven: ns.So
     assert {*letters} == {cause for _, _, cause in graph.edges}
     for (_, _, cause), number in graph.counts.items():
         assert f"\n{number} {letters[cause]}\n" in labels
-    many = driven.transition_graph()
+    many = transition_graph(driven)
     listed = "\n".join(_labels(many, 6))
     assert sum(node in listed for node in many.nodes) == 6
     title = _title(many, 6)
@@ -170,7 +169,7 @@ def shaken(build: Any) -> ns.Solution:
 
 def test_modes_of_many_contacts_are_grouped(shaken: ns.Solution) -> None:
     """By how many are closed, strike and slip: shares and transitions from group to group are those of the run."""
-    graph = shaken.transition_graph()
+    graph = transition_graph(shaken)
     assert len(graph.contacts) == 210
     assert len(graph.shares) > 100
     whole, words = grouped(graph)
@@ -192,10 +191,10 @@ def test_modes_of_many_contacts_are_grouped(shaken: ns.Solution) -> None:
 
 def test_a_mode_that_gets_other_features_right_away_is_in_the_group_of_its_kind() -> None:
     """It is no mode that lasted, but one that was left."""
-    rests: Mode = ((0, 1),)
-    other: Mode = ((1, 1),)
-    struck: Mode = ((1, 3),)
-    edges: dict[tuple[Mode, Mode, str], int] = {
+    rests: ContactModes = ((0, 1),)
+    other: ContactModes = ((1, 1),)
+    struck: ContactModes = ((1, 3),)
+    edges: dict[tuple[ContactModes, ContactModes, str], int] = {
         (other, struck, "impact"): 2,
         (struck, rests, "impact"): 2,
         (((1, 5),), rests, "slip to stick"): 1,
@@ -208,7 +207,7 @@ def test_a_mode_that_gets_other_features_right_away_is_in_the_group_of_its_kind(
 
 @pytest.mark.slow
 def test_the_list_of_groups_has_the_commonest_first(shaken: ns.Solution) -> None:
-    graph = shaken.transition_graph()
+    graph = transition_graph(shaken)
     rows = next(text for text in _labels(graph) if "\n" in text and " x " in text).splitlines()
     visits = [int(row.split()[1]) for row in rows]
     assert visits == sorted(visits, reverse=True)
@@ -220,7 +219,7 @@ def test_the_list_of_groups_has_the_commonest_first(shaken: ns.Solution) -> None
 @pytest.mark.slow
 def test_modes_stand_apart(sliding: ns.Solution, driven: ns.Solution) -> None:
     """No two on one place, whatever the graph."""
-    for graph in (sliding.transition_graph(), driven.transition_graph().most_visited(14)):
+    for graph in (transition_graph(sliding), transition_graph(driven).most_visited(14)):
         places = list(places_of(graph).values())
         for i, (x, y) in enumerate(places):
             assert all((x - u) ** 2 + (y - v) ** 2 > 0.2**2 for u, v in places[:i])

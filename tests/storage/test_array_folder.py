@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from nonsmooth.errors import InvalidInput
-from nonsmooth.solution.variable import Variable
+from nonsmooth.histories.history import LabelledArray
 from nonsmooth.storage import array_folder
 from nonsmooth.storage.array_folder import FORMAT_VERSION, ArrayFolder
 from nonsmooth.storage.chunks import ArrayLayout
@@ -25,15 +25,15 @@ def _small_chunks(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(array_folder, "_ENTRIES", 12)
 
 
-def _variables(values: np.ndarray) -> list[Variable]:
+def _variables(values: np.ndarray) -> list[LabelledArray]:
     return [
-        Variable("x", ("time",), values[:, 0], {"units": "m"}),
-        Variable("y", ("time", "part"), values, {"units": "m/s"}),
-        Variable("code", ("time",), (values[:, 0] > 0.0).astype(np.uint8), {"units": "1"}),
+        LabelledArray("x", ("time",), values[:, 0], {"units": "m"}),
+        LabelledArray("y", ("time", "part"), values, {"units": "m/s"}),
+        LabelledArray("code", ("time",), (values[:, 0] > 0.0).astype(np.uint8), {"units": "1"}),
     ]
 
 
-def _add(folder: ArrayFolder, one: Variable, *, grows: bool) -> None:
+def _add(folder: ArrayFolder, one: LabelledArray, *, grows: bool) -> None:
     folder.add(one.name, one.dimensions, one.values, one.attributes, grows=grows)
 
 
@@ -44,8 +44,8 @@ def test_rows_appended_in_any_portions_come_back(tmp_path: Path) -> None:
     draw = np.random.default_rng(1)
     values = draw.normal(size=(200, 5))
     folder = ArrayFolder(tmp_path / "a.zarr", {"title": "a"})
-    _add(folder, Variable("label", ("part",), np.array(["a", "bcd", "", "é", "f"]), {}), grows=False)
-    _add(folder, Variable("text", (), np.array("two\nlines"), {}), grows=False)
+    _add(folder, LabelledArray("label", ("part",), np.array(["a", "bcd", "", "é", "f"]), {}), grows=False)
+    _add(folder, LabelledArray("text", (), np.array("two\nlines"), {}), grows=False)
     for one in _variables(values[:0]):
         _add(folder, one, grows=True)
     n = 0

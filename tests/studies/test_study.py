@@ -68,7 +68,7 @@ def test_a_study_of_a_scenario_has_what_single_runs_have(tmp_path: Path) -> None
             run = ns.simulate(one.build(), one.t_end, sample_interval=one.sample_interval)
             row = found.sel(restitution=e, gamma=gamma)
             assert row.q_end.values.tobytes() == run.q_end.tobytes()
-            assert row.q.values.tobytes() == run.at([0.0, 0.1]).q.tobytes()
+            assert row.q.values.tobytes() == run.at([0.0, 0.1])["q"].tobytes()
             assert (row.impacts, row._double, row.reason) == (run.counters.impacts, 0.4, Status.DONE)
             assert row.last_flight == one.summarise(run)["last_flight"]
     assert found._double.attrs == {"long_name": "Twice the end", "units": "s"}

@@ -49,7 +49,7 @@ def test_derivatives_by_numbers_of_a_system() -> None:
 def test_a_fit_passes_over_starts_that_overlap() -> None:
     """Of the heights that are tried some are within the plate."""
     times = np.linspace(0.02, 0.3, 12)
-    heights = studies.Family.of(_dropped()).model().run(0.3).at(times).q[:, 2]
+    heights = studies.Family.of(_dropped()).model().run(0.3).at(times)["q"][:, 2]
     bounds = {PLACE: (0.002, 0.2), RESTITUTION: (0.5, 0.9)}
     begin = _dropped(restitution=0.6)
     found = studies.fit(begin, bounds, at=times, measured=heights, observe=lambda state: state.q[2], starts=16)

@@ -10,7 +10,7 @@ import numpy as np
 
 from bodies import BallJoint
 from bodies.joints.rows import distance_row
-from nonsmooth.compiled import compiled
+from nonsmooth.compiled import block_at, compiled
 from nonsmooth.interfaces import Joint
 from nonsmooth.types import Floats
 
@@ -29,26 +29,16 @@ FAULTS = {
 BEYOND, NOTHING = 20.0, 21.0
 
 
-def evaluate(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    fault: float,
-    first: Floats,
-    second: Floats,
-    x_axis: Floats,
-    y_axis: Floats,
-    z_axis: Floats,
-) -> None:
+def evaluate(a: Floats, b: Floats, out: Floats, fault: float, n_rows: float, rows: Floats, repeated: Floats) -> None:
     if fault == 5.0:
         # a rod of negative length
-        distance_row(a, b, out, first, second, -1.0)
+        distance_row(a, b, out, 0, block_at(rows, 1), block_at(rows, 4), -1.0)
         return
     before = out[4]
     if fault == 6.0:
-        _sound(a, b, out, first, second, x_axis, y_axis, x_axis)
+        _sound(a, b, out, n_rows, repeated)
     else:
-        _sound(a, b, out, first, second, x_axis, y_axis, z_axis)
+        _sound(a, b, out, n_rows, rows)
     if fault == 1.0:
         out[4] = 1e-12 if out[0] > 0.0 else before
     if fault == 2.0:
@@ -75,7 +65,11 @@ class Point(Joint):
     fault: float = 0.0
 
     def parameters(self) -> Mapping[str, Any]:
-        return {"fault": self.fault, **_SOUND.parameters()}
+        sound = _SOUND.parameters()
+        rows: Any = sound["rows"]
+        # two rows, and the first one again
+        third = len(rows) // 3
+        return {"fault": self.fault, **sound, "repeated": (*rows[: 2 * third], *rows[:third])}
 
     @property
     def n_rows(self) -> int:

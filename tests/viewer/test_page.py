@@ -52,11 +52,13 @@ def test_bodies_are_where_they_were(run: ns.Solution) -> None:
     frame = 0
     span = float(np.linalg.norm(np.subtract(told["high"], told["low"])))
     for body in run.system.bodies:
-        poses = run.poses(body, arrays["time"])
+        poses = run.history("position", "rotation", times=arrays["time"], of=body)
         for offset in range(len(body.frames)):
-            np.testing.assert_allclose(arrays["origin"][:, frame + offset], poses.origin[:, offset], atol=1e-6 * span)
+            np.testing.assert_allclose(
+                arrays["origin"][:, frame + offset], poses["position"][:, offset], atol=1e-6 * span
+            )
             turns = Rotation.from_quat(arrays["turn"][:, frame + offset].astype(float))
-            apart = turns.inv() * Rotation.from_matrix(poses.rotation[:, offset])
+            apart = turns.inv() * Rotation.from_matrix(poses["rotation"][:, offset])
             assert np.max(apart.magnitude()) < 2e-4
         frame += len(body.frames)
 

@@ -1,10 +1,12 @@
-"""Between a body's axes and the world's, for the evaluators of contact pairs."""
+"""Directions for the evaluators of contacts: body and world axes, first tangents, parts across an axis."""
 
 from __future__ import annotations
 
+import math
+
 from bodies.shapes.placement import turned
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import POSITION, ROTATION
+from nonsmooth.engine.memory.blocks import NORMAL, POSITION, ROTATION, TANGENT
 from nonsmooth.types import Floats
 
 
@@ -40,3 +42,60 @@ def vector_in_body(frame: Floats, x: float, y: float, z: float) -> tuple[float, 
 
 turned_by = compiled(turned)
 """``turned_by(w, x, y, z, a, b, c)``: the vector (a, b, c) turned by a unit quaternion."""
+
+
+@compiled
+def across(
+    x: float, y: float, z: float, axis_x: float, axis_y: float, axis_z: float
+) -> tuple[float, float, float, float, float]:
+    """Return the part of (x, y, z) along the unit axis, the size of that across, and the unit vector there."""
+    along = x * axis_x + y * axis_y + z * axis_z
+    x, y, z = x - along * axis_x, y - along * axis_y, z - along * axis_z
+    size = math.sqrt(x * x + y * y + z * z)
+    if size > 0.0:
+        x, y, z = x / size, y / size, z / size
+        # of a vector close to the axis the difference is rounding, which may point anywhere
+        rest = x * axis_x + y * axis_y + z * axis_z
+        x, y, z = x - rest * axis_x, y - rest * axis_y, z - rest * axis_z
+        length = math.sqrt(x * x + y * y + z * z)
+        if length > 0.5:
+            return along, size, x / length, y / length, z / length
+    x, y, z = tangent_of(axis_x, axis_y, axis_z)
+    return along, size, x, y, z
+
+
+_ROUND_OFF = 1e-16
+"""Square of what round-off may leave of a zero in a normal, of a face in other axes or of edges that lie in one."""
+
+
+@compiled
+def tangent_of(x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Return a unit vector across the unit normal (x, y, z), continuous in it but for the normal (0, 0, -1).
+
+    No tangent field is continuous everywhere.  This one turns (1, 0, 0) with (0, 0, 1) to the normal on the shortest
+    way: J. R. Frisvad, "Building an orthonormal basis from a 3D unit vector without normalization", J. Graphics Tools
+    16 (2012) 151-159.
+    """
+    if z >= 0.0:
+        return 1.0 - x * x / (1.0 + z), -x * y / (1.0 + z), -x
+    # 1 + z = (x^2 + y^2) / (1 - z) keeps its digits where the normal points down
+    square = x * x + y * y
+    if square < _ROUND_OFF:
+        # faces that lie on each other with the normal (0, 0, -1) keep their tangent however the bodies turn
+        length = math.sqrt(1.0 - x * x)
+        return length, -x * y / length, -x * z / length
+    grow = (1.0 - z) / square
+    return 1.0 - grow * x * x, -grow * x * y, -x
+
+
+@compiled
+def write_tangent(a: Floats, out: Floats) -> None:
+    """Write the first tangent for the normal that stands in ``out``, fixed to the first body but for the normal."""
+    x, y, z = tangent_of(
+        a[ROTATION] * out[NORMAL] + a[ROTATION + 3] * out[NORMAL + 1] + a[ROTATION + 6] * out[NORMAL + 2],
+        a[ROTATION + 1] * out[NORMAL] + a[ROTATION + 4] * out[NORMAL + 1] + a[ROTATION + 7] * out[NORMAL + 2],
+        a[ROTATION + 2] * out[NORMAL] + a[ROTATION + 5] * out[NORMAL + 1] + a[ROTATION + 8] * out[NORMAL + 2],
+    )
+    for i in range(3):
+        r = ROTATION + 3 * i
+        out[TANGENT + i] = a[r] * x + a[r + 1] * y + a[r + 2] * z

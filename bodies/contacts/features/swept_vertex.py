@@ -9,14 +9,12 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.blocks import put
-from bodies.contacts.features.curvature import write_round
-from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world
-from bodies.contacts.features.nearest import Nearest, nearest_feature
+from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world, write_tangent
 from bodies.contacts.features.polytope_tables import EDGE, FACE, Numbers, edge_rows, end_table, face_table, star_of
-from bodies.contacts.features.swept_side import write_swept
-from bodies.contacts.features.tangents import write_tangent
+from bodies.contacts.features.vertex_face import Nearest, nearest_feature
+from bodies.contacts.features.writing import write_flat, write_principal, write_round
+from bodies.shapes.polyhedron import SweptPolytope
 from bodies.shapes.polytope import Point
-from bodies.shapes.swept import SweptPolytope
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
@@ -241,3 +239,22 @@ class SweptVertex(ContactKinematics):
         counts = ("face", len(self.faces) // FACE), (edge, len(self.ends) // 2), ("vertex", int(max(self.ends)) + 1)
         parts = [f"{kind} {i}" for kind, n in counts for i in range(n)]
         return tuple(f"{self.name} and {part}" if self.swap else f"{part} and {self.name}" for part in parts)
+
+
+@compiled
+def write_swept(
+    frame: Floats, out: Floats, side: int, number: int, n_faces: float, n_edges: float, edges: Floats, radius: float
+) -> None:
+    """Write a flat face, the side of a cylinder about an edge, or a sphere about a vertex, by the feature's number.
+
+    Normal and first tangent stand in ``out`` already.
+    """
+    edge = number - int(n_faces)
+    if edge < 0:
+        write_flat(out, side)
+    elif edge < int(n_edges):
+        e = EDGE * edge
+        x, y, z = vector_in_world(frame, edges[e + 3], edges[e + 4], edges[e + 5])
+        write_principal(out, side, x, y, z, 0.0, 1.0, 1.0, radius)
+    else:
+        write_round(out, side, radius)

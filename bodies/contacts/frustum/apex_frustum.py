@@ -6,10 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.across import across
-from bodies.contacts.features.curvature import write_round
+from bodies.contacts.features.frames import across
 from bodies.contacts.features.polytope_tables import Numbers
 from bodies.contacts.features.swept_vertex import END, NEAR
+from bodies.contacts.features.writing import write_round
 from bodies.contacts.frustum.apex_swept import past_apex
 from bodies.contacts.frustum.frustum import (
     HIGH_RIM,
@@ -46,13 +46,13 @@ def _evaluate(a: Floats, b: Floats, out: Floats, swap: float, first: Floats, sec
         # two apices are the contact of the first body's
         up = second[COS] * (along - second[LOW]) - second[SIN] * (away - second[0])
         past = max(past, END * size - (second[SIDE] - up))
-    write_two(a, out, swap, first, second, distance, past, nx, ny, nz, px, py, pz, 0.0)
+    write_two(a, out, swap, first, second, distance, past, (nx, ny, nz), (px, py, pz), 0.0)
     out[FEATURE] = part_number(second, part)
     point = away - distance * radial
     if part == LOW_RIM or part == HIGH_RIM:
         point = second[0] if part == LOW_RIM else second[1]
     write_round(out, SIDE_B if swap == 1.0 else SIDE_A, first[SWEEP])
-    write_side(out, 1.0 - swap, second, part, bx, by, bz, ex, ey, ez, -nx, -ny, -nz, max(point, 0.0))
+    write_side(out, 1.0 - swap, second, part, (bx, by, bz), (ex, ey, ez), (-nx, -ny, -nz), max(point, 0.0))
 
 
 @final

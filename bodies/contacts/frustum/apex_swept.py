@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.contacts.features.frames import vector_in_body, vector_in_world
-from bodies.contacts.features.nearest import nearest_feature
 from bodies.contacts.features.polytope_tables import EDGE, FACE, Numbers, edge_rows, end_table, face_table
 from bodies.contacts.features.swept_vertex import END, write_vertex_over
+from bodies.contacts.features.vertex_face import nearest_feature
 from bodies.contacts.frustum.frustum import axis_in_world, center_in_world
-from bodies.contacts.frustum.frustum_edge import size_of_both
+from bodies.contacts.frustum.frustum_writing import size_of_both
 from bodies.shapes.frustum import COS, HIGH, SIDE, SIN, SWEEP, Frustum
-from bodies.shapes.swept import SweptPolytope
+from bodies.shapes.polyhedron import SweptPolytope
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.interfaces import ContactKinematics, Shape

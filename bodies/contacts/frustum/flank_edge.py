@@ -7,10 +7,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.curvature import write_sweep
 from bodies.contacts.features.polytope_tables import FACE, LENGTH, Numbers, edge_rows, face_table
+from bodies.contacts.features.writing import write_sweep
 from bodies.contacts.frustum.frustum import FLANK, center_in_world, write_part
-from bodies.contacts.frustum.frustum_edge import (
+from bodies.contacts.frustum.frustum_writing import (
     astray_of_edge,
     edge_in_frustum,
     overlap_at,
@@ -20,7 +20,7 @@ from bodies.contacts.frustum.frustum_edge import (
 )
 from bodies.contacts.smooth.smooth_core import axes_in_world, forth
 from bodies.shapes.frustum import COS, LOW, SIDE, SIN, SWEEP, Frustum
-from bodies.shapes.swept import SweptPolytope
+from bodies.shapes.polyhedron import SweptPolytope
 from nonsmooth.engine.memory.blocks import SIDE_A
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
@@ -73,13 +73,13 @@ def evaluate_flank_edge(
         # no normal is across both
         over = size
     qx, qy, qz = forth(axes, px - gap * nx, py - gap * ny, pz - gap * nz)
-    overlap = overlap_at(b, frustum, axes, n_faces, faces, radius, over, qx, qy, qz, px, py, pz, cx, cy, cz)
+    overlap = overlap_at(b, frustum, axes, n_faces, faces, radius, over, (qx, qy, qz), (px, py, pz), (cx, cy, cz))
     steep = abs(crossing)
     past = past_end(gap, over, steep, astray_of_edge(b, edge, axes, nx, ny, nz), overlap, size)
     qx, qy, qz = cx + qx, cy + qy, cz + qz
-    write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, steep, nx, ny, nz, qx, qy, qz, overlap, size)
+    write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, steep, (nx, ny, nz), (qx, qy, qz), overlap, size)
     ux, uy, uz = forth(axes, ex, ey, 0.0)
-    write_part(out, SIDE_A, FLANK, axes[2], axes[5], axes[8], ux, uy, uz, cosine, max(away, 0.0))
+    write_part(out, SIDE_A, FLANK, (axes[2], axes[5], axes[8]), (ux, uy, uz), cosine, max(away, 0.0))
     write_sweep(out, SIDE_A, frustum[SWEEP])
 
 

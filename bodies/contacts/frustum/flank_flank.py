@@ -7,8 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
+from bodies.contacts.features.frames import tangent_of
 from bodies.contacts.features.polytope_tables import Numbers
-from bodies.contacts.features.tangents import tangent_of
 from bodies.contacts.frustum.frustum import FLANK, axis_in_world, center_in_world
 from bodies.contacts.frustum.frustum_writing import overlap_of, past_border, write_side, write_two
 from bodies.shapes.frustum import COS, LOW, SIDE, SIN, Frustum
@@ -89,9 +89,9 @@ def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats, 
     if over <= 0.0:
         overlap = overlap_of(a, first, b, second, gap, size, (px, py, pz), (nx, ny, nz))
     past = max(past_border(gap, over, 0.0, overlap, size), size * (PARALLEL - abs(cross)))
-    write_two(a, out, 0.0, first, second, gap, past, nx, ny, nz, px, py, pz, overlap)
-    write_side(out, 0.0, first, FLANK, ax, ay, az, px - cx, py - cy, pz - cz, nx, ny, nz, max(away_a, 0.0))
-    write_side(out, 1.0, second, FLANK, bx, by, bz, qx - kx, qy - ky, qz - kz, -nx, -ny, -nz, max(away_b, 0.0))
+    write_two(a, out, 0.0, first, second, gap, past, (nx, ny, nz), (px, py, pz), overlap)
+    write_side(out, 0.0, first, FLANK, (ax, ay, az), (px - cx, py - cy, pz - cz), (nx, ny, nz), max(away_a, 0.0))
+    write_side(out, 1.0, second, FLANK, (bx, by, bz), (qx - kx, qy - ky, qz - kz), (-nx, -ny, -nz), max(away_b, 0.0))
 
 
 @final

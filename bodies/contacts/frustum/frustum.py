@@ -1,4 +1,4 @@
-"""What the evaluators of frustums share: which part is nearest to a point, and how a part is curved.
+"""Parts of a frustum: the nearest one to a point, their curvature, how rims, feet and apex protrude.
 
 A frustum is the tuple of :func:`bodies.shapes.frustum.frustum_numbers`; its parts are numbered from the lower cap over
 rim, side and rim to the upper cap.
@@ -7,12 +7,17 @@ rim, side and rim to the upper cap.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
-from bodies.contacts.features.curvature import write_flat, write_principal, write_round
+import numpy as np
+
+from bodies.blocks import Vector3
 from bodies.contacts.features.frames import point_in_world, vector_in_world
+from bodies.contacts.features.writing import write_flat, write_principal, write_round
 from bodies.contacts.plane.plane_rim import FLATTEST
-from bodies.shapes.frustum import AXIS, CENTER, COS, HIGH, LOW, SIDE, SIN
+from bodies.contacts.surface.mesh_point import Corner
+from bodies.contacts.surface.surface_tables import Numbers
+from bodies.shapes.frustum import AXIS, CENTER, COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum, frustum_numbers
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
@@ -94,19 +99,7 @@ def least_height(frustum: Floats, height: float, cosine: float) -> float:
 
 
 @compiled
-def write_part(
-    out: Floats,
-    side: int,
-    part: int,
-    ax: float,
-    ay: float,
-    az: float,
-    ex: float,
-    ey: float,
-    ez: float,
-    radial: float,
-    away: float,
-) -> None:
+def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector3, radial: float, away: float) -> None:
     """Write the matrices of a part; normal and first tangent stand in ``out`` already.
 
     Parameters
@@ -115,13 +108,14 @@ def write_part(
         The geometry block, and where the matrices stand.
     part : int
         Which one.
-    ax, ay, az, ex, ey, ez : float
-        The axis, and the unit vector across it on whose side the point is.
+    axis, outward : Vector3
+        The unit axis, and the unit vector across it on whose side the point is.
     radial : float
         Part of the outward normal along the latter.
     away : float
         Distance of the point from the axis [m].
     """
+    (ax, ay, az), (ex, ey, ez) = axis, outward
     if part == LOW_CAP or part == HIGH_CAP:
         write_flat(out, side)
     elif part != FLANK and away == 0.0:
@@ -131,3 +125,70 @@ def write_part(
         flank = 1.0 if part == FLANK else 0.0
         x, y, z = ay * ez - az * ey, az * ex - ax * ez, ax * ey - ay * ex
         write_principal(out, side, x, y, z, max(radial, FLATTEST), away, 1.0 - flank, flank)
+
+
+@compiled
+def tip_past_rim(
+    b: Floats, n_star: float, star: Floats, lengths: Floats, p: Vector3, n: Vector3, depth: float, radius: float
+) -> float:
+    """Return how far the edges of a vertex come through the plane of a disc past its rim, negative within it.
+
+    The vertex p, from the centre of the disc, is so deep behind it, against n.  Where it has just come through, so have
+    its edges next to it, wherever they lean; an edge that is nearer to the rim than the vertex is deep has come from
+    beside, and it is the rim that meets it.  An edge counts for the end of it that is nearer to the plane; without any
+    the number is large.
+    """
+    (px, py, pz), (nx, ny, nz) = p, n
+    least = math.inf
+    for i in range(int(n_star)):
+        ex, ey, ez = vector_in_world(b, star[3 * i], star[3 * i + 1], star[3 * i + 2])
+        rise = nx * ex + ny * ey + nz * ez
+        if rise * lengths[i] <= 2.0 * depth:
+            continue
+        way = depth / rise
+        x, y, z = px + way * ex, py + way * ey, pz + way * ez
+        along = nx * x + ny * y + nz * z
+        away = math.sqrt(max(x * x + y * y + z * z - along * along, 0.0))
+        least = min(least, away - radius)
+    return least + depth
+
+
+_WAYS = 12
+"""Lines round a cone, or across a cap, of which none may point far into the face that an apex or a foot touches."""
+
+
+def set_back(first: Frustum) -> Numbers:
+    """Return the numbers of the body within its rims as they are set back, out of which only the feet stand.
+
+    So a rim that rolls over the edge of a face goes on at the same height.
+    """
+    own = first.frustum
+    center, axis = np.array(own[CENTER : CENTER + 3]), np.array(own[AXIS : AXIS + 7 : 3])
+    rims = first.standing_rims if len(first.standing_rims) > 1 else 2 * first.standing_rims
+    heights = [float((np.array(place) - center) @ axis) for _, place in rims]
+    x, y, z = center.tolist()
+    return frustum_numbers(
+        [radius for radius, _ in rims], heights, (x, y, z), (axis[0], axis[1], axis[2]), 0.0, own[SWEEP]
+    )
+
+
+def apex_of(first: Frustum) -> Iterator[Corner]:
+    """Yield place, lines of the side and name of the apex of a cone."""
+    sine, cosine = first.frustum[SIN], first.frustum[COS]
+    for radius, place in first.standing_rims:
+        if radius == 0.0:
+            yield place, _round(first, sine, -cosine), "apex"
+
+
+def feet_of(first: Frustum) -> Iterator[Corner]:
+    """Yield place, lines of the cap about it and name of the feet."""
+    for i, foot in enumerate(first.feet):
+        yield foot, _round(first, 1.0, 0.0), f"foot {i}"
+
+
+def _round(first: Frustum, away: float, along: float) -> Numbers:
+    """Return unit vectors round the axis, one after the other."""
+    axes = np.array(first.frustum[AXIS - 2 : AXIS + 7]).reshape(3, 3)
+    angles = [2.0 * math.pi * i / _WAYS for i in range(_WAYS)]
+    ways = [axes @ np.array([away * math.cos(angle), away * math.sin(angle), along]) for angle in angles]
+    return tuple(float(x) for way in ways for x in way)

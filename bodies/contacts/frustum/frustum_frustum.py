@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar, final
 
-from bodies.contacts.features.across import across
-from bodies.contacts.features.frames import point_in_world
+from bodies.contacts.features.frames import across, point_in_world
 from bodies.contacts.features.polytope_tables import Numbers
 from bodies.contacts.features.vertex_face import REACH
 from bodies.contacts.frustum.apex_frustum import ApexFrustum
@@ -94,9 +93,9 @@ def _evaluate(
         past = max(past, inside - REACH * size)
     # deep in the body the other cap, or the side, is nearer
     past = max(past, -gap - 0.5 * max(second[HIGH] - second[LOW], 0.1 * size))
-    write_two(a, out, swap, first, second, gap, past, nx, ny, nz, px, py, pz, overlap)
-    write_side(out, swap, first, LOW_RIM, ax, ay, az, ex, ey, ez, nx, ny, nz, radius)
-    write_side(out, 1.0 - swap, second, part, bx, by, bz, fx, fy, fz, -nx, -ny, -nz, away)
+    write_two(a, out, swap, first, second, gap, past, (nx, ny, nz), (px, py, pz), overlap)
+    write_side(out, swap, first, LOW_RIM, (ax, ay, az), (ex, ey, ez), (nx, ny, nz), radius)
+    write_side(out, 1.0 - swap, second, part, (bx, by, bz), (fx, fy, fz), (-nx, -ny, -nz), away)
 
 
 @final

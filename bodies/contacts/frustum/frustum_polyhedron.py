@@ -8,14 +8,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.blocks import put
-from bodies.contacts.features.across import across
-from bodies.contacts.features.curvature import write_round
-from bodies.contacts.features.disc_tip import tip_past_rim
-from bodies.contacts.features.frames import point_in_world, vector_in_body
+from bodies.blocks import Vector3, put
+from bodies.contacts.features.frames import across, point_in_world, vector_in_body, write_tangent
 from bodies.contacts.features.polytope_tables import FACE, Numbers, face_table, star_lengths, star_of, vertex_table
-from bodies.contacts.features.tangents import write_tangent
 from bodies.contacts.features.vertex_face import DEEP, REACH, height_over
+from bodies.contacts.features.writing import write_round
 from bodies.contacts.frustum.flank_edge import FlankEdge
 from bodies.contacts.frustum.frustum import (
     FLANK,
@@ -25,10 +22,11 @@ from bodies.contacts.frustum.frustum import (
     center_in_world,
     part_names,
     part_number,
+    tip_past_rim,
     write_part,
 )
-from bodies.contacts.frustum.frustum_edge import size_of_both
 from bodies.contacts.frustum.frustum_swept import FrustumSwept, check_number
+from bodies.contacts.frustum.frustum_writing import size_of_both
 from bodies.contacts.frustum.rim_edge import RimEdge
 from bodies.contacts.frustum.rim_face import RimFace
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
@@ -41,19 +39,9 @@ from nonsmooth.types import Floats
 
 
 @compiled
-def _least(
-    a: Floats,
-    b: Floats,
-    n_vertices: float,
-    vertices: Floats,
-    nx: float,
-    ny: float,
-    nz: float,
-    x: float,
-    y: float,
-    z: float,
-) -> float:
+def _least(a: Floats, b: Floats, n_vertices: float, vertices: Floats, normal: Vector3, place: Vector3) -> float:
     """Return the least height of the second body's vertices over the plane through a point with the normal n."""
+    (nx, ny, nz), (x, y, z) = normal, place
     base = nx * (b[POSITION] - x) + ny * (b[POSITION + 1] - y) + nz * (b[POSITION + 2] - z)
     nx, ny, nz = vector_in_body(b, nx, ny, nz)
     least = math.inf
@@ -97,7 +85,7 @@ def _evaluate(
             radial, axial, height = cosine, sine, cosine * dr + sine * dz
         nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
         qx, qy, qz = px - height * nx, py - height * ny, pz - height * nz
-        best = max(best, _least(a, b, n_vertices, vertices, nx, ny, nz, qx, qy, qz))
+        best = max(best, _least(a, b, n_vertices, vertices, (nx, ny, nz), (qx, qy, qz)))
         if height > deepest:
             deepest, inner = height, part
     found, gap, past = inner, deepest, math.inf
@@ -113,7 +101,7 @@ def _evaluate(
             beyond, depth = max(-up, up - frustum[SIDE]), 2.0 * frustum[0]
         nx, ny, nz = radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az
         qx, qy, qz = px - height * nx, py - height * ny, pz - height * nz
-        least = _least(a, b, n_vertices, vertices, nx, ny, nz, qx, qy, qz)
+        least = _least(a, b, n_vertices, vertices, (nx, ny, nz), (qx, qy, qz))
         if least < best - margin:
             continue
         if height < 0.0:
@@ -121,7 +109,7 @@ def _evaluate(
             inside = deepest
             if flat:
                 x, y, z = px - cx, py - cy, pz - cz
-                inside = tip_past_rim(b, n_star, star, lengths, x, y, z, nx, ny, nz, -height, frustum[0])
+                inside = tip_past_rim(b, n_star, star, lengths, (x, y, z), (nx, ny, nz), -height, frustum[0])
                 inside = min(inside, height_over(b, n_faces, faces, qx, qy, qz))
             beyond = max(beyond, inside)
         beyond -= margin
@@ -143,7 +131,7 @@ def _evaluate(
     for i in range(3):
         out[POINT_A + i] = out[POINT_B + i] - gap * out[NORMAL + i]
     write_tangent(a, out)
-    write_part(out, SIDE_A, found, ax, ay, az, ex, ey, ez, radial, max(away - gap * radial, 0.0))
+    write_part(out, SIDE_A, found, (ax, ay, az), (ex, ey, ez), radial, max(away - gap * radial, 0.0))
     write_round(out, SIDE_B, 0.0)
 
 

@@ -12,9 +12,8 @@ from dataclasses import dataclass
 from typing import ClassVar, TypeAlias, final
 
 from bodies.blocks import put
-from bodies.contacts.features.curvature import write_sweep
-from bodies.contacts.features.frames import point_in_world
-from bodies.contacts.features.tangents import write_tangent
+from bodies.contacts.features.frames import point_in_world, write_tangent
+from bodies.contacts.features.writing import write_sweep
 from bodies.contacts.frustum.frustum import (
     FLANK,
     HIGH_CAP,
@@ -29,14 +28,13 @@ from bodies.contacts.frustum.frustum import (
 )
 from bodies.contacts.frustum.frustum_stops import ON_BORDER, by_search, on_cap, on_flank, on_rim
 from bodies.contacts.smooth.boxy_newton import Answer
-from bodies.contacts.smooth.gauge import gauge
-from bodies.contacts.smooth.inscribed import no_shorter_way
+from bodies.contacts.smooth.inscribed import gauge, no_shorter_way
 from bodies.contacts.smooth.round_search import up_hills
 from bodies.contacts.smooth.smooth_core import RADIUS, Axes, axes_in_world, back, between_axes, forth
 from bodies.contacts.smooth.smooth_newton import widest_of_round, write_surface
 from bodies.contacts.smooth.smooth_starts import starts_of, uphill
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
-from bodies.shapes.smooth_shape import SmoothShape
+from bodies.shapes.smooth import SmoothShape
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
@@ -201,14 +199,14 @@ def _nearest(
                 if is_deep:
                     # bodies that overlap so much have no one stop that a search could prove
                     continue
-                found = by_search(frustum, point, core, turn, x, y, z, sx, sy, part, size)
+                found = by_search(frustum, point, core, turn, (x, y, z), (sx, sy), part, size)
             elif part == LOW_CAP or part == HIGH_CAP:
                 found = on_cap(frustum, core, turn, x, y, z, part, near)
             elif part == FLANK:
                 found = on_flank(frustum, core, turn, x, y, z, sx, sy, near)
             else:
                 circle = low if part == LOW_RIM else high
-                found = on_rim(frustum, circle, core, turn, x, y, z, sx, sy, part, tilt)
+                found = on_rim(frustum, circle, core, turn, (x, y, z), (sx, sy), part, tilt)
             if found[0] == found[0] and not found[0] <= best[0]:
                 best, where = found, part
                 if found[0] >= -shallow or _has_room(frustum, part, found, near):
@@ -313,14 +311,14 @@ def _evaluate(
     write_tangent(a, out)
     mx, my, mz = back(turn, -nx, -ny, -nz)
     qx, qy, qz = back(turn, px - x, py - y, pz - z)
-    write_surface(out, SIDE_B, second, axes_b, mx, my, mz, qx, qy, qz)
+    write_surface(out, SIDE_B, second, axes_b, (mx, my, mz), (qx, qy, qz))
     radial = math.sqrt(nx * nx + ny * ny)
     ex, ey = (nx / radial, ny / radial) if radial > 0.0 else (1.0, 0.0)
     ux, uy, uz = forth(axes_a, ex, ey, 0.0)
     away = max(ex * px + ey * py - g * radial, 0.0)
     if part == LOW_RIM or part == HIGH_RIM:
         away = first[0] if part == LOW_RIM else first[1]
-    write_part(out, SIDE_A, part, axes_a[2], axes_a[5], axes_a[8], ux, uy, uz, radial, away)
+    write_part(out, SIDE_A, part, (axes_a[2], axes_a[5], axes_a[8]), (ux, uy, uz), radial, away)
     write_sweep(out, SIDE_A, first[SWEEP])
 
 

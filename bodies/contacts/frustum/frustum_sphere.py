@@ -7,10 +7,8 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.blocks import put
-from bodies.contacts.features.across import across
-from bodies.contacts.features.curvature import write_round, write_sweep
-from bodies.contacts.features.frames import point_in_world
-from bodies.contacts.features.offset import place_sphere
+from bodies.contacts.features.frames import across, point_in_world
+from bodies.contacts.features.writing import place_sphere, write_round, write_sweep
 from bodies.contacts.frustum.frustum import (
     axis_in_world,
     center_in_world,
@@ -44,7 +42,7 @@ def write_frustum_ball(
     put(out, NORMAL, radial * ex + axial * ax, radial * ey + axial * ay, radial * ez + axial * az)
     out[FEATURE] = part_number(first, part)
     place_sphere(a, out, x, y, z, distance - first[SWEEP], radius)
-    write_part(out, SIDE_A, part, ax, ay, az, ex, ey, ez, radial, away - distance * radial)
+    write_part(out, SIDE_A, part, (ax, ay, az), (ex, ey, ez), radial, away - distance * radial)
     write_sweep(out, SIDE_A, first[SWEEP])
     write_round(out, SIDE_B, radius)
     return x, y, z, distance

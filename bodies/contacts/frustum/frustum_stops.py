@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 
+from bodies.blocks import Vector3
 from bodies.contacts.frustum.frustum import FLANK, HIGH_CAP, HIGH_RIM, LOW_CAP
 from bodies.contacts.smooth.boxy_line import across_line
 from bodies.contacts.smooth.boxy_newton import Answer
@@ -117,7 +118,9 @@ def on_flank(
     length = math.sqrt(sx * sx + sy * sy)
     ex, ey = sx / length, sy / length
     if not is_round(core):
-        g, px, py, pz, nx, ny, nz = across_line(core, turn, x, y, z, 0.0, 0.0, 1.0, ex, ey, 0.0, cosine, sine, reach)
+        g, px, py, pz, nx, ny, nz = across_line(
+            core, turn, (x, y, z), (0.0, 0.0, 1.0), (ex, ey, 0.0), cosine, sine, reach
+        )
     else:
         g, px, py, pz, nx, ny, nz = _on_round_flank(frustum, core, turn, x, y, z, ex, ey, near)
     if not _before_flank(frustum, near, (g, px, py, pz, nx, ny, nz)):
@@ -173,19 +176,18 @@ def on_rim(
     circle: Floats,
     core: Floats,
     turn: Axes,
-    x: float,
-    y: float,
-    z: float,
-    sx: float,
-    sy: float,
+    place: Vector3,
+    direction: tuple[float, float],
     part: int,
     tilt: float,
 ) -> Answer:
-    """Return the stop of a rim, or of the apex; begin on the side of the direction (sx, sy).
+    """Return the stop of a rim, or of the apex; begin on the side of a direction across the axis.
 
     Begin at the part ``tilt`` of the way from the normal of the side to that of the cap, if it is below 0 at the way
     from the rim to the centre, if that is between these normals.
     """
+    sx, sy = direction
+    x, y, z = place
     up = 1.0 if part == HIGH_RIM else -1.0
     radius, height = (frustum[1], frustum[HIGH]) if part == HIGH_RIM else (frustum[0], frustum[LOW])
     if radius > 0.0:
@@ -215,11 +217,8 @@ def by_search(
     point: Floats,
     core: Floats,
     turn: Axes,
-    x: float,
-    y: float,
-    z: float,
-    sx: float,
-    sy: float,
+    place: Vector3,
+    direction: tuple[float, float],
     part: int,
     size: float,
 ) -> Answer:
@@ -227,6 +226,8 @@ def by_search(
 
     Next to where two parts meet either of them serves: there their gaps are the same to the square of the way.
     """
+    sx, sy = direction
+    x, y, z = place
     near = _NEAR_BORDER * size
     found: Answer = (math.nan, x, y, z, 0.0, 0.0, 1.0)
     if part == LOW_CAP or part == HIGH_CAP:
@@ -235,7 +236,7 @@ def by_search(
         cosine, sine = frustum[COS], frustum[SIN]
         reach, length = cosine * frustum[0] + sine * frustum[LOW], math.sqrt(sx * sx + sy * sy)
         ex, ey = sx / length, sy / length
-        found = across_line(core, turn, x, y, z, 0.0, 0.0, 1.0, ex, ey, 0.0, cosine, sine, reach)
+        found = across_line(core, turn, (x, y, z), (0.0, 0.0, 1.0), (ex, ey, 0.0), cosine, sine, reach)
         if not _before_flank(frustum, near, found):
             found = math.nan, x, y, z, 0.0, 0.0, 1.0
     else:

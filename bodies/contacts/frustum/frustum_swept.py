@@ -7,19 +7,19 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.offset import place_sphere
 from bodies.contacts.features.polytope_tables import Numbers, star_of
 from bodies.contacts.features.swept_vertex import ended_gap, past_star
+from bodies.contacts.features.writing import place_sphere
 from bodies.contacts.frustum.apex_swept import ApexSwept
 from bodies.contacts.frustum.flank_edge import FlankEdge
 from bodies.contacts.frustum.frustum import part_names
-from bodies.contacts.frustum.frustum_edge import size_of_both
 from bodies.contacts.frustum.frustum_sphere import write_frustum_ball
+from bodies.contacts.frustum.frustum_writing import size_of_both
 from bodies.contacts.frustum.rim_edge import RimEdge
 from bodies.contacts.frustum.rim_face import RimFace
 from bodies.contacts.polyhedron.swept_swept import MOST_CONTACTS
 from bodies.shapes.frustum import Frustum, without_feet
-from bodies.shapes.swept import SweptPolytope
+from bodies.shapes.polyhedron import SweptPolytope
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END
 from nonsmooth.errors import InvalidInput

@@ -1,26 +1,31 @@
-"""What the contacts of two frustums share: both of them seen in the world, and the geometry block."""
+"""Contacts of a frustum with a frustum or an edge: both sides in the world, and the geometry block.
+
+An edge belongs to the second body: a sharp or rounded polyhedron, or a capsule.
+"""
 
 from __future__ import annotations
 
 import math
 from typing import TypeAlias
 
-from bodies.blocks import put
-from bodies.contacts.features.across import across
-from bodies.contacts.features.curvature import write_sweep
-from bodies.contacts.features.tangents import write_tangent
-from bodies.contacts.features.vertex_face import DEEP, REACH
+from bodies.blocks import Vector3, put
+from bodies.contacts.features.frames import across, point_in_world, vector_in_world, write_tangent
+from bodies.contacts.features.polytope_tables import ALONG, INTO_FIRST, INTO_SECOND, START
+from bodies.contacts.features.vertex_face import DEEP, REACH, height_over
+from bodies.contacts.features.writing import write_principal, write_sweep
 from bodies.contacts.frustum.frustum import axis_in_world, center_in_world, nearest_part, write_part
-from bodies.shapes.frustum import COS, FEET, SIN, SWEEP
+from bodies.contacts.smooth.smooth_core import Axes, back, forth
+from bodies.shapes.frustum import COS, FEET, SIN, SWEEP, Frustum
+from bodies.shapes.polyhedron import SweptPolytope
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
 Point: TypeAlias = tuple[float, float, float]
 ASTRAY = 0.25
-"""Sine of the angle by which the normal may leave the normals of a rim: what may soon close is followed."""
+"""Sine of the angle by which the normal may leave the normals of a rim or an edge: what may soon close is followed."""
 _INSIDE = 4.0
-"""Where no point is found inside, what overlaps does so only where it is so many depths away from its ends."""
+"""Where no point is found inside, an overlap counts only where it is, or crosses, so many depths away from its ends."""
 
 
 @compiled
@@ -74,12 +79,8 @@ def write_two(
     two: Floats,
     distance: float,
     past: float,
-    nx: float,
-    ny: float,
-    nz: float,
-    px: float,
-    py: float,
-    pz: float,
+    normal: Vector3,
+    p: Vector3,
     overlap: float,
 ) -> None:
     """Write all but the matrices; n goes from the core of the one frustum, on which p lies, to the other's.
@@ -87,6 +88,7 @@ def write_two(
     The one is the first body, or the second if ``swap`` is 1.  What overlaps, by a negative number, where the features
     are past their ends is no contact of theirs, but a sign that another one was passed.
     """
+    (nx, ny, nz), (px, py, pz) = normal, p
     sweep = one[SWEEP]
     gap = distance - sweep - two[SWEEP]
     if past > 0.0:
@@ -103,25 +105,13 @@ def write_two(
 
 @compiled
 def write_side(
-    out: Floats,
-    second: float,
-    frustum: Floats,
-    part: int,
-    ax: float,
-    ay: float,
-    az: float,
-    x: float,
-    y: float,
-    z: float,
-    nx: float,
-    ny: float,
-    nz: float,
-    away: float,
+    out: Floats, second: float, frustum: Floats, part: int, axis: Vector3, place: Vector3, normal: Vector3, away: float
 ) -> None:
     """Write the matrices of a part of the second body if ``second`` is 1, else of the first.
 
-    (x, y, z) is the way from its axis to the point, of any length, n its outward normal.
+    ``place`` is the vector from its axis to the point, of any length, ``normal`` its outward normal.
     """
+    (ax, ay, az), (x, y, z), (nx, ny, nz) = axis, place, normal
     along = x * ax + y * ay + z * az
     x, y, z = x - along * ax, y - along * ay, z - along * az
     length = math.sqrt(x * x + y * y + z * z)
@@ -130,5 +120,113 @@ def write_side(
         x, y, z = x / length, y / length, z / length
         radial = nx * x + ny * y + nz * z
     side = SIDE_B if second == 1.0 else SIDE_A
-    write_part(out, side, part, ax, ay, az, x, y, z, radial, away)
+    write_part(out, side, part, axis, (x, y, z), radial, away)
     write_sweep(out, side, frustum[SWEEP])
+
+
+PARALLEL = 0.01
+"""Sine of the angle between an edge and what it crosses below which it does not; then ends and vertices hold."""
+
+
+def size_of_both(first: Frustum, second: SweptPolytope) -> float:
+    """Return the size of the larger of the two [m]."""
+    return max(second.core.size + 2.0 * second.sweep, 2.0 * first.extent)
+
+
+@compiled
+def edge_in_frustum(
+    b: Floats, edge: Floats, axes: Axes, cx: float, cy: float, cz: float
+) -> tuple[float, float, float, float, float, float]:
+    """Return the first end from the frustum's centre and the direction of an edge, in the axes of the frustum."""
+    x, y, z = point_in_world(b, edge[START], edge[START + 1], edge[START + 2])
+    x, y, z = back(axes, x - cx, y - cy, z - cz)
+    dx, dy, dz = vector_in_world(b, edge[ALONG], edge[ALONG + 1], edge[ALONG + 2])
+    dx, dy, dz = back(axes, dx, dy, dz)
+    return x, y, z, dx, dy, dz
+
+
+@compiled
+def astray_of_edge(b: Floats, edge: Floats, axes: Axes, nx: float, ny: float, nz: float) -> float:
+    """Return the sine of the angle by which a normal, in the axes of the frustum, leaves those against the edge."""
+    ux, uy, uz = vector_in_world(b, edge[INTO_FIRST], edge[INTO_FIRST + 1], edge[INTO_FIRST + 2])
+    vx, vy, vz = vector_in_world(b, edge[INTO_SECOND], edge[INTO_SECOND + 1], edge[INTO_SECOND + 2])
+    nx, ny, nz = forth(axes, nx, ny, nz)
+    return float(max(-nx * ux - ny * uy - nz * uz, -nx * vx - ny * vy - nz * vz))
+
+
+@compiled
+def past_end(gap: float, over: float, sine: float, astray: float, overlap: float, size: float) -> float:
+    """Return how far a crossing is past its ends, by the way over them, the sine of the crossing and the normal.
+
+    The gap is that of the cores: without a radius, what overlaps is so deep as wide where it crosses.  Where a point of
+    either is inside of the other, by a negative ``overlap``, it holds up to its ends.
+    """
+    past = max(over - REACH * size, size * max(PARALLEL - sine, astray - ASTRAY))
+    if gap < 0.0 and overlap >= -DEEP * size:
+        past = max(past, over - _INSIDE * gap - REACH * size)
+    return past
+
+
+@compiled
+def overlap_at(
+    b: Floats,
+    frustum: Floats,
+    axes: Axes,
+    n_faces: float,
+    faces: Floats,
+    radius: float,
+    over: float,
+    p: Vector3,
+    q: Vector3,
+    place: Vector3,
+) -> float:
+    """Return how deep the points of a crossing are in the other bodies, negative, or 0 if they are past an end.
+
+    p is the frustum's point, in the world, q the edge's in the axes of the frustum, whose centre is ``place``.
+    """
+    (px, py, pz), (qx, qy, qz), (x, y, z) = p, q, place
+    if over > 0.0:
+        return 0.0
+    outside, _, _, _ = nearest_part(frustum, qz, math.sqrt(qx * qx + qy * qy))
+    outside -= radius + frustum[SWEEP]
+    if n_faces > 0.0:
+        outside = min(outside, height_over(b, n_faces, faces, px + x, py + y, pz + z))
+    # rims are set back by the height of the feet over faces only
+    return float(min(outside + 2.0 * frustum[FEET], 0.0))
+
+
+@compiled
+def write_crossing(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    frustum: Floats,
+    axes: Axes,
+    edge: Floats,
+    radius: float,
+    distance: float,
+    past: float,
+    sine: float,
+    normal: Vector3,
+    p: Vector3,
+    overlap: float,
+    size: float,
+) -> None:
+    """Write all but the matrices of the frustum, by the distance of the cores; p is the frustum's, in the world.
+
+    Past its ends a crossing runs faster than the bodies, by the sine of its angle: so much less counts of its way.
+    """
+    (nx, ny, nz), (px, py, pz) = normal, p
+    sweep = frustum[SWEEP]
+    gap = distance - radius - sweep
+    if past > 0.0:
+        # what overlaps is no contact of this crossing, but a sign that another one was passed
+        gap = max(-abs(gap), overlap) if overlap < -DEEP * size else math.hypot(gap, max(PARALLEL, sine) * past)
+    out[GAP], out[FEATURE], out[PAST_END] = gap, 0.0, past
+    out[NORMAL], out[NORMAL + 1], out[NORMAL + 2] = forth(axes, nx, ny, nz)
+    put(out, POINT_A, px + sweep * out[NORMAL], py + sweep * out[NORMAL + 1], pz + sweep * out[NORMAL + 2])
+    for i in range(3):
+        out[POINT_B + i] = out[POINT_A + i] + gap * out[NORMAL + i]
+    write_tangent(a, out)
+    ex, ey, ez = vector_in_world(b, edge[ALONG], edge[ALONG + 1], edge[ALONG + 2])
+    write_principal(out, SIDE_B, ex, ey, ez, 0.0, 1.0, 1.0, radius)

@@ -10,11 +10,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.curvature import write_sweep
+from bodies.blocks import Vector3
 from bodies.contacts.features.polytope_tables import FACE, LENGTH, Numbers, edge_rows, face_table
 from bodies.contacts.features.vertex_face import height_over
+from bodies.contacts.features.writing import write_sweep
 from bodies.contacts.frustum.frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, nearest_part, write_part
-from bodies.contacts.frustum.frustum_edge import (
+from bodies.contacts.frustum.frustum_writing import (
     astray_of_edge,
     edge_in_frustum,
     overlap_at,
@@ -25,7 +26,7 @@ from bodies.contacts.frustum.frustum_edge import (
 from bodies.contacts.smooth.smooth_core import axes_in_world, forth
 from bodies.contacts.surface.surface_search import THROUGH
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
-from bodies.shapes.swept import SweptPolytope
+from bodies.shapes.polyhedron import SweptPolytope
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import SIDE_A
 from nonsmooth.interfaces import ContactKinematics, Shape
@@ -80,23 +81,13 @@ def foot_on_ellipse(semi_x: float, semi_y: float, x: float, y: float) -> tuple[f
 
 
 @compiled
-def _aside(
-    b: Floats,
-    frustum: Floats,
-    n_faces: float,
-    faces: Floats,
-    px: float,
-    py: float,
-    pz: float,
-    x: float,
-    y: float,
-    z: float,
-) -> bool:
+def _aside(b: Floats, frustum: Floats, n_faces: float, faces: Floats, p: Vector3, normal: Vector3) -> bool:
     """Return whether bodies that seem to overlap at a crossing are on the far sides of each other.
 
     Then neither has the other's point: the frustum's in the world, the edge's in the axes of the frustum.  Of a sharp
     rim across a sharp edge neither has it as well, so that it tells of deep overlaps only.
     """
+    (px, py, pz), (x, y, z) = p, normal
     if height_over(b, n_faces, faces, px, py, pz) <= 0.0:
         return False
     outside, _, _, _ = nearest_part(frustum, z, math.sqrt(x * x + y * y))
@@ -177,15 +168,17 @@ def evaluate_rim_edge(
         over = size
     qx, qy, qz = forth(axes, px, py, pz)
     wx, wy, wz = vx + s * dx, vy + s * dy, vz + s * dz
-    overlap = overlap_at(b, frustum, axes, n_faces, faces, radius, over, qx, qy, qz, wx, wy, wz, cx, cy, cz)
+    overlap = overlap_at(b, frustum, axes, n_faces, faces, radius, over, (qx, qy, qz), (wx, wy, wz), (cx, cy, cz))
     past = past_end(gap, over, crossing, astray, overlap, size)
     deep = past <= 0.0 and total == 0.0 and n_faces > 0.0 and gap < -THROUGH * size
-    if deep and _aside(b, frustum, n_faces, faces, cx + qx, cy + qy, cz + qz, wx, wy, wz):
+    if deep and _aside(b, frustum, n_faces, faces, (cx + qx, cy + qy, cz + qz), (wx, wy, wz)):
         past = -gap
     qx, qy, qz = cx + qx, cy + qy, cz + qz
-    write_crossing(a, b, out, frustum, axes, edge, radius, gap, past, crossing, nx, ny, nz, qx, qy, qz, overlap, size)
+    write_crossing(
+        a, b, out, frustum, axes, edge, radius, gap, past, crossing, (nx, ny, nz), (qx, qy, qz), overlap, size
+    )
     ux, uy, uz = forth(axes, ex, ey, 0.0)
-    write_part(out, SIDE_A, part, axes[2], axes[5], axes[8], ux, uy, uz, ex * nx + ey * ny, wide)
+    write_part(out, SIDE_A, part, (axes[2], axes[5], axes[8]), (ux, uy, uz), ex * nx + ey * ny, wide)
     write_sweep(out, SIDE_A, frustum[SWEEP])
 
 

@@ -7,18 +7,16 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.blocks import put
-from bodies.contacts.features.across import across
-from bodies.contacts.features.curvature import write_flat, write_principal, write_round, write_sweep
-from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world
+from bodies.blocks import Vector3, put
+from bodies.contacts.features.frames import across, point_in_world, vector_in_body, vector_in_world, write_tangent
 from bodies.contacts.features.polytope_tables import FACE, Numbers, face_table
-from bodies.contacts.features.tangents import write_tangent
 from bodies.contacts.features.vertex_face import DEEP, REACH, past_face, plane_height
+from bodies.contacts.features.writing import write_flat, write_principal, write_round, write_sweep
 from bodies.contacts.frustum.frustum import axis_in_world, center_in_world, least_height
-from bodies.contacts.frustum.frustum_edge import size_of_both
+from bodies.contacts.frustum.frustum_writing import size_of_both
 from bodies.contacts.plane.plane_rim import FLATTEST
 from bodies.shapes.frustum import SWEEP, Frustum
-from bodies.shapes.swept import SweptPolytope
+from bodies.shapes.polyhedron import SweptPolytope
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
@@ -28,19 +26,10 @@ from nonsmooth.types import Floats
 
 @compiled
 def _lowest(
-    a: Floats,
-    radius: float,
-    x: float,
-    y: float,
-    z: float,
-    ax: float,
-    ay: float,
-    az: float,
-    nx: float,
-    ny: float,
-    nz: float,
+    a: Floats, radius: float, center: Vector3, axis: Vector3, normal: Vector3
 ) -> tuple[float, float, float, float, float, float, float]:
     """Return the rim's farthest point of the world against n, the way to it from the centre, and its sine."""
+    (x, y, z), (ax, ay, az), (nx, ny, nz) = center, axis, normal
     _, sine, ex, ey, ez = across(-nx, -ny, -nz, ax, ay, az)
     px, py, pz = point_in_world(a, x, y, z)
     return px + radius * ex, py + radius * ey, pz + radius * ez, ex, ey, ez, sine
@@ -78,7 +67,7 @@ def _evaluate(
         if least < best - margin:
             continue
         nx, ny, nz = vector_in_world(b, faces[f], faces[f + 1], faces[f + 2])
-        px, py, pz, _, _, _, _ = _lowest(a, radius, x, y, z, ax, ay, az, nx, ny, nz)
+        px, py, pz, _, _, _, _ = _lowest(a, radius, (x, y, z), (ax, ay, az), (nx, ny, nz))
         px, py, pz = vector_in_body(b, px - b[POSITION], py - b[POSITION + 1], pz - b[POSITION + 2])
         height = plane_height(faces, f, px, py, pz)
         beyond = past_face(faces, n_faces, f, height, px, py, pz)
@@ -98,7 +87,7 @@ def _evaluate(
         gap = deepest if deepest < -DEEP * size else math.sqrt(gap * gap + past * past)
     f = FACE * found
     nx, ny, nz = vector_in_world(b, faces[f], faces[f + 1], faces[f + 2])
-    px, py, pz, ex, ey, ez, sine = _lowest(a, radius, x, y, z, ax, ay, az, nx, ny, nz)
+    px, py, pz, ex, ey, ez, sine = _lowest(a, radius, (x, y, z), (ax, ay, az), (nx, ny, nz))
     out[GAP], out[FEATURE], out[PAST_END] = gap, float(found), past
     put(out, NORMAL, -nx, -ny, -nz)
     put(out, POINT_A, px - own * nx, py - own * ny, pz - own * nz)

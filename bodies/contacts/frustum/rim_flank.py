@@ -11,6 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
+from bodies.blocks import Vector3
 from bodies.contacts.features.polytope_tables import Numbers
 from bodies.contacts.frustum.frustum import FLANK, HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world
 from bodies.contacts.frustum.frustum_writing import astray_of_rim, overlap_of, past_border, write_side, write_two
@@ -31,20 +32,9 @@ _BENT = 1e-6
 
 
 @compiled
-def _height(
-    second: Floats,
-    cx: float,
-    cy: float,
-    cz: float,
-    gx: float,
-    gy: float,
-    gz: float,
-    hx: float,
-    hy: float,
-    hz: float,
-    angle: float,
-) -> tuple[float, float, float]:
-    """Return height over the side of the point c + g cos + h sin, all in the axes of the side, and two derivatives."""
+def _height(second: Floats, middle: Vector3, g: Vector3, h: Vector3, angle: float) -> tuple[float, float, float]:
+    """Return height over the side of the point middle + g cos + h sin in the axes of the side, and two derivatives."""
+    (cx, cy, cz), (gx, gy, gz), (hx, hy, hz) = middle, g, h
     c, s = math.cos(angle), math.sin(angle)
     x, y = cx + c * gx + s * hx, cy + c * gy + s * hy
     dx, dy, dz = c * hx - s * gx, c * hy - s * gy, c * hz - s * gz
@@ -58,30 +48,18 @@ def _height(
 
 
 @compiled
-def least_round(
-    second: Floats,
-    cx: float,
-    cy: float,
-    cz: float,
-    gx: float,
-    gy: float,
-    gz: float,
-    hx: float,
-    hy: float,
-    hz: float,
-    low: float,
-    high: float,
-) -> tuple[float, bool]:
+def least_round(second: Floats, middle: Vector3, g: Vector3, h: Vector3, low: float, high: float) -> tuple[float, bool]:
     """Return the angle between bounds at which the height is a minimum, and whether there is one."""
+    gx, gy, gz = g
     step = (high - low) / _SAMPLES
     best, angle = math.inf, low
     for i in range(_SAMPLES + 1):
-        value, _, _ = _height(second, cx, cy, cz, gx, gy, gz, hx, hy, hz, low + i * step)
+        value, _, _ = _height(second, middle, g, h, low + i * step)
         if value < best:
             best, angle = value, low + i * step
     least, most = angle - step, angle + step
     for _ in range(_STEPS):
-        _, slope, bend = _height(second, cx, cy, cz, gx, gy, gz, hx, hy, hz, angle)
+        _, slope, bend = _height(second, middle, g, h, angle)
         if slope > 0.0:
             most = angle
         else:
@@ -92,7 +70,7 @@ def least_round(
         if abs(after - angle) <= 2e-16 * max(abs(angle), 0.1):
             break
         angle = after
-    _, _, bend = _height(second, cx, cy, cz, gx, gy, gz, hx, hy, hz, angle)
+    _, _, bend = _height(second, middle, g, h, angle)
     size = math.sqrt(gx * gx + gy * gy + gz * gz)
     # all round there is no end that a minimum could be past
     within = low <= angle <= high or high - low > 1.5 * math.pi
@@ -141,7 +119,7 @@ def _evaluate(
             # all round, from where it is farthest
             low = math.atan2(mx * hx + my * hy, mx * gx + my * gy)
             high = low + 2.0 * math.pi
-        angle, found = least_round(second, mx, my, mz, gx, gy, gz, hx, hy, hz, low, high)
+        angle, found = least_round(second, (mx, my, mz), (gx, gy, gz), (hx, hy, hz), low, high)
     c, s = math.cos(angle), math.sin(angle)
     ox, oy, oz = c * gx + s * hx, c * gy + s * hy, c * gz + s * hz
     x, y, z = mx + ox, my + oy, mz + oz
@@ -170,10 +148,10 @@ def _evaluate(
         overlap = overlap_of(own, first, other, second, gap, size, point, (wx, wy, wz))
     # deep in the body a cap is nearer
     past = max(past_border(gap, over, astray, overlap, size), -gap - 0.5 * second[0])
-    write_two(a, out, swap, first, second, gap, past, wx, wy, wz, kx + px, ky + py, kz + pz, overlap)
-    write_side(out, swap, first, part, own_axes[2], own_axes[5], own_axes[8], ux, uy, uz, wx, wy, wz, radius)
+    write_two(a, out, swap, first, second, gap, past, (wx, wy, wz), (kx + px, ky + py, kz + pz), overlap)
+    write_side(out, swap, first, part, (own_axes[2], own_axes[5], own_axes[8]), (ux, uy, uz), (wx, wy, wz), radius)
     away = max(away - gap * cosine, 0.0)
-    write_side(out, 1.0 - swap, second, FLANK, axes[2], axes[5], axes[8], px, py, pz, -wx, -wy, -wz, away)
+    write_side(out, 1.0 - swap, second, FLANK, (axes[2], axes[5], axes[8]), (px, py, pz), (-wx, -wy, -wz), away)
 
 
 @final

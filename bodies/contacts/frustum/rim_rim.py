@@ -12,10 +12,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
+from bodies.blocks import Vector3
 from bodies.contacts.features.polytope_tables import Numbers
 from bodies.contacts.features.vertex_face import REACH
-from bodies.contacts.frustum.frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, nearest_part
-from bodies.contacts.frustum.frustum_parts import set_back
+from bodies.contacts.frustum.frustum import HIGH_RIM, LOW_RIM, RIM_NAMES, center_in_world, nearest_part, set_back
 from bodies.contacts.frustum.frustum_writing import Point, astray_of_rim, overlap_of, past_border, write_side, write_two
 from bodies.contacts.smooth.smooth_core import axes_in_world, back, forth
 from bodies.shapes.frustum import COS, HIGH, LOW, SIDE, SIN, SWEEP, Frustum
@@ -39,23 +39,13 @@ _SAMPLES, _LEVELS, _STEPS = 16, 3, 60
 
 @compiled
 def _slope(
-    wide: float,
-    radius: float,
-    cx: float,
-    cy: float,
-    cz: float,
-    gx: float,
-    gy: float,
-    gz: float,
-    hx: float,
-    hy: float,
-    hz: float,
-    angle: float,
+    wide: float, radius: float, middle: Vector3, g: Vector3, h: Vector3, angle: float
 ) -> tuple[float, float, float]:
-    """Return the square of the distance from c + radius (g cos + h sin) to a circle about the third axis, and slopes.
+    """Return the squared distance from middle + radius (g cos + h sin) to a circle about the third axis, and slopes.
 
     They are half of its derivative by the angle, over the radius, and the derivative of that.
     """
+    (cx, cy, cz), (gx, gy, gz), (hx, hy, hz) = middle, g, h
     c, s = math.cos(angle), math.sin(angle)
     ux, uy, uz = c * gx + s * hx, c * gy + s * hy, c * gz + s * hz
     tx, ty, tz = c * hx - s * gx, c * hy - s * gy, c * hz - s * gz
@@ -70,20 +60,9 @@ def _slope(
 
 
 @compiled
-def _linked(
-    wide: float,
-    radius: float,
-    cx: float,
-    cy: float,
-    cz: float,
-    gx: float,
-    gy: float,
-    gz: float,
-    hx: float,
-    hy: float,
-    hz: float,
-) -> bool:
+def _linked(wide: float, radius: float, center: Vector3, g: Vector3, h: Vector3) -> bool:
     """Whether one of the points where the first circle comes through the plane of the second lies in the latter."""
+    (cx, cy, cz), (gx, gy, gz), (hx, hy, hz) = center, g, h
     size = radius * math.sqrt(gz * gz + hz * hz)
     if abs(cz) >= size:
         return False
@@ -157,7 +136,7 @@ def _evaluate(
     for _ in range(_LEVELS):
         best, curved, chosen = math.inf, 0.0, 0
         for i in range(_SAMPLES + 1):
-            square, _, bend = _slope(wide, radius, cx, cy, cz, gx, gy, gz, hx, hy, hz, begin + i * step)
+            square, _, bend = _slope(wide, radius, (cx, cy, cz), (gx, gy, gz), (hx, hy, hz), begin + i * step)
             if square < best:
                 best, curved, chosen = square, bend, i
         angle = begin + chosen * step
@@ -168,7 +147,7 @@ def _evaluate(
         step /= _SAMPLES
     least, most = angle - step, angle + step
     for _ in range(_STEPS):
-        _, slope, bend = _slope(wide, radius, cx, cy, cz, gx, gy, gz, hx, hy, hz, angle)
+        _, slope, bend = _slope(wide, radius, (cx, cy, cz), (gx, gy, gz), (hx, hy, hz), angle)
         if slope > 0.0:
             most = angle
         else:
@@ -247,7 +226,11 @@ def _evaluate(
             if first[SIDE] > 0.0:
                 other = _inside(first, wide, (dx, dy, dz), (ex, ey, 0.0), (-ey, ex, 0.0), (ax, ay, az), reach)
                 outside = min(outside, other)
-        if first[SIDE] == 0.0 and second[SIDE] == 0.0 and _linked(wide, radius, cx, cy, cz, gx, gy, gz, hx, hy, hz):
+        if (
+            first[SIDE] == 0.0
+            and second[SIDE] == 0.0
+            and _linked(wide, radius, (cx, cy, cz), (gx, gy, gz), (hx, hy, hz))
+        ):
             outside = gap
         # bodies that overlap next to the crossing have the normal among those of both rims
         past = max(past, outside - REACH * size, size * (astray - _LEAN))
@@ -261,9 +244,9 @@ def _evaluate(
     overlap = 0.0
     if past > 0.0 and not none:
         overlap = overlap_of(a, first, b, second, gap, size, (px, py, pz), (wx, wy, wz))
-    write_two(a, out, 0.0, first, second, gap, past, wx, wy, wz, px, py, pz, overlap)
-    write_side(out, 0.0, first, LOW_RIM, own_axes[2], own_axes[5], own_axes[8], ux, uy, uz, wx, wy, wz, radius)
-    write_side(out, 1.0, second, LOW_RIM, axes[2], axes[5], axes[8], vx, vy, vz, -wx, -wy, -wz, wide)
+    write_two(a, out, 0.0, first, second, gap, past, (wx, wy, wz), (px, py, pz), overlap)
+    write_side(out, 0.0, first, LOW_RIM, (own_axes[2], own_axes[5], own_axes[8]), (ux, uy, uz), (wx, wy, wz), radius)
+    write_side(out, 1.0, second, LOW_RIM, (axes[2], axes[5], axes[8]), (vx, vy, vz), (-wx, -wy, -wz), wide)
 
 
 @final

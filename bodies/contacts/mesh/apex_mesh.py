@@ -8,13 +8,12 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.blocks import put
-from bodies.contacts.features.curvature import write_round
-from bodies.contacts.features.frames import vector_in_body
+from bodies.contacts.features.frames import vector_in_body, write_tangent
 from bodies.contacts.features.swept_vertex import END, NEAR, OPEN
-from bodies.contacts.features.tangents import write_tangent
+from bodies.contacts.features.writing import write_round
 from bodies.contacts.frustum.apex_swept import past_apex
 from bodies.contacts.frustum.frustum import axis_in_world, center_in_world
-from bodies.contacts.surface.surface_feature import out_of_surface, write_feature
+from bodies.contacts.surface.surface_ball import out_of_surface, write_feature
 from bodies.contacts.surface.surface_search import FAR, ON_CORNER, ON_EDGE, Found, nearest_in_patch
 from bodies.contacts.surface.surface_tables import EDGE, EDGES, N_PATCHES, Numbers, surface_numbers
 from bodies.meshes.features import Features

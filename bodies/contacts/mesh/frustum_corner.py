@@ -8,12 +8,9 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.blocks import put
-from bodies.contacts.features.across import across
-from bodies.contacts.features.curvature import write_round
-from bodies.contacts.features.disc_tip import tip_past_rim
-from bodies.contacts.features.frames import point_in_world, vector_in_body
-from bodies.contacts.features.tangents import write_tangent
+from bodies.contacts.features.frames import across, point_in_world, vector_in_body, write_tangent
 from bodies.contacts.features.vertex_face import DEEP, REACH
+from bodies.contacts.features.writing import write_round
 from bodies.contacts.frustum.frustum import (
     FLANK,
     HIGH_CAP,
@@ -22,6 +19,7 @@ from bodies.contacts.frustum.frustum import (
     center_in_world,
     part_names,
     part_number,
+    tip_past_rim,
     write_part,
 )
 from bodies.contacts.surface.surface_search import depth_inside
@@ -99,7 +97,7 @@ def _evaluate(
         if flat and height < -DEEP * size and beyond <= 0.0:
             # and behind a disc what has come through it, or has it inside
             past_rim = tip_past_rim(
-                b, n_star, star, lengths, px - cx, py - cy, pz - cz, nx, ny, nz, -height, frustum[0]
+                b, n_star, star, lengths, (px - cx, py - cy, pz - cz), (nx, ny, nz), -height, frustum[0]
             )
             x, y, z = (
                 px - height * nx - b[POSITION],
@@ -125,7 +123,7 @@ def _evaluate(
     for i in range(3):
         out[POINT_A + i] = out[POINT_B + i] - gap * out[NORMAL + i]
     write_tangent(a, out)
-    write_part(out, SIDE_A, found, ax, ay, az, ex, ey, ez, radial, max(away - gap * radial, 0.0))
+    write_part(out, SIDE_A, found, (ax, ay, az), (ex, ey, ez), radial, max(away - gap * radial, 0.0))
     write_round(out, SIDE_B, 0.0)
 
 

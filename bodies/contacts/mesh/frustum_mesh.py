@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, final
 
-from bodies.contacts.frustum.frustum_parts import apex_of, feet_of, set_back
+from bodies.contacts.frustum.frustum import apex_of, feet_of, set_back
 from bodies.contacts.frustum.frustum_swept import FrustumSwept
 from bodies.contacts.mesh.apex_mesh import ApexMesh
 from bodies.contacts.mesh.flank_mesh import FlankMesh

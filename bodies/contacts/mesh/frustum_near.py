@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from bodies.contacts.features.across import across
-from bodies.contacts.features.frames import vector_in_body
+from bodies.blocks import Vector3
+from bodies.contacts.features.frames import across, vector_in_body
 from bodies.contacts.features.vertex_face import DEEP
 from bodies.contacts.frustum.frustum import FLANK, HIGH_CAP, LOW_CAP, axis_in_world, center_in_world, nearest_part
 from bodies.contacts.frustum.frustum_writing import astray_of_rim
 from bodies.contacts.mesh.frustum_corner import over_part
 from bodies.contacts.mesh.surface_rim import lowest_on_rim
-from bodies.contacts.mesh.swept_near import steepest
+from bodies.contacts.mesh.swept_pairs import steepest
 from bodies.contacts.surface.surface_search import in_triangle
 from bodies.contacts.surface.surface_tables import CORNER, CORNERS, FACE, FACES
 from bodies.contacts.surface.surface_vertex import ASTRAY
@@ -110,21 +110,13 @@ def rim_is_near(
 
 @compiled
 def _edge_comes_near(
-    frustum: Floats,
-    pose: FrustumPose,
-    x: float,
-    y: float,
-    z: float,
-    dx: float,
-    dy: float,
-    dz: float,
-    length: float,
-    reach: float,
+    frustum: Floats, pose: FrustumPose, start: Vector3, direction: Vector3, length: float, reach: float
 ) -> bool:
     """Return whether a part of an edge may be no farther from the core than a reach [m], which may be negative.
 
     The distance from what is convex is convex along a line.
     """
+    (x, y, z), (dx, dy, dz) = start, direction
     cx, cy, cz, ax, ay, az = pose
     low, high = 0.0, length
     for _ in range(_HALVINGS):
@@ -178,17 +170,17 @@ def edge_is_near(
         surface[e + 6],
     )
     has_upper = frustum[SIDE] > 0.0 and frustum[1] > 0.0
-    if not _edge_comes_near(frustum, pose, x, y, z, dx, dy, dz, length, reach):
+    if not _edge_comes_near(frustum, pose, (x, y, z), (dx, dy, dz), length, reach):
         return False, False, False
     deep = 0.0 if frustum[SIDE] == 0.0 else -DEEP * size
-    if _edge_comes_near(frustum, pose, x, y, z, dx, dy, dz, length, deep):
+    if _edge_comes_near(frustum, pose, (x, y, z), (dx, dy, dz), length, deep):
         return frustum[SIDE] > 0.0, True, has_upper
     nx, ny, nz, half = edge_normal(surface, e)
     off = half + turn + _SHARP
     axial = nx * pose[3] + ny * pose[4] + nz * pose[5]
     flank = frustum[SIDE] > 0.0 and abs(axial - frustum[SIN]) <= off
-    lower = _rim_crosses(frustum, 0, pose, nx, ny, nz, off, x, y, z, dx, dy, dz, length, reach)
-    upper = has_upper and _rim_crosses(frustum, 1, pose, nx, ny, nz, off, x, y, z, dx, dy, dz, length, reach)
+    lower = _rim_crosses(frustum, 0, pose, (nx, ny, nz), off, (x, y, z), (dx, dy, dz), length, reach)
+    upper = has_upper and _rim_crosses(frustum, 1, pose, (nx, ny, nz), off, (x, y, z), (dx, dy, dz), length, reach)
     return flank, lower, upper
 
 
@@ -197,20 +189,15 @@ def _rim_crosses(
     frustum: Floats,
     upper: int,
     pose: FrustumPose,
-    nx: float,
-    ny: float,
-    nz: float,
+    normal: Vector3,
     off: float,
-    x: float,
-    y: float,
-    z: float,
-    dx: float,
-    dy: float,
-    dz: float,
+    start: Vector3,
+    along: Vector3,
     length: float,
     reach: float,
 ) -> bool:
     """Return whether an edge may touch a rim where that is farthest along a normal, which may be off by an angle."""
+    (nx, ny, nz), (x, y, z), (dx, dy, dz) = normal, start, along
     px, py, pz, radial, astray = _lowest(frustum, upper, pose, nx, ny, nz)
     if astray > off:
         return False

@@ -5,12 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from bodies.contacts.features.across import across
-from bodies.contacts.features.frames import vector_in_body
+from bodies.contacts.features.frames import across, vector_in_body
 from bodies.contacts.features.polytope_tables import INTO_FIRST, INTO_SECOND, LENGTH
 from bodies.contacts.features.vertex_face import DEEP
 from bodies.contacts.frustum.frustum import center_in_world, nearest_part
-from bodies.contacts.frustum.frustum_edge import edge_in_frustum
+from bodies.contacts.frustum.frustum_writing import edge_in_frustum
 from bodies.contacts.smooth.smooth_core import Axes, axes_in_world
 from bodies.contacts.surface.surface_search import THROUGH, depth_inside
 from bodies.contacts.surface.surface_tables import Numbers, edge_row, surface_numbers

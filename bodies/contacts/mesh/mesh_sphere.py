@@ -1,4 +1,4 @@
-"""A sphere against a triangle mesh, convex or not, in closed form."""
+"""A sphere against a triangle mesh, in closed form; of many patches those near it are contacts."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.mesh.mesh_sphere_near import MeshSphereNear
-from bodies.contacts.surface.patch_near import are_many
+from bodies.contacts.features.writing import write_apart
+from bodies.contacts.surface.patch_near import PatchNear, are_many
 from bodies.contacts.surface.surface_ball import write_ball
 from bodies.contacts.surface.surface_search import FAR
 from bodies.contacts.surface.surface_tables import Numbers, surface_numbers
@@ -18,6 +18,47 @@ from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Table, Value
 from nonsmooth.types import Floats
+
+
+def _evaluate_near(
+    a: Floats,
+    b: Floats,
+    out: Floats,
+    candidate: Floats,
+    surface: Floats,
+    radius: float,
+    x_b: float,
+    y_b: float,
+    z_b: float,
+    size: float,
+) -> None:
+    if candidate[0] == 0.0:
+        write_apart(a, out, size)
+    else:
+        reach = radius + candidate[3]
+        write_ball(a, b, out, surface, candidate[1], radius, x_b, y_b, z_b, 0.0, surface, size, reach)
+
+
+@final
+@dataclass(frozen=True)
+class MeshSphereNear(PatchNear):
+    """The contact of a sphere with one of the patches of a mesh that are near it."""
+
+    pair: ClassVar[tuple[type[Shape], type[Shape]]] = (TriangleMesh, Sphere)
+
+    @classmethod
+    def between(cls, first: Shape, second: Shape) -> tuple[MeshSphereNear, ...]:
+        """Return as many contacts as there are patches."""
+        assert isinstance(first, TriangleMesh)
+        assert isinstance(second, Sphere)
+        ball = second.x, second.y, second.z, second.radius
+        values = dict(zip(("x_b", "y_b", "z_b", "radius"), ball, strict=True))
+        return cls._of_patches(first.features, patches_for_ball(first.features, second.radius), ball, values)
+
+    @property
+    def evaluator(self) -> Callable[..., None]:
+        """The closed form."""
+        return _evaluate_near
 
 
 def _evaluate(

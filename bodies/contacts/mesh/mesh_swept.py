@@ -15,7 +15,7 @@ from bodies.contacts.mesh.swept_pairs import SweptPairs, surface_of_core
 from bodies.contacts.surface.surface_edges import evaluate_edges
 from bodies.contacts.surface.surface_pairs import features_of_core
 from bodies.contacts.surface.surface_tables import star_of
-from bodies.shapes.swept import SweptPolytope
+from bodies.shapes.polyhedron import SweptPolytope
 from bodies.shapes.triangle_mesh import TriangleMesh
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value

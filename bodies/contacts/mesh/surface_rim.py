@@ -6,12 +6,9 @@ import math
 from typing import TypeAlias
 
 from bodies.blocks import put
-from bodies.contacts.features.across import across
-from bodies.contacts.features.curvature import write_flat, write_principal, write_sweep
-from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world
-from bodies.contacts.features.offset import gap_at_distance
-from bodies.contacts.features.tangents import write_tangent
+from bodies.contacts.features.frames import across, point_in_world, vector_in_body, vector_in_world, write_tangent
 from bodies.contacts.features.vertex_face import REACH
+from bodies.contacts.features.writing import gap_at_distance, write_flat, write_principal, write_sweep
 from bodies.contacts.frustum.frustum import axis_in_world
 from bodies.contacts.frustum.frustum_writing import astray_of_rim
 from bodies.contacts.plane.plane_rim import FLATTEST

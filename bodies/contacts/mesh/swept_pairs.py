@@ -1,31 +1,124 @@
-"""A rounded polyhedron or a capsule and a surface of so many features that those near each other are contacts."""
+"""A rounded polyhedron or a capsule against a surface of many features: those near each other are contacts."""
 
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.apart import NO_CANDIDATE, write_apart
+from bodies.contacts.features.frames import vector_in_body, vector_in_world
 from bodies.contacts.features.polytope_tables import EDGE as CORE_EDGE
 from bodies.contacts.features.polytope_tables import edge_rows, end_table, face_table, star_of
 from bodies.contacts.features.swept_vertex import write_vertex
-from bodies.contacts.mesh.swept_near import corners_over
+from bodies.contacts.features.vertex_face import nearest_feature
+from bodies.contacts.features.writing import NO_CANDIDATE, write_apart
 from bodies.contacts.surface.edges_near import edges_across
 from bodies.contacts.surface.surface_ball import write_ball
 from bodies.contacts.surface.surface_edges import write_edges
 from bodies.contacts.surface.surface_near import NARROW, patches_near, room_ahead, seen_from
 from bodies.contacts.surface.surface_pairs import MOST_NEAR, features_of_core
-from bodies.contacts.surface.surface_tables import CORNER, CORNERS, EDGE, EDGES, NOTHING, STARS, surface_numbers
+from bodies.contacts.surface.surface_tables import (
+    CORNER,
+    CORNERS,
+    EDGE,
+    EDGES,
+    MEMBERS,
+    N_EDGES,
+    N_NODES,
+    N_TRIANGLES,
+    NODE,
+    NODES,
+    NOTHING,
+    STARS,
+    surface_numbers,
+)
 from bodies.meshes.patches import patches_for_ball, patches_for_body
+from bodies.shapes.polyhedron import SweptPolytope
 from bodies.shapes.polytope import Polytope
-from bodies.shapes.swept import SweptPolytope
 from bodies.shapes.triangle_mesh import TriangleMesh
-from nonsmooth.compiled import block_at
+from nonsmooth.compiled import block_at, compiled
+from nonsmooth.engine.memory.blocks import NORMAL
 from nonsmooth.interfaces import CandidateSearch, ContactKinematics, Shape
 from nonsmooth.parameters import Table, Value
 from nonsmooth.types import Floats
+
+
+@compiled
+def steepest(surface: Floats, corner: int, x: float, y: float, z: float) -> float:
+    """Return how far a vector in the axes of a surface points along the edge of a corner that is most along it."""
+    most, star = -math.inf, int(surface[STARS]) + int(surface[corner + 4])
+    for _ in range(int(surface[corner + 5])):
+        most = max(most, x * surface[star] + y * surface[star + 1] + z * surface[star + 2])
+        star += 3
+    return most
+
+
+@compiled
+def corners_over(
+    a: Floats,
+    b: Floats,
+    surface: Floats,
+    n_faces: float,
+    faces: Floats,
+    n_edges: float,
+    edges: Floats,
+    ends: Floats,
+    sweep: float,
+    reach: float,
+    turn: float,
+    kind: float,
+    out: Floats,
+    n: int,
+    most: int,
+) -> int:
+    """Write the corners of the surface in ``a`` near a core in ``b`` behind ``n``; return how many there are.
+
+    Of a corner that touches what is nearest lies along none of its edges.  The way there changes by no more than the
+    corner moves, and by the turn of its edges.
+
+    Parameters
+    ----------
+    a, b : Floats
+        Frame blocks.
+    surface : Floats
+        Numbers of the surface.
+    n_faces, faces, n_edges, edges, ends, sweep : float and Floats
+        The core and the radius about it, as of :class:`bodies.contacts.features.swept_vertex.SweptVertex`.
+    reach, turn, kind, out, n, most : float, Floats and int
+        As of :func:`bodies.contacts.surface.surface_near.corners_near`.
+    """
+    first, members, node = int(surface[N_TRIANGLES]) + int(surface[N_EDGES]), int(surface[MEMBERS]), 0
+    while node < int(surface[N_NODES]) and n <= most:
+        at = int(surface[NODES]) + NODE * node
+        dx, dy, dz = (
+            0.5 * (surface[at + 3] - surface[at]),
+            0.5 * (surface[at + 4] - surface[at + 1]),
+            0.5 * (surface[at + 5] - surface[at + 2]),
+        )
+        x, y, z = seen_from(b, a, surface[at] + dx, surface[at + 1] + dy, surface[at + 2] + dz)
+        found = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
+        if found[1] > sweep + reach + math.sqrt(dx * dx + dy * dy + dz * dz):
+            node = int(surface[at + 6])
+            continue
+        for i in range(int(surface[at + 8])):
+            corner = int(surface[members + int(surface[at + 7]) + i]) - first
+            if corner < 0 or n > most:
+                continue
+            c = int(surface[CORNERS]) + CORNER * corner
+            x, y, z = seen_from(b, a, surface[c], surface[c + 1], surface[c + 2])
+            _, distance, nx, ny, nz, _ = nearest_feature(n_faces, faces, n_edges, edges, ends, x, y, z)
+            if distance > sweep + reach:
+                continue
+            nx, ny, nz = vector_in_world(b, nx, ny, nz)
+            nx, ny, nz = vector_in_body(a, nx, ny, nz)
+            if distance <= 0.0 or distance * steepest(surface, c, -nx, -ny, -nz) <= reach + turn * distance:
+                out[NORMAL + 3 * n], out[NORMAL + 1 + 3 * n], out[NORMAL + 2 + 3 * n] = kind, float(corner), 0.0
+                n += 1
+        node += 1
+    return n
+
 
 BALL, UNDER, ACROSS = 1.0, 2.0, 3.0
 """A patch and a vertex of the core, as a ball over it, a corner of the surface, and edges of both: the first of the

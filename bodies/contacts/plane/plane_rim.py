@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 
-from bodies.contacts.features.across import across
-from bodies.contacts.features.curvature import write_principal, write_sweep
-from bodies.contacts.features.frames import point_in_world, vector_in_world
+from bodies.contacts.features.frames import across, point_in_world, vector_in_world
+from bodies.contacts.features.writing import write_principal, write_sweep
 from bodies.contacts.plane.plane_point import place_over_plane
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import ROTATION, SIDE_B, SPIN

@@ -11,7 +11,7 @@ from bodies.contacts.plane.plane_point import place_over_plane
 from bodies.contacts.smooth.smooth_core import RADIUS, axes_in_world, back, forth
 from bodies.contacts.smooth.smooth_newton import write_surface
 from bodies.shapes.ground import Ground
-from bodies.shapes.smooth_shape import SmoothShape
+from bodies.shapes.smooth import SmoothShape
 from bodies.shapes.support_function import support_of
 from nonsmooth.engine.memory.blocks import ROTATION, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape
@@ -29,7 +29,7 @@ def _evaluate(a: Floats, b: Floats, out: Floats, height: float, second: Floats) 
     place_over_plane(
         a, out, x + px - r * a[ROTATION + 2], y + py - r * a[ROTATION + 5], z + pz - r * a[ROTATION + 8], height
     )
-    write_surface(out, SIDE_B, second, axes, mx, my, mz, s[1], s[2], s[3])
+    write_surface(out, SIDE_B, second, axes, (mx, my, mz), (s[1], s[2], s[3]))
 
 
 @final

@@ -6,11 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.curvature import write_flat, write_round
-from bodies.contacts.features.frames import point_in_world, vector_in_world
+from bodies.contacts.features.frames import point_in_world, tangent_of, vector_in_world
 from bodies.contacts.features.polytope_tables import FACE, Numbers, face_table, vertex_table
-from bodies.contacts.features.tangents import tangent_of
 from bodies.contacts.features.vertex_face import nearest_face
+from bodies.contacts.features.writing import write_flat, write_round
 from bodies.contacts.polyhedron.polyhedron_sphere import PolyhedronSphere
 from bodies.shapes.point import Point
 from bodies.shapes.polyhedron import Polyhedron

@@ -9,11 +9,10 @@ from types import MappingProxyType
 from typing import ClassVar, final
 
 from bodies.blocks import put
-from bodies.contacts.features.curvature import write_principal
-from bodies.contacts.features.frames import point_in_world, vector_in_world
+from bodies.contacts.features.frames import point_in_world, tangent_of, vector_in_world
 from bodies.contacts.features.polytope_tables import FACE, INTO_FIRST, INTO_SECOND, Numbers, edge_rows, face_table
-from bodies.contacts.features.tangents import tangent_of
 from bodies.contacts.features.vertex_face import CLOSED, DEEP, height_over
+from bodies.contacts.features.writing import write_principal
 from bodies.contacts.polyhedron.polyhedron_point import PointPolyhedron, PolyhedronPoint
 from bodies.contacts.polyhedron.swept_swept import MOST_CONTACTS, SweptSwept
 from bodies.contacts.surface.surface_pairs import SurfacePairs, features_of_core

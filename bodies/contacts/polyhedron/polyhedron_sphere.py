@@ -8,12 +8,11 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.blocks import put
-from bodies.contacts.features.curvature import write_round
-from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world
-from bodies.contacts.features.nearest import nearest_feature
+from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world, write_tangent
 from bodies.contacts.features.polytope_tables import EDGE, FACE, Numbers, edge_rows, end_table, face_table
-from bodies.contacts.features.swept_side import write_swept
-from bodies.contacts.features.tangents import write_tangent
+from bodies.contacts.features.swept_vertex import write_swept
+from bodies.contacts.features.vertex_face import nearest_feature
+from bodies.contacts.features.writing import write_round
 from bodies.shapes.polyhedron import Polyhedron
 from bodies.shapes.sphere import Sphere
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B

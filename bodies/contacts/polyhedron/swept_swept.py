@@ -8,13 +8,12 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.blocks import put
-from bodies.contacts.features.curvature import write_principal
-from bodies.contacts.features.frames import point_in_world, vector_in_world
+from bodies.contacts.features.frames import point_in_world, tangent_of, vector_in_world, write_tangent
 from bodies.contacts.features.polytope_tables import FACE, INTO_FIRST, INTO_SECOND, Numbers, edge_rows, face_table
 from bodies.contacts.features.swept_vertex import END, SweptVertex, size_of
-from bodies.contacts.features.tangents import tangent_of, write_tangent
 from bodies.contacts.features.vertex_face import height_over
-from bodies.shapes.swept import SweptPolytope
+from bodies.contacts.features.writing import write_principal
+from bodies.shapes.polyhedron import SweptPolytope
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.errors import InvalidInput

@@ -8,10 +8,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.curvature import write_flat, write_principal, write_round
 from bodies.contacts.features.frames import point_in_world, turned_by, vector_in_body, vector_in_world
-from bodies.contacts.features.offset import place_sphere
-from bodies.contacts.features.sides import by_side
+from bodies.contacts.features.writing import by_side, place_sphere, write_flat, write_principal, write_round
 from bodies.shapes.box import Box
 from bodies.shapes.sphere import Sphere
 from nonsmooth.compiled import compiled

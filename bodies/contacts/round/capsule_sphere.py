@@ -7,11 +7,8 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.blocks import put
-from bodies.contacts.features.curvature import write_principal, write_round
-from bodies.contacts.features.frames import point_in_world, vector_in_world
-from bodies.contacts.features.offset import join_cores
-from bodies.contacts.features.sides import by_side
-from bodies.contacts.features.tangents import tangent_of
+from bodies.contacts.features.frames import point_in_world, tangent_of, vector_in_world
+from bodies.contacts.features.writing import by_side, join_cores, write_principal, write_round
 from bodies.shapes.capsule import Capsule
 from bodies.shapes.sphere import Sphere
 from nonsmooth.engine.memory.blocks import FEATURE, POINT_A, POINT_B, SIDE_A, SIDE_B

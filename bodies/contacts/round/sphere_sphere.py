@@ -6,9 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.curvature import write_round
-from bodies.contacts.features.offset import join_cores
-from bodies.contacts.features.sides import by_side
+from bodies.contacts.features.writing import by_side, join_cores, write_round
 from bodies.shapes.sphere import Sphere
 from nonsmooth.engine.memory.blocks import POINT_A, POINT_B, ROTATION, SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, Shape

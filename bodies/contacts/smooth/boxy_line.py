@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 
+from bodies.blocks import Vector3
 from bodies.contacts.smooth.boxy_newton import Answer
 from bodies.contacts.smooth.smooth_core import Axes, back, forth
 from bodies.shapes.support_function import support_of
@@ -30,20 +31,7 @@ _PATIENCE = 3
 
 @compiled
 def across_line(
-    core: Floats,
-    turn: Axes,
-    x: float,
-    y: float,
-    z: float,
-    ex: float,
-    ey: float,
-    ez: float,
-    nx: float,
-    ny: float,
-    nz: float,
-    cosine: float,
-    sine: float,
-    reach: float,
+    core: Floats, turn: Axes, place: Vector3, e: Vector3, n: Vector3, cosine: float, sine: float, reach: float
 ) -> Answer:
     """Return the largest gap of a line through the origin and a boxy core, the core's point and the line's normal.
 
@@ -56,24 +44,25 @@ def across_line(
         The boxy core; its radius is left out.
     turn : Axes
         Rotation from the axes of the core to those of the line's body.
-    x, y, z : float
+    place : Vector3
         The core's centre [m].
-    ex, ey, ez : float
+    e : Vector3
         Direction of the line, a unit vector.
-    nx, ny, nz : float
+    n : Vector3
         A unit vector across it, in whose half the normal is sought.
     cosine, sine : float
         Part of the normal across the line, 1 but for a cone, and along it, 0 but for a cone.
     reach : float
         Height of the surface about the line over the origin along its normals [m], 0 of the line itself.
     """
+    x, y, z = place
     spread = math.pi / _LOOKS
-    found = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, 0.0)
+    found = _look(core, turn, place, e, n, cosine, sine, 0.0)
     # uphill from the given direction, and from the best of all where the surface is not outside of the body there
     at, low, high, rising, falling, most = 0, 0.0, 0.0, found[7], found[7], found[0]
     way = 1 if found[7] > 0.0 else -1
     for i in range(1, _LOOKS // 2 + 2):
-        look = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, way * i * spread)
+        look = _look(core, turn, place, e, n, cosine, sine, way * i * spread)
         most = max(most, look[0])
         low, high = (high, i * spread) if way > 0 else (-i * spread, low)
         rising, falling = (falling, look[7]) if way > 0 else (look[7], rising)
@@ -82,7 +71,7 @@ def across_line(
     if most <= reach:
         best, last, slope = -math.inf, math.nan, 0.0
         for i in range(-_LOOKS // 2 - 1, _LOOKS // 2 + 2):
-            look = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, i * spread)
+            look = _look(core, turn, place, e, n, cosine, sine, i * spread)
             if look[0] > best and abs(i) <= _LOOKS // 2:
                 best, at, rising, slope = look[0], i, last, look[7]
             elif at == i - 1:
@@ -101,7 +90,7 @@ def across_line(
             if rising > 0.0 > falling:
                 break
             middle = 0.5 * (low + high)
-            look = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, middle)
+            look = _look(core, turn, place, e, n, cosine, sine, middle)
             if slope > 0.0:
                 high, falling = middle, look[7]
             else:
@@ -116,13 +105,13 @@ def across_line(
         middle = (low * falling - high * rising) / (falling - rising)
         if slow >= _PATIENCE or not (low < middle < high):
             middle, slow = 0.5 * (low + high), 0
-        found = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, middle)
+        found = _look(core, turn, place, e, n, cosine, sine, middle)
         if abs(found[7]) <= none:
             return found[0] - reach, found[1], found[2], found[3], found[4], found[5], found[6]
         if width <= _CLOSED or middle == low or middle == high:
             # a flat place turns to the line: over it is a point between those of both sides
-            one = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, low)
-            two = _look(core, turn, x, y, z, ex, ey, ez, nx, ny, nz, cosine, sine, high)
+            one = _look(core, turn, place, e, n, cosine, sine, low)
+            two = _look(core, turn, place, e, n, cosine, sine, high)
             part = min(max(one[7] / (one[7] - two[7]), 0.0), 1.0) if one[7] > two[7] else 0.5
             px, py = one[1] + part * (two[1] - one[1]), one[2] + part * (two[2] - one[2])
             pz = one[3] + part * (two[3] - one[3])
@@ -141,22 +130,10 @@ def across_line(
 
 @compiled
 def _look(
-    core: Floats,
-    turn: Axes,
-    x: float,
-    y: float,
-    z: float,
-    ex: float,
-    ey: float,
-    ez: float,
-    nx: float,
-    ny: float,
-    nz: float,
-    cosine: float,
-    sine: float,
-    angle: float,
+    core: Floats, turn: Axes, place: Vector3, e: Vector3, n: Vector3, cosine: float, sine: float, angle: float
 ) -> tuple[float, float, float, float, float, float, float, float]:
     """Return gap, point, normal and the gap's derivative at an angle."""
+    (x, y, z), (ex, ey, ez), (nx, ny, nz) = place, e, n
     ux, uy, uz = ey * nz - ez * ny, ez * nx - ex * nz, ex * ny - ey * nx
     c, s = cosine * math.cos(angle), cosine * math.sin(angle)
     ax, ay, az = c * nx + s * ux + sine * ex, c * ny + s * uy + sine * ey, c * nz + s * uz + sine * ez

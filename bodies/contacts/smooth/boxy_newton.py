@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from bodies.contacts.features.tangents import tangent_of
+from bodies.contacts.features.frames import tangent_of
 from bodies.contacts.smooth.smooth_core import RADIUS, Axes, back, bend, forth
 from bodies.shapes.support_function import boxy_gauge_of, support_of
 from nonsmooth.compiled import compiled

@@ -6,10 +6,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.smooth.polytope import segment_numbers
-from bodies.contacts.smooth.polytope_smooth import evaluate_polytope_smooth
+from bodies.contacts.smooth.polytope_smooth import evaluate_polytope_smooth, segment_numbers
 from bodies.shapes.capsule import Capsule
-from bodies.shapes.smooth_shape import SmoothShape
+from bodies.shapes.smooth import SmoothShape
 from nonsmooth.interfaces import ContactKinematics, Shape
 from nonsmooth.parameters import Value
 

@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from bodies.contacts.features.tangents import tangent_of
+from bodies.contacts.features.frames import tangent_of
 from bodies.contacts.smooth.boxy_newton import Norm, Point
 from bodies.contacts.smooth.smooth_core import RADIUS, Axes, back, bend
 from bodies.shapes.support_function import support_by

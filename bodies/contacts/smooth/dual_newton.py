@@ -10,7 +10,8 @@ from __future__ import annotations
 
 import math
 
-from bodies.contacts.features.tangents import tangent_of
+from bodies.blocks import Vector3
+from bodies.contacts.features.frames import tangent_of
 from bodies.contacts.smooth.smooth_core import Axes, back, bend, forth
 from bodies.shapes.support_function import support_of
 from nonsmooth.compiled import compiled
@@ -33,18 +34,7 @@ _SADDLE = 0.3
 
 @compiled
 def climb(
-    first: Floats,
-    second: Floats,
-    turn: Axes,
-    x: float,
-    y: float,
-    z: float,
-    along_x: float,
-    along_y: float,
-    along_z: float,
-    start_x: float,
-    start_y: float,
-    start_z: float,
+    first: Floats, second: Floats, turn: Axes, place: Vector3, axis: Vector3, start: Vector3
 ) -> tuple[float, float, float, float]:
     """Return the largest g and its n, in the axes of the first core; g is nan where none was found.
 
@@ -54,13 +44,14 @@ def climb(
         The cores; their radii are left out.
     turn : Axes
         Rotation from the axes of the second core to those of the first.
-    x, y, z : float
+    place : Vector3
         The second core's centre from the first's [m].
-    along_x, along_y, along_z : float
+    axis : Vector3
         A unit vector to which n stays at right angles; zero if it need not.
-    start_x, start_y, start_z : float
-        Where to begin, of any length; as a rule the line of centres.
+    start : Vector3
+        Start of n, of any length; as a rule along the line of centres.
     """
+    (x, y, z), (along_x, along_y, along_z), (start_x, start_y, start_z) = place, axis, start
     free = along_x == 0.0 and along_y == 0.0 and along_z == 0.0
     along = start_x * along_x + start_y * along_y + start_z * along_z
     nx, ny, nz = start_x - along * along_x, start_y - along * along_y, start_z - along * along_z

@@ -10,8 +10,9 @@ radius d: from its gradient G at the point on, a ball of the radius G / L stays 
 
 from __future__ import annotations
 
+from bodies.contacts.smooth.dual_newton import climb
 from bodies.contacts.smooth.smooth_core import Axes, back
-from bodies.shapes.support_function import OF_FUNCTION
+from bodies.shapes.support_function import OF_FUNCTION, gauge_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
@@ -69,3 +70,20 @@ def _ball_in(core: Floats, most: float, x: float, y: float, z: float, nx: float,
     round_it = (k - 1.0) * (s**bend * high_t / (a * a) + t**bend * high_s / (b * b))
     across, up = r ** ((j - 2.0) / k) * (along + round_it), (j - 1.0) * w ** (j - 2.0) / (c * c)
     return float(min(most, 1.0 / (height * max(across, up))))
+
+
+@compiled
+def gauge(core: Floats, x: float, y: float, z: float) -> float:
+    """Return 1 for a point of the surface of a core, more outside, less inside; in the axes of the core.
+
+    It is the gauge where that is known in closed form, and else tells the distance, in units of the size, where a
+    normal is found; not a number where none is.
+    """
+    if core[3] != OF_FUNCTION:
+        return float(gauge_of(core, x, y, z))
+    size = max(core[0], core[1], core[2])
+    if abs(x) + abs(y) + abs(z) <= 1e-9 * size:
+        return 0.0
+    point, same = (0.0, 0.0, 0.0, 2.0, 2.0, 0.0), (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+    g, _, _, _ = climb(point, core, same, (-x, -y, -z), (0.0, 0.0, 0.0), (-x, -y, -z))
+    return float(1.0 + g / size)

@@ -8,22 +8,72 @@ neighbour in which the distance still falls.  Every stop is lower than the one b
 
 from __future__ import annotations
 
+import itertools
 import math
+from collections.abc import Sequence
 from typing import TypeAlias
 
-from bodies.contacts.features.curvature import write_flat, write_principal, write_round
-from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world
-from bodies.contacts.features.tangents import tangent_of, write_tangent
+from bodies.contacts.features.frames import point_in_world, tangent_of, vector_in_body, vector_in_world, write_tangent
+from bodies.contacts.features.writing import write_flat, write_principal, write_round
 from bodies.contacts.smooth.boxy_newton import Answer
-from bodies.contacts.smooth.gauge import gauge
-from bodies.contacts.smooth.polytope import COUNTS, EDGE, EDGES, FACE, FACES, LISTS, LOOPS, STARS, VERTICES
+from bodies.contacts.smooth.inscribed import gauge
 from bodies.contacts.smooth.round_search import along_segment, up_hills
 from bodies.contacts.smooth.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth
 from bodies.contacts.smooth.smooth_newton import widest_from, write_surface
+from bodies.shapes.polytope import Polytope
 from bodies.shapes.support_function import is_round, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
+
+Numbers = tuple[float, ...]
+
+COUNTS, VERTICES, EDGES, FACES, LOOPS, STARS, LISTS = 6, 9, 10, 11, 12, 13, 14
+"""Where the numbers of vertices, edges and faces stand, and the offsets of the parts."""
+EDGE, FACE = 4, 6
+"""Numbers of an edge (both vertices, the faces on its left and right, -1 for none) and of a face (outward normal,
+distance of its plane from the origin, beginning and length of its loop)."""
+_HEADER = 15
+
+
+def polyhedron_numbers(polytope: Polytope, radius: float = 0.0) -> Numbers:
+    """Numbers of a polyhedron, with a radius about it [m].
+
+    They begin like those of a core that is a point (:func:`bodies.shapes.smooth.core_numbers`), because a vertex counts
+    as a point: no semi-axes, two powers, the radius [m]. Then come the numbers of vertices, edges and faces, the
+    offsets of the parts, and the parts, all in the frame of the body: vertices, edges, faces, loops (a vertex and the
+    edge that leaves it), stars (of every vertex the begin and the length of its list of edges), lists.
+    """
+    return _numbers(polytope.vertices, polytope.faces, polytope.planes, polytope.edges, radius)
+
+
+def segment_numbers(ends: Sequence[tuple[float, float, float]], radius: float) -> Numbers:
+    """Numbers of a capsule, a segment with a radius about it [m]; see :func:`polyhedron_numbers`."""
+    return _numbers(ends, (), (), ((0, 1, -1, -1),), radius)
+
+
+def _numbers(
+    vertices: Sequence[tuple[float, float, float]],
+    faces: Sequence[tuple[int, ...]],
+    planes: Sequence[tuple[float, float, float, float]],
+    edges: Sequence[tuple[int, int, int, int]],
+    radius: float,
+) -> Numbers:
+    number = {pair: i for i, (one, two, _, _) in enumerate(edges) for pair in ((one, two), (two, one))}
+    loops = [(one, number[one, two]) for face in faces for one, two in zip(face, (*face[1:], face[0]), strict=True)]
+    begins = itertools.accumulate((len(face) for face in faces), initial=0)
+    rows = [(*plane, 2 * begin, len(face)) for plane, begin, face in zip(planes, begins, faces, strict=False)]
+    own: list[list[int]] = [[] for _ in vertices]
+    for i, edge in enumerate(edges):
+        for vertex in edge[:2]:
+            own[vertex].append(i)
+    begins = itertools.accumulate((len(one) for one in own), initial=0)
+    stars = [(begin, len(one)) for begin, one in zip(begins, own, strict=False)]
+    parts = [list(itertools.chain(*part)) for part in (vertices, edges, rows, loops, stars, own)]
+    offsets = itertools.accumulate((len(part) for part in parts[:-1]), initial=_HEADER)
+    head = (0, 0, 0, 2, 2, radius, len(vertices), len(edges), len(faces), *offsets)
+    return tuple(float(x) for x in (*head, *itertools.chain(*parts)))
+
 
 _HERE, _VERTEX, _EDGE, _FACE = -1, 0, 1, 2
 """Kinds of features; nowhere else to go."""
@@ -126,7 +176,7 @@ def _look_at_edge(
     vx, vy, vz = _vertex(hull, one)
     ex, ey, ez, length = _edge(hull, number)
     g, px, py, pz, nx, ny, nz = widest_from(
-        hull, core, turn, x - vx, y - vy, z - vz, ex, ey, ez, begin[0], begin[1], begin[2]
+        hull, core, turn, (x - vx, y - vy, z - vz), (ex, ey, ez), (begin[0], begin[1], begin[2])
     )
     s = px * ex + py * ey + pz * ez
     if s < -near or s > length + near:
@@ -151,7 +201,7 @@ def _look_at_vertex(
 ) -> Stop:
     vx, vy, vz = _vertex(hull, number)
     g, _, _, _, nx, ny, nz = widest_from(
-        hull, core, turn, x - vx, y - vy, z - vz, 0.0, 0.0, 0.0, begin[0], begin[1], begin[2]
+        hull, core, turn, (x - vx, y - vy, z - vz), (0.0, 0.0, 0.0), (begin[0], begin[1], begin[2])
     )
     star = int(hull[STARS]) + 2 * number
     steepest, most = -1, _ON_BORDER
@@ -328,7 +378,7 @@ def _feature(hull: Floats, kind: int, number: int) -> int:
 
 
 def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) -> None:
-    """Write the geometry block of a polytope (:mod:`bodies.contacts.smooth.polytope`) and a core.
+    """Write the geometry block of a polytope (:mod:`bodies.contacts.smooth.polytope_smooth`) and a core.
 
     The gap is nan where no feature can be proved to be the nearest.
     """
@@ -352,7 +402,7 @@ def evaluate_polytope_smooth(a: Floats, b: Floats, out: Floats, first: Floats, s
     write_tangent(a, out)
     mx, my, mz = back(turn, -nx, -ny, -nz)
     px, py, pz = back(turn, px - x, py - y, pz - z)
-    write_surface(out, SIDE_B, second, axes_b, mx, my, mz, px, py, pz)
+    write_surface(out, SIDE_B, second, axes_b, (mx, my, mz), (px, py, pz))
     if feature < n_faces:
         write_flat(out, SIDE_A)
     elif feature < n_faces + n_edges:

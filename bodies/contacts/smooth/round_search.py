@@ -12,12 +12,12 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
+from bodies.blocks import Vector3
 from bodies.contacts.smooth.boxy_newton import Answer, Point
-from bodies.contacts.smooth.cuts import settle
-from bodies.contacts.smooth.gauge import gauge
+from bodies.contacts.smooth.inscribed import gauge
 from bodies.contacts.smooth.smooth_core import Axes, back, bend, forth
 from bodies.contacts.smooth.smooth_newton import widest_of_round
-from bodies.contacts.smooth.smooth_starts import Start, gap_along, starts_of, uphill
+from bodies.contacts.smooth.smooth_starts import Start, gap_along, settle, starts_of, uphill
 from bodies.shapes.support_function import support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
@@ -82,7 +82,7 @@ def round_circle(
             angle = begin + way * step
             slope, _ = _look(point, core, turn, x, y, z, radius, angle)
             if way * slope >= 0.0:
-                answer: Answer = _between(point, core, turn, x, y, z, radius, low, angle, falling, slope)
+                answer: Answer = _between(point, core, turn, (x, y, z), radius, low, angle, falling, slope)
                 if _is_outward(answer):
                     return answer
                 break
@@ -94,7 +94,7 @@ def round_circle(
         angle = begin + 2.0 * math.pi * i / _LOOKS
         slope, _ = _look(point, core, turn, x, y, z, radius, angle)
         if before < 0.0 <= slope:
-            answer = _between(point, core, turn, x, y, z, radius, last, angle, before, slope)
+            answer = _between(point, core, turn, (x, y, z), radius, last, angle, before, slope)
             if _is_outward(answer):
                 return answer
         last, before = angle, slope
@@ -113,9 +113,7 @@ def _between(
     point: Floats,
     core: Floats,
     turn: Axes,
-    x: float,
-    y: float,
-    z: float,
+    place: Vector3,
     radius: float,
     low: float,
     high: float,
@@ -123,6 +121,7 @@ def _between(
     rising: float,
 ) -> Answer:
     """Return what is found between an angle at which the distance falls on the way to another and that one."""
+    x, y, z = place
     side, slow = 0, 0
     look: Look = _look(point, core, turn, x, y, z, radius, high)
     for _ in range(_STEPS):

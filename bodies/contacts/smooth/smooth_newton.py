@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import math
 
+from bodies.blocks import Vector3
 from bodies.contacts.smooth.boxy_line import across_line
 from bodies.contacts.smooth.boxy_newton import Answer, Point, climb_boxy, write_boxy
 from bodies.contacts.smooth.boxy_pair import meet
 from bodies.contacts.smooth.chart import write_chart
 from bodies.contacts.smooth.chart_newton import meet_in_charts
-from bodies.contacts.smooth.cuts import settle
 from bodies.contacts.smooth.dual_newton import climb
-from bodies.contacts.smooth.gauge import gauge
-from bodies.contacts.smooth.inscribed import no_shorter_way
+from bodies.contacts.smooth.inscribed import gauge, no_shorter_way
 from bodies.contacts.smooth.smooth_core import Axes, back, forth, write_core
-from bodies.contacts.smooth.smooth_starts import gap_along, starts_of, uphill
+from bodies.contacts.smooth.smooth_starts import gap_along, settle, starts_of, uphill
 from bodies.shapes.support_function import gauge_of, is_boxy, is_mixed, is_round, support_of
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
@@ -154,7 +153,7 @@ def _first_look(first: Floats, second: Floats, turn: Axes, x: float, y: float, z
         found: Answer = _from_start(first, second, turn, x, y, z, x, y, z)
         return found
     one, two = (first[0], first[1], first[2], 2.0, 2.0), (second[0], second[1], second[2], 2.0, 2.0)
-    g, nx, ny, nz = climb(one, two, turn, x, y, z, 0.0, 0.0, 0.0, x, y, z)
+    g, nx, ny, nz = climb(one, two, turn, (x, y, z), (0.0, 0.0, 0.0), (x, y, z))
     found = (g, x, y, z, nx, ny, nz)
     if g == g:
         # from the normal of the ellipsoids with their semi-axes
@@ -241,7 +240,7 @@ def widest_of_round(
         if found[0] != found[0] and first[0] == 0.0:
             found = _by_cuts(first, second, turn, x, y, z, sx, sy, sz)
         return found
-    g, nx, ny, nz = climb(first, second, turn, x, y, z, 0.0, 0.0, 0.0, sx, sy, sz)
+    g, nx, ny, nz = climb(first, second, turn, (x, y, z), (0.0, 0.0, 0.0), (sx, sy, sz))
     mx, my, mz = back(turn, -nx, -ny, -nz)
     s = support_of(second, mx, my, mz)
     px, py, pz = forth(turn, s[1], s[2], s[3])
@@ -328,23 +327,11 @@ def _from(
 
 
 @compiled
-def widest_from(
-    hull: Floats,
-    core: Floats,
-    turn: Axes,
-    x: float,
-    y: float,
-    z: float,
-    along_x: float,
-    along_y: float,
-    along_z: float,
-    start_x: float,
-    start_y: float,
-    start_z: float,
-) -> Answer:
+def widest_from(hull: Floats, core: Floats, turn: Axes, place: Vector3, axis: Vector3, start: Vector3) -> Answer:
     """Return gap, the core's point and the normal of a point or a line at the origin, and a core of any kind."""
+    (x, y, z), (along_x, along_y, along_z), (start_x, start_y, start_z) = place, axis, start
     if is_round(core):
-        g, nx, ny, nz = climb(hull, core, turn, x, y, z, along_x, along_y, along_z, start_x, start_y, start_z)
+        g, nx, ny, nz = climb(hull, core, turn, place, axis, start)
         mx, my, mz = back(turn, -nx, -ny, -nz)
         s = support_of(core, mx, my, mz)
         px, py, pz = forth(turn, s[1], s[2], s[3])
@@ -359,24 +346,14 @@ def widest_from(
     if length == 0.0:
         return math.nan, x, y, z, start_x, start_y, start_z
     nx, ny, nz = nx / length, ny / length, nz / length
-    over: Answer = across_line(core, turn, x, y, z, along_x, along_y, along_z, nx, ny, nz, 1.0, 0.0, 0.0)
+    over: Answer = across_line(core, turn, place, axis, (nx, ny, nz), 1.0, 0.0, 0.0)
     return over
 
 
 @compiled
-def write_surface(
-    out: Floats,
-    side: int,
-    core: Floats,
-    axes: Axes,
-    nx: float,
-    ny: float,
-    nz: float,
-    px: float,
-    py: float,
-    pz: float,
-) -> None:
+def write_surface(out: Floats, side: int, core: Floats, axes: Axes, normal: Vector3, p: Vector3) -> None:
     """Write slide and turn of a core of any kind at its point p with the outward normal n, both in its own axes."""
+    (nx, ny, nz), (px, py, pz) = normal, p
     if is_mixed(core):
         write_chart(out, side, core, axes, nx, ny, nz)
     elif is_boxy(core):

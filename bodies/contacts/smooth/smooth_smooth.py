@@ -7,11 +7,10 @@ from dataclasses import dataclass
 from typing import ClassVar, final
 
 from bodies.blocks import put
-from bodies.contacts.features.frames import point_in_world
-from bodies.contacts.features.tangents import write_tangent
+from bodies.contacts.features.frames import point_in_world, write_tangent
 from bodies.contacts.smooth.smooth_core import RADIUS, back, between_axes, forth, unit_axes_in_world
 from bodies.contacts.smooth.smooth_newton import widest, write_surface
-from bodies.shapes.smooth_shape import SmoothShape
+from bodies.shapes.smooth import SmoothShape
 from bodies.shapes.support_function import OF_FUNCTION
 from nonsmooth.engine.memory.blocks import GAP, NORMAL, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.errors import InvalidInput
@@ -42,10 +41,10 @@ def _evaluate(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats) 
         out[POINT_A + i] += first[RADIUS] * out[NORMAL + i]
         out[POINT_B + i] -= second[RADIUS] * out[NORMAL + i]
     write_tangent(a, out)
-    write_surface(out, SIDE_A, first, axes_a, nx, ny, nz, px, py, pz)
+    write_surface(out, SIDE_A, first, axes_a, (nx, ny, nz), (px, py, pz))
     mx, my, mz = back(turn, -nx, -ny, -nz)
     qx, qy, qz = back(turn, qx - x, qy - y, qz - z)
-    write_surface(out, SIDE_B, second, axes_b, mx, my, mz, qx, qy, qz)
+    write_surface(out, SIDE_B, second, axes_b, (mx, my, mz), (qx, qy, qz))
 
 
 @final

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from bodies.blocks import Vector3
 from bodies.contacts.features.frames import vector_in_body, vector_in_world
 from bodies.contacts.surface.surface_edges import edge_astray
 from bodies.contacts.surface.surface_near import is_node_near, seen_from
@@ -37,20 +38,9 @@ def _passes_box(
 
 
 @compiled
-def _square_of_lines(
-    wx: float,
-    wy: float,
-    wz: float,
-    ex: float,
-    ey: float,
-    ez: float,
-    p: float,
-    fx: float,
-    fy: float,
-    fz: float,
-    q: float,
-) -> float:
+def _square_of_lines(w: Vector3, e: Vector3, p: float, f: Vector3, q: float) -> float:
     """Return the square of the distance of two segments: along e by up to p, and from w along f by up to q."""
+    (wx, wy, wz), (ex, ey, ez), (fx, fy, fz) = w, e, f
     across = ex * fx + ey * fy + ez * fz
     along_e, along_f = wx * ex + wy * ey + wz * ez, wx * fx + wy * fy + wz * fz
     sine = 1.0 - across * across
@@ -114,7 +104,7 @@ def edges_across(
             one = int(surface[EDGES]) + EDGE * e
             wx, wy, wz = px - surface[one], py - surface[one + 1], pz - surface[one + 2]
             ex, ey, ez, p = surface[one + 3], surface[one + 4], surface[one + 5], surface[one + 6]
-            square = _square_of_lines(wx, wy, wz, ex, ey, ez, p, fx, fy, fz, q)
+            square = _square_of_lines((wx, wy, wz), (ex, ey, ez), p, (fx, fy, fz), q)
             if square <= reach * reach and _may_cross(a, b, surface, one, edges, two, turn):
                 out[1 + 3 * n], out[2 + 3 * n], out[3 + 3 * n] = kind, float(e), number
                 n += 1

@@ -6,10 +6,8 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import ClassVar, final
 
-from bodies.contacts.features.curvature import write_flat, write_round
-from bodies.contacts.features.frames import point_in_world, vector_in_world
-from bodies.contacts.features.offset import gap_at_distance
-from bodies.contacts.features.tangents import write_tangent
+from bodies.contacts.features.frames import point_in_world, vector_in_world, write_tangent
+from bodies.contacts.features.writing import gap_at_distance, write_flat, write_round
 from bodies.contacts.surface.surface_search import FAR
 from bodies.contacts.surface.surface_tables import FACE, FACES, Numbers, star_of, surface_numbers
 from bodies.contacts.surface.surface_vertex import face_under

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Self
 
-from bodies.contacts.features.apart import NO_CANDIDATE
 from bodies.contacts.features.frames import point_in_world, vector_in_body
+from bodies.contacts.features.writing import NO_CANDIDATE
 from bodies.contacts.surface.surface_near import patches_near
 from bodies.contacts.surface.surface_tables import N_PATCHES, surface_numbers
 from bodies.meshes.features import Features

@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 
 from bodies.blocks import put
-from bodies.contacts.features.curvature import write_principal
-from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world
-from bodies.contacts.features.tangents import tangent_of, write_tangent
+from bodies.contacts.features.frames import point_in_world, tangent_of, vector_in_body, vector_in_world, write_tangent
 from bodies.contacts.features.vertex_face import DEEP, REACH
+from bodies.contacts.features.writing import write_principal
 from bodies.contacts.surface.surface_search import depth_inside
 from bodies.contacts.surface.surface_vertex import ASTRAY
 from nonsmooth.compiled import compiled

@@ -8,7 +8,7 @@ from typing import ClassVar, final
 
 import numpy as np
 
-from bodies.contacts.features.apart import NO_CANDIDATE, write_apart
+from bodies.contacts.features.writing import NO_CANDIDATE, write_apart
 from bodies.contacts.surface.edges_near import edges_near
 from bodies.contacts.surface.mesh_point import write_over_first, write_over_second
 from bodies.contacts.surface.surface_edges import write_edges

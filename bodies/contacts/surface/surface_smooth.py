@@ -10,13 +10,12 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world
-from bodies.contacts.features.tangents import write_tangent
+from bodies.contacts.features.frames import point_in_world, vector_in_body, vector_in_world, write_tangent
 from bodies.contacts.features.vertex_face import REACH
 from bodies.contacts.smooth.boxy_line import across_line
 from bodies.contacts.smooth.smooth_core import RADIUS, Axes, axes_in_world, axes_of, back, between_axes, forth
 from bodies.contacts.smooth.smooth_newton import widest_from, write_surface
-from bodies.contacts.surface.surface_feature import write_feature
+from bodies.contacts.surface.surface_ball import write_feature
 from bodies.contacts.surface.surface_search import (
     ON_CORNER,
     ON_EDGE,
@@ -115,7 +114,7 @@ def _on_edge(
     """Return the same of the line of an edge; the distance is nan where none was found."""
     wx, wy, wz = center[0] - surface[e], center[1] - surface[e + 1], center[2] - surface[e + 2]
     ex, ey, ez = surface[e + 3], surface[e + 4], surface[e + 5]
-    g, _, _, _, nx, ny, nz = widest_from(point, core, turn, wx, wy, wz, ex, ey, ez, wx, wy, wz)
+    g, _, _, _, nx, ny, nz = widest_from(point, core, turn, (wx, wy, wz), (ex, ey, ez), (wx, wy, wz))
     px, py, pz = _point_against(core, turn, (wx, wy, wz), (nx, ny, nz))
     s = px * ex + py * ey + pz * ez
     past = max(-s, s - surface[e + 6])
@@ -130,7 +129,7 @@ def _on_corner(
 ) -> tuple[float, float, float, float, float]:
     """Return the same of a corner."""
     wx, wy, wz = center[0] - surface[c], center[1] - surface[c + 1], center[2] - surface[c + 2]
-    g, _, _, _, nx, ny, nz = widest_from(point, core, turn, wx, wy, wz, 0.0, 0.0, 0.0, wx, wy, wz)
+    g, _, _, _, nx, ny, nz = widest_from(point, core, turn, (wx, wy, wz), (0.0, 0.0, 0.0), (wx, wy, wz))
     past, star = -(nx * wx + ny * wy + nz * wz), int(surface[STARS]) + int(surface[c + 4])
     for _ in range(int(surface[c + 5])):
         past = max(past, size * (nx * surface[star] + ny * surface[star + 1] + nz * surface[star + 2]))
@@ -301,7 +300,7 @@ def write_surface_smooth(
         e = int(surface[EDGES]) + EDGE * number
         ex, ey, ez = surface[e + 3], surface[e + 4], surface[e + 5]
         wx, wy, wz = x - surface[e], y - surface[e + 1], z - surface[e + 2]
-        _, px, py, pz, _, _, _ = across_line(second, turn, wx, wy, wz, ex, ey, ez, nx, ny, nz, 1.0, 0.0, 0.0)
+        _, px, py, pz, _, _, _ = across_line(second, turn, (wx, wy, wz), (ex, ey, ez), (nx, ny, nz), 1.0, 0.0, 0.0)
         px, py, pz = px + surface[e], py + surface[e + 1], pz + surface[e + 2]
     # the patch of a surface that has one only does not end
     out[GAP], out[PAST_END] = gap, past if surface[N_PATCHES] > 1.0 or depth > 0.0 else 0.0
@@ -313,5 +312,5 @@ def write_surface_smooth(
     write_tangent(a, out)
     mx, my, mz = back(turn, -nx, -ny, -nz)
     bx, by, bz = back(turn, px - x, py - y, pz - z)
-    write_surface(out, SIDE_B, second, axes_b, mx, my, mz, bx, by, bz)
+    write_surface(out, SIDE_B, second, axes_b, (mx, my, mz), (bx, by, bz))
     write_feature(a, out, SIDE_A, surface, kind, number)

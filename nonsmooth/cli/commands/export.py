@@ -13,7 +13,7 @@ from nonsmooth.cli.asking import outputs
 from nonsmooth.cli.running import obtain
 from nonsmooth.cli.telling.messages import tell
 from nonsmooth.export.camera import VIEWS
-from nonsmooth.solution.csv_format import SERIES
+from nonsmooth.solution.csv_tables import SERIES
 from nonsmooth.solution.exports import FORMATS, exporter
 
 _OPTIONS: Mapping[str, tuple[type, str]] = {

@@ -18,8 +18,9 @@ from nonsmooth.progress import Pace, TimeReached, on_standard_error
 from nonsmooth.results.description import UNFINISHED
 from nonsmooth.results.output import Output
 from nonsmooth.results.solution_folder import SolutionFolder
+from nonsmooth.solution.csv_tables import save_events
 from nonsmooth.solution.draw_graph import draw
-from nonsmooth.solution.events_table import save_events
+from nonsmooth.solution.modes import are_recorded, transition_graph
 from nonsmooth.solution.solution import Solution
 from nonsmooth.storage.files import FileError
 
@@ -109,7 +110,7 @@ def _save_solution(scenario: Scenario, solution: Solution, folder: Path, trouble
 
 def _save_figures(job: request.Job, solution: Solution, folder: Path, troubles: list[str]) -> None:
     results.without_display()
-    graph = solution.transition_graph() if solution.knows_modes else None
+    graph = transition_graph(solution) if are_recorded(solution) else None
     if graph is None:
         tell("no picture of transitions: the engine records no modes")
     elif len(graph.shares) > 1:

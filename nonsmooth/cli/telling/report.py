@@ -9,6 +9,8 @@ import numpy as np
 
 from nonsmooth.cli.telling.table import lines
 from nonsmooth.engine.memory.limits import LIMITS, Limit
+from nonsmooth.solution.checks import contacts_without_body_check, friction_gain, impulses_beyond_cone
+from nonsmooth.solution.modes import are_recorded, mode_shares
 from nonsmooth.solution.solution import Solution
 
 Report = dict[str, Any]
@@ -56,12 +58,12 @@ def of_solution(solution: Solution | None) -> Report:
         "step_limits": dict(solution.counters.limits),
         "event_intervals": solution.events.intervals(),
         "contacts": list(solution.system.names.contacts),
-        "unseen_contacts": list(solution.unseen),
-        "impulses_beyond_cone": solution.impulses_beyond_cone,
-        "friction_gain": solution.friction_gain,
-        "mode_words": solution.modes if solution.knows_modes else None,
+        "unseen_contacts": list(contacts_without_body_check(solution)),
+        "impulses_beyond_cone": int(np.count_nonzero(impulses_beyond_cone(solution))),
+        "friction_gain": friction_gain(solution),
+        "mode_words": mode_shares(solution) if are_recorded(solution) else None,
         "energy_residual": solution.energy.residual,
-        "cause": solution.cause,
+        "cause": solution.end.cause,
         "verdict": {
             one.name: {"value": value, "unit": one.unit, "meaning": one.meaning}
             for one, value in solution.end.verdict.items()

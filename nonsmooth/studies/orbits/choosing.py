@@ -28,7 +28,7 @@ def chosen(model: Model, begin: State, period: float) -> State:
     closed = codes & _CLOSED
     held = np.sum(closed * np.where(codes & _SLIDES, 1, 2), axis=1)
     if np.any(held == 0):
-        gaps = run.contact_motion(times).gap.reshape(_LOOKED_AT, -1)
+        gaps = run.history("gap", times=times)["gap"].reshape(_LOOKED_AT, -1)
         room = np.where(held > 0, -np.inf, np.min(gaps, axis=1, initial=np.inf))
     else:
         room = np.where(held > np.min(held), -np.inf, _from_events(run, times, period))

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nonsmooth.engine.memory.modes import Cause
-from nonsmooth.histories.contact_motion import ContactMotion
+from nonsmooth.histories.history import History
 from nonsmooth.solution.solution import Solution
 from nonsmooth.solution.state import State
 from nonsmooth.studies.orbits.periodic import Orbit
@@ -66,9 +66,9 @@ def margins(orbit: Orbit) -> Margins:
             collide = events.during[i] & _COLLIDES != 0
             approach.append(float(np.min(-model.contact_rates(before)[1][collide, 0], initial=np.inf)))
         times = np.linspace(run.t[0], run.t_end, _LOOKED_AT + 1)
-        motion = run.contact_motion(times)
-        fastest = max(fastest, _largest(np.abs(motion.normal_velocity)))
-        widest = max(widest, _largest(motion.gap))
+        motion = run.history("gap", "normal_velocity", times=times)
+        fastest = max(fastest, _largest(np.abs(motion["normal_velocity"])))
+        widest = max(widest, _largest(motion["gap"]))
         gap += _least_gaps(run, times, motion)
     beside = fastest, widest, orbit.period
     return Margins(min(approach), min(gap), _least_time(impacts, orbit.period), beside)
@@ -140,7 +140,7 @@ def _graded(left: Floats) -> list[int]:
     return which
 
 
-def _least_gaps(run: Solution, times: Floats, motion: ContactMotion) -> list[float]:
+def _least_gaps(run: Solution, times: Floats, motion: History) -> list[float]:
     """Return the least gaps of the contacts that come near in a run, and are not hit [m]."""
     from scipy.optimize import brentq
 
@@ -148,16 +148,16 @@ def _least_gaps(run: Solution, times: Floats, motion: ContactMotion) -> list[flo
     which = np.searchsorted(events.time, times, side="right") - 1
     took_part = np.cumsum((events.before | events.during | events.after) != 0, axis=0)[which]
     is_open = events.after[which] & _CLOSED == 0
-    turns = (motion.normal_velocity[:-1] < 0.0) & (motion.normal_velocity[1:] >= 0.0)
+    turns = (motion["normal_velocity"][:-1] < 0.0) & (motion["normal_velocity"][1:] >= 0.0)
     passes = turns & is_open[:-1] & is_open[1:] & (took_part[:-1] == took_part[1:])
     found = []
     for i, contact in np.argwhere(passes).tolist():
 
         def rate(time: float, contact: int = contact) -> float:
-            return float(run.contact_motion(time, [contact]).normal_velocity[0])
+            return float(run.history("normal_velocity", times=time, of=contact)["normal_velocity"][0])
 
         nearest = brentq(rate, times[i], times[i + 1], xtol=1e-13)
-        found.append(float(run.contact_motion(nearest, [contact]).gap[0]))
+        found.append(float(run.history("gap", times=nearest, of=contact)["gap"][0]))
     return found
 
 

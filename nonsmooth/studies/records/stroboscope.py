@@ -105,7 +105,7 @@ class Stroboscope(Recorder):
         check_period(outcome.model, solution.state, self.period, "Stroboscope: period", _REMEDY)
         states = solution.at(self._times(solution.t_end, self._start(outcome)))
         places = [coordinate_number(solution.system, name) for name in self.within]
-        return np.concatenate([states.q, states.u], axis=1)[:, places]
+        return np.concatenate([states["q"], states["u"]], axis=1)[:, places]
 
     def _start(self, outcome: Outcome) -> float:
         """Return how far the driving motion is at t = 0 [periods]."""

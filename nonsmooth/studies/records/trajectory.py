@@ -54,5 +54,4 @@ class Trajectory(Recorder):
 
     def __call__(self, outcome: Outcome) -> Any:
         """Return the states of a run, shape [n, n_q] or [n, n_u]."""
-        states = outcome.solution.at(list(self.times))
-        return {"q": states.q, "u": states.u}[self.name]
+        return outcome.solution.history(self.name, times=list(self.times))[self.name]

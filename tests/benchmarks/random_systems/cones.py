@@ -19,7 +19,11 @@ from numpy.typing import NDArray
 import nonsmooth as ns
 from laws import Anisotropic, Cohesive, Coulomb, Directional, Frictionless, Stribeck, Viscous
 from nonsmooth import ContactLaws
+from nonsmooth.histories.contacts import ClosedContacts
+from nonsmooth.histories.impulses import Impulses
+from nonsmooth.histories.request import Request
 from nonsmooth.interfaces.body import Vector
+from nonsmooth.solution.checks import impulses_beyond_cone
 from tests.benchmarks.random_systems.case import Case
 
 _SLIPS = 1e-4
@@ -104,7 +108,8 @@ def reported(case: Case, solution: ns.Solution) -> tuple[list[ContactLaws], dict
     given = {frozenset((i, j)): laws for i, j, laws in case.contacts}
     laws = [given[frozenset((numbers[id(c.first)], numbers[id(c.second)]))] for c in solution.system.contacts]
     times = solution.t[np.unique(np.linspace(0, len(solution.t) - 1, _MOST).astype(int))]
-    f, p, events = solution.contact_forces(times), solution.contact_impulses(), solution.events
+    request = Request(solution, times)
+    f, p, events = ClosedContacts.of(request), Impulses.of(request), solution.events
     speeds = np.linalg.norm(f.slip_velocity, axis=1).tolist()
     forces = Reported(
         np.repeat(times, np.diff(f.first)),
@@ -116,14 +121,14 @@ def reported(case: Case, solution: ns.Solution) -> tuple[list[ContactLaws], dict
         f.beyond_cone,
     )
     impulses = Reported(
-        events.time[p.event],
-        p.contact,
+        p.time,
+        p.impulse_contact,
         p.normal_impulse,
         # where bodies are too far apart nothing is exchanged
         np.nan_to_num(np.linalg.norm(p.friction_impulse, axis=1)),
-        np.array([strongest(laws[c].friction) for c in p.contact.tolist()]),
+        np.array([strongest(laws[c].friction) for c in p.impulse_contact.tolist()]),
         _largest(p.normal_impulse, events.first),
-        p.beyond_cone,
+        impulses_beyond_cone(solution),
     )
     return laws, {"force": forces, "impulse": impulses}
 

@@ -155,7 +155,7 @@ def test_many_triangles_are_warned_of(monkeypatch: pytest.MonkeyPatch, tmp_path:
 @pytest.mark.slow
 def test_a_fine_surface_that_passes_through_itself_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of 204 800 triangles, a tip pushed through the far side; where there are too many near pairs, it is said."""
-    from bodies.meshes import crossings
+    from bodies.meshes import checks
 
     points, faces = parts.torus(320, 320)
     tip = np.linalg.norm(points - points[0], axis=1) < 0.004
@@ -163,7 +163,7 @@ def test_a_fine_surface_that_passes_through_itself_is_found(monkeypatch: pytest.
     assert len(faces) > 200_000
     with pytest.raises(ns.InvalidInput, match=r"that pass through each other must be 0, but it is \d+\. .*unite"):
         Triangles(points, faces)
-    monkeypatch.setattr(crossings, "MOST_PAIRS", 1000)
+    monkeypatch.setattr(checks, "MOST_PAIRS", 1000)
     with pytest.warns(UnusualValue, match=r"was not looked at for passing through itself: of 576 .* Simplify"):
         Triangles(*parts.torus())
 

@@ -49,8 +49,7 @@ def _forces(scenario: BallBox, solution: ns.Solution) -> tuple[np.ndarray, np.nd
     """Return the normal forces [N] of the contacts with the floor and with the walls at the end."""
     again = scenario.build()
     for ball, other in zip(again.bodies[5:], solution.system.bodies[5:], strict=True):
-        i_q, i_u = solution.offsets(other)
-        again.set_start(ball, solution.q_end[i_q : i_q + 7], solution.u_end[i_u : i_u + 6])
+        again.set_start(ball, *solution.history("q", "u", times=solution.t_end, of=other).values())
     model = assemble(again, ns.EventDriven())
     model.memory[owners.Request.t_end] = model.memory[owners.Request.sample_interval] = 1e-6
     call_entry("advance", model.memory, 10, 0)

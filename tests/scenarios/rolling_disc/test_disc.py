@@ -59,7 +59,7 @@ def test_steady_rolling(tilt: float, friction: float) -> None:
     np.testing.assert_allclose(scenario.tilts(solution), tilt, rtol=1e-8)
     np.testing.assert_allclose(scenario.precession(solution), rate, rtol=1e-8)
     assert np.max(np.abs(solution.q[:, :2])) <= 1e-8 * scenario.radius
-    turned = scenario.contact_points(solution)[-1]
+    turned = scenario.contact_points(solution.q, solution.u)[-1]
     np.testing.assert_allclose(turned, [scenario.radius * math.cos(tilt), 0.0], rtol=0, atol=1e-6 * scenario.radius)
 
 
@@ -81,7 +81,7 @@ def test_rolling_by_scipy(pace: float, viscosity: float) -> None:
     assert set(solution.events.causes()) == {"start"}
     times = solution.t[::50]
     axis, spin = _roll(scenario, times)
-    ours, rate = (values[::50] for values in scenario.axis(solution))
+    ours, rate = (values[::50] for values in scenario.axis(solution.q, solution.u))
     np.testing.assert_allclose(ours, axis, rtol=0, atol=1e-8)
     scale = float(steady.precession(0.5, scenario.radius))
     np.testing.assert_allclose(rate, np.cross(spin, axis), rtol=0, atol=1e-8 * scale)
@@ -144,9 +144,9 @@ def test_slip_ends_in_rolling() -> None:
     assert losses[0] > 0.1 * longer.energy.kinetic_start
     assert losses[0] == pytest.approx(losses[1], rel=1e-12)
     assert longer.energy.change == pytest.approx(-losses[0], rel=1e-9)
-    axis, rate = scenario.axis(longer)
+    axis, rate = scenario.axis(longer.q, longer.u)
     spin = np.cross(axis, rate) + longer.u[:, 5, None] * axis
-    arm = np.append(scenario.contact_points(longer), np.zeros((len(axis), 1)), axis=1) - longer.q[:, :3]
+    arm = np.append(scenario.contact_points(longer.q, longer.u), np.zeros((len(axis), 1)), axis=1) - longer.q[:, :3]
     slip = np.linalg.norm(longer.u[:, :3] + np.cross(spin, arm), axis=1)
     assert slip[0] == pytest.approx(10.0 * scenario.radius)
     assert np.max(slip[longer.t > caught]) <= 1e-7

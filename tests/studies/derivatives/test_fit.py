@@ -71,7 +71,7 @@ def test_what_changes_nothing_is_not_told() -> None:
     """A rod that slides and never strikes has no restitution: any value fits, none with an error of 0."""
     times = np.linspace(0.01, 0.1, 6)
     family = Family.of(SlidingRod(friction=0.3, restitution=0.5))
-    heights = family.model().run(0.1).at(times).q[:, 2]
+    heights = family.model().run(0.1).at(times)["q"][:, 2]
     bounds = {"friction": (0.1, 0.6), "restitution": (0.2, 0.9)}
     with pytest.raises(ns.InvalidInput, match=r"measurements tell, but it is \['restitution'\]"):
         fit(family, bounds, at=times, measured=heights, observe=lambda state: state.q[2], starts=4)

@@ -50,7 +50,7 @@ def test_a_line_is_the_derivative_times_the_parameter_broken_at_events() -> None
 @pytest.mark.slow
 def test_the_ellipse_of_a_fit_is_as_wide_as_its_standard_errors() -> None:
     times = np.linspace(0.02, 0.3, 12)
-    exact = FAMILY.model().run(0.3).at(times).q[:, 2]
+    exact = FAMILY.model().run(0.3).at(times)["q"][:, 2]
     noisy = np.random.default_rng(2).normal(exact, 1e-4)
     bounds = {"height": (0.05, 0.2), "restitution": (0.5, 0.9)}
     found = fit(FAMILY, bounds, at=times, measured=noisy, observe=lambda state: state.q[2], starts=2)

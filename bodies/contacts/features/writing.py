@@ -1,0 +1,160 @@
+"""Writers of the geometry block: matrices of a surface, surfaces at a distance from a core, bodies far apart."""
+
+from __future__ import annotations
+
+import math
+
+from bodies.blocks import put
+from bodies.contacts.features.frames import write_tangent
+from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import (
+    GAP,
+    NORMAL,
+    PAIR,
+    PAST_END,
+    POINT_A,
+    POINT_B,
+    SIDE_A,
+    SIDE_B,
+    SLIDE_MATRIX,
+    TANGENT,
+    TURN_MATRIX,
+)
+from nonsmooth.interfaces import Shape
+from nonsmooth.types import Floats
+
+
+@compiled
+def write_round(out: Floats, side: int, radius: float) -> None:
+    """Write a sphere: slide 1, turn its radius; a vertex with radius 0."""
+    slide, turn = side + SLIDE_MATRIX, side + TURN_MATRIX
+    out[slide] = out[slide + 3] = 1.0
+    out[turn] = out[turn + 3] = radius
+    out[slide + 1] = out[slide + 2] = out[turn + 1] = out[turn + 2] = 0.0
+
+
+@compiled
+def write_flat(out: Floats, side: int) -> None:
+    """Write a plane: slide 0, turn 1."""
+    slide, turn = side + SLIDE_MATRIX, side + TURN_MATRIX
+    out[slide] = out[slide + 3] = 0.0
+    out[turn] = out[turn + 3] = 1.0
+    out[slide + 1] = out[slide + 2] = out[turn + 1] = out[turn + 2] = 0.0
+
+
+@compiled
+def write_sweep(out: Floats, side: int, radius: float) -> None:
+    """Turn the matrices of a core into those of the surface at a distance from it, which has the same normals.
+
+    As the point of the core slides by u and the normal turns by nu, that of the surface slides by u + radius nu.
+    """
+    for i in range(side + SLIDE_MATRIX, side + TURN_MATRIX):
+        out[i + TURN_MATRIX - SLIDE_MATRIX] += radius * out[i]
+
+
+@compiled
+def write_principal(
+    out: Floats,
+    side: int,
+    x: float,
+    y: float,
+    z: float,
+    slide_along: float,
+    turn_along: float,
+    slide_across: float,
+    turn_across: float,
+) -> None:
+    """Write the matrices that are diagonal along and across the unit tangent (x, y, z).
+
+    Normal and first tangent stand in ``out`` already.
+
+    - the side of a cylinder, along its axis: slide 0, turn 1 along; slide 1, turn its radius across;
+    - an edge, along itself: 0, 1; 1, 0;
+    - a rim of radius R whose normal stands at the angle psi to its disc: as the point goes round by an angle, it slides
+      by R and the normal turns by cos psi of it, so cos psi, R along the rim; across the normal turns alone: 1, 0.
+    """
+    c = x * out[TANGENT] + y * out[TANGENT + 1] + z * out[TANGENT + 2]
+    # the second tangent is n x t1
+    s = (
+        x * (out[NORMAL + 1] * out[TANGENT + 2] - out[NORMAL + 2] * out[TANGENT + 1])
+        + y * (out[NORMAL + 2] * out[TANGENT] - out[NORMAL] * out[TANGENT + 2])
+        + z * (out[NORMAL] * out[TANGENT + 1] - out[NORMAL + 1] * out[TANGENT])
+    )
+    slide, turn = side + SLIDE_MATRIX, side + TURN_MATRIX
+    out[slide] = c * c * slide_along + s * s * slide_across
+    out[slide + 1] = out[slide + 2] = c * s * (slide_along - slide_across)
+    out[slide + 3] = s * s * slide_along + c * c * slide_across
+    out[turn] = c * c * turn_along + s * s * turn_across
+    out[turn + 1] = out[turn + 2] = c * s * (turn_along - turn_across)
+    out[turn + 3] = s * s * turn_along + c * c * turn_across
+
+
+NO_CANDIDATE = (0.0, 0.0, 0.0, 0.0)
+"""What such a contact holds (:class:`nonsmooth.interfaces.CandidateSearch`)."""
+_APART = 1e3
+"""Its gap, in sizes of the larger body."""
+
+
+@compiled
+def write_apart(a: Floats, out: Floats, size: float) -> None:
+    """Write the geometry block of bodies that are far apart, in sizes of the larger one [m]."""
+    for i in range(PAIR):
+        out[i] = 0.0
+    out[GAP] = out[PAST_END] = _APART * size
+    out[NORMAL + 2], out[TANGENT] = 1.0, 1.0
+    for i in range(3):
+        out[POINT_A + i] = a[i]
+        out[POINT_B + i] = a[i] + out[GAP] * out[NORMAL + i]
+    write_flat(out, SIDE_A)
+    write_round(out, SIDE_B, 0.0)
+
+
+@compiled
+def join_cores(a: Floats, out: Floats, radius_a: float, radius_b: float, nx: float, ny: float, nz: float) -> None:
+    """Write gap, axes and witness points; the nearest points of the two cores stand in place of the latter.
+
+    Cores that meet have no normal: (nx, ny, nz) is taken, and must be across both.
+    """
+    square = 0.0
+    for i in range(3):
+        square += (out[POINT_B + i] - out[POINT_A + i]) * (out[POINT_B + i] - out[POINT_A + i])
+    distance = math.sqrt(square)
+    out[GAP] = distance - radius_a - radius_b
+    put(out, NORMAL, nx, ny, nz)
+    for i in range(3):
+        if distance > 0.0:
+            out[NORMAL + i] = (out[POINT_B + i] - out[POINT_A + i]) / distance
+        out[POINT_A + i] += radius_a * out[NORMAL + i]
+        out[POINT_B + i] -= radius_b * out[NORMAL + i]
+    write_tangent(a, out)
+
+
+@compiled
+def place_sphere(a: Floats, out: Floats, x: float, y: float, z: float, distance: float, radius: float) -> None:
+    """Write gap, tangent and witness points of a sphere about (x, y, z) at a distance along the normal in ``out``."""
+    out[GAP] = distance - radius
+    put(out, POINT_A, x - distance * out[NORMAL], y - distance * out[NORMAL + 1], z - distance * out[NORMAL + 2])
+    put(out, POINT_B, x - radius * out[NORMAL], y - radius * out[NORMAL + 1], z - radius * out[NORMAL + 2])
+    write_tangent(a, out)
+
+
+@compiled
+def gap_at_distance(gap: float, past: float, radius: float) -> float:
+    """Return the gap at a distance from a core, by that of the core and the way past its end.
+
+    Past the end a gap that is positive stays so: it is the root of the squares of the gap and of the way past the end.
+    """
+    if past <= 0.0 or gap <= 0.0:
+        return gap - radius
+    apart = math.sqrt(max(gap * gap - past * past, 0.0))
+    return math.hypot(max(apart - radius, 0.0), past)
+
+
+UNSEEN = ("foot_height",)
+"""What a shape says of itself that its contacts with others than planes do not see."""
+
+
+def by_side(first: Shape, second: Shape) -> dict[str, float]:
+    """Return the parameters of both shapes, with _a behind the names of the first's and _b behind the second's."""
+    sides = ("a", first.numbers()), ("b", second.numbers())
+    return {f"{name}_{side}": value for side, numbers in sides for name, value in numbers.items() if name not in UNSEEN}

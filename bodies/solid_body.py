@@ -1,0 +1,47 @@
+"""SolidBody: a shape filled with matter of even density."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from typing import final
+
+from bodies.free import FreeBody
+from bodies.inertia import mass_of
+from bodies.shapes.triangle_mesh import TriangleMesh
+from nonsmooth.interfaces import ConvexShape, Shape
+
+
+class SolidBody(FreeBody):
+    """A free body that fills one shape evenly.
+
+    Subclasses are final frozen dataclasses with the fields ``density`` and ``mass``
+    (:func:`bodies.inertia.density_field`, :func:`bodies.inertia.mass_field`). They give ``centred_shape`` and their
+    inertia.
+    """
+
+    @property
+    @abstractmethod
+    def density(self) -> float | None:
+        """Density [kg/m^3]; that of steel, 7800, if neither density nor mass is given."""
+
+    @property
+    @abstractmethod
+    def mass(self) -> float | None:
+        """Mass instead of the density [kg]."""
+
+    @property
+    @abstractmethod
+    def centred_shape(self) -> ConvexShape | TriangleMesh:
+        """The shape, with its centroid at the origin of the frame."""
+
+    @property
+    @final
+    def total_mass(self) -> float:
+        """Mass as given, or density times the volume of the shape [kg]."""
+        return mass_of(self, self.mass, self.density, self.centred_shape.volume)
+
+    @property
+    @final
+    def shapes(self) -> tuple[Shape, ...]:
+        """The shape about the mass centre."""
+        return (self.centred_shape,)

@@ -1,0 +1,264 @@
+"""StateReplay: the model of a run, put at the state that the run had at any time.
+
+A run stores its states at samples and events. A state between two of them is found by the engine itself: it starts from
+the stored state before and follows the flow to the time asked for. Forces and gaps are then read from its memory.
+"""
+
+from __future__ import annotations
+
+import functools
+import threading
+import weakref
+from collections.abc import Callable
+from typing import TYPE_CHECKING, final
+
+import numpy as np
+
+from nonsmooth.engine.events.record import AVERAGED, CLOSED_WITH, FACING, FEATURES, SLIP_DIRECTION
+from nonsmooth.engine.memory import owners
+from nonsmooth.engine.memory.modes import AFTER, CODE, REASONS, Mode, Status
+from nonsmooth.engine.native.kernel import call_entry
+from nonsmooth.errors import InvalidInput, RunFailed
+from nonsmooth.histories.arrays import Floats, Integers
+from nonsmooth.model.assembly import lay
+from nonsmooth.model.laid_out import LaidOut
+
+if TYPE_CHECKING:
+    from nonsmooth.interfaces import Engine
+    from nonsmooth.solution.recorded import Track
+    from nonsmooth.solution.solution import Solution
+    from nonsmooth.system.system import System
+
+_ACCOUNTED = (
+    owners.Totals.driven_work,
+    owners.Totals.restitution_loss,
+    owners.Totals.friction_loss,
+    owners.Totals.closing_loss,
+)
+_MODES = np.array([Mode.OPEN, Mode.STICK, Mode.OPEN, Mode.OPEN, Mode.OPEN, Mode.SLIDE, Mode.OPEN, Mode.OPEN])
+"""Mode of a contact by its code, the bits of Eq. (29), after an event."""
+_DIRECTION, _RATE, _FACING, _AVERAGED, _FEATURES = (
+    place - SLIP_DIRECTION for place in (SLIP_DIRECTION, CLOSED_WITH, FACING, AVERAGED, FEATURES)
+)
+"""Columns of ``Events.listed_memory``, which begins with the slip direction."""
+_SAMPLE, _EVENT, _END = range(3)
+_REPLAYS: weakref.WeakKeyDictionary[Track, StateReplay] = weakref.WeakKeyDictionary()
+
+
+def replay_of(solution: Solution) -> StateReplay:
+    """Replay of a run; each run has one, made at the first call."""
+    if solution.track not in _REPLAYS:
+        _REPLAYS[solution.track] = StateReplay(solution)
+    return _REPLAYS[solution.track]
+
+
+def check_recorded(where: str, what: str, system: System, engine: Engine) -> None:
+    """Check that an engine records modes and impulses of contacts; without records zeros would mean open contacts.
+
+    Raises
+    ------
+    InvalidInput
+        The system has contacts, and the engine records none of their modes and impulses.
+    """
+    if system.contacts and not engine.records_contacts:
+        raise InvalidInput(
+            f"{where}: {what} of contacts",
+            "are known only of engines that record contacts",
+            engine,
+            "Run with nonsmooth.EventDriven(), or let records_contacts of the engine return True and record events.",
+        )
+
+
+@final
+class StateReplay:
+    """The stored states of a run in the order of time, and a model that follows the flow from them.
+
+    If several states are stored for one time, the state after the last event counts.
+    """
+
+    def __init__(self, solution: Solution) -> None:
+        track, events = solution.track, solution.events
+        self._system, self._engine, self._events = solution.system, track.engine, events
+        at_events = np.hstack([events.q, events.u_after, events.integrated])
+        kind = np.full(len(track.time), _SAMPLE)
+        kind[-1] = _END
+        kinds = np.concatenate([kind, np.full(len(events), _EVENT)])
+        time = np.concatenate([track.time, events.time])
+        order = np.lexsort((kinds, time))
+        self._time, self._y = time[order], np.concatenate([track.y, at_events])[order]
+        self._booked = np.concatenate([track.booked, events.booked])[order]
+        self._event = np.cumsum(kinds[order] == _EVENT) - 1
+        self._event_row = np.flatnonzero(kinds[order] == _EVENT)
+        # the event whose modes the model has, -2 for none
+        self._put_event = -2
+        self._alone = threading.Lock()
+
+    @functools.cached_property
+    def laid(self) -> LaidOut:
+        """The model.
+
+        Raises
+        ------
+        InvalidInput
+            The system has changed since the run.
+        """
+        laid = lay(self._system, self._engine)
+        found, ran = (laid.n_y, len(self._system.contacts)), (self._y.shape[1], self._events.n_contacts)
+        if found != ran:
+            rule = f"must be as it ran, with {ran[0]} numbers of a state and {ran[1]} contacts"
+            raise InvalidInput("solution.system", rule, found, "Make a system of its own for what is to differ.")
+        return laid
+
+    @property
+    def is_flow(self) -> bool:
+        """True if the engine can be followed between stored states, and gives forces."""
+        recorded = self._engine.records_contacts or not self._system.contacts
+        return recorded and self._engine.uses_flow
+
+    def codes(self, times: Floats) -> Integers:
+        """Codes of all contacts, the bits of Eq. (29), after the last event of each time, shape [n, n_contacts]."""
+        return self._events.codes_after(self._event[self._row(times)])
+
+    def modes(self, times: Floats) -> Integers:
+        """Modes of all contacts, shape [n, n_contacts]."""
+        return np.asarray(_MODES[self.codes(times)])
+
+    def closed(self, times: Floats) -> Integers:
+        """Indices of the times at which a contact is closed."""
+        events = self._events
+        modes = _MODES[events.codes >> AFTER & CODE]
+        closing = np.repeat(np.arange(len(events)), np.diff(events.first))[modes != Mode.OPEN]
+        return np.flatnonzero(np.isin(self._event[self._row(times)], closing))
+
+    def states(self, times: Floats) -> Floats:
+        """Integrated states: q, u, energy accounts and inner states of laws, shape [n, n_y]."""
+        rows = self._row(times)
+        found = self._y[rows]
+        between = np.flatnonzero(self._time[rows] < times)
+        if len(between) > 0:
+            y = self.laid.memory[owners.Island.y][: self.laid.n_y]
+
+            def keep(i: int) -> None:
+                found[between[i]] = y
+
+            self.visit(times[between], keep, forces=False)
+        return found
+
+    def visit(self, times: Floats, look: Callable[[int], None], *, forces: bool = True) -> None:
+        """Call ``look(i)`` while the model has the state at ``times[i]``, in the order of time.
+
+        With ``forces`` bodies, closed contacts and joints are evaluated before each call.
+
+        Raises
+        ------
+        InvalidInput
+            The engine gives no forces, or cannot be followed between stored states.
+        RunFailed
+            The flow from a stored state fails.
+        """
+        rows, here = self._row(times), -1
+        if forces and self._system.contacts:
+            # also if no recorded contact is closed, because such an engine may record none
+            self._check_flow("with its forces")
+        if len(times) == 0:
+            return
+        between = bool(np.any(self._time[rows] < times))
+        if not (between or forces):
+            self._visit_stored(rows, look)
+            return
+        self._check_flow("between its samples" if between else "with its forces")
+        memory = self.laid.memory
+        # an earlier visit may have been interrupted
+        memory[owners.Request.is_interrupted], memory[owners.Run.failure] = 0, Status.RUNNING
+        with self._alone, self.laid.watch as watch:
+            for i in np.argsort(times, kind="stable").tolist():
+                if rows[i] != here:
+                    here = int(rows[i])
+                    self._put(here)
+                status = int(watch.call("follow", float(times[i])))
+                if status != Status.RUNNING:
+                    raise RunFailed(f"What led to t = {times[i]:.9g} s is not found again: {REASONS[Status(status)]}.")
+                if forces:
+                    watch.call("evaluate_forces", 0)
+                look(i)
+
+    def visit_near(self, times: Floats, states: Floats, look: Callable[[int], None]) -> None:
+        """Call ``look(i)`` while the contacts near each other at ``times[i]`` are listed and evaluated.
+
+        ``states`` are those of :meth:`states` at the times. Errors as of :meth:`visit` without forces.
+        """
+        memory = self.laid.memory
+        y = memory[owners.Island.y][: self.laid.n_y]
+        with self._alone:
+            # the list is made for each time, so it is not the list after an event
+            self._put_event = -2
+            for i, row in enumerate(self._row(times).tolist()):
+                memory[owners.Island.time], y[:] = times[i], states[i]
+                self._put_modes(int(self._event[row]))
+                self.laid.evaluate()
+                look(i)
+
+    def _visit_stored(self, rows: Integers, look: Callable[[int], None]) -> None:
+        with self._alone:
+            # the modes of an earlier visit do not belong to these states
+            self._put_event = -2
+            for i, row in enumerate(rows.tolist()):
+                self._put_state(row)
+                look(i)
+
+    def _check_flow(self, what: str) -> None:
+        if not self.is_flow:
+            raise InvalidInput(
+                "Solution",
+                f"is known {what} only where the engine records contacts and uses the flow of nonsmooth.engine",
+                self._engine,
+                "States, poses and energies are known at the times of samples and events; for more, run with "
+                "nonsmooth.EventDriven().",
+            )
+
+    def _row(self, times: Floats) -> Integers:
+        """Index of the last stored state at or before each time."""
+        return np.searchsorted(self._time, times, side="right") - 1
+
+    def _put(self, row: int) -> None:
+        """Put the model at a stored state, with the modes after the last event before it."""
+        event = int(self._event[row])
+        if event != self._put_event:
+            self._put_event = -2
+            self._put_state(int(self._event_row[event]) if event >= 0 else row)
+            self._put_modes(event)
+            call_entry("evaluate_forces", self.laid.memory, 1)
+            self._put_event = event
+        self._put_state(row)
+
+    def _put_state(self, row: int) -> None:
+        memory = self.laid.memory
+        memory[owners.Island.time] = self._time[row]
+        for total, value in zip(_ACCOUNTED, self._booked[row].tolist(), strict=True):
+            memory[total] = value
+        memory[owners.Island.y][:] = self._y[row]
+
+    def _put_modes(self, event: int) -> None:
+        """List the contacts that are near, and close those that an event left closed, with their directions of slip."""
+        memory, events, n = self.laid.memory, self._events, self._events.n_contacts
+        contact = owners.Contact
+        listed = slice(*events.first[event : event + 2].tolist()) if event >= 0 else slice(0)
+        numbers, kept = events.listed[listed], events.listed_memory[listed]
+        modes, averaged = memory.declared(contact.mode), memory.declared(contact.mode_after_averaging)
+        modes[:] = averaged[:] = Mode.OPEN
+        modes[numbers] = _MODES[events.codes[listed] >> AFTER & CODE]
+        averaged[numbers] = kept[:, _AVERAGED]
+        memory.declared(contact.direction)[numbers] = kept[:, _DIRECTION:_RATE]
+        memory.declared(contact.closing_rate)[numbers] = kept[:, _RATE]
+        # open contacts search for their features again; closed contacts have those of the event
+        places = memory.declared(contact.features)
+        memory.floats[places[places > 0]] = 0.0
+        for number, features in zip(numbers.tolist(), kept[:, _FEATURES:], strict=True):
+            if places[number] > 0:
+                memory.floats[places[number] : places[number] + len(features)] = features
+        memory[owners.Island.n_contacts] = 0
+        self.laid.list_contacts()
+        slots = int(memory[owners.Island.n_contacts])
+        facing = np.ones(n)
+        facing[numbers] = kept[:, _FACING]
+        memory[owners.Contact.facing][:slots] = facing[memory[owners.Contact.declared][:slots]]

@@ -1,0 +1,172 @@
+"""Request: the run, the times and the parts of the system that a history is asked for."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, TypeAlias, final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from nonsmooth.errors import InvalidInput, UnknownName
+from nonsmooth.histories.arrays import Floats, Integers
+from nonsmooth.histories.replay import StateReplay, replay_of
+from nonsmooth.interfaces import Body
+from nonsmooth.system.contact import Contact, Tie
+from nonsmooth.system.system import System
+
+if TYPE_CHECKING:
+    from nonsmooth.solution.solution import Solution
+
+Part: TypeAlias = Contact | Body | Tie | str | int
+"""A contact, body or joint: the object, its name, or its number in the system, from 0."""
+Parts: TypeAlias = Part | Sequence[Part] | Integers
+"""A part, or several of them."""
+
+
+@final
+@dataclass(frozen=True)
+class Request:
+    """A run, times within it, and chosen contacts, bodies and joints of its system.
+
+    Attributes
+    ----------
+    solution : Solution
+        The run.
+    times : array
+        Times within the run [s], in any order, shape [n].
+    chosen : mapping of str to sequence of int
+        Numbers of the chosen parts by their kind, "contact", "body" or "joint"; a kind that is not there is complete.
+    """
+
+    solution: Solution
+    times: Floats
+    chosen: Mapping[str, Sequence[int]] = field(default_factory=dict)
+
+    def numbers(self, kind: str) -> Sequence[int]:
+        """Numbers of the parts of a kind."""
+        return self.chosen[kind] if kind in self.chosen else range(len(_parts(self.solution.system, kind)))
+
+    @property
+    def replay(self) -> StateReplay:
+        """The model of the run, which can be put at any time of it."""
+        return replay_of(self.solution)
+
+    @functools.cached_property
+    def y(self) -> Floats:
+        """All that is integrated: q, u, energy accounts, inner states of laws; shape [n, n_y]."""
+        return self.replay.states(self.times)
+
+    @property
+    def contacts(self) -> Integers:
+        """Numbers of the contacts."""
+        return np.array(self.numbers("contact"), dtype=np.int64)
+
+    @property
+    def bodies(self) -> list[Body]:
+        """The bodies."""
+        return [self.solution.system.bodies[number] for number in self.numbers("body")]
+
+    def columns(self, of: str) -> Integers:
+        """Columns of the bodies among the coordinates, ``of="n_q"``, or the velocities, ``of="n_u"``, of all bodies."""
+        sizes = [getattr(body, of) for body in self.solution.system.bodies]
+        first = np.cumsum([0, *sizes])
+        return np.concatenate(
+            [np.zeros(0, np.int64), *(np.arange(first[number], first[number + 1]) for number in self.numbers("body"))]
+        )
+
+
+def read_times(where: str, solution: Solution, times: ArrayLike | None) -> Floats:
+    """Times [s] of shape [n], or [] for a single time; by default the times of the samples.
+
+    Raises
+    ------
+    InvalidInput
+        A time is not a number, or outside of the run.
+    """
+    if times is None:
+        return solution.t
+    try:
+        found = np.array(times, dtype=float)
+    except (TypeError, ValueError):
+        found = np.full((0, 0), np.nan)
+    if found.ndim > 1:
+        raise InvalidInput(f"{where}: times", "must be a time or a row of times", times, "Give them in [s].")
+    start = min(solution.track.time[0], solution.events.time.min(initial=np.inf))
+    outside = found[~((found >= start) & (found <= solution.t_end))]
+    if outside.size > 0:
+        rule = f"must be within the run, which lasts from {float(start)!r} to {solution.t_end!r} s"
+        raise InvalidInput(f"{where}: times", rule, float(outside.flat[0]), "Run longer, or ask for times of this run.")
+    return found
+
+
+def numbers_of(where: str, system: System, kinds: Sequence[str], of: Parts | None) -> dict[str, Sequence[int]]:
+    """Numbers of the chosen parts of a system by their kind, "contact", "body" or "joint".
+
+    Each part counts for its own kind.  A kind of which no part is chosen is complete, unless the choice is empty.
+
+    Parameters
+    ----------
+    where : str
+        Name of the argument, for messages.
+    system : System
+        The system.
+    kinds : sequence of str
+        Kinds that may be chosen.
+    of : Parts, optional
+        The chosen parts; a number counts for the only kind.
+
+    Raises
+    ------
+    UnknownName
+        No part of these kinds has this name.
+    InvalidInput
+        An object is no part of the system, a number is too large, or the kind of a number is not clear.
+    """
+    known = {kind: _parts(system, kind) for kind in kinds}
+    chosen: dict[str, list[int]] = {kind: [] for kind in kinds}
+    several = of if isinstance(of, (list, tuple, range, np.ndarray)) else [] if of is None else [of]
+    if len(several) and not kinds:
+        raise InvalidInput(where, "must be left out", of, "No variable that was asked for belongs to a part.")
+    for part in several:
+        for kind, number in _found(where, system, known, part):
+            chosen[kind].append(number)
+    is_complete = of is None or len(several) > 0
+    return {kind: chosen[kind] or range(is_complete * len(known[kind])) for kind in kinds}
+
+
+def _found(where: str, system: System, known: Mapping[str, Sequence[object]], part: object) -> list[tuple[str, int]]:
+    """Kinds and numbers of a part; errors as of :func:`numbers_of`."""
+    several = " or ".join(known)
+    if isinstance(part, (int, np.integer)) and not isinstance(part, bool):
+        if len(known) != 1:
+            rule = "must be a name or an object"
+            raise InvalidInput(where, rule, part, f"Variables of {several} were asked for, so a number is not clear.")
+        ((kind, parts),) = known.items()
+        if part not in range(len(parts)):
+            rule = f"must be below {len(parts)}, the number of {kind}s"
+            raise InvalidInput(f"{where}: {kind}", rule, part, "Count from 0.")
+        return [(kind, int(part))]
+    if isinstance(part, str):
+        names = {kind: getattr(system.names, _PLURALS[kind]) for kind in known}
+        found = [(kind, own.index(part)) for kind, own in names.items() if part in own]
+        if not found:
+            raise UnknownName(f"{where}: {several}", part, [name for own in names.values() for name in own])
+        return found
+    # parts may be equal without being the same object
+    same = [(kind, i) for kind, parts in known.items() for i, one in enumerate(parts) if one is part]
+    if not same:
+        remedy = "Take it, or its name, from solution.system."
+        raise InvalidInput(where, f"needs a {several} of this system, its name or its number", part, remedy)
+    return same
+
+
+_PLURALS = {"contact": "contacts", "body": "bodies", "joint": "joints"}
+"""Attribute of a system, and of its names, with the parts of a kind."""
+
+
+def _parts(system: System, kind: str) -> Sequence[object]:
+    found: Sequence[object] = getattr(system, _PLURALS[kind])
+    return found

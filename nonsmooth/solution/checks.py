@@ -1,0 +1,80 @@
+"""Checks of a solution beyond its energy account: contacts without a check of bodies, cones, and friction that gains.
+
+A suspect run is told by :mod:`nonsmooth.solution.suspicion`.  These findings need not mean that a run is wrong.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nonsmooth.engine.memory.layout import FRICTION_LOSS
+from nonsmooth.histories.arrays import Floats
+from nonsmooth.histories.cones import beyond_cones
+from nonsmooth.model.part_pairs import unchecked_contacts
+
+if TYPE_CHECKING:
+    from nonsmooth.solution.solution import Solution
+
+_FRICTION = 2
+"""Column of the friction loss among the energies accounted at events."""
+
+
+def contacts_without_body_check(solution: Solution) -> tuple[str, ...]:
+    """Names of the contacts whose bodies are not checked for overlap; only their own gap shows it.
+
+    Two bodies are checked as a whole if all of their shapes have convex parts.
+    """
+    return tuple(unchecked_contacts(solution.system.contacts))
+
+
+def impulses_beyond_cone(solution: Solution) -> NDArray[np.bool_]:
+    """True for impulses outside of their friction cones, shape [m], in the order of ``events.listed``.
+
+    Impulses within the cones give the same motion: of redundant contacts, one may have too large a part.
+    """
+    events = solution.events
+    normal, friction = events.listed_impulse[:, 0], events.listed_impulse[:, 1:]
+    largest = np.full(len(normal), np.nan)
+    return beyond_cones(solution.system.contacts, events.listed, events.first, normal, friction, largest)
+
+
+def friction_gain(solution: Solution) -> float:
+    """Energy that sustained friction added over a run [J]: the sum of all decreases of the integrated friction loss.
+
+    The loss is compared from each sample or event to the next.  Averaged forces can add energy: their friction is
+    constant over a span, while the slip may turn.  Laws that store energy in a contact, such as bristles, return it.
+    Impacts are left out, because some impact laws add energy by their definition.  Events are read block by block, as
+    those of a long run are in its output folder and would not fit into memory.
+    """
+    track = solution.track
+    gain, last, n_samples, booked, time = 0.0, np.zeros(0), 0, 0.0, track.time[:-1]
+    for block in solution.events.blocks():
+        place = track.y.shape[1] - block.integrated.shape[1] + FRICTION_LOSS
+        # samples before the last event of the block; samples at the time of events are after these
+        stop = int(np.searchsorted(time, block.time[-1])) if len(block) else 0
+        order = np.argsort(np.concatenate([block.time, time[n_samples:stop]]), kind="stable")
+        loss = np.concatenate([block.integrated[:, FRICTION_LOSS], track.y[n_samples:stop, place]])[order]
+        gain, last, n_samples = gain + _decrease(last, loss), loss[-1:], stop
+        booked = float(block.booked[-1, _FRICTION]) if len(block) else 0.0
+    # the final state holds the sum of both; the part accounted at events is subtracted
+    end = track.y[-1, place] + track.booked[-1, _FRICTION] - booked
+    return gain + _decrease(last, np.append(track.y[n_samples:-1, place], end))
+
+
+def _decrease(last: Floats, loss: Floats) -> float:
+    """Sum of the decreases of a loss [J] from one value to the next; ``last`` is the value before the first, if any."""
+    return float(-np.sum(np.minimum(np.diff(loss, prepend=last), 0.0)))
+
+
+def findings(solution: Solution) -> str:
+    """Findings of all checks in words, each after a comma; "" without any."""
+    unchecked = len(contacts_without_body_check(solution))
+    outside, gain = int(np.count_nonzero(impulses_beyond_cone(solution))), friction_gain(solution)
+    found = [f", {unchecked} contacts whose bodies are not checked for overlap"] if unchecked else []
+    found += [f", {outside} impulses outside of their friction cones"] if outside else []
+    # a gain below the imbalance of the account is round-off
+    found += [f", {gain:.1e} J added by friction"] if gain > solution.energy.unexplained else []
+    return "".join(found)

@@ -1,0 +1,128 @@
+"""CSV: a history with a row for each time, or the events of a run."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, TextIO, final
+
+import numpy as np
+
+from nonsmooth.checks import check_kind
+from nonsmooth.engine.memory.modes import AFTER, BEFORE, CODE, DURING, Mode
+from nonsmooth.errors import MissingPackagesError, UnknownName
+from nonsmooth.export.table import Series, table
+from nonsmooth.histories.variables import VARIABLES
+from nonsmooth.storage.files import replacing
+
+if TYPE_CHECKING:
+    from nonsmooth.histories.history import History
+    from nonsmooth.solution.solution import Solution
+
+_FORCES = (
+    "mode", "normal_force", "friction_force", "friction_moment", "gap", "contact_point", "contact_normal",
+    "slip_velocity",
+)  # fmt: skip
+"""Variables of the series "forces"."""
+_ENERGIES = [name for name, row in VARIABLES.items() if row.unit == "J"]
+"""Variables of the series "energies"."""
+_EVENT_ENERGIES = ("driven_work", "restitution_loss", "friction_loss", "closing_loss")
+_HEAD = ("time [s]", "cause", "contact or guard", "phases", *(f"{name} [J]" for name in _EVENT_ENERGIES), "modes")
+_UNCHANGED = {bits << BEFORE | bits << DURING | bits << AFTER for bits in range(CODE + 1)}
+"""Codes of contacts whose mode an event does not change."""
+
+
+def _forces(solution: Solution) -> History:
+    """Forces of the contacts that are closed at a sample."""
+    closed = np.flatnonzero(np.any(solution.history("mode")["mode"] != Mode.OPEN, axis=0))
+    return solution.history(*_FORCES, of=closed)
+
+
+def events_table(solution: Solution) -> str:
+    """Events as a table, a row each.
+
+    The column "modes" lists the contacts whose bits (closed, approaching, slipping) the event changes, with their bits
+    before, during and after it: "ball - plate 000 110 101; ...".
+    """
+    text = io.StringIO(newline="")
+    _write_events(solution, text)
+    return text.getvalue()
+
+
+def _write_events(solution: Solution, file: TextIO) -> None:
+    """Write the table block by block, because the events of a long run do not fit into memory."""
+    names, guards, rows = solution.system.names.contacts, solution.system.names.guards, csv.writer(file)
+    rows.writerow(_HEAD)
+    for events in solution.events.blocks():
+        first, listed, codes = events.first.tolist(), events.listed.tolist(), events.codes.tolist()
+        causes, energies = events.causes(), [getattr(events, name).tolist() for name in _EVENT_ENERGIES]
+        for i, (time, trigger) in enumerate(zip(events.time.tolist(), events.triggers(names, guards), strict=True)):
+            modes = [
+                f"{names[listed[j]]} {' '.join(_bits(codes[j] >> shift) for shift in (BEFORE, DURING, AFTER))}"
+                for j in range(first[i], first[i + 1])
+                if codes[j] not in _UNCHANGED
+            ]
+            numbers = (repr(column[i]) for column in energies)
+            rows.writerow([repr(time), causes[i], trigger, int(events.phases[i]), *numbers, "; ".join(modes)])
+
+
+def _bits(code: int) -> str:
+    return "".join(str(code >> i & 1) for i in range(3))
+
+
+SERIES: Mapping[str, Callable[[Solution], str]] = {
+    "states": lambda solution: table(solution.at()),
+    "energies": lambda solution: table(solution.history(*_ENERGIES)),
+    "forces": lambda solution: table(_forces(solution)),
+    "motion": lambda solution: table(solution.history("gap", "normal_velocity", "slip_speed")),
+    "joints": lambda solution: table(solution.history("joint_point", "joint_force", "joint_moment")),
+    "events": events_table,
+}
+"""Tables of every run by name."""
+
+
+@final
+@dataclass(frozen=True)
+class Csv:
+    """A table with name and unit above each column.
+
+    Attributes
+    ----------
+    series : str or History
+        "states", "energies", "forces", "motion" or "joints" at the samples, "events", or a history, such as
+        ``solution.history("position", times=times, of="ball")``.
+    """
+
+    series: Series | str = "states"
+
+    def __post_init__(self) -> None:
+        try:
+            import xarray  # noqa: F401
+        except ImportError as error:
+            raise MissingPackagesError('Tables need xarray: pip install "nonsmooth[full]"') from error
+        if not isinstance(self.series, str):
+            remedy = 'For example "energies", or solution.history("position", of="ball").'
+            check_kind("export: series", self.series, Series, remedy)
+        elif self.series not in SERIES:
+            raise UnknownName("export: series", self.series, SERIES)
+
+    def write(self, solution: Solution, path: Path) -> None:
+        """Write the file of a run."""
+        text = SERIES[self.series](solution) if isinstance(self.series, str) else table(self.series)
+        with replacing(path) as part:
+            part.write_bytes(text.encode("utf-8"))
+
+
+def save_events(solution: Solution, path: Path) -> None:
+    """Write the events to a CSV file (:func:`events_table`).
+
+    Raises
+    ------
+    FileError
+        The file cannot be written; an older file of the name is kept.
+    """
+    with replacing(path) as part, part.open("w", encoding="utf-8", newline="") as file:
+        _write_events(solution, file)
