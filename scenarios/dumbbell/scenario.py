@@ -280,10 +280,8 @@ class DumbbellScenario(Scenario):
         name = f"plate periods after which the {self.mode} repeats"
         found = [Criterion.near(name, period, _PERIODS[self.mode], 0.0, paper)]
         if self.mode == "drift":
-            part, source = (
-                float(mode_shares(solution).get(_REST_OF_BALL_1, 0.0)),
-                f"{paper}: ball 1 rests most of the cycle",
-            )
+            part = float(mode_shares(solution).get(_REST_OF_BALL_1, 0.0))
+            source = f"{paper}: ball 1 rests most of the cycle"
             found.append(Criterion(f"share of time in {_REST_OF_BALL_1}", part, 0.5, 1.0, source))
         if self.mode == "jump":
             orbit, source = self._orbit_gap(), "both balls on the orbit of a bouncing ball, n = 1"
