@@ -6,18 +6,14 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nonsmooth import charts
 from scenarios.dumbbell.coordinates import NAMES
-from scenarios.dumbbell.trace import Trace, note
+from scenarios.dumbbell.trace import Flags, Floats, Trace, note
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-Floats = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 
 _SYMBOLS: Mapping[str, str] = {"theta": "θ", "beta": "β", "gamma": "\N{GREEK SMALL LETTER GAMMA}"}
 _STEMS: Mapping[str, str] = {"theta": "fig08_theta", "beta": "fig09_beta", "gamma": "fig10_gamma"}
